@@ -1,0 +1,95 @@
+// Points against rigid shapes: the one door to Bullet, of which nothing shows outside this folder's sources.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace taut::collision {
+
+enum class ShapeKind { plane, box, sphere, capsule, cylinder, cone, hull, mesh, compound };
+
+struct Pose {
+    glm::dvec3 position{0.0};                      // [m]
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};       // unit (w, x, y, z)
+};
+
+// Lengths in metres, about the shape's own origin; the axis of capsule, cylinder and cone is y.
+struct Shape {
+    ShapeKind kind = ShapeKind::sphere;
+    glm::dvec3 normal{0.0, 1.0, 0.0};              // plane: unit, away from the solid; passes through the origin
+    glm::dvec3 halfSize{0.5};                      // box
+    double radius = 0.5;                           // sphere, capsule, cylinder, cone
+    double height = 1.0;                           // cylinder, cone: whole; capsule: between the two centres
+    std::vector<glm::dvec3> vertices;              // hull, mesh
+    std::vector<std::uint32_t> triangles;          // mesh: (3 · triangles) counter-clockwise seen from outside
+    struct Part;
+    std::vector<Part> parts;                       // compound
+};
+struct Shape::Part {
+    Shape shape;
+    Pose pose;
+};
+
+struct Material {
+    double friction = 0.3;     // Coulomb's μ [-]
+    double restitution = 0.0;  // 0 … 1: speed after a bounce / speed before [-]
+};
+
+// The points of one body during one step, planar: x plane, y plane, z plane, each `stride` long.
+template <class Real>
+struct MovingPoints {
+    int first = 0;                        // the body's points are first … last - 1
+    int last = 0;
+    int stride = 0;
+    const Real* xBefore = nullptr;        // (3 · stride) [m] at the start of the step
+    Real* x = nullptr;                    // (3 · stride) [m] at its end: projected out of the shapes
+    Real* v = nullptr;                    // (3 · stride) [m/s] over the step: changed by the contact impulse
+    const Real* inverseMass = nullptr;    // (stride) [1/kg]; 0 is a held point, which is left alone
+    double thickness = 0.0;               // [m] distance that the points keep from a surface
+    double friction = 1.0;                // factor on the collider's friction [-]
+};
+
+struct Contact {
+    int point;            // index into the planes
+    int collider;
+    glm::dvec3 position;  // [m] on the surface
+    glm::dvec3 normal;    // unit, away from the collider
+    double impulse;       // normal impulse per mass [m/s]
+};
+
+class Colliders {
+  public:
+    Colliders();
+    ~Colliders();
+    Colliders(Colliders&&) noexcept;
+    Colliders& operator=(Colliders&&) noexcept;
+
+    // Returns the collider's number, counting from 0. Throws core::Error(badContent) for a shape that cannot be
+    // built (hull of fewer than four points or without volume, mesh without triangles, a size not above zero).
+    int add(const Shape& shape, const Material& material, const Pose& pose);
+    int size() const;
+
+    // The pose at the start and the end of the coming step. Still colliders never call it.
+    void move(int collider, const Pose& from, const Pose& to);
+
+    // Brings the points of one body out of all colliders at the end of a step of length h [s]. Swept: a point that
+    // crosses a surface, or is overrun by a moving one, within the step ends on the side it came from. The
+    // relative velocity loses its approaching normal part (or is reflected by restitution) and, by Coulomb's law,
+    // tangential speed up to friction times the normal impulse. Contacts are appended in point order.
+    // Const and free of shared state: bodies may be resolved side by side. Same bits on every machine.
+    template <class Real>
+    void resolve(const MovingPoints<Real>& points, double h, std::vector<Contact>& contacts) const;
+
+    // Signed distance [m] from a position to the nearest collider at its end-of-step pose; negative inside.
+    double distance(const glm::dvec3& position) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace taut::collision

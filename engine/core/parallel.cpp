@@ -1,0 +1,32 @@
+#include "core/parallel.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cstddef>
+
+namespace taut::core {
+
+void parallelFor(int count, const std::function<void(int)>& task) {
+    if (count == 1) {
+        task(0);
+        return;
+    }
+    // Isolation keeps a waiting thread from picking up an unrelated task in the middle of this one.
+    oneapi::tbb::this_task_arena::isolate(
+        [&] { oneapi::tbb::parallel_for(0, count, [&](int i) { task(i); }, oneapi::tbb::simple_partitioner()); });
+}
+
+struct ThreadLimit::Impl {
+    explicit Impl(int threads)
+        : control(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+          arena(threads) {}
+    oneapi::tbb::global_control control;
+    oneapi::tbb::task_arena arena;
+};
+
+ThreadLimit::ThreadLimit(int threads) : impl_(threads > 0 ? std::make_unique<Impl>(threads) : nullptr) {}
+ThreadLimit::~ThreadLimit() = default;
+
+}  // namespace taut::core

@@ -1,0 +1,25 @@
+// Side-by-side loops. What a task computes may depend on its index only, never on the number of threads.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace taut::core {
+
+// Calls task(0) … task(count - 1), each once, in any order and on any thread; returns when all are done.
+void parallelFor(int count, const std::function<void(int)>& task);
+
+// Limits how many threads parallelFor uses in the whole process while it lives; 0 leaves it to the machine.
+class ThreadLimit {
+  public:
+    explicit ThreadLimit(int threads);
+    ~ThreadLimit();
+    ThreadLimit(const ThreadLimit&) = delete;
+    ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace taut::core

@@ -1,0 +1,101 @@
+// Builders: from a size, a resolution and a material to a model. Stiffness is per metre of material, so that a
+// finer model behaves like a coarse one (numerics: section 6). All lengths in metres, SI units.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mechanics/model.h"
+
+namespace taut::mechanics {
+
+// How mass is shared out: by the length, area or volume around a point, or the slides' m = M/n.
+enum class Lumping { weighted, uniform };
+
+struct RopeShape {
+    glm::dvec3 start{0.0}, end{1.0, 0.0, 0.0};
+    int segments = 20;
+    double length = 0.0;       // natural length [m]; 0 means the distance; longer hangs in a parabola along `sag`
+    glm::dvec3 sag{0, -1, 0};  // direction of the slack, unit
+    double mass = 1.0;         // whole rope [kg]
+    double stretch = 1e4;      // EA [N]
+    double bend = 0.0;         // EA of the span-2 springs [N]
+    double dampingTime = 0.0;  // τ [s]
+    double dragRate = 0.0;     // γ/m [1/s]
+    Lumping lumping = Lumping::weighted;
+};
+// Groups: start, end, ends, all.
+Model buildRope(const RopeShape& shape);
+
+struct ClothMaterial {
+    double density = 0.2;      // [kg/m²]
+    double stretch = 900.0;    // structural spring constant of a square cell k_s [N/m]
+    double shear = 450.0;      // diagonal k_d [N/m]
+    double bend = 1.0;         // span-2 k_b [N/m]
+    double dampingTime = 0.0;  // τ [s]
+    double dragRate = 0.0;     // γ/m [1/s]
+    Lumping lumping = Lumping::weighted;
+};
+
+struct ClothShape {
+    glm::dvec3 origin{0.0};          // top left corner
+    glm::dvec3 across{1, 0, 0};      // unit, from left to right
+    glm::dvec3 down{0, -1, 0};       // unit, from top to bottom
+    glm::dvec2 size{1.0, 1.0};       // across, down [m]
+    glm::ivec2 cells{16, 16};        // across, down
+    ClothMaterial material;
+};
+// Points row by row from the top left. Structural springs on the boundary are halved when lumping is weighted.
+// A cell of a by b (not square): k_s b/a along its side a, so that stretch stays per metre.
+// Groups: left, right, top, bottom, the four corners (top-left, …), corners, edges, all.
+Model buildCloth(const ClothShape& shape);
+
+struct MeshClothShape {
+    std::vector<glm::dvec3> positions;          // welded vertices, each used by a triangle
+    std::vector<glm::dvec2> uv;                 // (vertices) [m], or empty: then made from the longest two axes
+    std::vector<std::array<int, 3>> triangles;  // consistently oriented, edge-manifold
+    ClothMaterial material;                     // shear is not used: triangles carry it
+};
+// Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch; bend springs across inner edges.
+// Groups: boundary, all, and top, bottom, left, right: the points within 1 % of the size of that extreme.
+// Throws core::Error(badContent) naming what is wrong: no triangle, an edge of three triangles, a zero area.
+Model buildMeshCloth(const MeshClothShape& shape);
+
+struct BlockShape {
+    glm::dvec3 centre{0.0};
+    glm::dmat3 axes{1.0};         // columns: the block's own x, y, z
+    glm::dvec3 size{1.0};         // [m]
+    glm::ivec3 cells{4};
+    double density = 300.0;       // [kg/m³]
+    double young = 2e4;           // E [Pa]: lattice springs k = 0.4 E ℓ on edges and face diagonals
+    double bulk = 2e4;            // K [Pa] of the volume term
+    double dampingTime = 0.0;     // τ [s]
+    double dragRate = 0.0;        // γ/m [1/s]
+    Lumping lumping = Lumping::weighted;
+};
+// Points x fastest, then y, then z. Springs shared by several cells add up, so that faces and edges carry their
+// share. Six tetrahedra a cell. Groups: left right bottom top back front (-x +x -y +y -z +z), corners, all.
+Model buildBlock(const BlockShape& shape);
+
+struct NetPoint {
+    std::string name;
+    glm::dvec3 position{0.0};
+    glm::dvec3 velocity{0.0};
+    double mass = 1.0;  // [kg]
+    double dragRate = 0.0;
+    bool held = false;
+};
+struct NetSpring {
+    std::string a, b;                  // names of points
+    double stiffness = 100.0;          // [N/m]
+    std::optional<double> restLength;  // [m]; none: the distance at the start
+    double dampingTime = 0.0;          // [s]
+};
+// An explicit network. Groups: each point's name, all. Expects names that exist (the loader checks them).
+Model buildNet(std::span<const NetPoint> points, std::span<const NetSpring> springs);
+
+}  // namespace taut::mechanics

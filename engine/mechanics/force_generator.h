@@ -1,0 +1,54 @@
+// Force generators in Millington's sense, made fit for batches: one virtual call adds a force to all its points.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/aligned_array.h"
+
+namespace taut::mechanics {
+
+// What a generator reads: the points of one island. Planes x…x y…y z…z, each `stride` long.
+template <class Real>
+struct Motion {
+    int count = 0;
+    int stride = 0;
+    double t = 0;                     // [s]
+    const Real* x = nullptr;          // (3 · stride) [m]
+    const Real* v = nullptr;          // (3 · stride) [m/s]
+    const Real* mass = nullptr;       // (stride) [kg], also of held points
+    const Real* inverseMass = nullptr;  // (stride) [1/kg], 0 if held
+};
+
+// A generator's share of the stability bound (numerics: section 3), per point where it acts.
+struct StabilityShare {
+    // (points) summed stiffness: an upper bound of the row of the stiffness matrix that is not from springs [N/m].
+    std::vector<double> stiffness;
+    // (points) rate at which it damps a point [1/s].
+    std::vector<double> dampingRate;
+};
+
+template <class Real>
+class ForceGenerator {
+  public:
+    virtual ~ForceGenerator() = default;
+
+    virtual std::string_view name() const = 0;
+
+    // Whether the force on a point depends on that point alone. Then add() may be called for a part of the points.
+    virtual bool isLocal() const = 0;
+
+    // Adds the force on points first … last - 1 to f (3 · stride) [N]. Not local: first = 0, last = count.
+    virtual void addForces(const Motion<Real>& motion, int first, int last, Real* f) const = 0;
+
+    // Potential energy [J] at the motion's positions; 0 for a force that has none.
+    virtual double potentialEnergy(const Motion<Real>& motion) const = 0;
+
+    // Adds K u to out (3 · stride), K = -∂f/∂x [N/m], u a displacement (3 · stride) [m]. Nothing when K = 0.
+    virtual void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const = 0;
+
+    // Adds its share of the bound at the given motion; adds nothing when it has none.
+    virtual void addStability(const Motion<Real>& motion, StabilityShare& share) const = 0;
+};
+
+}  // namespace taut::mechanics

@@ -1,0 +1,109 @@
+// One picture as plain data: camera, light, float meshes. It knows neither the physics nor the renderer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace taut::view {
+
+// All colours are linear RGB, 1 is white paper in full light. Lengths in metres, angles in radians, y up.
+
+enum class Pattern { plain, checker, stripes, tartan, image };
+
+// How a surface looks.
+struct Finish {
+    glm::vec3 front{0.8F};
+    glm::vec3 back{0.8F};    // the other side of a cloth
+    glm::vec3 accent{0.2F};  // second colour of a pattern
+    Pattern pattern = Pattern::plain;
+    float repeat = 0.2F;     // [m] length after which a pattern repeats along uv
+    float weave = 0.0F;      // strength of the weave normal, 0 (smooth) … 1 (coarse linen)
+    float thread = 0.012F;   // [m] distance between two threads of the weave
+    float roughness = 0.7F;  // 0 mirror … 1 chalk
+    float sheen = 0.0F;      // bright rim of fabric, 0 … 1
+    std::string texture;     // path of a PNG or JPEG when pattern is image; spans one repeat
+};
+
+// What of a surface never changes: drawn by index, shared by all frames.
+struct Topology {
+    std::vector<std::uint32_t> triangles;  // (3 · triangles) counter-clockwise seen from the front
+    std::vector<glm::vec2> uv;             // (vertices) [m] along the material
+};
+
+struct Geometry {
+    std::vector<glm::vec3> positions;  // (vertices) [m]
+    std::vector<glm::vec3> normals;    // (vertices) unit
+};
+
+// Pointers say what is new: a renderer may keep what it uploaded for a pointer that it has seen before.
+struct Surface {
+    std::string name;
+    std::shared_ptr<const Topology> topology;
+    std::shared_ptr<const Geometry> geometry;
+    std::shared_ptr<const Finish> finish;
+    glm::mat4 transform{1.0F};
+    bool twoSided = false;
+};
+
+struct Camera {
+    glm::vec3 eye{0.0F, 1.5F, 5.0F};
+    glm::vec3 target{0.0F, 1.0F, 0.0F};
+    glm::vec3 up{0.0F, 1.0F, 0.0F};
+    float fieldOfView = 0.7F;  // [rad] vertical
+    float nearPlane = 0.05F;   // [m]
+    float farPlane = 200.0F;   // [m]
+};
+
+struct Light {
+    glm::vec3 direction{-0.4F, -1.0F, -0.3F};  // the way the light travels
+    glm::vec3 colour{3.0F};                    // radiance times intensity
+    glm::vec3 sky{0.45F, 0.55F, 0.75F};        // ambient light from above
+    glm::vec3 ground{0.25F, 0.23F, 0.2F};      // ambient light from below
+    float softness = 0.03F;                    // [rad] apparent size of the light: width of the penumbra
+};
+
+struct Background {
+    glm::vec3 top{0.10F, 0.15F, 0.25F};
+    glm::vec3 horizon{0.45F, 0.5F, 0.6F};
+    float fadeStart = 8.0F;  // [m] from the camera target, where the ground begins to fade into the horizon
+    float fadeEnd = 30.0F;   // [m]
+};
+
+// The endless floor, drawn when a scene has a level plane.
+struct Ground {
+    float height = 0.0F;  // [m]
+    glm::vec3 colour{0.5F, 0.49F, 0.47F};
+    float gridSpacing = 1.0F;  // [m] thin lines; 0 is none
+};
+
+// The debug view: lines (springs coloured by strain) and dots (points, contacts), drawn over the picture.
+struct Marks {
+    struct Line {
+        glm::vec3 from, to, colour;
+    };
+    struct Dot {
+        glm::vec3 at, colour;
+        float radius;  // [px at 720p]
+    };
+    std::vector<Line> lines;
+    std::vector<Dot> dots;
+};
+
+struct FrameView {
+    std::int64_t frame = 0;
+    double time = 0.0;  // [s]
+    Camera camera;
+    Light light;
+    Background background;
+    std::optional<Ground> ground;
+    std::vector<Surface> surfaces;
+    Marks marks;
+    bool showMarks = false;  // debug view: marks drawn, surfaces faded
+};
+
+}  // namespace taut::view

@@ -1,0 +1,31 @@
+// Meshes of the collider shapes, centred at the origin, for drawing. Sizes in metres; axis of revolution is y.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+
+#include "view/frame_view.h"
+
+namespace taut::view {
+
+struct Mesh {
+    std::shared_ptr<const Topology> topology;
+    std::shared_ptr<const Geometry> geometry;
+};
+
+Mesh sphereMesh(float radius);
+Mesh boxMesh(glm::vec3 halfSize, float edgeRadius);  // edges rounded for the eye: catch the light
+Mesh cylinderMesh(float radius, float height);
+Mesh coneMesh(float radius, float height);        // centre at half height, tip up
+Mesh capsuleMesh(float radius, float height);     // height between the centres of the two half spheres
+Mesh quadMesh(glm::vec3 normal, float halfSize);  // a finite piece of a tilted plane through the origin
+
+// A triangle mesh with normals: smooth where neighbours meet at less than creaseAngle [rad], sharp elsewhere.
+Mesh creasedMesh(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles, float creaseAngle);
+
+// Area-weighted vertex normals of an indexed mesh; a vertex without area gets (0, 1, 0).
+void smoothNormals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles,
+                   std::span<glm::vec3> normals);
+
+}  // namespace taut::view

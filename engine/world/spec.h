@@ -1,0 +1,301 @@
+// What a scene asks for, as plain data with defaults. The loader fills it, the world is built from it; it knows
+// neither files nor pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace taut::world {
+
+using glm::dvec2;
+using glm::dvec3;
+using glm::ivec2;
+using glm::ivec3;
+
+// Where in its file something was written, for messages that come later than loading.
+struct Source {
+    std::string file;
+    int line = 0;
+    int column = 0;
+};
+
+enum class Precision { single_, double_ };
+enum class Ease { linear, smooth, in, out, hold };
+
+struct SolverSpec {
+    std::string integrator = "leapfrog";
+    std::optional<double> dt;  // [s] largest step; none: found from the stability bound ("auto")
+    double safety = 0.9;       // share of the stability limit that "auto" uses
+    Precision precision = Precision::single_;
+};
+
+// A body may override these parts of [solver].
+struct SolverOverride {
+    std::optional<std::string> integrator;
+    std::optional<double> dt;
+    std::optional<double> safety;
+};
+
+struct WorldSpec {
+    dvec3 gravity{0.0, -9.81, 0.0};  // [m/s²]
+    double airDensity = 1.2;         // [kg/m³]
+};
+
+struct RunSpec {
+    double fps = 60.0;     // pictures a second of scene time
+    double seconds = 5.0;  // length
+};
+
+struct NeedSpec {  // what "accurate enough" means for the scene
+    std::optional<double> rmsPosition;  // [m]
+    std::optional<double> rmsPercent;   // [% of the bounding box]
+    std::optional<double> rmsPixels;    // [px at the output size]
+    std::optional<double> horizon;      // [s]
+    std::optional<double> budget;       // [ms a frame]
+};
+
+// How a thing looks; see view::Finish.
+struct FinishSpec {
+    dvec3 colour{0.75, 0.72, 0.68};
+    std::optional<dvec3> backColour;  // none: a paler colour
+    dvec3 accent{0.95, 0.93, 0.88};
+    std::string pattern = "plain";  // plain checker stripes tartan image
+    double repeat = 0.25;           // [m]
+    double weave = 0.0;             // 0 … 1
+    double thread = 0.012;          // [m]
+    double roughness = 0.7;         // 0 … 1
+    double sheen = 0.0;             // 0 … 1
+    std::string texture;            // path, resolved by the loader
+};
+
+struct MaterialSpec {            // of cloth, per metre of material
+    double density = 0.2;        // [kg/m²]
+    double stretch = 900.0;      // k_s [N/m]
+    std::optional<double> shear;  // k_d [N/m]; none: stretch / 2, isotropic
+    double bend = 1.0;           // k_b [N/m]
+    double dampingTime = 1e-4;   // τ [s]
+    double drag = 0.3;           // γ/m [1/s]
+    std::string lumping = "weighted";  // weighted uniform
+};
+
+struct ArraySpec {           // copies of a body along three directions, named NAME.0, NAME.1, …
+    ivec3 count{1, 1, 1};
+    dvec3 stepX{0.0}, stepY{0.0}, stepZ{0.0};  // [m] from one copy to the next
+};
+
+// What every body has.
+struct BodySpec {
+    std::string name;  // without the kind: "flag"
+    Source source;
+    std::vector<std::string> hold;  // selectors, see mechanics: a group, "(u,v)", "50%", "#index"
+    dvec3 velocity{0.0};            // [m/s] at the start
+    dvec3 spin{0.0};                // [rad/s] at the start, about the centre of mass
+    double jitter = 0.0;            // [m] random offset of free points at the start: breaks symmetry
+    std::int64_t seed = 1;          // of the jitter
+    double friction = 1.0;          // factor on the collider's friction
+    double thickness = 0.005;       // [m] distance kept from colliders
+    bool collide = true;
+    FinishSpec finish;
+    SolverOverride solver;
+    ArraySpec array;
+};
+
+struct ClothSpec : BodySpec {
+    // A grid …
+    dvec2 size{1.0, 1.0};        // [m]
+    ivec2 cells{20, 20};
+    dvec3 origin{0.0};           // top left corner [m]
+    dvec3 across{1.0, 0.0, 0.0};  // direction from left to right
+    dvec3 down{0.0, -1.0, 0.0};   // direction from top to bottom
+    // … or an OBJ mesh (then the five fields above are not allowed).
+    std::string mesh;            // path, resolved by the loader; empty: a grid
+    dvec3 position{0.0};         // [m]
+    dvec3 rotation{0.0};         // [rad] about x, then y, then z
+    double scale = 1.0;
+    std::string material;        // name of a [material.NAME]
+};
+
+struct RopeSpec : BodySpec {
+    dvec3 start{0.0}, end{1.0, 0.0, 0.0};  // ends = [[…], […]] in the file [m]
+    int segments = 40;
+    double length = 0.0;        // natural length [m]; 0: the distance of the ends
+    double mass = 1.0;          // [kg]
+    double stretch = 1e4;       // EA [N]
+    double bend = 0.0;          // [N]
+    double dampingTime = 1e-4;  // [s]
+    double drag = 0.3;          // [1/s]
+    double radius = 0.02;       // [m] drawn
+    std::string lumping = "weighted";
+};
+
+struct BlockSpec : BodySpec {
+    dvec3 size{0.5, 0.5, 0.5};  // [m]
+    ivec3 cells{4, 4, 4};
+    dvec3 position{0.0};        // centre [m]
+    dvec3 rotation{0.0};        // [rad]
+    double density = 300.0;     // [kg/m³]
+    double young = 2e4;         // [Pa]
+    double bulk = 2e4;          // [Pa]
+    double dampingTime = 1e-3;  // [s]
+    double drag = 0.1;          // [1/s]
+    double workingStretch = 1.5;  // up to which the step must hold [-]
+    std::string lumping = "weighted";
+};
+
+struct NetPointSpec {
+    std::string name;
+    dvec3 position{0.0};
+    double mass = 1.0;  // [kg]
+    bool hold = false;
+    Source source;
+};
+struct NetSpringSpec {
+    std::string a, b;
+    double stiffness = 100.0;          // [N/m]
+    std::optional<double> restLength;  // [m]
+    std::optional<double> dampingTime; // [s]; none: the net's
+    Source source;
+};
+struct NetSpec : BodySpec {
+    std::vector<NetPointSpec> points;
+    std::vector<NetSpringSpec> springs;
+    double dampingTime = 0.0;  // [s]
+    double drag = 0.1;         // [1/s]
+    double radius = 0.015;     // [m] of a drawn spring
+    double ball = 0.06;        // [m] radius of a drawn point
+};
+
+// Targets are written KIND.NAME@SELECTOR, e.g. "cloth.flag@left"; NAME may have the wildcard *.
+struct JointSpec {
+    std::string a, b;
+    std::string kind = "weld";  // weld spring
+    double stiffness = 1e4;     // [N/m] of each spring
+    double dampingTime = 1e-4;  // [s]
+    double reach = 0.02;        // [m] a weld joins points at most this far apart
+    Source source;
+};
+
+struct MassSpec {  // mass added to points
+    std::string target;
+    double mass = 1.0;  // [kg] shared evenly among the target's points
+    Source source;
+};
+
+struct AnchorSpec {  // a spring of zero rest length from each target point to a place, or to a moving place
+    std::string name;
+    std::string target;
+    dvec3 at{0.0};            // [m]
+    double stiffness = 100.0;  // [N/m] of each point
+    double damping = 0.0;      // [kg/s] of each point
+    Source source;
+};
+
+struct PoseKey {
+    double t = 0.0;        // [s]
+    dvec3 position{0.0};   // [m]
+    dvec3 rotation{0.0};   // [rad]
+    Ease ease = Ease::smooth;  // from the key before to this one
+};
+
+struct ColliderSpec {
+    std::string name;
+    Source source;
+    std::string shape = "sphere";  // plane box sphere capsule cylinder cone hull mesh compound
+    dvec3 position{0.0};           // [m]
+    dvec3 rotation{0.0};           // [rad]
+    dvec3 normal{0.0, 1.0, 0.0};   // plane
+    dvec3 size{1.0};               // box: whole edges [m]
+    double radius = 0.5;           // [m]
+    double height = 1.0;           // [m] cylinder, cone: whole; capsule: between the centres of its half spheres
+    std::string mesh;              // hull, mesh: path of an OBJ file, resolved by the loader
+    double scale = 1.0;
+    std::vector<ColliderSpec> parts;  // compound
+    double friction = 0.3;
+    double restitution = 0.0;
+    std::vector<PoseKey> keys;     // keyframes; then position and rotation are not used
+    bool visible = true;
+    double edge = 0.01;            // [m] rounding of a drawn box's edges
+    FinishSpec finish;
+};
+
+struct WindSpec {
+    std::string name;
+    Source source;
+    dvec3 velocity{0.0};       // [m/s]
+    double gustAmplitude = 0;  // [m/s]
+    double gustPeriod = 1.5;   // [s]
+    double gustLength = 2.0;   // [m] size of an eddy
+    std::int64_t gustSeed = 1;
+    double drag = 1.0;         // drag coefficient of a triangle across the flow [-]
+    double lift = 0.6;         // lift coefficient [-]
+    std::vector<std::string> on;  // bodies it acts on, e.g. "cloth.*"; empty: every cloth
+};
+
+struct CameraKey {
+    double t = 0.0;
+    dvec3 eye{0.0}, target{0.0};
+    std::optional<double> fieldOfView;  // [rad]
+    Ease ease = Ease::smooth;
+};
+struct CameraSpec {
+    std::string name;
+    Source source;
+    dvec3 eye{0.0, 1.5, 5.0}, target{0.0, 1.0, 0.0};  // [m]
+    double fieldOfView = 0.66;                        // [rad] vertical
+    std::vector<CameraKey> keys;
+    std::optional<double> orbitPeriod;  // [s] one turn about the vertical through the target
+};
+
+struct LightSpec {
+    dvec3 direction{-0.5, -1.0, -0.4};  // the way the light travels
+    dvec3 colour{1.0, 0.96, 0.9};
+    double intensity = 3.0;
+    double softness = 0.03;  // [rad]
+    dvec3 sky{0.62, 0.70, 0.82};
+    dvec3 ground{0.50, 0.48, 0.45};
+    double ambient = 0.6;
+};
+
+struct BackgroundSpec {
+    dvec3 top{0.25, 0.32, 0.44};
+    dvec3 horizon{0.60, 0.64, 0.70};
+    double fadeStart = 8.0;  // [m]
+    double fadeEnd = 30.0;   // [m]
+};
+
+struct PictureSpec {
+    ivec2 size{1280, 720};    // [px]
+    std::string camera;       // name; empty: the first by name
+    int samples = 4;          // multisampling
+    int shadowSize = 2048;    // [px] edge of the shadow map
+};
+
+struct SceneSpec {
+    std::string file;
+    std::string title;
+    WorldSpec world;
+    SolverSpec solver;
+    RunSpec run;
+    NeedSpec need;
+    PictureSpec picture;
+    LightSpec light;
+    BackgroundSpec background;
+    std::map<std::string, MaterialSpec> materials;
+    // Sorted by name.
+    std::vector<ClothSpec> cloths;
+    std::vector<RopeSpec> ropes;
+    std::vector<BlockSpec> blocks;
+    std::vector<NetSpec> nets;
+    std::vector<JointSpec> joints;   // in the order of the file
+    std::vector<MassSpec> masses;    // in the order of the file
+    std::vector<AnchorSpec> anchors;
+    std::vector<ColliderSpec> colliders;
+    std::vector<WindSpec> winds;
+    std::vector<CameraSpec> cameras;
+};
+
+}  // namespace taut::world

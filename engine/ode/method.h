@@ -1,0 +1,65 @@
+// A method that takes a second-order system from t to t + h. It knows no physics: only flat arrays.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/aligned_array.h"
+#include "ode/system.h"
+
+namespace taut::ode {
+
+// All that a run carries from step to step: a copy of it is a checkpoint.
+template <class Real>
+struct State {
+    State() = default;
+    explicit State(Layout shape) : layout(shape), x(shape.size()), v(shape.size()) {}
+    Layout layout;
+    core::AlignedArray<Real> x;                    // positions at t
+    core::AlignedArray<Real> v;                    // velocities as the method stores them (leap-frog: at t - h/2)
+    std::vector<core::AlignedArray<Real>> memory;  // what else the method keeps, sized by start()
+};
+
+template <class Real>
+class Method {
+  public:
+    virtual ~Method() = default;
+
+    // Takes state.x and state.v, both at time t, and prepares the first step: at the start and after every event.
+    virtual void start(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) = 0;
+
+    // From t to t + h.
+    virtual void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) = 0;
+
+    // The velocities at time t into v (layout.size()); may cost an evaluation. The state stays as it is.
+    virtual void synchronise(SecondOrderSystem<Real>& system, double t, double h, const State<Real>& state,
+                             Real* v) = 0;
+
+    // Tells that the x and v of these points were changed after the step, by a contact.
+    virtual void touch(State<Real>& state, std::span<const int> points) = 0;
+};
+
+// The fastest motion of a system, as a bound: what limits the step.
+struct FastestMode {
+    double omega = 0;  // ω [1/s], stiffness over mass
+    double tau = 0;    // [s] dashpots c = τ k
+    double rate = 0;   // [1/s] other explicit damping: wind, anchors
+    double drag = 0;   // [1/s] smallest drag rate γ of a free point
+};
+
+// What a person should know of a method before choosing it.
+struct MethodInfo {
+    std::string_view name;    // as scenes write it
+    std::string_view title;   // as texts write it
+    int order;                // of convergence
+    int evaluations;          // of the acceleration, a step
+    int storedArrays;         // of the size of x, besides x and v
+    bool symplectic;
+    bool reversible;
+    // Largest stable h [s]; 0 when every h is unstable, infinite when none is.
+    double (*largestStep)(const FastestMode& mode);
+};
+
+}  // namespace taut::ode

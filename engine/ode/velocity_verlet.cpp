@@ -1,0 +1,100 @@
+// Velocity Verlet: the positions of leap-frog, with velocities at whole steps.
+//
+//   v½ = v + (h/2)(a_el - γ v),  x' = x + h v½,  v' = (v½ + (h/2) a_el')/(1+b),  b = γ h/2
+//
+// a_el is kept from the step before. a_el' sees the velocity extrapolated from half steps, w = 1.5 v½ - 0.5 v½(before),
+// as leap-frog does; at the start and after a contact a_el is evaluated anew, from v.
+#include "ode/method_table.h"
+
+namespace taut::ode {
+namespace {
+
+template <class Real>
+class VelocityVerlet final : public Method<Real> {
+  public:
+    enum Memory { acceleration, halfVelocity, extrapolated, count };
+
+    void start(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
+        state.memory.assign(count, core::AlignedArray<Real>(state.layout.size()));
+        stale_ = false;
+        evaluate(system, t, state, state.v.data());
+        // The half step before the first: v(-h/2) = v0 - (h/2) a(x0, v0).
+        forEach(state.layout, [&](std::size_t at, std::size_t i) {
+            const Real total = state.memory[acceleration][at] - system.dragRates()[i] * state.v[at];
+            state.memory[halfVelocity][at] = state.v[at] - static_cast<Real>(0.5 * h) * total;
+        });
+    }
+
+    void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
+        if (stale_) evaluate(system, t, state, state.v.data());
+        stale_ = false;
+        const Real half = static_cast<Real>(0.5 * h);
+        const Real* drag = system.dragRates();
+        forEach(state.layout, [&](std::size_t at, std::size_t i) {
+            Real& before = state.memory[halfVelocity][at];
+            const Real now = state.v[at] + half * (state.memory[acceleration][at] - drag[i] * state.v[at]);
+            state.memory[extrapolated][at] = Real(1.5) * now - Real(0.5) * before;
+            before = now;
+            state.x[at] += static_cast<Real>(h) * now;
+        });
+        evaluate(system, t + h, state, state.memory[extrapolated].data());
+        forEach(state.layout, [&](std::size_t at, std::size_t i) {
+            state.v[at] = (state.memory[halfVelocity][at] + half * state.memory[acceleration][at]) /
+                          (Real(1) + half * drag[i]);
+        });
+    }
+
+    void synchronise(SecondOrderSystem<Real>&, double, double, const State<Real>& state, Real* v) override {
+        for (std::size_t i = 0; i < state.layout.size(); ++i) v[i] = state.v[i];
+    }
+
+    void touch(State<Real>& state, std::span<const int> points) override {
+        stale_ = stale_ || !points.empty();
+        for (int p = 0; p < state.layout.planes; ++p)
+            for (int i : points) {
+                const auto at = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * state.layout.stride + i);
+                state.memory[halfVelocity][at] = state.v[at];
+            }
+    }
+
+  private:
+    class Store final : public AccelerationSink<Real> {
+      public:
+        Store(Layout layout, Real* out) : layout_(layout), out_(out) {}
+        void take(int first, int last, const Real* const* a) override {
+            for (int p = 0; p < layout_.planes; ++p)
+                for (int i = first; i < last; ++i)
+                    out_[static_cast<std::ptrdiff_t>(p) * layout_.stride + i] = a[p][i - first];
+        }
+
+      private:
+        Layout layout_;
+        Real* out_;
+    };
+
+    static void evaluate(SecondOrderSystem<Real>& system, double t, State<Real>& state, const Real* v) {
+        Store store(state.layout, state.memory[acceleration].data());
+        system.accelerate(t, state.x.data(), v, store);
+    }
+
+    template <class F>
+    static void forEach(Layout layout, F&& f) {
+        for (int p = 0; p < layout.planes; ++p)
+            for (int i = 0; i < layout.count; ++i)
+                f(static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * layout.stride + i),
+                  static_cast<std::size_t>(i));
+    }
+
+    bool stale_ = false;
+};
+
+}  // namespace
+
+template <class Real>
+std::unique_ptr<Method<Real>> makeVelocityVerlet() {
+    return std::make_unique<VelocityVerlet<Real>>();
+}
+template std::unique_ptr<Method<float>> makeVelocityVerlet();
+template std::unique_ptr<Method<double>> makeVelocityVerlet();
+
+}  // namespace taut::ode

@@ -2,9 +2,11 @@
 // neither files nor pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,6 +106,13 @@ struct BodySpec {
     ArraySpec array;
 };
 
+// What an OBJ file holds, before scale, rotation and position: vertices welded by position, each used by a triangle.
+struct MeshData {
+    std::vector<dvec3> positions;               // (vertices) in the file's unit
+    std::vector<dvec2> uv;                      // (vertices) as in the file, or empty if a corner has none
+    std::vector<std::array<int, 3>> triangles;  // (triangles) indices of vertices, in the file's orientation
+};
+
 struct ClothSpec : BodySpec {
     // A grid …
     dvec2 size{1.0, 1.0};        // [m]
@@ -113,6 +122,7 @@ struct ClothSpec : BodySpec {
     dvec3 down{0.0, -1.0, 0.0};   // direction from top to bottom
     // … or an OBJ mesh (then the five fields above are not allowed).
     std::string mesh;            // path, resolved by the loader; empty: a grid
+    std::shared_ptr<const MeshData> meshData;  // what the file holds; null: a grid
     dvec3 position{0.0};         // [m]
     dvec3 rotation{0.0};         // [rad] about x, then y, then z
     double scale = 1.0;
@@ -212,6 +222,7 @@ struct ColliderSpec {
     double radius = 0.5;           // [m]
     double height = 1.0;           // [m] cylinder, cone: whole; capsule: between the centres of its half spheres
     std::string mesh;              // hull, mesh: path of an OBJ file, resolved by the loader
+    std::shared_ptr<const MeshData> meshData;  // what the file holds; null: no mesh
     double scale = 1.0;
     std::vector<ColliderSpec> parts;  // compound
     double friction = 0.3;

@@ -1,0 +1,31 @@
+// What every builder does alike: sets up the points of a model. Knows no shape.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <numeric>
+
+#include "mechanics/model.h"
+
+namespace taut::mechanics::detail {
+
+// `count` points at rest at the origin, free, massless so far, with one drag rate; makes the group "all".
+inline void addRestingPoints(Model& model, int count, double dragRate) {
+    const auto size = static_cast<std::size_t>(count);
+    model.positions.assign(size, glm::dvec3(0.0));
+    model.velocities.assign(size, glm::dvec3(0.0));
+    model.masses.assign(size, 0.0);
+    model.dragRates.assign(size, dragRate);
+    model.held.assign(size, false);
+    model.uv.assign(size, glm::dvec2(0.0));
+    std::vector<int>& all = model.groups["all"];
+    all.resize(size);
+    std::iota(all.begin(), all.end(), 0);
+}
+
+// -0 + 0 = +0, and nothing else changes: equal positions then have equal bits.
+inline glm::dvec3 withoutNegativeZero(glm::dvec3 p) {
+    return p + glm::dvec3(0.0);
+}
+
+}  // namespace taut::mechanics::detail

@@ -1,0 +1,131 @@
+#include <cmath>
+
+#include "core/error.h"
+#include "mechanics/builder_support.h"
+#include "mechanics/builders.h"
+
+namespace taut::mechanics {
+namespace {
+
+using glm::dvec3;
+
+// Stiffness of a cell of a by b, per metre of material (numerics: section 6).
+//
+//  a strip of width b holds one spring along a:   force per metre  k (ε a)/b    = k_s ε      ->  k = k_s b/a
+//  two diagonals of length d, d² = a² + b²:       C12 = C66 = 2 k ab/d²         = k_d        ->  k = k_d d²/(2ab)
+//  span 2, one starts at every point:             force per metre  2·k (2 ε a)/b = 4 k_b ε    ->  k = k_b b/a
+//
+// So shear and cross contraction are k_d for every cell, and C11 = k_s + k_d a²/b² + 4 k_b: the diagonals of a cell
+// that is longer than wide carry more along its length. Square cells have C11 = k_s + k_d + 4 k_b.
+struct CellStiffness {
+    double across, down, diagonal, bendAcross, bendDown;  // [N/m]
+};
+
+CellStiffness stiffnessOf(const ClothMaterial& material, double a, double b) {
+    return {material.stretch * b / a, material.stretch * a / b, material.shear * (a * a + b * b) / (2.0 * a * b),
+            material.bend * b / a, material.bend * a / b};
+}
+
+class GridBuilder {
+  public:
+    explicit GridBuilder(const ClothShape& shape)
+        : shape_(shape), nu_(shape.cells.x), nv_(shape.cells.y), a_(shape.size.x / nu_), b_(shape.size.y / nv_) {}
+
+    Model build() {
+        detail::addRestingPoints(model_, (nu_ + 1) * (nv_ + 1), shape_.material.dragRate);
+        model_.grid = {nu_, nv_};
+        addPoints();
+        addSprings();
+        addTriangles();
+        addGroups();
+        return std::move(model_);
+    }
+
+  private:
+    int at(int i, int j) const { return j * (nu_ + 1) + i; }
+    // A boundary row stands for half a cell's width of material, every other row for a whole one.
+    double share(int line, int lines) const {
+        const bool isBoundary = line == 0 || line == lines;
+        return isBoundary && shape_.material.lumping == Lumping::weighted ? 0.5 : 1.0;
+    }
+
+    void addPoints() {
+        const bool isUniform = shape_.material.lumping == Lumping::uniform;
+        const double each = shape_.material.density * shape_.size.x * shape_.size.y / model_.pointCount();
+        const double cell = shape_.material.density * a_ * b_;
+        for (int j = 0; j <= nv_; ++j)
+            for (int i = 0; i <= nu_; ++i) {
+                const auto p = static_cast<std::size_t>(at(i, j));
+                const double u = shape_.size.x * i / nu_, v = shape_.size.y * j / nv_;
+                model_.positions[p] = detail::withoutNegativeZero(shape_.origin + u * shape_.across + v * shape_.down);
+                model_.uv[p] = {u, v};
+                model_.masses[p] = isUniform ? each : cell * share(i, nu_) * share(j, nv_);
+            }
+    }
+
+    // Springs from every point (i, j) of a window to (i + di, j + dj), row by row.
+    void addKind(SpringKind kind, int i0, int i1, int j1, int di, int dj, double k, double restLength) {
+        if (k == 0.0 && kind != SpringKind::structural) return;
+        for (int j = 0; j <= j1; ++j)
+            for (int i = i0; i <= i1; ++i) {
+                const double factor = di == 0 ? share(i, nu_) : dj == 0 ? share(j, nv_) : 1.0;
+                model_.springs.push_back(
+                    {at(i, j), at(i + di, j + dj), k * factor, restLength, shape_.material.dampingTime, kind});
+            }
+    }
+
+    void addSprings() {
+        const CellStiffness k = stiffnessOf(shape_.material, a_, b_);
+        const double d = std::sqrt(a_ * a_ + b_ * b_);
+        addKind(SpringKind::structural, 0, nu_ - 1, nv_, 1, 0, k.across, a_);
+        addKind(SpringKind::structural, 0, nu_, nv_ - 1, 0, 1, k.down, b_);
+        addKind(SpringKind::shear, 0, nu_ - 1, nv_ - 1, 1, 1, k.diagonal, d);
+        addKind(SpringKind::shear, 1, nu_, nv_ - 1, -1, 1, k.diagonal, d);
+        addKind(SpringKind::bend, 0, nu_ - 2, nv_, 2, 0, k.bendAcross, 2.0 * a_);
+        addKind(SpringKind::bend, 0, nu_, nv_ - 2, 0, 2, k.bendDown, 2.0 * b_);
+    }
+
+    //  (i,j) --- (i+1,j)     Counter-clockwise seen against down × across: a cloth that hangs in the
+    //    |   \      |        x-y plane shows its front to +z.
+    //  (i,j+1) - (i+1,j+1)
+    void addTriangles() {
+        for (int j = 0; j < nv_; ++j)
+            for (int i = 0; i < nu_; ++i) {
+                model_.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+                model_.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+            }
+    }
+
+    void addGroups() {
+        auto& groups = model_.groups;
+        for (int j = 0; j <= nv_; ++j)
+            for (int i = 0; i <= nu_; ++i) {
+                const int p = at(i, j);
+                if (i == 0) groups["left"].push_back(p);
+                if (i == nu_) groups["right"].push_back(p);
+                if (j == 0) groups["top"].push_back(p);
+                if (j == nv_) groups["bottom"].push_back(p);
+                const bool isColumnEnd = i == 0 || i == nu_, isRowEnd = j == 0 || j == nv_;
+                if (isColumnEnd || isRowEnd) groups["edges"].push_back(p);
+                if (isColumnEnd && isRowEnd) groups["corners"].push_back(p);
+            }
+        groups["top-left"] = {at(0, 0)};
+        groups["top-right"] = {at(nu_, 0)};
+        groups["bottom-left"] = {at(0, nv_)};
+        groups["bottom-right"] = {at(nu_, nv_)};
+    }
+
+    const ClothShape& shape_;
+    int nu_, nv_;
+    double a_, b_;  // [m] sides of a cell
+    Model model_;
+};
+
+}  // namespace
+
+Model buildCloth(const ClothShape& shape) {
+    TAUT_EXPECTS(shape.cells.x >= 1 && shape.cells.y >= 1 && shape.size.x > 0.0 && shape.size.y > 0.0);
+    return GridBuilder(shape).build();
+}
+
+}  // namespace taut::mechanics

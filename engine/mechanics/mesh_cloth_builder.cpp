@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "mechanics/builder_support.h"
+#include "mechanics/builders.h"
+
+namespace taut::mechanics {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+using Edge = std::pair<int, int>;  // the lower index first
+
+struct EdgeUse {
+    int uses = 0;       // triangles at the edge
+    int forward = 0;    // how many of them run from the lower to the higher index
+    int opposite[2]{};  // the third corners
+    double area = 0.0;  // [m²] of both triangles
+};
+
+[[noreturn]] void reject(const std::string& what) {
+    throw core::Error(core::ExitCode::badContent, "mesh: " + what);
+}
+
+std::string nameOf(const Edge& edge) {
+    return "the edge between vertices " + std::to_string(edge.first) + " and " + std::to_string(edge.second);
+}
+
+const dvec3& position(const MeshClothShape& shape, int i) {
+    return shape.positions[static_cast<std::size_t>(i)];
+}
+
+void checkIndices(const MeshClothShape& shape) {
+    if (shape.triangles.empty()) reject("no triangle");
+    const int count = static_cast<int>(shape.positions.size());
+    if (!shape.uv.empty() && shape.uv.size() != shape.positions.size()) reject("uv for some of the vertices only");
+    for (std::size_t v = 0; v < shape.positions.size(); ++v)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(shape.positions[v][axis])) reject("vertex " + std::to_string(v) + " is not finite");
+    std::vector<bool> isUsed(shape.positions.size(), false);
+    for (std::size_t t = 0; t < shape.triangles.size(); ++t)
+        for (int i : shape.triangles[t]) {
+            if (i < 0 || i >= count)
+                reject("triangle " + std::to_string(t) + " uses vertex " + std::to_string(i) + " of " +
+                       std::to_string(count));
+            isUsed[static_cast<std::size_t>(i)] = true;
+        }
+    const auto unused = std::find(isUsed.begin(), isUsed.end(), false);
+    if (unused != isUsed.end()) reject("vertex " + std::to_string(unused - isUsed.begin()) + " belongs to no triangle");
+}
+
+// Areas [m²]. Zero counts relative to the longest side: height below a millionth of it.
+std::vector<double> areasOf(const MeshClothShape& shape) {
+    std::vector<double> areas;
+    for (const auto& [a, b, c] : shape.triangles) {
+        const dvec3 e1 = position(shape, b) - position(shape, a), e2 = position(shape, c) - position(shape, a);
+        const double longest = std::max({glm::dot(e1, e1), glm::dot(e2, e2), glm::dot(e2 - e1, e2 - e1)});
+        const double area = 0.5 * glm::length(glm::cross(e1, e2));
+        if (!(area > 0.5e-6 * longest)) reject("triangle " + std::to_string(areas.size()) + " has no area");
+        areas.push_back(area);
+    }
+    return areas;
+}
+
+std::map<Edge, EdgeUse> edgesOf(const MeshClothShape& shape, const std::vector<double>& areas) {
+    std::map<Edge, EdgeUse> edges;
+    for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
+        const auto& corners = shape.triangles[t];
+        for (std::size_t side = 0; side < 3; ++side) {
+            const int from = corners[side], to = corners[(side + 1) % 3];
+            const Edge edge = std::minmax(from, to);
+            EdgeUse& use = edges[edge];
+            if (use.uses == 2) reject(nameOf(edge) + " has more than two triangles");
+            use.opposite[use.uses++] = corners[(side + 2) % 3];
+            use.area += areas[t];
+            if (from < to) ++use.forward;
+            if (use.uses == 2 && use.forward != 1) reject("the triangles at " + nameOf(edge) + " face opposite ways");
+        }
+    }
+    return edges;
+}
+
+// Flat coordinates from the two longest extents [m]; of equal extents the earlier axis.
+std::vector<dvec2> projectedUv(const MeshClothShape& shape, const dvec3& low, const dvec3& high) {
+    const dvec3 size = high - low;
+    int order[3] = {0, 1, 2};
+    std::stable_sort(order, order + 3, [&](int a, int b) { return size[a] > size[b]; });
+    std::vector<dvec2> uv;
+    for (const dvec3& p : shape.positions) uv.emplace_back(p[order[0]] - low[order[0]], p[order[1]] - low[order[1]]);
+    return uv;
+}
+
+void addGroups(Model& model, const std::map<Edge, EdgeUse>& edges, const dvec3& low, const dvec3& high) {
+    std::vector<int> boundary;
+    for (const auto& [edge, use] : edges)
+        if (use.uses == 1) boundary.insert(boundary.end(), {edge.first, edge.second});
+    std::sort(boundary.begin(), boundary.end());
+    boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
+    model.groups["boundary"] = boundary;
+    const dvec3 near = 0.01 * (high - low);
+    for (int i = 0; i < model.pointCount(); ++i) {
+        const dvec3& p = model.positions[static_cast<std::size_t>(i)];
+        if (p.x <= low.x + near.x) model.groups["left"].push_back(i);
+        if (p.x >= high.x - near.x) model.groups["right"].push_back(i);
+        if (p.y <= low.y + near.y) model.groups["bottom"].push_back(i);
+        if (p.y >= high.y - near.y) model.groups["top"].push_back(i);
+    }
+}
+
+void addSprings(Model& model, const std::map<Edge, EdgeUse>& edges, const ClothMaterial& material) {
+    auto distance = [&](int a, int b) {
+        return glm::length(model.positions[static_cast<std::size_t>(b)] - model.positions[static_cast<std::size_t>(a)]);
+    };
+    // Van Gelder (1998): k = E₂D (A1 + A2)/c². A square cloth has k_s = ¾ E₂D.
+    const double young = material.stretch * 4.0 / 3.0;
+    for (const auto& [edge, use] : edges) {
+        const double c = distance(edge.first, edge.second);
+        model.springs.push_back(
+            {edge.first, edge.second, young * use.area / (c * c), c, material.dampingTime, SpringKind::structural});
+    }
+    if (material.bend == 0.0) return;
+    // Across each inner edge, unless the mesh closes so tightly that the corners are one or share an edge.
+    for (const auto& [edge, use] : edges) {
+        if (use.uses != 2 || use.opposite[0] == use.opposite[1]) continue;
+        const Edge across = std::minmax(use.opposite[0], use.opposite[1]);
+        const double restLength = distance(across.first, across.second);
+        if (edges.contains(across) || restLength == 0.0) continue;
+        model.springs.push_back(
+            {across.first, across.second, material.bend, restLength, material.dampingTime, SpringKind::bend});
+    }
+}
+
+}  // namespace
+
+Model buildMeshCloth(const MeshClothShape& shape) {
+    checkIndices(shape);
+    const std::vector<double> areas = areasOf(shape);
+    const std::map<Edge, EdgeUse> edges = edgesOf(shape, areas);
+
+    Model model;
+    detail::addRestingPoints(model, static_cast<int>(shape.positions.size()), shape.material.dragRate);
+    model.triangles = shape.triangles;
+    dvec3 low = shape.positions.front(), high = low;
+    for (std::size_t i = 0; i < shape.positions.size(); ++i) {
+        model.positions[i] = detail::withoutNegativeZero(shape.positions[i]);
+        low = glm::min(low, shape.positions[i]);
+        high = glm::max(high, shape.positions[i]);
+    }
+    model.uv = shape.uv.empty() ? projectedUv(shape, low, high) : shape.uv;
+
+    // Each corner carries a third of its triangles.
+    double total = 0.0;
+    for (std::size_t t = 0; t < areas.size(); ++t) {
+        total += areas[t];
+        for (int i : shape.triangles[t])
+            model.masses[static_cast<std::size_t>(i)] += shape.material.density * areas[t] / 3.0;
+    }
+    if (shape.material.lumping == Lumping::uniform)
+        model.masses.assign(model.masses.size(), shape.material.density * total / model.pointCount());
+
+    addSprings(model, edges, shape.material);
+    addGroups(model, edges, low, high);
+    return model;
+}
+
+}  // namespace taut::mechanics

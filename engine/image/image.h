@@ -1,8 +1,8 @@
-// A picture in memory and the ways to and from a PNG file. It knows neither scenes nor GL.
+// A picture in memory. It knows neither files nor scenes nor GL.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 namespace taut::image {
@@ -12,6 +12,12 @@ struct Image {
     int width = 0;
     int height = 0;
     std::vector<std::uint8_t> rgb;  // (height × width × 3)
+
+    // Whether the array has the length that width and height ask for, and there is at least one pixel.
+    bool isWhole() const {
+        return width > 0 && height > 0 &&
+               rgb.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
+    }
 };
 
 }  // namespace taut::image

@@ -1,0 +1,93 @@
+#include "image/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.h"
+
+namespace taut::image {
+namespace {
+
+struct PixelSums {
+    long total = 0;      // of differences over pixels and channels
+    long different = 0;  // pixels with a channel off by more than the tolerance
+    int largest = 0;
+};
+
+PixelSums tileSums(const Image& a, const Image& b, int left, int top, int channelTolerance) {
+    PixelSums sums;
+    const int right = std::min(left + tileSize, a.width);
+    const int bottom = std::min(top + tileSize, a.height);
+    for (int y = top; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) {
+            const std::size_t at =
+                (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * 3;
+            int worst = 0;
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const int difference = std::abs(int{a.rgb[at + channel]} - int{b.rgb[at + channel]});
+                sums.total += difference;
+                worst = std::max(worst, difference);
+            }
+            sums.different += worst > channelTolerance ? 1 : 0;
+            sums.largest = std::max(sums.largest, worst);
+        }
+    }
+    return sums;
+}
+
+}  // namespace
+
+Comparison compare(const Image& a, const Image& b, const Tolerance& tolerance) {
+    TAUT_EXPECTS(a.isWhole() && b.isWhole());
+    Comparison result;
+    if (a.width != b.width || a.height != b.height) {
+        result.sameSize = result.within = false;
+        return result;
+    }
+    PixelSums all;
+    for (int top = 0; top < a.height; top += tileSize) {
+        for (int left = 0; left < a.width; left += tileSize) {
+            const PixelSums sums = tileSums(a, b, left, top, tolerance.channel);
+            const int pixels = std::min(tileSize, a.width - left) * std::min(tileSize, a.height - top);
+            const double mean = static_cast<double>(sums.total) / (3.0 * pixels);
+            if (mean > result.worstTileMean) {
+                result.worstTileMean = mean;
+                result.worstTileX = left;
+                result.worstTileY = top;
+            }
+            all.total += sums.total;
+            all.different += sums.different;
+            all.largest = std::max(all.largest, sums.largest);
+        }
+    }
+    const double pixels = static_cast<double>(a.width) * a.height;
+    result.share = static_cast<double>(all.different) / pixels;
+    result.mean = static_cast<double>(all.total) / (3.0 * pixels);
+    result.largest = all.largest;
+    result.within = result.share <= tolerance.share && result.worstTileMean <= tolerance.tileMean;
+    return result;
+}
+
+std::string describe(const Comparison& c, const Tolerance& tolerance) {
+    if (!c.sameSize) return "the pictures differ in size";
+    return fmt::format(
+        "{:.4f} % of pixels differ by more than {} (at most {:.4f} %), worst tile at ({}, {}) differs by {:.3f} in the "
+        "mean (at most {:.3f}), largest difference {}, mean {:.4f}",
+        100.0 * c.share, tolerance.channel, 100.0 * tolerance.share, c.worstTileX, c.worstTileY, c.worstTileMean,
+        tolerance.tileMean, c.largest, c.mean);
+}
+
+Image differencePicture(const Image& a, const Image& b) {
+    TAUT_EXPECTS(a.isWhole() && b.isWhole() && a.width == b.width && a.height == b.height);
+    constexpr int gain = 16;
+    Image picture{a.width, a.height, std::vector<std::uint8_t>(a.rgb.size())};
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+        const int difference = std::abs(int{a.rgb[i]} - int{b.rgb[i]});
+        picture.rgb[i] = static_cast<std::uint8_t>(std::min(255, gain * difference));
+    }
+    return picture;
+}
+
+}  // namespace taut::image

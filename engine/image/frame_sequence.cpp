@@ -1,0 +1,56 @@
+#include "image/frame_sequence.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "image/png.h"
+#include "image/whole_file.h"
+
+namespace taut::image {
+
+FramePattern::FramePattern(const std::filesystem::path& pattern) {
+    const auto fail = [&](const std::string& reason) {
+        throw core::Error(core::ExitCode::usage, fmt::format("{}: {}", pattern.string(), reason));
+    };
+    if (pattern.empty()) fail("a name for the frames is missing, for example out/frame_######.png");
+    const std::string name = pattern.filename().string();
+    const std::size_t first = name.find('#');
+    if (pattern.parent_path().string().find('#') != std::string::npos)
+        fail("'#' stands for the frame number and belongs into the file name, not into a folder's");
+
+    if (pattern.extension() != ".png") {
+        if (first != std::string::npos) fail("frames are PNG files: let the name end in .png");
+        folder_ = pattern;
+        before_ = "frame_";
+        after_ = ".png";
+        return;
+    }
+    if (first == std::string::npos)
+        fail(fmt::format("the frame number has no place; put '#' for each digit, for example {}_######.png",
+                         (pattern.parent_path() / pattern.stem()).string()));
+    const std::size_t last = std::min(name.find_first_not_of('#', first), name.size());
+    if (name.find('#', last) != std::string::npos) fail("'#' may stand at one place only");
+    folder_ = pattern.parent_path();
+    before_ = name.substr(0, first);
+    after_ = name.substr(last);
+    digits_ = last - first;
+}
+
+std::filesystem::path FramePattern::pathOf(std::int64_t frame) const {
+    TAUT_EXPECTS(frame >= 0);
+    return folder_ / fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+}
+
+FrameSequence::FrameSequence(const FramePattern& pattern) : pattern_(pattern) {
+    prepareFolderOf(pattern_.pathOf(0));
+}
+
+void FrameSequence::write(std::int64_t frame, const Image& image) {
+    writePng(pattern_.pathOf(frame), image);
+}
+
+std::filesystem::path FrameSequence::companion(const std::string& name) const {
+    return pattern_.folder() / name;
+}
+
+}  // namespace taut::image

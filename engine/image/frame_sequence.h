@@ -1,0 +1,41 @@
+// A picture file a frame, numbered. It knows PNG and nothing else.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "image/frame_sink.h"
+
+namespace taut::image {
+
+// Names of numbered files: "out/frame_######.png" has the number in six digits (more where it needs more).
+class FramePattern {
+  public:
+    // A path that ends in ".png" must have one run of '#' in its file name; any other path is a folder, whose files
+    // are then frame_######.png. Throws core::Error(usage) with an example.
+    explicit FramePattern(const std::filesystem::path& pattern);
+
+    std::filesystem::path pathOf(std::int64_t frame) const;  // expects frame >= 0
+    const std::filesystem::path& folder() const { return folder_; }
+
+  private:
+    std::filesystem::path folder_;
+    std::string before_, after_;
+    std::size_t digits_ = 6;
+};
+
+class FrameSequence : public FrameSink {
+  public:
+    // Makes the folder; throws core::Error: usage for a bad pattern, inputOutput when nothing can be written there.
+    explicit FrameSequence(const FramePattern& pattern);
+
+    void write(std::int64_t frame, const Image& image) override;
+    void finish() override {}
+    std::filesystem::path companion(const std::string& name) const override;
+
+  private:
+    FramePattern pattern_;
+};
+
+}  // namespace taut::image

@@ -1,0 +1,56 @@
+// Encodes pictures as an H.264 video by piping them to ffmpeg. It knows neither scenes nor GL.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "image/frame_sink.h"
+
+namespace taut::image {
+
+struct VideoOptions {
+    double fps = 60.0;               // pictures a second
+    std::string program = "ffmpeg";  // looked up in PATH
+    int quality = 18;                // constant rate factor: 0 lossless … 51 worst
+};
+
+// Whether a path names a video that VideoWriter can write: .mp4, .mov or .mkv.
+bool isVideoPath(const std::filesystem::path& path);
+
+// The video appears under its name when finish() has returned; before, it has a temporary name, and without finish()
+// it is removed. An odd width or height is padded by one black column or row, because yuv420p needs even numbers.
+class VideoWriter : public FrameSink {
+  public:
+    // Makes the folder and tries that a file can be made there; throws core::Error(inputOutput). ffmpeg itself starts
+    // with the first picture, because the size is known only then.
+    VideoWriter(std::filesystem::path path, VideoOptions options);
+    ~VideoWriter() override;
+    VideoWriter(const VideoWriter&) = delete;
+    VideoWriter& operator=(const VideoWriter&) = delete;
+
+    // Throws core::Error(inputOutput) with ffmpeg's own message, or with the name of its package when it is missing.
+    void write(std::int64_t frame, const Image& image) override;
+    void finish() override;
+    std::filesystem::path companion(const std::string& name) const override;
+
+  private:
+    void start(int width, int height);
+    int waitForEnd();
+    [[noreturn]] void fail(const std::string& what);
+
+    std::filesystem::path path_;
+    std::filesystem::path temporary_;
+    VideoOptions options_;
+    int width_ = 0, height_ = 0;
+    pid_t process_ = -1;
+    int pipe_ = -1;      // our end of ffmpeg's standard input
+    int messages_ = -1;  // a file in memory that takes ffmpeg's standard error
+};
+
+// The first line that "ffmpeg -version" prints; empty when it does not run.
+std::string ffmpegVersion(const std::string& program = "ffmpeg");
+
+}  // namespace taut::image

@@ -1,0 +1,50 @@
+// Files that are there whole or not at all: written under a temporary name and renamed at the end.
+// It knows nothing of what is in them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace taut::image {
+
+// The name that a file has while it is being written: its own with ".part" behind it, in the same folder.
+std::filesystem::path temporaryName(const std::filesystem::path& path);
+
+// Makes the folder that the file is to lie in and tries that a file can be made there, so that a run that could not
+// keep its results fails before it begins. Throws core::Error(inputOutput); leaves no file behind.
+void prepareFolderOf(const std::filesystem::path& path);
+
+// A file being written. Without commit() nothing stays of it, and a file of that name from before is untouched.
+class WholeFile {
+  public:
+    // Opens the temporary file; throws core::Error(inputOutput).
+    explicit WholeFile(std::filesystem::path path);
+    ~WholeFile();
+    WholeFile(const WholeFile&) = delete;
+    WholeFile& operator=(const WholeFile&) = delete;
+
+    // Appends; throws core::Error(inputOutput), a full disk included.
+    void write(std::span<const std::byte> bytes);
+    void write(std::string_view text);
+
+    // Closes the file and gives it its name; throws core::Error(inputOutput).
+    void commit();
+
+  private:
+    [[noreturn]] void fail(const char* what, int error);
+
+    std::filesystem::path path_;
+    std::filesystem::path temporary_;
+    int descriptor_ = -1;
+};
+
+// The whole of a file in one call; throws core::Error(inputOutput).
+void writeWholeFile(const std::filesystem::path& path, std::string_view content);
+
+// What a file holds; throws core::Error(inputOutput) when it is missing, unreadable or a folder.
+std::string fileContent(const std::filesystem::path& path);
+
+}  // namespace taut::image

@@ -1,0 +1,58 @@
+#include "image/frame_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include "image/read.h"
+#include "image_support.h"
+
+namespace taut::image {
+namespace {
+
+using core::ExitCode;
+using test::messageOf;
+using test::TemporaryFolder;
+
+TEST(FramePattern, PutsTheNumberWhereTheMarksAre) {
+    EXPECT_EQ(FramePattern("out/frame_######.png").pathOf(0), "out/frame_000000.png");
+    EXPECT_EQ(FramePattern("out/frame_######.png").pathOf(1234567), "out/frame_1234567.png");
+    EXPECT_EQ(FramePattern("a##b.png").pathOf(7), "a07b.png");
+    EXPECT_EQ(FramePattern("#.png").pathOf(12), "12.png");
+}
+
+TEST(FramePattern, FolderMeansFrameWithSixDigits) {
+    EXPECT_EQ(FramePattern("out").pathOf(3), "out/frame_000003.png");
+    EXPECT_EQ(FramePattern("out/").pathOf(3), "out/frame_000003.png");
+    EXPECT_EQ(FramePattern(".").pathOf(3), "./frame_000003.png");
+}
+
+TEST(FramePattern, SaysWhatIsWrongAndShowsAnExample) {
+    const auto message = [](const char* pattern) {
+        return messageOf(ExitCode::usage, [&] { FramePattern p(pattern); });
+    };
+    EXPECT_NE(message("out/a.png").find("for example out/a_######.png"), std::string::npos) << message("out/a.png");
+    EXPECT_NE(message("a#b#.png").find("one place"), std::string::npos);
+    EXPECT_NE(message("o#/a.png").find("not into a folder"), std::string::npos);
+    EXPECT_NE(message("a###.jpg").find(".png"), std::string::npos);
+    EXPECT_NE(message("").find("missing"), std::string::npos);
+}
+
+TEST(FrameSequence, WritesAFileAFrameAndKeepsItsCompanionsBeside) {
+    const TemporaryFolder folder;
+    FrameSequence sequence{FramePattern(folder / "deep/f_###.png")};
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "deep"));
+    sequence.write(5, test::testPicture(8, 6));
+    sequence.write(6, test::testPicture(8, 6));
+    sequence.finish();
+    EXPECT_EQ(readImage(folder / "deep/f_006.png").rgb, test::testPicture(8, 6).rgb);
+    EXPECT_TRUE(std::filesystem::exists(folder / "deep/f_005.png"));
+    EXPECT_EQ(sequence.companion("run.json"), folder / "deep/run.json");
+}
+
+TEST(FrameSequence, UnwritableFolderFailsBeforeTheFirstFrame) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "file", "");
+    messageOf(ExitCode::inputOutput, [&] { FrameSequence s{FramePattern(folder / "file/f_#.png")}; });
+}
+
+}  // namespace
+}  // namespace taut::image

@@ -1,0 +1,107 @@
+#include "image/png.h"
+
+#include <gtest/gtest.h>
+
+#include "image/read.h"
+#include "image_support.h"
+
+namespace taut::image {
+namespace {
+
+using core::ExitCode;
+using test::contentOf;
+using test::messageOf;
+using test::TemporaryFolder;
+using test::testPicture;
+
+TEST(Png, ReadsBackEveryByteAtAnySize) {
+    const TemporaryFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 37}, {37, 1}, {64, 48}, {257, 129}}) {
+        const Image picture = testPicture(width, height);
+        writePng(folder / "a.png", picture);
+        const Image back = readImage(folder / "a.png");
+        EXPECT_EQ(back.width, width);
+        EXPECT_EQ(back.height, height);
+        EXPECT_EQ(back.rgb, picture.rgb);
+    }
+}
+
+TEST(Png, HasTheChunksOfAnEightBitColourPicture) {
+    const std::vector<std::byte> bytes = pngBytes(testPicture(3, 2));
+    const std::string content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    EXPECT_EQ(content.substr(0, 8), "\x89PNG\r\n\x1a\n");
+    // IHDR: width, height, 8 bits, colour type 2 (RGB).
+    EXPECT_EQ(content.substr(12, 14), std::string("IHDR\0\0\0\3\0\0\0\2\x08\x02", 14));
+    EXPECT_EQ(content.substr(content.size() - 12), std::string("\0\0\0\0IEND\xAE\x42\x60\x82", 12));
+}
+
+TEST(Png, IsTheSameBytesEveryTime) {
+    EXPECT_EQ(pngBytes(testPicture(80, 60)), pngBytes(testPicture(80, 60)));
+}
+
+TEST(Png, FullDiskIsReportedAndLeavesNoPicture) {
+    const TemporaryFolder folder;
+    const auto path = folder / "a.png";
+    std::filesystem::create_symlink("/dev/full", path.string() + ".part");
+    const std::string message = messageOf(ExitCode::inputOutput, [&] { writePng(path, testPicture(64, 64)); });
+    EXPECT_NE(message.find("No space left"), std::string::npos) << message;
+    EXPECT_EQ(folder.entryCount(), 0);
+}
+
+TEST(Png, BrokenOffAnywhereIsAnErrorAndNeverAPicture) {
+    const TemporaryFolder folder;
+    writePng(folder / "whole.png", testPicture(40, 30));
+    const std::string content = contentOf(folder / "whole.png");
+    for (std::size_t length = 0; length < content.size(); length += 1 + content.size() / 97) {
+        test::writeText(folder / "cut.png", content.substr(0, length));
+        const std::string message = messageOf(ExitCode::badContent, [&] { readImage(folder / "cut.png"); });
+        EXPECT_NE(message.find("cut.png: not a whole PNG or JPEG"), std::string::npos) << message;
+    }
+}
+
+TEST(Png, DamagedByteIsAnError) {
+    const TemporaryFolder folder;
+    writePng(folder / "a.png", testPicture(40, 30));
+    std::string content = contentOf(folder / "a.png");
+    content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
+    test::writeText(folder / "a.png", content);
+    messageOf(ExitCode::badContent, [&] { readImage(folder / "a.png"); });
+}
+
+TEST(Png, OtherFilesAreRefused) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.png", "this is no picture");
+    messageOf(ExitCode::badContent, [&] { readImage(folder / "a.png"); });
+    test::writeText(folder / "b.png", "GIF89a\1\0\1\0\0\0\0;");
+    messageOf(ExitCode::badContent, [&] { readImage(folder / "b.png"); });
+    messageOf(ExitCode::inputOutput, [&] { readImage(folder / "none.png"); });
+}
+
+// 1 x 1 grey JPEG written by hand: quantisation of ones, one Huffman code a table, DC category 0 and end of block.
+std::string smallestJpeg() {
+    std::string jpeg("\xFF\xD8\xFF\xDB\x00\x43\x00", 7);
+    jpeg += std::string(64, '\1');
+    jpeg += std::string("\xFF\xC0\x00\x0B\x08\x00\x01\x00\x01\x01\x01\x11\x00", 13);
+    for (const char table : {'\x00', '\x10'}) {
+        jpeg += std::string("\xFF\xC4\x00\x14", 4) + table + '\1' + std::string(15, '\0') + '\0';
+    }
+    jpeg += std::string("\xFF\xDA\x00\x08\x01\x01\x00\x00\x3F\x00", 10);
+    jpeg += "\x3F";
+    jpeg += "\xFF\xD9";
+    return jpeg;
+}
+
+TEST(Jpeg, IsReadAndBrokenOffIsAnError) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.jpg", smallestJpeg());
+    const Image picture = readImage(folder / "a.jpg");
+    ASSERT_EQ(picture.width, 1);
+    // A block of zeros is the middle of the range.
+    EXPECT_EQ(picture.rgb, (std::vector<std::uint8_t>{128, 128, 128}));
+    test::writeText(folder / "cut.jpg", smallestJpeg().substr(0, smallestJpeg().size() - 2));
+    EXPECT_NE(messageOf(ExitCode::badContent, [&] { readImage(folder / "cut.jpg"); }).find("breaks off"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace taut::image

@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "image/video_writer.h"
+#include "image_support.h"
+
+namespace taut::image {
+namespace {
+
+using core::ExitCode;
+using test::messageOf;
+using test::TemporaryFolder;
+
+// What ffprobe says about the first stream of a file: "width,height,pixels,rate,frames".
+std::string streamOf(const std::filesystem::path& path) {
+    const std::string command =
+        "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
+        "stream=width,height,pix_fmt,r_frame_rate,nb_read_frames -of csv=p=0 '" +
+        path.string() + "' 2>&1";
+    std::string text;
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    char buffer[256];
+    while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) text += buffer;
+    ::pclose(pipe);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text;
+}
+
+std::filesystem::path script(const TemporaryFolder& folder, const std::string& body) {
+    const auto path = folder / "encoder";
+    test::writeText(path, "#!/bin/sh\n" + body + "\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return path;
+}
+
+TEST(VideoWriter, AppearsWholeUnderItsNameWithFinishOnly) {
+    const TemporaryFolder folder;
+    VideoWriter video(folder / "a.mp4", {.fps = 30.0});
+    for (int frame = 0; frame < 5; ++frame) video.write(frame, test::testPicture(64, 48));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4"));
+    video.finish();
+    EXPECT_EQ(streamOf(folder / "a.mp4"), "64,48,yuv420p,30/1,5");
+    EXPECT_EQ(folder.entryCount(), 1);
+    EXPECT_EQ(video.companion("run.json"), folder / "a.run.json");
+}
+
+// With "faststart" the index (moov) stands before the pictures (mdat).
+TEST(VideoWriter, IndexComesFirst) {
+    const TemporaryFolder folder;
+    VideoWriter video(folder / "a.mp4", {});
+    for (int frame = 0; frame < 3; ++frame) video.write(frame, test::testPicture(64, 48));
+    video.finish();
+    const std::string content = test::contentOf(folder / "a.mp4");
+    EXPECT_LT(content.find("moov"), content.find("mdat"));
+}
+
+TEST(VideoWriter, OddSizesArePaddedToEvenOnes) {
+    const TemporaryFolder folder;
+    VideoWriter video(folder / "a.mkv", {.fps = 24.0});
+    video.write(0, test::testPicture(65, 47));
+    video.finish();
+    EXPECT_EQ(streamOf(folder / "a.mkv"), "66,48,yuv420p,24/1,1");
+}
+
+TEST(VideoWriter, WithoutFinishNothingStaysAndTheOldVideoIsUntouched) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.mp4", "old");
+    {
+        VideoWriter video(folder / "a.mp4", {});
+        video.write(0, test::testPicture(64, 48));
+    }
+    EXPECT_EQ(test::contentOf(folder / "a.mp4"), "old");
+    EXPECT_EQ(folder.entryCount(), 1);
+}
+
+TEST(VideoWriter, MissingProgramIsReportedWithItsPackage) {
+    const TemporaryFolder folder;
+    VideoWriter video(folder / "a.mp4", {.program = "no-such-program-here"});
+    const std::string message = messageOf(ExitCode::inputOutput, [&] { video.write(0, test::testPicture(64, 48)); });
+    EXPECT_NE(message.find("Install the package 'ffmpeg'"), std::string::npos) << message;
+    EXPECT_EQ(folder.entryCount(), 0);
+}
+
+TEST(VideoWriter, FailureOfTheEncoderIsReportedInItsOwnWords) {
+    const TemporaryFolder folder;
+    const auto program = script(folder, "cat >/dev/null; echo 'Unknown encoder libx264' >&2; exit 3");
+    VideoWriter video(folder / "a.mp4", {.program = program.string()});
+    video.write(0, test::testPicture(64, 48));
+    const std::string message = messageOf(ExitCode::inputOutput, [&] { video.finish(); });
+    EXPECT_NE(message.find("exit code 3:\nUnknown encoder libx264"), std::string::npos) << message;
+    EXPECT_EQ(folder.entryCount(), 1);  // the script
+}
+
+// Writing to a reader that has gone would raise SIGPIPE, whose default ends the process: the test ends with it.
+TEST(VideoWriter, EncoderThatEndsEarlyIsAnErrorAndNoSignal) {
+    const TemporaryFolder folder;
+    const auto before = std::signal(SIGPIPE, SIG_DFL);
+    const auto program = script(folder, "echo 'gone' >&2; exit 1");
+    VideoWriter video(folder / "a.mp4", {.program = program.string()});
+    const std::string message = messageOf(ExitCode::inputOutput, [&] {
+        for (int frame = 0; frame < 100; ++frame) video.write(frame, test::testPicture(320, 240));
+    });
+    EXPECT_NE(message.find("gone"), std::string::npos) << message;
+    std::signal(SIGPIPE, before);
+}
+
+// The temporary file lies on a full device: ffmpeg's own message comes through and nothing stays.
+TEST(VideoWriter, FullDiskIsReported) {
+    const TemporaryFolder folder;
+    VideoWriter video(folder / "a.mkv", {});
+    std::filesystem::create_symlink("/dev/full", folder / "a.mkv.part");
+    const std::string message = messageOf(ExitCode::inputOutput, [&] {
+        for (int frame = 0; frame < 30; ++frame) video.write(frame, test::testPicture(64, 48));
+        video.finish();
+    });
+    EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
+    EXPECT_EQ(folder.entryCount(), 0);
+}
+
+TEST(VideoWriter, UnwritableFolderFailsBeforeTheFirstFrame) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "file", "");
+    messageOf(ExitCode::inputOutput, [&] { VideoWriter v(folder / "file/a.mp4", {}); });
+}
+
+TEST(VideoWriter, KnowsVideosByTheirEnding) {
+    EXPECT_TRUE(isVideoPath("a/b.mp4"));
+    EXPECT_TRUE(isVideoPath("b.mkv"));
+    EXPECT_FALSE(isVideoPath("a.mp4/frames"));
+    EXPECT_FALSE(isVideoPath("frame_######.png"));
+}
+
+}  // namespace
+}  // namespace taut::image

@@ -24,14 +24,15 @@ bool isVideoPath(const std::filesystem::path& path);
 // it is removed. An odd width or height is padded by one black column or row, because yuv420p needs even numbers.
 class VideoWriter : public FrameSink {
   public:
-    // Makes the folder and tries that a file can be made there; throws core::Error(inputOutput). ffmpeg itself starts
-    // with the first picture, because the size is known only then.
+    // Looks for the program, makes the folder and tries that a file can be made there; throws core::Error(inputOutput),
+    // with the name of the package when the program is missing. It starts with the first picture, because the size is
+    // known only then.
     VideoWriter(std::filesystem::path path, VideoOptions options);
     ~VideoWriter() override;
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    // Throws core::Error(inputOutput) with ffmpeg's own message, or with the name of its package when it is missing.
+    // Both throw core::Error(inputOutput) with ffmpeg's own message.
     void write(std::int64_t frame, const Image& image) override;
     void finish() override;
     std::filesystem::path companion(const std::string& name) const override;

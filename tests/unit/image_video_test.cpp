@@ -75,11 +75,13 @@ TEST(VideoWriter, WithoutFinishNothingStaysAndTheOldVideoIsUntouched) {
     EXPECT_EQ(folder.entryCount(), 1);
 }
 
-TEST(VideoWriter, MissingProgramIsReportedWithItsPackage) {
+TEST(VideoWriter, MissingProgramIsReportedWithItsPackageBeforeTheFirstFrame) {
     const TemporaryFolder folder;
-    VideoWriter video(folder / "a.mp4", {.program = "no-such-program-here"});
-    const std::string message = messageOf(ExitCode::inputOutput, [&] { video.write(0, test::testPicture(64, 48)); });
-    EXPECT_NE(message.find("Install the package 'ffmpeg'"), std::string::npos) << message;
+    for (const char* program : {"no-such-program-here", "/no/such/program"}) {
+        const std::string message =
+            messageOf(ExitCode::inputOutput, [&] { VideoWriter v(folder / "a.mp4", {.program = program}); });
+        EXPECT_NE(message.find("Install the package 'ffmpeg'"), std::string::npos) << message;
+    }
     EXPECT_EQ(folder.entryCount(), 0);
 }
 

@@ -175,55 +175,6 @@ void VideoWriter::start(int width, int height) {
     }
     ::close(pipe_);
     pipe_ = -1;
-    throw core::Error(
-        core::ExitCode::inputOutput,
-        -process == ENOENT
-            ? fmt::format("{}: {} is not installed. Install the package 'ffmpeg', or write pictures "
-                          "instead: -o {}/frame_######.png",
-                          path_.string(), options_.program, (path_.parent_path() / path_.stem()).string())
-            : fmt::format("{}: cannot run {}: {}", path_.string(), options_.program, std::strerror(-process)));
-}
-
-void VideoWriter::write(std::int64_t /*frame*/, const Image& image) {
-    TAUT_EXPECTS(image.isWhole());
-    if (process_ < 0) start(image.width, image.height);
-    TAUT_EXPECTS(image.width == width_ && image.height == height_);
-    const std::uint8_t* data = image.rgb.data();
-    std::size_t left = image.rgb.size();
-    while (left > 0) {
-        const ssize_t done = ::send(pipe_, data, left, MSG_NOSIGNAL);
-        if (done < 0 && errno == EINTR) continue;
-        if (done < 0) fail("ended before it had all pictures");
-        data += done;
-        left -= static_cast<std::size_t>(done);
-    }
-}
-
-void VideoWriter::finish() {
-    if (process_ < 0) return;  // no picture, no video
-    const int status = waitForEnd();
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        fail(WIFEXITED(status) ? fmt::format("failed with exit code {}", WEXITSTATUS(status))
-                               : fmt::format("was ended by signal {}", WTERMSIG(status)));
-    }
-    // ffmpeg ends well after some failures to write the end of the file; raw pictures give it nothing else to report.
-    if (!textOf(messages_).empty()) fail("reported");
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(fmt::format("wrote no file: {}", std::strerror(errno)));
-}
-
-// Closes the pipe, which tells ffmpeg that the last picture has come, and waits for it.
-int VideoWriter::waitForEnd() {
-    if (pipe_ >= 0) ::close(pipe_);
-    pipe_ = -1;
-    const int status = statusOf(process_);
-    process_ = -1;
-    return status;
-}
-
-void VideoWriter::fail(const std::string& what) {
-    if (process_ > 0) waitForEnd();
-    ::unlink(temporary_.c_str());
-    const std::string text = textOf(messages_);
     throw core::Error(core::ExitCode::inputOutput,
                       fmt::format("{}: cannot run {}: {}", path_.string(), options_.program, std::strerror(-process)));
 }

@@ -1,4 +1,6 @@
-// The state hash: FNV-1a with 64 bits, fed with numbers in a fixed order. Negative zero counts as zero.
+// The state hash: FNV-1a with 64 bits, fed number by number in a fixed order. Negative zero counts as zero.
+// A number at a time instead of a byte at a time costs an eighth; the fold makes up for the bits that a
+// multiplication only carries upwards.
 #pragma once
 
 #include <bit>
@@ -15,16 +17,15 @@ class Hash {
         for (char c : text) addByte(static_cast<std::uint8_t>(c));
         addByte(0);
     }
-    void add(std::uint64_t word) {
-        for (int shift = 0; shift < 64; shift += 8) addByte(static_cast<std::uint8_t>(word >> shift));
-    }
-    void add(float x) { addBits(std::bit_cast<std::uint32_t>(x == 0.0F ? 0.0F : x), 4); }
-    void add(double x) { addBits(std::bit_cast<std::uint64_t>(x == 0.0 ? 0.0 : x), 8); }
+    void add(std::uint64_t word) { addNumber(word); }
+    void add(float x) { addNumber(std::bit_cast<std::uint32_t>(x == 0.0F ? 0.0F : x)); }
+    void add(double x) { addNumber(std::bit_cast<std::uint64_t>(x == 0.0 ? 0.0 : x)); }
     std::uint64_t value() const { return value_; }
 
   private:
-    void addBits(std::uint64_t bits, int bytes) {
-        for (int i = 0; i < bytes; ++i) addByte(static_cast<std::uint8_t>(bits >> (8 * i)));
+    void addNumber(std::uint64_t bits) {
+        value_ = (value_ ^ bits) * 0x100000001b3ULL;
+        value_ ^= value_ >> 32;
     }
     std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };

@@ -1,0 +1,173 @@
+#include "mechanics/spring_network.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "core/error.h"
+
+namespace taut::mechanics {
+namespace {
+
+constexpr int blockPoints = 256;   // a block's springs and points fit the first-level cache
+constexpr int chunkPoints = 8192;  // enough work for a thread
+constexpr int shortestRun = 8;     // below that, single springs are as fast
+constexpr int longestBridge = 3;   // missing springs that a run steps over with stiffness zero
+
+// The springs of one block that look alike, by point a.
+using Key = std::tuple<int, double, double>;  // offset, rest length, damping time
+
+struct Sorted {
+    Key key;
+    int a;
+    double k;
+    bool operator<(const Sorted& other) const { return std::tie(key, a, k) < std::tie(other.key, other.a, other.k); }
+};
+
+template <class Real>
+class Builder {
+  public:
+    Builder(SpringNetwork<Real>& network, int points, std::span<const typename SpringNetwork<Real>::Body> bodies,
+            std::span<const Spring> springs)
+        : network_(network), points_(points) {
+        cutBlocks(bodies);
+        shareOut(springs);
+        cutChunks();
+        for (std::size_t c = 0; c < network_.chunks.size(); ++c) fillChunk(network_.chunks[c]);
+    }
+
+  private:
+    void cutBlocks(std::span<const typename SpringNetwork<Real>::Body> bodies) {
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            const int first = bodies[i].firstPoint;
+            const int last = i + 1 < bodies.size() ? bodies[i + 1].firstPoint : points_;
+            const int row = bodies[i].row;
+            const int size = row > 0 ? row * std::max(1, blockPoints / row) : blockPoints;
+            for (int at = first; at < last; at += size) {
+                SpringBlock block{};
+                block.firstPoint = at;
+                block.lastPoint = block.reach = std::min(at + size, last);
+                network_.blocks.push_back(block);
+            }
+        }
+    }
+
+    void shareOut(std::span<const Spring> springs) {
+        std::vector<int> blockOf(static_cast<std::size_t>(points_));
+        for (std::size_t i = 0; i < network_.blocks.size(); ++i)
+            for (int p = network_.blocks[i].firstPoint; p < network_.blocks[i].lastPoint; ++p)
+                blockOf[static_cast<std::size_t>(p)] = static_cast<int>(i);
+        sorted_.resize(network_.blocks.size());
+        for (const Spring& s : springs) {
+            TAUT_EXPECTS(s.a != s.b && s.a >= 0 && s.b >= 0 && s.a < points_ && s.b < points_);
+            const int a = std::min(s.a, s.b), b = std::max(s.a, s.b);
+            const auto block = static_cast<std::size_t>(blockOf[static_cast<std::size_t>(a)]);
+            sorted_[block].push_back({{b - a, s.restLength, s.dampingTime}, a, s.stiffness});
+            network_.blocks[block].reach = std::max(network_.blocks[block].reach, b + 1);
+        }
+        for (auto& list : sorted_) std::sort(list.begin(), list.end());
+        network_.springCount = static_cast<int>(springs.size());
+    }
+
+    // A chunk takes blocks until it is large enough and holds all that the chunk before spills.
+    void cutChunks() {
+        int incoming = 0;  // one past the last point that an earlier chunk touches
+        SpringChunk chunk{};
+        int reach = 0;
+        const int count = static_cast<int>(network_.blocks.size());
+        for (int i = 0; i < count; ++i) {
+            const SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
+            if (i == chunk.firstBlock) chunk.firstPoint = block.firstPoint;
+            reach = std::max(reach, block.reach);
+            const bool full = block.lastPoint - chunk.firstPoint >= chunkPoints && block.lastPoint >= incoming;
+            if (!full && i + 1 < count) continue;
+            chunk.lastBlock = i + 1;
+            chunk.lastPoint = block.lastPoint;
+            chunk.spill = std::max(0, reach - block.lastPoint);
+            network_.chunks.push_back(chunk);
+            incoming = reach;
+            chunk = SpringChunk{};
+            chunk.firstBlock = i + 1;
+            reach = 0;
+        }
+    }
+
+    void fillChunk(SpringChunk& chunk) {
+        for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) {
+            SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
+            block.firstRun = static_cast<int>(network_.runs.size());
+            inner_.clear();
+            crossing_.clear();
+            const std::vector<Sorted>& list = sorted_[static_cast<std::size_t>(i)];
+            for (std::size_t from = 0; from < list.size();) from = takeRun(list, from, chunk);
+            block.lastRun = static_cast<int>(network_.runs.size());
+            block.firstSingle = network_.singles.size();
+            for (const Sorted& s : inner_) addSingle(s);
+            block.lastSingle = block.firstCrossing = network_.singles.size();
+            for (const Sorted& s : crossing_) addSingle(s);
+            block.lastCrossing = network_.singles.size();
+        }
+    }
+
+    // Collects the longest run from `from` on; returns where the next begins.
+    std::size_t takeRun(const std::vector<Sorted>& list, std::size_t from, SpringChunk& chunk) {
+        const int offset = std::get<0>(list[from].key);
+        const bool crossing = list[from].a + offset >= chunk.lastPoint;
+        std::size_t to = from + 1;
+        while (to < list.size() && list[to].key == list[from].key && list[to].a > list[to - 1].a &&
+               list[to].a - list[to - 1].a - 1 <= longestBridge &&
+               (list[to].a + offset >= chunk.lastPoint) == crossing)
+            ++to;
+        if (static_cast<int>(to - from) < shortestRun) {
+            for (std::size_t i = from; i < to; ++i) (crossing ? crossing_ : inner_).push_back(list[i]);
+            return to;
+        }
+        SpringRun<Real> run{};
+        run.a = list[from].a;
+        run.offset = offset;
+        run.count = list[to - 1].a - run.a + 1;
+        run.restLength = static_cast<Real>(std::get<1>(list[from].key));
+        run.tau = static_cast<Real>(std::get<2>(list[from].key));
+        run.crossing = crossing;
+        std::vector<Real> table(static_cast<std::size_t>(run.count), Real(0));
+        for (std::size_t i = from; i < to; ++i)
+            table[static_cast<std::size_t>(list[i].a - run.a)] = static_cast<Real>(list[i].k);
+        run.table = tableAt(table);
+        chunk.longestRun = std::max(chunk.longestRun, run.count);
+        network_.runs.push_back(run);
+        return to;
+    }
+
+    int tableAt(const std::vector<Real>& table) {
+        const auto [entry, isNew] = tables_.try_emplace(table, static_cast<int>(network_.stiffness.size()));
+        if (isNew) network_.stiffness.insert(network_.stiffness.end(), table.begin(), table.end());
+        return entry->second;
+    }
+
+    void addSingle(const Sorted& s) {
+        SpringSingles<Real>& singles = network_.singles;
+        singles.a.push_back(s.a);
+        singles.b.push_back(s.a + std::get<0>(s.key));
+        singles.k.push_back(static_cast<Real>(s.k));
+        singles.restLength.push_back(static_cast<Real>(std::get<1>(s.key)));
+        singles.tau.push_back(static_cast<Real>(std::get<2>(s.key)));
+    }
+
+    SpringNetwork<Real>& network_;
+    int points_;
+    std::vector<std::vector<Sorted>> sorted_;  // (blocks)
+    std::vector<Sorted> inner_, crossing_;
+    std::map<std::vector<Real>, int> tables_;
+};
+
+}  // namespace
+
+template <class Real>
+SpringNetwork<Real>::SpringNetwork(int points, std::span<const Body> bodies, std::span<const Spring> springs) {
+    Builder<Real>(*this, points, bodies, springs);
+}
+
+template struct SpringNetwork<float>;
+template struct SpringNetwork<double>;
+
+}  // namespace taut::mechanics

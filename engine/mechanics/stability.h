@@ -1,0 +1,41 @@
+// How fast a network can swing: bounds and an estimate of ω_max, from which the step is chosen (numerics: section 3).
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "mechanics/model.h"
+
+namespace taut::mechanics {
+
+// What the bounds need of the points.
+struct NetworkView {
+    std::span<const Spring> springs;
+    std::span<const double> inverseMasses;  // (points) [1/kg], 0 if held
+};
+
+struct FrequencyBound {
+    double omega = 0;  // [1/s]
+    int spring = -1;   // the spring that sets it
+};
+
+// B1: ω² <= max over springs of S_i w_i + S_j w_j, S_i the summed stiffness at i. Holds in any configuration.
+// extraStiffness (points) [N/m], may be empty: row sums of what else is stiff; its largest product with w is added.
+FrequencyBound boundAnywhere(const NetworkView& network, std::span<const double> extraStiffness);
+
+// B2: ω² <= max over springs of a_i + a_j, a_i = w_i λ_max(Σ k [nnᵀ + max(0, 1 - L/l)(I - nnᵀ)]): holds where the
+// points are now; within 1–20 % of ω_max. positions (points).
+FrequencyBound boundHere(const NetworkView& network, std::span<const double> extraStiffness,
+                         std::span<const glm::dvec3> positions);
+
+// K u for all springs at these positions, K = -∂f/∂x, added to out (points).
+void addSpringStiffness(std::span<const Spring> springs, std::span<const glm::dvec3> positions,
+                        std::span<const glm::dvec3> u, std::span<glm::dvec3> out);
+
+// ω_max by Lanczos on M^{-1/2} K M^{-1/2}: the largest Ritz value plus its residual, within about 1 % after 20
+// products. `multiply(u, out)` adds K u.
+using StiffnessProduct = std::function<void(std::span<const glm::dvec3>, std::span<glm::dvec3>)>;
+double estimateFrequency(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products = 20);
+
+}  // namespace taut::mechanics

@@ -1,0 +1,47 @@
+// Springs of no rest length, with a dashpot, from points to a place that may move: what a hand holds cloth by.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "mechanics/force_generator.h"
+#include "mechanics/linear_path.h"
+
+namespace taut::mechanics {
+
+// On a point: F = -k (x - p) - c (v - ṗ), p the place at the time plus the point's own offset from it.
+template <class Real>
+class Anchor final : public ForceGenerator<Real> {
+  public:
+    // stiffness k [N/m] and damping c [kg/s] of each point, >= 0. Offsets (points) [m] keep the points of a grip
+    // apart; none: all are drawn to the place itself. Expects different points.
+    Anchor(std::vector<int> points, const glm::dvec3& place, double stiffness, double damping,
+           std::vector<glm::dvec3> offsets = {});
+
+    // The place stays, or moves evenly from one to the other between t0 and t1 [s].
+    void setPlace(const glm::dvec3& place) { place_ = {place, place, 0.0, 0.0}; }
+    void setPlace(const glm::dvec3& from, const glm::dvec3& to, double t0, double t1) { place_ = {from, to, t0, t1}; }
+    glm::dvec3 place(double t) const { return place_.at(t); }
+
+    void setStiffness(double stiffness, double damping);
+    const std::vector<int>& points() const { return points_; }  // ascending
+
+    std::string_view name() const override { return "anchor"; }
+    bool isLocal() const override { return true; }
+    void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
+    double potentialEnergy(const Motion<Real>& motion) const override;
+    void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
+    // k, and c/m of each point; both hold anywhere.
+    void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
+
+  private:
+    std::vector<int> points_;
+    std::vector<glm::dvec3> offsets_;  // (points) [m]
+    LinearPath place_;
+    double stiffness_, damping_;
+};
+
+extern template class Anchor<float>;
+extern template class Anchor<double>;
+
+}  // namespace taut::mechanics

@@ -1,0 +1,34 @@
+#include "mechanics/gravity.h"
+
+#include "core/vectorise.h"
+
+namespace taut::mechanics {
+
+template <class Real>
+void Gravity<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
+    const Real* mass = motion.mass;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real g = static_cast<Real>(acceleration_[axis]);
+        if (g == Real(0)) continue;
+        Real* plane = f + static_cast<std::ptrdiff_t>(axis) * motion.stride;
+        TAUT_INDEPENDENT
+        for (int i = first; i < last; ++i) plane[i] += mass[i] * g;
+    }
+}
+
+template <class Real>
+double Gravity<Real>::potentialEnergy(const Motion<Real>& motion) const {
+    double energy = 0.0;
+    for (int i = 0; i < motion.count; ++i) {
+        const Real* x = motion.x + i;
+        const std::ptrdiff_t stride = motion.stride;
+        const glm::dvec3 position(x[0], x[stride], x[2 * stride]);
+        energy -= static_cast<double>(motion.mass[i]) * glm::dot(acceleration_, position);
+    }
+    return energy;
+}
+
+template class Gravity<float>;
+template class Gravity<double>;
+
+}  // namespace taut::mechanics

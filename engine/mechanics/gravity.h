@@ -1,0 +1,32 @@
+// A uniform gravitational field: m g on every point.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "mechanics/force_generator.h"
+
+namespace taut::mechanics {
+
+template <class Real>
+class Gravity final : public ForceGenerator<Real> {
+  public:
+    explicit Gravity(const glm::dvec3& acceleration) : acceleration_(acceleration) {}  // [m/s²]
+
+    void setAcceleration(const glm::dvec3& acceleration) { acceleration_ = acceleration; }
+    const glm::dvec3& acceleration() const { return acceleration_; }
+
+    std::string_view name() const override { return "gravity"; }
+    bool isLocal() const override { return true; }
+    void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
+    double potentialEnergy(const Motion<Real>& motion) const override;  // -Σ m g·x
+    void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
+    void addStability(const Motion<Real>&, StabilityShare&) const override {}
+
+  private:
+    glm::dvec3 acceleration_;
+};
+
+extern template class Gravity<float>;
+extern template class Gravity<double>;
+
+}  // namespace taut::mechanics

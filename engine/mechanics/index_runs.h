@@ -1,0 +1,99 @@
+// Sorts the elements of a mesh (triangles, tetrahedra) into runs and loose ones. Knows nothing of forces.
+//
+// Builders number points row by row, so that the triangles of a row, and its tetrahedra of one kind, follow each
+// other with all corners one point further. Rows are joined over small gaps (the last point of a row starts no cell)
+// by lanes without an element; kernels give those no weight. The order depends on the list of elements alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "mechanics/kernel_parts.h"
+
+namespace taut::mechanics {
+
+template <int Corners>
+class IndexRuns {
+  public:
+    using Element = std::array<int, Corners>;  // points
+
+    IndexRuns() = default;
+    explicit IndexRuns(std::span<const Element> elements) {
+        std::vector<Chain> chains = chainsOf(elements);
+        std::vector<int> left;
+        for (const Chain& chain : chains) {
+            if (chain.sources.size() < shortestRun) {
+                for (int s : chain.sources)
+                    if (s >= 0) left.push_back(s);
+                continue;
+            }
+            CornerRun<Corners> run{};
+            for (std::size_t c = 0; c < Corners; ++c) run.first[c] = chain.first[c];
+            run.count = static_cast<int>(chain.sources.size());
+            run.lane = static_cast<int>(sources_.size());
+            runs_.push_back(run);
+            sources_.insert(sources_.end(), chain.sources.begin(), chain.sources.end());
+        }
+        looseLane_ = static_cast<int>(sources_.size());
+        for (int s : left) {
+            sources_.push_back(s);
+            for (std::size_t c = 0; c < Corners; ++c) loose_[c].push_back(elements[static_cast<std::size_t>(s)][c]);
+        }
+    }
+
+    // (lanes) which element of the list a lane holds; -1: none.
+    const std::vector<int>& sources() const { return sources_; }
+
+    CornerLanes<Corners> lanes() const {
+        CornerLanes<Corners> lanes{};
+        lanes.runs = runs_.data();
+        lanes.runCount = static_cast<int>(runs_.size());
+        for (std::size_t c = 0; c < Corners; ++c) lanes.loose[c] = loose_[c].data();
+        lanes.looseCount = static_cast<int>(loose_[0].size());
+        lanes.looseLane = looseLane_;
+        return lanes;
+    }
+
+  private:
+    static constexpr int widestGap = 4;             // lanes
+    static constexpr std::size_t shortestRun = 16;  // lanes; below, gathering costs no more
+
+    struct Chain {
+        Element first{};
+        std::vector<int> sources;
+    };
+
+    static Element moved(Element element, int by) {
+        for (int& point : element) point += by;
+        return element;
+    }
+
+    static std::vector<Chain> chainsOf(std::span<const Element> elements) {
+        std::vector<Chain> chains;
+        std::map<Element, std::size_t> chainThatExpects;
+        for (std::size_t e = 0; e < elements.size(); ++e) {
+            std::size_t chain = chains.size();
+            for (int gap = 0; gap <= widestGap && chain == chains.size(); ++gap) {
+                const auto found = chainThatExpects.find(moved(elements[e], -gap));
+                if (found == chainThatExpects.end()) continue;
+                chain = found->second;
+                chainThatExpects.erase(found);
+                chains[chain].sources.insert(chains[chain].sources.end(), static_cast<std::size_t>(gap), -1);
+            }
+            if (chain == chains.size()) chains.push_back({elements[e], {}});
+            chains[chain].sources.push_back(static_cast<int>(e));
+            chainThatExpects.emplace(moved(elements[e], 1), chain);
+        }
+        return chains;
+    }
+
+    std::vector<CornerRun<Corners>> runs_;
+    std::array<std::vector<int>, Corners> loose_;  // (corners)(loose elements)
+    int looseLane_ = 0;
+    std::vector<int> sources_;
+};
+
+}  // namespace taut::mechanics

@@ -1,0 +1,204 @@
+#include "mechanics/volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/instruction_set.h"
+
+namespace taut::mechanics {
+namespace {
+
+using glm::dvec3;
+using Corners = std::array<dvec3, 4>;
+
+template <class Real>
+auto volumeKernel() -> void (*)(const VolumeBatch<Real>&) {
+    switch (core::instructionSet()) {
+        case core::InstructionSet::avx512:
+            return avx512::addVolume;
+        case core::InstructionSet::avx2:
+            return avx2::addVolume;
+        case core::InstructionSet::sse2:
+            break;
+    }
+    return sse2::addVolume;
+}
+
+std::vector<std::array<int, 4>> pointsOf(std::span<const VolumeCell> cells) {
+    std::vector<std::array<int, 4>> points;
+    for (const VolumeCell& cell : cells) points.push_back(cell.points);
+    return points;
+}
+
+template <class Real>
+dvec3 vectorAt(const Real* planes, std::ptrdiff_t stride, int i) {
+    return {planes[i], planes[i + stride], planes[i + 2 * stride]};
+}
+
+template <class Real>
+Corners cornersOf(const VolumeCell& cell, const Real* planes, std::ptrdiff_t stride) {
+    Corners p;
+    for (std::size_t c = 0; c < 4; ++c) p[c] = vectorAt(planes, stride, cell.points[c]);
+    return p;
+}
+
+double volumeOf(const Corners& p) {
+    return glm::dot(p[1] - p[0], glm::cross(p[2] - p[0], p[3] - p[0])) / 6.0;
+}
+
+Corners gradientsOf(const Corners& p) {
+    const dvec3 e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0];
+    const dvec3 g1 = glm::cross(e2, e3) / 6.0, g2 = glm::cross(e3, e1) / 6.0, g3 = glm::cross(e1, e2) / 6.0;
+    return {-(g1 + g2 + g3), g1, g2, g3};
+}
+
+// What the stability bound is made of, for the face opposite each corner.
+struct Faces {
+    std::array<double, 4> gradients;  // |∂V/∂p_i|, a third of the area [m²]
+    std::array<double, 4> edges;      // sum of its three edges [m]
+};
+
+Faces facesOf(const Corners& p) {
+    Faces faces{};
+    const Corners g = gradientsOf(p);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t j = (i + 1) % 4, k = (i + 2) % 4, l = (i + 3) % 4;
+        faces.gradients[i] = glm::length(g[i]);
+        faces.edges[i] = glm::length(p[j] - p[k]) + glm::length(p[k] - p[l]) + glm::length(p[l] - p[j]);
+    }
+    return faces;
+}
+
+// Σ_j |K_ij| for corner i, with gradients stretched by `areas`, edges by `lengths`, |V/V0 - 1| = `change`.
+double rowBound(const VolumeCell& cell, const Faces& faces, std::size_t i, double areas, double lengths,
+                double change) {
+    const auto& g = faces.gradients;
+    const double sum = g[0] + g[1] + g[2] + g[3];
+    return cell.bulkModulus * (areas * areas * g[i] * sum / cell.restVolume + change * lengths * faces.edges[i] / 6.0);
+}
+
+bool isBeyond(const Corners& rest, const Corners& now, double ratio, double s) {
+    if (ratio > s * s * s || ratio < -1.0) return true;
+    for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = a + 1; b < 4; ++b)
+            if (glm::length(now[b] - now[a]) > s * glm::length(rest[b] - rest[a])) return true;
+    const Corners g0 = gradientsOf(rest), g = gradientsOf(now);
+    for (std::size_t i = 0; i < 4; ++i)
+        if (glm::length(g[i]) > s * s * glm::length(g0[i])) return true;
+    return false;
+}
+
+}  // namespace
+
+template <class Real>
+VolumePreservation<Real>::VolumePreservation(std::span<const VolumeCell> cells,
+                                             std::span<const glm::dvec3> restPositions, double workingStretch)
+    : cells_(cells.begin(), cells.end()),
+      workingStretch_(workingStretch),
+      runs_(pointsOf(cells)),
+      sixthOfBulk_(runs_.sources().size()),
+      inverseRestSixth_(runs_.sources().size()),
+      addBatch_(volumeKernel<Real>()) {
+    TAUT_EXPECTS(workingStretch >= 1.0);
+    for (const VolumeCell& cell : cells_) {
+        TAUT_EXPECTS(cell.restVolume > 0.0 && cell.bulkModulus >= 0.0);
+        Corners rest;
+        for (std::size_t c = 0; c < 4; ++c) rest[c] = restPositions[static_cast<std::size_t>(cell.points[c])];
+        rest_.push_back(rest);
+    }
+    for (std::size_t lane = 0; lane < runs_.sources().size(); ++lane) {
+        const int source = runs_.sources()[lane];
+        if (source < 0) continue;
+        const VolumeCell& cell = cells_[static_cast<std::size_t>(source)];
+        sixthOfBulk_[lane] = static_cast<Real>(cell.bulkModulus / 6.0);
+        inverseRestSixth_[lane] = static_cast<Real>(1.0 / (6.0 * cell.restVolume));
+    }
+}
+
+template <class Real>
+VolumeReport VolumePreservation<Real>::inspect(const Motion<Real>& motion) const {
+    VolumeReport report;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const Corners now = cornersOf(cells_[c], motion.x, motion.stride);
+        const double ratio = volumeOf(now) / cells_[c].restVolume;
+        if (report.smallestCell < 0 || ratio < report.smallestRatio) {
+            report.smallestRatio = ratio;
+            report.smallestCell = static_cast<int>(c);
+        }
+        if (ratio < 0.1) ++report.collapsed;
+        if (ratio <= 0.0) ++report.inverted;
+        // Rounding of the positions must not count as a stretch.
+        if (isBeyond(rest_[c], now, ratio, workingStretch_ * (1.0 + 1e-4))) ++report.overstretched;
+    }
+    return report;
+}
+
+template <class Real>
+void VolumePreservation<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
+    TAUT_EXPECTS(first == 0 && last == motion.count);
+    VolumeBatch<Real> batch{};
+    batch.lanes = runs_.lanes();
+    batch.sixthOfBulk = sixthOfBulk_.data();
+    batch.inverseRestSixth = inverseRestSixth_.data();
+    batch.stride = motion.stride;
+    batch.x = motion.x;
+    batch.f = f;
+    addBatch_(batch);
+}
+
+template <class Real>
+double VolumePreservation<Real>::potentialEnergy(const Motion<Real>& motion) const {
+    double energy = 0.0;
+    for (const VolumeCell& cell : cells_) {
+        const double change = volumeOf(cornersOf(cell, motion.x, motion.stride)) / cell.restVolume - 1.0;
+        energy += 0.5 * cell.bulkModulus * cell.restVolume * change * change;
+    }
+    return energy;
+}
+
+template <class Real>
+void VolumePreservation<Real>::addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const {
+    const std::ptrdiff_t stride = motion.stride;
+    for (const VolumeCell& cell : cells_) {
+        const Corners p = cornersOf(cell, motion.x, stride), w = cornersOf(cell, u, stride);
+        const Corners g = gradientsOf(p);
+        const double change = volumeOf(p) / cell.restVolume - 1.0;
+        const double along =
+            (glm::dot(g[0], w[0]) + glm::dot(g[1], w[1]) + glm::dot(g[2], w[2]) + glm::dot(g[3], w[3])) /
+            cell.restVolume;
+        // ∂(6 g1) = d2 × e3 + e2 × d3 and cyclic, d_i the change of the edge e_i.
+        const dvec3 e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0];
+        const dvec3 d1 = w[1] - w[0], d2 = w[2] - w[0], d3 = w[3] - w[0];
+        const dvec3 h1 = (glm::cross(d2, e3) + glm::cross(e2, d3)) / 6.0;
+        const dvec3 h2 = (glm::cross(d3, e1) + glm::cross(e3, d1)) / 6.0;
+        const dvec3 h3 = (glm::cross(d1, e2) + glm::cross(e1, d2)) / 6.0;
+        const Corners h = {-(h1 + h2 + h3), h1, h2, h3};
+        for (std::size_t c = 0; c < 4; ++c) {
+            const dvec3 product = cell.bulkModulus * (along * g[c] + change * h[c]);
+            for (int axis = 0; axis < 3; ++axis)
+                out[axis * stride + cell.points[c]] += static_cast<Real>(product[axis]);
+        }
+    }
+}
+
+template <class Real>
+void VolumePreservation<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
+    const double s = workingStretch_;
+    const double change = std::max(2.0, s * s * s - 1.0);
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const VolumeCell& cell = cells_[c];
+        const Corners now = cornersOf(cell, motion.x, motion.stride);
+        const double changeNow = std::abs(volumeOf(now) / cell.restVolume - 1.0);
+        const Faces rest = facesOf(rest_[c]), here = facesOf(now);
+        for (std::size_t i = 0; i < 4; ++i)
+            share.stiffness[static_cast<std::size_t>(cell.points[i])] +=
+                std::max(rowBound(cell, rest, i, s * s, s, change), rowBound(cell, here, i, 1.0, 1.0, changeNow));
+    }
+}
+
+template class VolumePreservation<float>;
+template class VolumePreservation<double>;
+
+}  // namespace taut::mechanics

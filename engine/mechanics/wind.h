@@ -1,0 +1,77 @@
+// Air that moves past triangles: drag and lift, steady or in gusts. Knows neither cloth nor the rest of the scene.
+//
+// With u the air's velocity relative to a triangle's mean point velocity, n its normal turned along u, A its area:
+//
+//   F = ½ρA (u·n) [ C_D u + C_L (|u| n - (u·n)/|u| u) ],       a third to each corner.
+//
+// Across the flow (n ∥ u) this is the flat plate's drag ½ρ A C_D u². At an angle α between plate and flow, drag is
+// ∝ A sin α, the area that the flow sees, and lift, at a right angle to u towards n, is ½ρ A C_L u² sin α cos α.
+// Both vanish edge-on, where cloth spends its time and where a lift C_L |u|² n would jump with the sign of n.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "mechanics/force_generator.h"
+#include "mechanics/index_runs.h"
+#include "mechanics/linear_path.h"
+#include "mechanics/noise.h"
+#include "mechanics/wind_kernel.h"
+
+namespace taut::mechanics {
+
+struct WindSettings {
+    double airDensity = 1.2;  // ρ [kg/m³]
+    double drag = 1.0;        // C_D [-]
+    double lift = 0.6;        // C_L [-]
+    GustField gust;           // added to the steady flow; none with amplitude 0
+    // Relative speed up to which the damping share holds [m/s]; 0: twice the fastest air, at least 10 m/s.
+    double workingSpeed = 0.0;
+};
+
+// One flow over a set of triangles. Two of them over the same triangles do not add up as flows would (each resists
+// the other): add their velocities instead.
+template <class Real>
+class Wind final : public ForceGenerator<Real> {
+  public:
+    using Triangle = std::array<int, 3>;  // points
+
+    // Uses the kernel of the instruction set in use now.
+    Wind(std::span<const Triangle> triangles, const glm::dvec3& velocity, const WindSettings& settings);
+
+    // The steady flow [m/s]: as given, or evenly from one to the other between t0 and t1 [s].
+    void setVelocity(const glm::dvec3& velocity) { velocity_ = {velocity, velocity, 0.0, 0.0}; }
+    void setVelocity(const glm::dvec3& from, const glm::dvec3& to, double t0, double t1) {
+        velocity_ = {from, to, t0, t1};
+    }
+    void setSettings(const WindSettings& settings) { settings_ = settings; }
+    const WindSettings& settings() const { return settings_; }
+
+    glm::dvec3 airVelocity(const glm::dvec3& x, double t) const;  // [m/s], gust included
+    double workingSpeed() const;                                  // [m/s]
+
+    std::string_view name() const override { return "wind"; }
+    bool isLocal() const override { return false; }
+    void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
+    double potentialEnergy(const Motion<Real>&) const override { return 0.0; }
+    void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
+    // dampingRate at the working speed U, for the areas at the motion's positions. |∂F/∂u| <= ½ρA U (2 C_D + 3/2 C_L):
+    // drag has at most 2 (broadside), lift in polar terms of u √(sin² 2α + cos² 2α) in the plane of u and n, and
+    // sin² α across it. Each corner has a third of the force and of the mean velocity: its row sums to 1/3 of that.
+    void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
+
+  private:
+    std::vector<Triangle> triangles_;
+    IndexRuns<3> runs_;
+    core::AlignedArray<Real> weight_;  // (lanes) 1, or 0 for a lane without a triangle
+    LinearPath velocity_;
+    WindSettings settings_;
+    void (*addBatch_)(const WindBatch<Real>&);
+};
+
+extern template class Wind<float>;
+extern template class Wind<double>;
+
+}  // namespace taut::mechanics

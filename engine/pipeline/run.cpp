@@ -1,0 +1,140 @@
+#include "pipeline/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "core/error.h"
+#include "pipeline/stages.h"
+
+namespace taut::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The simulating side of a run. Its records wait in `pending_` until the picture of their frame is on disk.
+class Player {
+  public:
+    Player(world::World& world, const RunOptions& options, const RunListener& listener, const std::atomic<bool>& stop)
+        : world_(world), options_(options), listener_(listener), stop_(stop) {}
+
+    // Simulates up to the next frame; false at the end, on divergence and when stopped.
+    bool advance() {
+        if (next_ > options_.lastFrame || result_.divergence || result_.interrupted) return false;
+        const auto start = Clock::now();
+        const std::int64_t goal = next_ * world_.ticksPerFrame();
+        while (world_.tick() < goal) {
+            if (stop_) return !(result_.interrupted = true);
+            result_.divergence = world_.advance();
+            if (result_.divergence) return false;
+            if (listener_.tickDone) listener_.tickDone(world_.tick(), world_.stateHash());
+        }
+        if (stop_) return !(result_.interrupted = true);
+        if (next_ == 0 && listener_.tickDone) listener_.tickDone(0, world_.stateHash());
+        current_ = FrameRecord{.frame = next_++, .time = world_.time(), .hash = world_.stateHash()};
+        if (options_.metrics) current_.metrics = world_.metrics();
+        current_.simulating = secondsSince(start);
+        return true;
+    }
+
+    // For a frame without a picture.
+    void keep() { finish(current_); }
+
+    std::optional<view::FrameView> nextView() {
+        while (advance()) {
+            if (current_.frame < options_.firstFrame) {
+                keep();
+                continue;
+            }
+            const auto start = Clock::now();
+            view::FrameView view = world_.view(options_.debugView);
+            view.frame = current_.frame;
+            view.time = current_.time;
+            current_.simulating += secondsSince(start);
+            current_.pictured = true;
+            const std::lock_guard lock(mutex_);
+            pending_[current_.frame] = current_;
+            return view;
+        }
+        return std::nullopt;
+    }
+
+    void drawn(std::int64_t frame, double seconds) {
+        const std::lock_guard lock(mutex_);
+        pending_.at(frame).drawing = seconds;
+    }
+
+    void encoded(std::int64_t frame, double seconds) {
+        FrameRecord record;
+        {
+            const std::lock_guard lock(mutex_);
+            record = pending_.extract(frame).mapped();
+        }
+        record.encoding = seconds;
+        finish(record);
+    }
+
+    RunResult& result() { return result_; }
+
+  private:
+    void finish(const FrameRecord& record) {
+        result_.frames.push_back(record);
+        if (listener_.frameDone) listener_.frameDone(record);
+    }
+
+    world::World& world_;
+    const RunOptions& options_;
+    const RunListener& listener_;
+    const std::atomic<bool>& stop_;
+    RunResult result_;
+    FrameRecord current_;
+    std::int64_t next_ = 0;
+    std::mutex mutex_;
+    std::map<std::int64_t, FrameRecord> pending_;  // simulated, not yet on disk
+};
+
+}  // namespace
+
+std::int64_t frameCount(const world::RunSpec& run) {
+    return std::max<std::int64_t>(1, std::llround(run.seconds * run.fps));
+}
+
+RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
+               const RunListener& listener, const std::atomic<bool>& stop) {
+    TAUT_EXPECTS(options.firstFrame >= 0 && options.firstFrame <= options.lastFrame);
+    TAUT_EXPECTS(!draw == (sink == nullptr));
+    const auto start = Clock::now();
+    Player player(world, options, listener, stop);
+    if (!draw) {
+        while (player.advance()) player.keep();
+    } else {
+        runStages({
+            .simulate = [&] { return player.nextView(); },
+            .draw =
+                [&](const view::FrameView& view) {
+                    const auto drawingStart = Clock::now();
+                    image::Image picture = draw(view);
+                    player.drawn(view.frame, secondsSince(drawingStart));
+                    return picture;
+                },
+            .encode =
+                [&](const view::FrameView& view, const image::Image& picture) {
+                    const auto encodingStart = Clock::now();
+                    sink->write(view.frame, picture);
+                    player.encoded(view.frame, secondsSince(encodingStart));
+                },
+        });
+        sink->finish();
+    }
+    RunResult result = std::move(player.result());
+    result.seconds = secondsSince(start);
+    return result;
+}
+
+}  // namespace taut::pipeline

@@ -1,0 +1,62 @@
+// Plays a scene from its start and hands its pictures on: world, renderer and files joined, and what was measured on
+// the way. It knows neither scene files nor the command line.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "image/frame_sink.h"
+#include "view/frame_view.h"
+#include "world/world.h"
+
+namespace taut::pipeline {
+
+// How many pictures a scene has: frame 0 is its start, frame k shows k / fps; at least 1.
+std::int64_t frameCount(const world::RunSpec& run);
+
+struct FrameRecord {
+    std::int64_t frame = 0;
+    double time = 0.0;       // [s] of the scene
+    std::uint64_t hash = 0;  // of the state, chained over ticks
+    std::optional<world::Metrics> metrics{};
+    bool pictured = false;    // false: simulated on the way to the first wanted frame, or without pictures
+    double simulating = 0.0;  // [s] of wall time
+    double drawing = 0.0;
+    double encoding = 0.0;
+};
+
+struct RunOptions {
+    std::int64_t firstFrame = 0;  // frames before it are simulated and not drawn
+    std::int64_t lastFrame = 0;   // included
+    bool debugView = false;
+    bool metrics = false;
+};
+
+// Hears of progress; every function may be left empty. They are called from several threads, never two at a time for
+// the same function, and in ascending order.
+struct RunListener {
+    std::function<void(const FrameRecord&)> frameDone;
+    std::function<void(std::int64_t tick, std::uint64_t hash)> tickDone;
+};
+
+struct RunResult {
+    std::vector<FrameRecord> frames;  // every simulated one, ascending
+    std::optional<world::Divergence> divergence;
+    bool interrupted = false;
+    double seconds = 0.0;  // [s] of wall time, the whole run
+};
+
+// What turns a view into a picture; called on the thread that calls play().
+using Draw = std::function<image::Image(const view::FrameView&)>;
+
+// Plays frames 0 … lastFrame. With `draw` and `sink` the frames from firstFrame on are drawn and written while the next
+// ones are simulated; without them nothing is drawn. Ends early, with everything that was begun finished, when the
+// state diverges or `stop` becomes true; the sink is finished in any case but an exception. Rethrows what a stage
+// throws.
+RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
+               const RunListener& listener, const std::atomic<bool>& stop);
+
+}  // namespace taut::pipeline

@@ -1,0 +1,124 @@
+#include "pipeline/run_record.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace taut::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hex(std::uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
+
+Json machineJson(const Machine& machine) {
+    return {{"compiler", machine.compiler},
+            {"processor", machine.processor},
+            {"system", machine.system},
+            {"simd", machine.simd},
+            {"machine_threads", machine.threads}};
+}
+
+Json rendererJson(const std::optional<render::RendererInfo>& info) {
+    if (!info) return nullptr;
+    return {
+        {"backend", info->backend}, {"vendor", info->vendor}, {"renderer", info->renderer}, {"version", info->version}};
+}
+
+Json seedsJson(const world::SceneSpec& spec) {
+    Json seeds = Json::object();
+    const auto addBodies = [&](const char* kind, const auto& bodies) {
+        for (const auto& body : bodies)
+            if (body.jitter > 0.0) seeds[fmt::format("{}.{}.seed", kind, body.name)] = body.seed;
+    };
+    addBodies("cloth", spec.cloths);
+    addBodies("rope", spec.ropes);
+    addBodies("block", spec.blocks);
+    addBodies("net", spec.nets);
+    for (const world::WindSpec& wind : spec.winds)
+        if (wind.gustAmplitude > 0.0) seeds[fmt::format("wind.{}.gust.seed", wind.name)] = wind.gustSeed;
+    return seeds;
+}
+
+Json islandsJson(const world::World& world) {
+    Json islands = Json::array();
+    for (const world::IslandInfo& island : world.islands())
+        islands.push_back({{"name", island.name},
+                           {"bodies", island.bodies},
+                           {"method", island.method},
+                           {"points", island.points},
+                           {"springs", island.springs},
+                           {"step_s", island.step},
+                           {"substeps", island.substeps},
+                           {"step_limit_s", island.stepLimit},
+                           {"limited_by", island.limitingSpring}});
+    return islands;
+}
+
+Json divergenceJson(const world::Divergence& d) {
+    return {{"tick", d.tick},   {"time_s", d.time},          {"body", d.body},
+            {"point", d.point}, {"spring", d.spring},        {"omega_h", d.omegaH},
+            {"limit", d.limit}, {"safe_step_s", d.safeStep}, {"message", d.message}};
+}
+
+Json timesJson(const RunResult& result) {
+    double simulating = 0.0, drawing = 0.0, encoding = 0.0;
+    for (const FrameRecord& frame : result.frames) {
+        simulating += frame.simulating;
+        drawing += frame.drawing;
+        encoding += frame.encoding;
+    }
+    return {{"simulate", simulating}, {"render", drawing}, {"encode", encoding}, {"total", result.seconds}};
+}
+
+}  // namespace
+
+std::string runJson(const world::SceneSpec& spec, const world::World& world, const RunRequest& request,
+                    const Machine& machine, const std::optional<render::RendererInfo>& renderer,
+                    const RunResult& result) {
+    Json json;
+    json["program"] = machine.program;
+    json["scene"] = spec.file;
+    json["output"] = request.output;
+    json["overrides"] = request.overrides;
+    json["ended"] = result.divergence ? "diverged" : result.interrupted ? "interrupted" : "complete";
+    if (result.divergence) json["divergence"] = divergenceJson(*result.divergence);
+    json["machine"] = machineJson(machine);
+    json["threads"] = request.threads == 0 ? machine.threads : request.threads;
+    json["gl"] = rendererJson(renderer);
+    json["precision"] = spec.solver.precision == world::Precision::double_ ? "double" : "single";
+    json["fps"] = spec.run.fps;
+    json["ticks_per_frame"] = world.ticksPerFrame();
+    json["tick_s"] = world.tickSeconds();
+    json["size"] = {spec.picture.size.x, spec.picture.size.y};
+    json["frames"] = {{"first", request.options.firstFrame}, {"last", request.options.lastFrame}};
+    json["seeds"] = seedsJson(spec);
+    json["islands"] = islandsJson(world);
+    json["warnings"] = world.warnings();
+    json["seconds"] = timesJson(result);
+    Json hashes = Json::array();
+    for (const FrameRecord& frame : result.frames) hashes.push_back(hex(frame.hash));
+    json["state_hash"] = std::move(hashes);  // of frames 0, 1, …
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string metricsCsv(const RunResult& result) {
+    std::string text =
+        "frame,time_s,kinetic_J,elastic_J,gravitational_J,total_J,momentum_x_kg_m_per_s,momentum_y_kg_m_per_s,"
+        "momentum_z_kg_m_per_s,angular_x_kg_m2_per_s,angular_y_kg_m2_per_s,angular_z_kg_m2_per_s,max_strain,contacts,"
+        "inverted_cells,min_volume_ratio\n";
+    for (const FrameRecord& frame : result.frames) {
+        if (!frame.metrics) continue;
+        const world::Metrics& m = *frame.metrics;
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame.frame,
+                       frame.time, m.kinetic, m.elastic, m.gravitational, m.kinetic + m.elastic + m.gravitational,
+                       m.momentum.x, m.momentum.y, m.momentum.z, m.angularMomentum.x, m.angularMomentum.y,
+                       m.angularMomentum.z, m.maxStrain, m.contacts, m.invertedCells, m.minVolumeRatio);
+    }
+    return text;
+}
+
+}  // namespace taut::pipeline

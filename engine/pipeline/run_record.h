@@ -1,0 +1,31 @@
+// The record of a run as text: run.json and metrics.csv. It knows neither where they go nor how the run was started.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/machine.h"
+#include "pipeline/run.h"
+#include "render/renderer.h"
+#include "world/spec.h"
+#include "world/world.h"
+
+namespace taut::pipeline {
+
+// What was asked for, besides the scene itself.
+struct RunRequest {
+    std::string output;                  // as given on the command line; empty: none
+    std::vector<std::string> overrides;  // "key=value"
+    int threads = 0;                     // 0: all of the machine
+    RunOptions options;
+};
+
+// Everything that is needed to tell what was computed, how, and on what; state hashes as 16 hexadecimal digits.
+std::string runJson(const world::SceneSpec& spec, const world::World& world, const RunRequest& request,
+                    const Machine& machine, const std::optional<render::RendererInfo>& renderer,
+                    const RunResult& result);
+
+// A line a frame that has metrics, with a heading that names the units.
+std::string metricsCsv(const RunResult& result);
+
+}  // namespace taut::pipeline

@@ -1,0 +1,94 @@
+#include "pipeline/self_test.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "view/frame_view.h"
+
+namespace taut::pipeline {
+namespace {
+
+// A red triangle facing the camera: it covers the middle of the picture and leaves its upper corners free.
+view::FrameView testView() {
+    view::FrameView view;
+    view.camera.eye = {0.0F, 0.0F, 3.0F};
+    view.camera.target = {0.0F, 0.0F, 0.0F};
+    view.light.direction = {0.0F, 0.0F, -1.0F};
+
+    view::Topology topology;
+    topology.triangles = {0, 1, 2};
+    topology.uv = {{0.0F, 0.0F}, {1.0F, 0.0F}, {0.5F, 1.0F}};
+    view::Geometry geometry;
+    geometry.positions = {{-0.9F, -0.7F, 0.0F}, {0.9F, -0.7F, 0.0F}, {0.0F, 0.9F, 0.0F}};
+    geometry.normals.assign(3, {0.0F, 0.0F, 1.0F});
+    view::Finish finish;
+    finish.front = finish.back = {0.8F, 0.02F, 0.02F};
+
+    view::Surface triangle;
+    triangle.name = "test";
+    triangle.topology = std::make_shared<const view::Topology>(std::move(topology));
+    triangle.geometry = std::make_shared<const view::Geometry>(std::move(geometry));
+    triangle.finish = std::make_shared<const view::Finish>(finish);
+    triangle.twoSided = true;
+    view.surfaces.push_back(std::move(triangle));
+    return view;
+}
+
+std::array<int, 3> pixel(const image::Image& image, int x, int y) {
+    const std::size_t at =
+        (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3;
+    return {image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]};
+}
+
+bool isRed(std::array<int, 3> c) {
+    return c[0] > 40 && c[0] > 2 * c[1] && c[0] > 2 * c[2];
+}
+
+}  // namespace
+
+std::string nameOf(render::Backend backend) {
+    return backend == render::Backend::osmesa ? "osmesa" : "egl";
+}
+
+void testRenderer(render::Renderer& renderer) {
+    const image::Image picture = renderer.draw(testView());
+    const render::RendererInfo info = renderer.info();
+    const auto fail = [&](const std::string& what) {
+        throw core::Error(core::ExitCode::noRenderer, fmt::format("{}: {} ({}, {}, OpenGL {})", info.backend, what,
+                                                                  info.vendor, info.renderer, info.version));
+    };
+    if (!picture.isWhole()) fail("drew no picture");
+    const bool blank = std::all_of(picture.rgb.begin(), picture.rgb.end(),
+                                   [&](std::uint8_t value) { return value == picture.rgb.front(); });
+    if (blank) fail("drew a blank picture");
+    if (!isRed(pixel(picture, picture.width / 2, picture.height / 2)))
+        fail("did not draw the test triangle where it belongs");
+    if (isRed(pixel(picture, 0, 0)) || isRed(pixel(picture, picture.width - 1, 0)))
+        fail("drew the test triangle where it does not belong");
+}
+
+std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions options,
+                                                  const std::vector<render::Backend>& backends) {
+    TAUT_EXPECTS(!backends.empty());
+    std::string tried;
+    for (const render::Backend backend : backends) {
+        options.backend = backend;
+        try {
+            auto renderer = std::make_unique<render::Renderer>(options);
+            testRenderer(*renderer);
+            return renderer;
+        } catch (const core::Error& error) {
+            if (error.code() != core::ExitCode::noRenderer) throw;
+            tried += fmt::format("\n  {}: {}", nameOf(backend), error.what());
+        }
+    }
+    throw core::Error(core::ExitCode::noRenderer,
+                      "nothing here can draw. Tried:" + tried +
+                          "\nInstall the packages libosmesa6-dev and libgl1-mesa-dri, or choose another with --gl.");
+}
+
+}  // namespace taut::pipeline

@@ -1,0 +1,27 @@
+// Three stages that work on three successive frames at the same time: simulate, draw, encode.
+// It knows nothing of physics, GL or files; the stages are functions.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "image/image.h"
+#include "view/frame_view.h"
+
+namespace taut::pipeline {
+
+struct Stages {
+    // The next frame, or none when there are no more. Runs on a thread of its own.
+    std::function<std::optional<view::FrameView>()> simulate;
+    // Runs on the calling thread, because a GL context stays on the thread that made it.
+    std::function<image::Image(const view::FrameView&)> draw;
+    // Takes the picture of a frame. Runs on a thread of its own.
+    std::function<void(const view::FrameView&, const image::Image&)> encode;
+};
+
+// Runs until simulate has no more and everything it gave is encoded, in order; at most two frames wait between two
+// stages. When a stage throws, the others end after the frame that they have in hand, and the exception of the stage
+// that failed first is rethrown.
+void runStages(const Stages& stages);
+
+}  // namespace taut::pipeline

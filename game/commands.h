@@ -1,0 +1,21 @@
+// The commands of the program: each adds its name, flags and help, and sets what is to be done when it is chosen.
+// A new command is a new file and a line here and in the table of program.cpp.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace taut::game {
+
+using Action = std::function<int()>;  // returns the exit code
+
+void addCheck(CLI::App& app, Action& chosen);
+void addDoctor(CLI::App& app, Action& chosen);
+void addInfo(CLI::App& app, Action& chosen);
+void addRender(CLI::App& app, Action& chosen);
+void addSchema(CLI::App& app, Action& chosen);
+
+}  // namespace taut::game

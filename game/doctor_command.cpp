@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "core/error.h"
+#include "core/instruction_set.h"
+#include "game/commands.h"
+#include "game/folders.h"
+#include "image/video_writer.h"
+#include "image/whole_file.h"
+#include "pipeline/machine.h"
+#include "pipeline/self_test.h"
+
+namespace taut::game {
+namespace {
+
+void printFact(const std::string& name, const std::string& fact) {
+    fmt::print("{:<12}{}\n", name, fact);
+}
+
+void printMachine() {
+    const pipeline::Machine machine = pipeline::machine();
+    printFact("program", fmt::format("{}, {}", machine.program, machine.compiler));
+    printFact("system", machine.system);
+    printFact("processor",
+              fmt::format("{}, {} threads, {:.1f} GB", machine.processor, machine.threads, machine.memory / 1e9));
+    std::string sets;
+    for (const auto set : {core::InstructionSet::sse2, core::InstructionSet::avx2, core::InstructionSet::avx512})
+        if (core::isSupported(set)) sets += fmt::format("{} ", core::nameOf(set));
+    printFact("simd", fmt::format("{}(in use: {})", sets, machine.simd));
+}
+
+// Whether the folder is there; the program cannot do without its shaders.
+bool printFolder(const std::string& name, const std::filesystem::path& folder, const char* variable) {
+    printFact(name, folder.empty() ? fmt::format("MISSING; {} may name the folder", variable) : folder.string());
+    return !folder.empty();
+}
+
+// Each backend draws a small test picture; true when at least one does.
+bool printRenderers() {
+    bool any = false;
+    for (const auto backend : {render::Backend::osmesa, render::Backend::egl}) {
+        render::RendererOptions options;
+        options.width = 64;
+        options.height = 64;
+        options.shadowSize = 256;
+        options.backend = backend;
+        options.shaders = shaderFolder();
+        std::string fact;
+        try {
+            render::Renderer renderer(options);
+            pipeline::testRenderer(renderer);
+            const render::RendererInfo info = renderer.info();
+            fact = fmt::format("ok: {}, {}, OpenGL {}", info.vendor, info.renderer, info.version);
+            any = true;
+        } catch (const core::Error& error) {
+            fact = fmt::format("FAILS: {}", error.what());
+        }
+        printFact(pipeline::nameOf(backend), fact);
+    }
+    return any;
+}
+
+bool printWriteTest(const std::filesystem::path& folder) {
+    try {
+        const std::filesystem::path file = folder / "taut-write-test";
+        image::writeWholeFile(file, "taut\n");
+        std::filesystem::remove(file);
+        printFact("write test", fmt::format("ok: {}", std::filesystem::absolute(folder).lexically_normal().string()));
+        return true;
+    } catch (const core::Error& error) {
+        printFact("write test", fmt::format("FAILS: {}", error.what()));
+        return false;
+    }
+}
+
+int doctor(const std::string& folder) {
+    printMachine();
+    const std::string ffmpeg = image::ffmpegVersion();
+    printFact("ffmpeg", ffmpeg.empty() ? "MISSING: videos need the package ffmpeg, picture files do not" : ffmpeg);
+    bool files = printFolder("shaders", shaderFolder(), "TAUT_SHADERS");
+    files = printFolder("assets", assetFolder(), "TAUT_ASSETS") && files;
+    printFact("scenes", fmt::format("{}", fmt::join(shippedScenes(), " ")));
+    const bool draws = printRenderers();
+    files = printWriteTest(folder) && files;
+    const auto code = !files ? core::ExitCode::inputOutput : !draws ? core::ExitCode::noRenderer : core::ExitCode::ok;
+    fmt::print("{}\n", code == core::ExitCode::ok ? "Everything needed is there." : "Something is missing.");
+    return static_cast<int>(code);
+}
+
+}  // namespace
+
+void addDoctor(CLI::App& app, Action& chosen) {
+    const auto folder = std::make_shared<std::string>(".");
+    CLI::App* command = app.add_subcommand("doctor", "Tell what is installed and whether drawing and writing work");
+    command->add_option("-o,--output", *folder, "The folder for the write test")->type_name("FOLDER");
+    command->callback([&chosen, folder] { chosen = [folder] { return doctor(*folder); }; });
+}
+
+}  // namespace taut::game

@@ -1,0 +1,50 @@
+#include "game/flags.h"
+
+#include <charconv>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace taut::game {
+namespace {
+
+template <class Number>
+std::optional<Number> whole(std::string_view text) {
+    Number value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+FrameRange frameRange(const std::string& text) {
+    const auto fail = [&] {
+        throw core::Error(core::ExitCode::usage,
+                          "--frames " + text + ": expected a range like 0-119, the first not after the last");
+    };
+    const std::string_view view = text;
+    const std::size_t dash = view.find('-');
+    const auto first = whole<std::int64_t>(view.substr(0, dash));
+    if (!first) fail();
+    if (dash == std::string_view::npos) return {*first, *first};
+    if (dash + 1 == view.size()) return {*first, std::nullopt};
+    const auto last = whole<std::int64_t>(view.substr(dash + 1));
+    if (!last || *last < *first) fail();
+    return {*first, last};
+}
+
+Size pictureSize(const std::string& text) {
+    constexpr int largest = 16384;
+    const std::string_view view = text;
+    const std::size_t cross = view.find('x');
+    if (cross != std::string_view::npos) {
+        const auto width = whole<int>(view.substr(0, cross));
+        const auto height = whole<int>(view.substr(cross + 1));
+        if (width && height && *width >= 1 && *height >= 1 && *width <= largest && *height <= largest)
+            return {*width, *height};
+    }
+    throw core::Error(core::ExitCode::usage, "--size " + text + ": expected a size in pixels like 1280x720");
+}
+
+}  // namespace taut::game

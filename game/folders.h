@@ -1,0 +1,19 @@
+// Where the program finds what it reads: assets and shaders, installed or in the source checkout.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace taut::game {
+
+// Looked for in this order: $TAUT_ASSETS ($TAUT_SHADERS), share/taut of the prefix that the program is installed in,
+// the checkout that it was built from. Empty when there is none; an environment variable that names no folder throws
+// core::Error(inputOutput).
+std::filesystem::path assetFolder();
+std::filesystem::path shaderFolder();
+
+// Names of the scenes in the asset folder, without ".toml", sorted.
+std::vector<std::string> shippedScenes();
+
+}  // namespace taut::game

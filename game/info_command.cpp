@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "game/commands.h"
+#include "game/progress.h"
+#include "game/scene_file.h"
+#include "pipeline/run.h"
+#include "world/world.h"
+
+namespace taut::game {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoFlags {
+    std::string scene;
+    std::vector<std::string> overrides;
+    bool json = false;
+};
+
+// Plays the first ticks and looks at the clock; 0 when the state diverges at once.
+double measuredSecondsPerTick(world::World& world) {
+    using Clock = std::chrono::steady_clock;
+    constexpr double enough = 0.25;  // [s]
+    constexpr int mostTicks = 60;
+    const auto start = Clock::now();
+    for (int ticks = 1; ticks <= mostTicks; ++ticks) {
+        if (world.advance()) return 0.0;
+        const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+        if (spent > enough || ticks == mostTicks) return spent / ticks;
+    }
+    return 0.0;
+}
+
+struct Facts {
+    world::SceneSpec spec;
+    std::vector<world::IslandInfo> islands;
+    std::vector<std::string> warnings;
+    double tickSeconds = 0.0;
+    int ticksPerFrame = 1;
+    std::int64_t frames = 0;
+    double costPerTick = 0.0;  // [s] of wall time
+};
+
+Facts gatherFacts(const InfoFlags& flags) {
+    Facts facts;
+    facts.spec = readScene(flags.scene, flags.overrides);
+    world::World world(facts.spec);
+    facts.islands = world.islands();
+    facts.warnings = world.warnings();
+    facts.tickSeconds = world.tickSeconds();
+    facts.ticksPerFrame = world.ticksPerFrame();
+    facts.frames = pipeline::frameCount(facts.spec.run);
+    facts.costPerTick = measuredSecondsPerTick(world);
+    return facts;
+}
+
+double megabytes(const Facts& facts) {
+    double bytes = 0.0;
+    for (const world::IslandInfo& island : facts.islands) bytes += static_cast<double>(island.bytes);
+    return bytes / 1e6;
+}
+
+Json islandJson(const world::IslandInfo& i) {
+    return {{"name", i.name},
+            {"bodies", i.bodies},
+            {"points", i.points},
+            {"held_points", i.heldPoints},
+            {"springs", i.springs},
+            {"runs", i.runs},
+            {"single_springs", i.singles},
+            {"cells", i.cells},
+            {"mass_kg", i.mass},
+            {"method", i.method},
+            {"omega_B1_per_s", i.omegaBound},
+            {"omega_B2_per_s", i.omegaNow},
+            {"omega_lanczos_per_s", i.omegaEstimate},
+            {"step_limit_s", i.stepLimit},
+            {"step_s", i.step},
+            {"substeps", i.substeps},
+            {"limited_by", i.limitingSpring},
+            {"bytes", i.bytes}};
+}
+
+void printJson(const Facts& facts) {
+    Json islands = Json::array();
+    for (const world::IslandInfo& island : facts.islands) islands.push_back(islandJson(island));
+    const Json json = {{"scene", facts.spec.file},
+                       {"title", facts.spec.title},
+                       {"fps", facts.spec.run.fps},
+                       {"frames", facts.frames},
+                       {"tick_s", facts.tickSeconds},
+                       {"ticks_per_frame", facts.ticksPerFrame},
+                       {"simulation_s_per_frame", facts.costPerTick * facts.ticksPerFrame},
+                       {"islands", std::move(islands)},
+                       {"colliders", facts.spec.colliders.size()},
+                       {"warnings", facts.warnings}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+void printIsland(const world::IslandInfo& i) {
+    fmt::print("\n{}\n", fmt::join(i.bodies, ", "));
+    fmt::print("  points      {} ({} held), {:.4g} kg\n", i.points, i.heldPoints, i.mass);
+    fmt::print("  springs     {} ({} runs, {} single){}\n", i.springs, i.runs, i.singles,
+               i.cells > 0 ? fmt::format(", {} volume cells", i.cells) : "");
+    fmt::print("  omega       {:.4g} /s bound of any state, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
+               i.omegaBound, i.omegaNow, i.omegaEstimate);
+    fmt::print("  step limit  {:.4g} ms by {}\n", 1e3 * i.stepLimit,
+               i.limitingSpring.empty() ? "nothing" : i.limitingSpring);
+    fmt::print("  step        {:.4g} ms = tick / {}, {}\n", 1e3 * i.step, i.substeps, i.method);
+    fmt::print("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
+}
+
+void printTable(const Facts& facts) {
+    const world::SceneSpec& spec = facts.spec;
+    fmt::print("{}{}\n", spec.file, spec.title.empty() ? "" : ": " + spec.title);
+    fmt::print("{} frames at {:.4g} a second, {} ticks of {:.4g} ms each, {} precision, {}x{} pixels\n", facts.frames,
+               spec.run.fps, facts.ticksPerFrame, 1e3 * facts.tickSeconds,
+               spec.solver.precision == world::Precision::double_ ? "double" : "single", spec.picture.size.x,
+               spec.picture.size.y);
+    for (const world::IslandInfo& island : facts.islands) printIsland(island);
+
+    int points = 0;
+    int springs = 0;
+    double pointSteps = 0.0;
+    for (const world::IslandInfo& island : facts.islands) {
+        points += island.points;
+        springs += island.springs;
+        pointSteps += static_cast<double>(island.points) * island.substeps;
+    }
+    fmt::print("\nin all {} points, {} springs, {} islands, {} colliders, {:.3g} MB\n", points, springs,
+               facts.islands.size(), spec.colliders.size(), megabytes(facts));
+    if (facts.costPerTick > 0.0) {
+        const double perFrame = facts.costPerTick * facts.ticksPerFrame;
+        fmt::print(
+            "simulation about {:.3g} ms a frame ({:.3g} ns a point and step, contacts included), {} for the "
+            "whole scene, measured on its first ticks\n",
+            1e3 * perFrame, pointSteps > 0.0 ? 1e9 * facts.costPerTick / pointSteps : 0.0,
+            clockText(perFrame * static_cast<double>(facts.frames)));
+    }
+    for (const std::string& warning : facts.warnings) fmt::print("warning: {}\n", warning);
+}
+
+int info(const InfoFlags& flags) {
+    const Facts facts = gatherFacts(flags);
+    if (flags.json)
+        printJson(facts);
+    else
+        printTable(facts);
+    return static_cast<int>(core::ExitCode::ok);
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, Action& chosen) {
+    const auto flags = std::make_shared<InfoFlags>();
+    CLI::App* command = app.add_subcommand("info", "Tell what a scene builds, its time step, memory and cost");
+    command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene")->required();
+    command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command->add_flag("--json", flags->json, "Print it as JSON");
+    command->callback([&chosen, flags] { chosen = [flags] { return info(*flags); }; });
+}
+
+}  // namespace taut::game

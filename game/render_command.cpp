@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "game/commands.h"
+#include "game/flags.h"
+#include "game/folders.h"
+#include "game/interruption.h"
+#include "game/outputs.h"
+#include "game/progress.h"
+#include "game/scene_file.h"
+#include "image/whole_file.h"
+#include "pipeline/run.h"
+#include "pipeline/run_record.h"
+#include "pipeline/self_test.h"
+
+namespace taut::game {
+namespace {
+
+struct RenderFlags {
+    std::string scene;
+    std::string output;
+    std::string frames, size, camera, gl, hashEvery = "frame";
+    double fps = 0.0, seconds = 0.0;
+    int threads = 0;
+    std::vector<std::string> overrides;
+    bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
+};
+
+// What --fps, --seconds, --size and --camera ask for, in the words of the scene format.
+std::vector<std::string> allOverrides(const RenderFlags& flags) {
+    std::vector<std::string> overrides = flags.overrides;
+    if (flags.fps > 0.0) overrides.push_back(fmt::format("run.fps={}", flags.fps));
+    if (flags.seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
+    if (!flags.size.empty()) {
+        const Size size = pictureSize(flags.size);
+        overrides.push_back(fmt::format("picture.size=[{}, {}]", size.width, size.height));
+    }
+    if (!flags.camera.empty()) overrides.push_back(fmt::format("picture.camera=\"{}\"", flags.camera));
+    return overrides;
+}
+
+void checkFlags(const RenderFlags& flags) {
+    const auto fail = [](const char* message) { throw core::Error(core::ExitCode::usage, message); };
+    if (!flags.output.empty()) checkOutputName(flags.output);
+    if (flags.output.empty() && !flags.noPictures)
+        fail("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
+    if (flags.output.empty() && flags.metrics) fail("--metrics writes a file beside the output: add -o");
+}
+
+pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec& spec) {
+    const std::int64_t count = pipeline::frameCount(spec.run);
+    const FrameRange range = flags.frames.empty() ? FrameRange{} : frameRange(flags.frames);
+    const std::int64_t last = range.last.value_or(count - 1);
+    if (range.first >= count || last >= count)
+        throw core::Error(core::ExitCode::usage, fmt::format("--frames {}: the scene has frames 0-{}; --seconds makes "
+                                                             "it longer",
+                                                             flags.frames, count - 1));
+    return {.firstFrame = range.first, .lastFrame = last, .debugView = flags.debug, .metrics = flags.metrics};
+}
+
+std::unique_ptr<render::Renderer> makeRenderer(const RenderFlags& flags, const world::PictureSpec& picture) {
+    // The software renderer reads from the environment how many threads it may use.
+    if (flags.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(flags.threads).c_str(), 0);
+    std::vector<render::Backend> backends = {render::Backend::osmesa, render::Backend::egl};
+    if (!flags.gl.empty())
+        std::erase_if(backends, [&](render::Backend backend) { return pipeline::nameOf(backend) != flags.gl; });
+    render::RendererOptions options;
+    options.width = picture.size.x;
+    options.height = picture.size.y;
+    options.samples = picture.samples;
+    options.shadowSize = picture.shadowSize;
+    options.shaders = shaderFolder();
+    return pipeline::workingRenderer(options, backends);
+}
+
+double smallestStep(const world::World& world) {
+    double step = world.tickSeconds();
+    for (const world::IslandInfo& island : world.islands()) step = std::min(step, island.step);
+    return step;
+}
+
+pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunOptions& options, Progress& progress) {
+    pipeline::RunListener listener;
+    const bool everyTick = flags.hashEvery == "tick";
+    const bool everyFrame = flags.hash && !everyTick;
+    listener.frameDone = [&progress, everyFrame, first = options.firstFrame](const pipeline::FrameRecord& record) {
+        if (everyFrame && record.frame >= first) fmt::print("{} {:016x}\n", record.frame, record.hash);
+        progress.frameDone(record);
+    };
+    if (everyTick)
+        listener.tickDone = [](std::int64_t tick, std::uint64_t hash) { fmt::print("{} {:016x}\n", tick, hash); };
+    return listener;
+}
+
+void writeRecords(const image::FrameSink& sink, const RenderFlags& flags, const std::string& json,
+                  const pipeline::RunResult& result) {
+    image::writeWholeFile(sink.companion("run.json"), json);
+    if (flags.metrics) image::writeWholeFile(sink.companion("metrics.csv"), pipeline::metricsCsv(result));
+}
+
+// What came out, in a line.
+void printSummary(const RenderFlags& flags, const pipeline::RunResult& result) {
+    const auto pictures = std::count_if(result.frames.begin(), result.frames.end(),
+                                        [](const pipeline::FrameRecord& frame) { return frame.pictured; });
+    std::string text = fmt::format("{} of {} simulated frames drawn", pictures, result.frames.size());
+    if (flags.noPictures) text = fmt::format("{} frames simulated", result.frames.size());
+    if (!flags.output.empty()) text += fmt::format(", in {}", flags.output);
+    fmt::print(stderr, "{}, {:.1f} s{}\n", text, result.seconds, result.interrupted ? " (interrupted)" : "");
+}
+
+int render(const RenderFlags& flags) {
+    checkFlags(flags);
+    const world::SceneSpec spec = readScene(flags.scene, allOverrides(flags));
+    const pipeline::RunOptions options = runOptions(flags, spec);
+    const Interruption interruption;
+
+    std::unique_ptr<image::FrameSink> sink;
+    if (!flags.output.empty()) {
+        if (!flags.noPictures)
+            permitOverwriting(flags.output, options.firstFrame, options.lastFrame,
+                              flags.yes  ? Overwrite::yes
+                              : flags.no ? Overwrite::no
+                                         : Overwrite::ask);
+        sink = makeSink(flags.output, spec.run.fps);
+    }
+    const core::ThreadLimit threads(flags.threads);
+    world::World world(spec, {.threads = flags.threads});
+    printWarnings(world.warnings());
+
+    pipeline::Draw draw;
+    std::unique_ptr<render::Renderer> renderer;
+    if (!flags.noPictures) {
+        renderer = makeRenderer(flags, spec.picture);
+        draw = [&](const view::FrameView& view) { return renderer->draw(view); };
+    }
+
+    pipeline::RunResult result;
+    {
+        Progress progress(options.lastFrame + 1, spec.run.fps, smallestStep(world), flags.quiet);
+        result = pipeline::play(world, options, draw, flags.noPictures ? nullptr : sink.get(),
+                                listenerFor(flags, options, progress), interruption.flag());
+    }
+    if (sink) {
+        const pipeline::RunRequest request{flags.output, allOverrides(flags), flags.threads, options};
+        const auto info = renderer ? std::optional(renderer->info()) : std::nullopt;
+        writeRecords(*sink, flags, pipeline::runJson(spec, world, request, pipeline::machine(), info, result), result);
+    }
+    if (!flags.quiet) printSummary(flags, result);
+    if (result.divergence) throw core::Error(core::ExitCode::diverged, result.divergence->message);
+    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+}
+
+void addOutputFlags(CLI::App& command, RenderFlags& flags) {
+    command.add_option("-o,--output", flags.output, "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv)");
+    auto* yes = command.add_flag("-y,--yes", flags.yes, "Overwrite what exists");
+    command.add_flag("-n,--no", flags.no, "Never overwrite")->excludes(yes);
+    command.add_flag("--metrics", flags.metrics, "Write metrics.csv: energy, momentum, strain, contacts of each frame");
+    command.add_flag("--hash", flags.hash, "Print the state hash of each frame");
+    command.add_option("--hash-every", flags.hashEvery, "Print the state hash of each frame or each tick")
+        ->check(CLI::IsMember({"frame", "tick"}))
+        ->each([&flags](const std::string&) { flags.hash = true; });
+    command.add_flag("--quiet", flags.quiet, "No progress; warnings and errors only");
+}
+
+void addPictureFlags(CLI::App& command, RenderFlags& flags) {
+    command.add_option("--frames", flags.frames, "Draw these frames only: 0-119, 60, or 60-")->type_name("A-B");
+    command.add_option("--fps", flags.fps, "Pictures a second of scene time")->check(CLI::PositiveNumber);
+    command.add_option("--seconds", flags.seconds, "Length of scene time")->check(CLI::PositiveNumber);
+    command.add_option("--size", flags.size, "Size of the pictures in pixels")->type_name("WxH");
+    command.add_option("--camera", flags.camera, "Look through this camera of the scene")->type_name("NAME");
+    command.add_option("--gl", flags.gl, "What draws; the first that works when not given")
+        ->check(CLI::IsMember({"osmesa", "egl"}));
+    command.add_flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
+    command.add_flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, Action& chosen) {
+    const auto flags = std::make_shared<RenderFlags>();
+    CLI::App* command = app.add_subcommand("render", "Play a scene into picture files or a video");
+    command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene")->required();
+    addOutputFlags(*command, *flags);
+    addPictureFlags(*command, *flags);
+    command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command->footer(
+        "Examples:\n"
+        "  taut render flag -o flag.mp4\n"
+        "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
+        "  taut render drape -o late.mp4 --frames 120-179 --set material.linen.bend_N_per_m=4");
+    command->callback([&chosen, flags] { chosen = [flags] { return render(*flags); }; });
+}
+
+}  // namespace taut::game

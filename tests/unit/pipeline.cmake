@@ -1,0 +1,5 @@
+list(APPEND TAUT_UNIT_TESTS
+  pipeline_queue_test.cpp
+  pipeline_run_test.cpp
+  pipeline_stages_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::pipeline)

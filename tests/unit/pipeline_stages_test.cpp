@@ -1,0 +1,150 @@
+#include "pipeline/stages.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace taut::pipeline {
+namespace {
+
+// Events that threads wait for; waiting gives up after a time that no working run comes near.
+class Events {
+  public:
+    void happen(const std::string& name) {
+        const std::lock_guard lock(mutex_);
+        names_.insert(name);
+        changed_.notify_all();
+    }
+    bool waitFor(const std::string& name) {
+        std::unique_lock lock(mutex_);
+        return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return names_.count(name) > 0; });
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::set<std::string> names_;
+};
+
+std::string named(const char* stage, std::int64_t frame) {
+    return stage + std::to_string(frame);
+}
+
+std::function<std::optional<view::FrameView>()> framesUpTo(int count) {
+    return [next = 0, count]() mutable -> std::optional<view::FrameView> {
+        if (next == count) return std::nullopt;
+        view::FrameView view;
+        view.frame = next++;
+        return view;
+    };
+}
+
+image::Image pictureOf(const view::FrameView& view) {
+    return {1, 1, {static_cast<std::uint8_t>(view.frame), 0, 0}};
+}
+
+TEST(Stages, EveryFrameIsDrawnAndEncodedOnceAndInOrder) {
+    std::vector<std::int64_t> encoded;
+    runStages({framesUpTo(50), pictureOf, [&](const view::FrameView& view, const image::Image& picture) {
+                   EXPECT_EQ(picture.rgb[0], view.frame);
+                   encoded.push_back(view.frame);
+               }});
+    ASSERT_EQ(encoded.size(), 50U);
+    for (std::size_t i = 0; i < encoded.size(); ++i) EXPECT_EQ(encoded[i], static_cast<std::int64_t>(i));
+}
+
+TEST(Stages, NoFramesIsARunWithoutPictures) {
+    runStages({framesUpTo(0), pictureOf, [](const auto&, const auto&) { ADD_FAILURE(); }});
+}
+
+// Each stage waits in frame n until the one before it is at work on frame n + 1: one after the other, they would never
+// end.
+TEST(Stages, WorkOnThreeSuccessiveFramesAtOnce) {
+    Events events;
+    const int count = 5;
+    auto next = framesUpTo(count);
+    runStages({[&] {
+                   auto view = next();
+                   if (view) events.happen(named("simulate", view->frame));
+                   return view;
+               },
+               [&](const view::FrameView& view) {
+                   events.happen(named("draw", view.frame));
+                   if (view.frame + 1 < count) {
+                       EXPECT_TRUE(events.waitFor(named("simulate", view.frame + 1)));
+                   }
+                   return pictureOf(view);
+               },
+               [&](const view::FrameView& view, const image::Image&) {
+                   if (view.frame + 1 < count) {
+                       EXPECT_TRUE(events.waitFor(named("draw", view.frame + 1)));
+                   }
+               }});
+}
+
+TEST(Stages, DrawingStaysOnTheCallingThread) {
+    const auto caller = std::this_thread::get_id();
+    runStages({framesUpTo(3),
+               [&](const view::FrameView& view) {
+                   EXPECT_EQ(std::this_thread::get_id(), caller);
+                   return pictureOf(view);
+               },
+               [&](const auto&, const auto&) { EXPECT_NE(std::this_thread::get_id(), caller); }});
+}
+
+TEST(Stages, SimulationRunsAheadByAFewFramesOnly) {
+    std::atomic<std::int64_t> simulated = 0;
+    auto next = framesUpTo(100);
+    std::int64_t most = 0;
+    runStages(
+        {[&] {
+             auto view = next();
+             if (view) simulated = view->frame;
+             return view;
+         },
+         pictureOf,
+         [&](const view::FrameView& view, const image::Image&) { most = std::max(most, simulated - view.frame); }});
+    // Two in each queue and one in the hands of the simulation and of the drawing each.
+    EXPECT_LE(most, 6);
+}
+
+TEST(Stages, FailureOfAnyStageEndsTheOthersAndIsRethrown) {
+    const auto throwsAt = [](std::int64_t frame, const char* what) {
+        if (frame == 3) throw std::runtime_error(what);
+    };
+    for (const std::string failing : {"simulate", "draw", "encode"}) {
+        std::int64_t lastEncoded = -1;
+        auto next = framesUpTo(1000);
+        const Stages stages{[&] {
+                                auto view = next();
+                                if (failing == "simulate") throwsAt(view->frame, "simulate");
+                                return view;
+                            },
+                            [&](const view::FrameView& view) {
+                                if (failing == "draw") throwsAt(view.frame, "draw");
+                                return pictureOf(view);
+                            },
+                            [&](const view::FrameView& view, const image::Image&) {
+                                if (failing == "encode") throwsAt(view.frame, "encode");
+                                lastEncoded = view.frame;
+                            }};
+        try {
+            runStages(stages);
+            ADD_FAILURE() << failing;
+        } catch (const std::runtime_error& error) {
+            EXPECT_EQ(error.what(), failing);
+        }
+        EXPECT_LT(lastEncoded, 3);
+    }
+}
+
+}  // namespace
+}  // namespace taut::pipeline

@@ -1,0 +1,96 @@
+#include "scene/asset_files.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include "core/error.h"
+#include "scene/obj_file.h"
+
+namespace taut::scene {
+
+namespace {
+
+using std::filesystem::path;
+
+// A file that a scene names: as found, and what it holds if it is a mesh.
+struct Asset {
+    std::string found;
+    std::shared_ptr<const world::MeshData> mesh;
+};
+using Assets = std::map<std::string, Asset>;
+
+std::vector<path> placesFor(const path& name, const path& sceneFolder, const std::vector<path>& assetFolders) {
+    if (name.is_absolute()) return {name};
+    std::vector<path> places{sceneFolder / name};
+    for (const path& folder : assetFolders) {
+        places.push_back(folder / name);
+        places.push_back(folder / "models" / name);
+        places.push_back(folder / "textures" / name);
+    }
+    return places;
+}
+
+void setAsset(world::FinishSpec& finish, const Assets& textures) {
+    if (const auto found = textures.find(finish.texture); found != textures.end()) finish.texture = found->second.found;
+}
+
+template <class Spec>
+void setMesh(Spec& spec, const Assets& meshes) {
+    const auto found = meshes.find(spec.mesh);
+    if (found == meshes.end()) return;
+    spec.mesh = found->second.found;
+    spec.meshData = found->second.mesh;
+}
+
+}  // namespace
+
+void loadAssets(const path& sceneFolder, const std::vector<path>& assetFolders, ReadScene& scene, Problems& problems) {
+    Assets meshes, textures;
+    for (const Reference& reference : scene.references) {
+        const bool isMesh = reference.role == Role::mesh;
+        if (!isMesh && reference.role != Role::texture) continue;
+        Assets& assets = isMesh ? meshes : textures;
+        if (assets.contains(reference.text)) continue;
+
+        Asset asset;
+        std::vector<std::string> searched;
+        for (const path& place : placesFor(reference.text, sceneFolder, assetFolders)) {
+            std::error_code code;
+            searched.push_back(place.string());
+            if (!asset.found.empty() || !std::filesystem::is_regular_file(place, code)) continue;
+            asset.found = place.string();
+        }
+        if (asset.found.empty()) {
+            problems.addError(reference.place, fmt::format("there is no file \"{}\"", reference.text),
+                              fmt::format("looked for {}", joined(searched)));
+            scene.faulty.insert(reference.owner);
+            continue;
+        }
+        if (isMesh) {
+            try {
+                asset.mesh = std::make_shared<const world::MeshData>(objMesh(asset.found));
+            } catch (const core::Error& error) {
+                problems.addError(reference.place, fmt::format("cannot use this mesh: {}", error.what()));
+                scene.faulty.insert(reference.owner);
+                continue;
+            }
+        }
+        assets.emplace(reference.text, asset);
+    }
+
+    for (auto& cloth : scene.spec.cloths) setMesh(cloth, meshes);
+    for (auto& collider : scene.spec.colliders) {
+        setMesh(collider, meshes);
+        for (auto& part : collider.parts) setMesh(part, meshes);
+        setAsset(collider.finish, textures);
+    }
+    for (auto& cloth : scene.spec.cloths) setAsset(cloth.finish, textures);
+    for (auto& rope : scene.spec.ropes) setAsset(rope.finish, textures);
+    for (auto& block : scene.spec.blocks) setAsset(block.finish, textures);
+    for (auto& net : scene.spec.nets) setAsset(net.finish, textures);
+}
+
+}  // namespace taut::scene

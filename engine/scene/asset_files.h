@@ -1,0 +1,16 @@
+// Finds the model and texture files that a scene names, and reads the models.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "scene/scene_reader.h"
+
+namespace taut::scene {
+
+// Replaces paths in the spec by those found and fills in the meshes. A relative path is looked for in the folder of
+// the scene, then in each asset folder, its `models` and its `textures`. Reports what is missing or unusable.
+void loadAssets(const std::filesystem::path& sceneFolder, const std::vector<std::filesystem::path>& assetFolders,
+                ReadScene& scene, Problems& problems);
+
+}  // namespace taut::scene

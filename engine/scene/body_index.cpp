@@ -1,0 +1,212 @@
+#include "scene/body_index.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "scene/body_size.h"
+#include "scene/problems.h"
+
+namespace taut::scene {
+
+namespace {
+
+const std::vector<std::string> kinds{"cloth", "rope", "block", "net"};
+const std::vector<std::string> surfaceKinds{"cloth", "block"};
+
+// Groups as the builders name them.
+const std::vector<std::string> ropeGroups{"start", "end", "ends"};
+const std::vector<std::string> gridGroups{"left",      "right",       "top",          "bottom",  "top-left",
+                                          "top-right", "bottom-left", "bottom-right", "corners", "edges"};
+const std::vector<std::string> meshGroups{"boundary", "top", "bottom", "left", "right"};
+const std::vector<std::string> blockGroups{"left", "right", "bottom", "top", "back", "front", "corners"};
+
+std::string_view withoutSelector(std::string_view target) {
+    return target.substr(0, target.find('@'));
+}
+
+std::string_view kindOf(std::string_view title) {
+    return title.substr(0, title.find('.'));
+}
+
+// Whether a pattern, in which * stands for any text, fits the whole of a text.
+bool fits(std::string_view pattern, std::string_view text) {
+    std::size_t p = 0, t = 0;
+    std::size_t star = std::string_view::npos, resume = 0;
+    while (t < text.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            resume = t;
+        } else if (p < pattern.size() && pattern[p] == text[t]) {
+            ++p;
+            ++t;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            t = ++resume;
+        } else {
+            return false;
+        }
+    }
+    return pattern.substr(p).find_first_not_of('*') == std::string_view::npos;
+}
+
+bool fits(std::string_view pattern, const BodyEntry& body) {
+    if (kindOf(pattern) != body.kind) return false;
+    if (body.copies == 1) return fits(pattern, body.title());
+    for (int i = 0; i < body.copies; ++i) {
+        if (fits(pattern, fmt::format("{}.{}", body.title(), i))) return true;
+    }
+    return false;
+}
+
+// A plain decimal number that is the whole text.
+std::optional<double> number(std::string_view text) {
+    double value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+    if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+bool isShare(std::string_view text, double whole) {
+    const std::optional<double> value = number(text);
+    return value && *value >= 0.0 && *value <= whole;
+}
+
+std::optional<TargetFault> indexFault(const BodyEntry& body, const std::string& selector) {
+    const std::string_view digits = std::string_view(selector).substr(1);
+    const bool isIndex = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+    if (!isIndex) return TargetFault{fmt::format("\"{}\" is not the number of a point", selector), "write #0, #1, …"};
+    if (body.isFaulty || (digits.size() < 15 && *number(digits) < body.points)) return std::nullopt;
+    return TargetFault{fmt::format("{} has no point {}", body.title(), selector),
+                       fmt::format("its points are #0 … #{:.0f}", body.points - 1)};
+}
+
+std::optional<TargetFault> uvFault(const BodyEntry& body, const std::string& selector) {
+    const std::size_t comma = selector.find(',');
+    const bool isPair = comma != std::string::npos && selector.back() == ')' &&
+                        isShare(std::string_view(selector).substr(1, comma - 1), 1.0) &&
+                        isShare(std::string_view(selector).substr(comma + 1, selector.size() - comma - 2), 1.0);
+    if (!isPair)
+        return TargetFault{fmt::format("\"{}\" is not a place on a cloth", selector), "write (u,v), each 0 … 1"};
+    if (body.hasUv || body.isFaulty) return std::nullopt;
+    return TargetFault{fmt::format("{} is no grid: it has no (u,v)", body.title()), ""};
+}
+
+std::optional<TargetFault> percentFault(const BodyEntry& body, const std::string& selector) {
+    if (!isShare(std::string_view(selector).substr(0, selector.size() - 1), 100.0)) {
+        return TargetFault{fmt::format("\"{}\" is not a place along a rope", selector), "write 0% … 100%"};
+    }
+    if (body.hasLength) return std::nullopt;
+    return TargetFault{fmt::format("{} is no rope: it has no {}", body.title(), selector), ""};
+}
+
+std::optional<TargetFault> selectorFaultIn(const BodyEntry& body, const std::string& selector) {
+    if (selector.starts_with('#')) return indexFault(body, selector);
+    if (selector.starts_with('(')) return uvFault(body, selector);
+    if (selector.ends_with('%')) return percentFault(body, selector);
+    std::vector<std::string> groups = body.groups;
+    groups.push_back("all");
+    if (body.isFaulty || std::find(groups.begin(), groups.end(), selector) != groups.end()) return std::nullopt;
+    std::string remedy = suggestion(selector, groups);
+    if (remedy.empty() && groups.size() <= 12) remedy = "it has " + joined(groups);
+    return TargetFault{fmt::format("{} has no points \"{}\"", body.title(), selector), remedy};
+}
+
+}  // namespace
+
+BodyIndex::BodyIndex(const world::SceneSpec& scene, const std::set<std::string>& faulty) {
+    const auto add = [&](const char* kind, const auto& spec) -> BodyEntry& {
+        BodyEntry& body = bodies_.emplace_back();
+        body.kind = kind;
+        body.name = spec.name;
+        body.copies = spec.array.count.x * spec.array.count.y * spec.array.count.z;
+        body.points = sizeOf(spec).pointsOfOne;
+        body.solver = spec.solver;
+        body.isFaulty = faulty.contains(body.title());
+        return body;
+    };
+    for (const auto& cloth : scene.cloths) {
+        BodyEntry& body = add("cloth", cloth);
+        body.hasUv = cloth.mesh.empty();
+        body.groups = cloth.mesh.empty() ? gridGroups : meshGroups;
+    }
+    for (const auto& rope : scene.ropes) {
+        BodyEntry& body = add("rope", rope);
+        body.groups = ropeGroups;
+        body.hasLength = true;
+    }
+    for (const auto& block : scene.blocks) add("block", block).groups = blockGroups;
+    for (const auto& net : scene.nets) {
+        BodyEntry& body = add("net", net);
+        for (const auto& point : net.points) body.groups.push_back(point.name);
+    }
+    const auto isBefore = [](const BodyEntry& a, const BodyEntry& b) { return a.title() < b.title(); };
+    std::sort(bodies_.begin(), bodies_.end(), isBefore);
+}
+
+std::optional<TargetFault> BodyIndex::pointsFault(const std::string& target) const {
+    if (auto fault = bodiesFault(target)) return fault;
+    const std::size_t at = target.find('@');
+    if (at == std::string::npos) {
+        return TargetFault{fmt::format("\"{}\" does not say which points", target),
+                           fmt::format("write {}@all or another selector", target)};
+    }
+    const std::string selector = target.substr(at + 1);
+    for (const BodyEntry* body : matches(target)) {
+        if (auto fault = selectorFaultIn(*body, selector)) return fault;
+    }
+    return std::nullopt;
+}
+
+std::optional<TargetFault> BodyIndex::surfaceFault(const std::string& target) const {
+    if (target.find('@') != std::string::npos) {
+        return TargetFault{fmt::format("\"{}\" names points, not a body", target),
+                           fmt::format("write {}", withoutSelector(target))};
+    }
+    if (auto fault = bodiesFault(target)) return fault;
+    const std::string kind(kindOf(target));
+    if (std::find(surfaceKinds.begin(), surfaceKinds.end(), kind) != surfaceKinds.end()) return std::nullopt;
+    return TargetFault{fmt::format("a {} has no surface", kind),
+                       fmt::format("bodies with a surface are {}", joined(surfaceKinds))};
+}
+
+std::optional<TargetFault> BodyIndex::selectorFault(const std::string& title, const std::string& selector) const {
+    for (const BodyEntry& body : bodies_) {
+        if (body.title() == title) return selectorFaultIn(body, selector);
+    }
+    return std::nullopt;
+}
+
+std::vector<const BodyEntry*> BodyIndex::matches(const std::string& target) const {
+    std::vector<const BodyEntry*> found;
+    for (const BodyEntry& body : bodies_) {
+        if (fits(withoutSelector(target), body)) found.push_back(&body);
+    }
+    return found;
+}
+
+std::optional<TargetFault> BodyIndex::bodiesFault(const std::string& target) const {
+    const std::string title(withoutSelector(target));
+    const std::string kind(kindOf(title));
+    if (kind.size() == title.size()) {
+        return TargetFault{fmt::format("\"{}\" names no body", target), "write KIND.NAME, e.g. cloth.flag"};
+    }
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+        std::string remedy = suggestion(kind, kinds);
+        if (remedy.empty()) remedy = "bodies are " + joined(kinds);
+        return TargetFault{fmt::format("\"{}\" is no kind of body", kind), remedy};
+    }
+    if (!matches(title).empty()) return std::nullopt;
+    std::vector<std::string> titles;
+    for (const BodyEntry& body : bodies_) {
+        titles.push_back(body.title());
+        if (body.title() != title) continue;
+        return TargetFault{fmt::format("{} is an array", title),
+                           fmt::format("write {0}.0 … {0}.{1}, or {0}.*", title, body.copies - 1)};
+    }
+    return TargetFault{fmt::format("there is no {}", title), suggestion(title, titles)};
+}
+
+}  // namespace taut::scene

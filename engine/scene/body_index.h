@@ -1,0 +1,56 @@
+// The bodies of a scene by name, and whether a target such as "cloth.flag@left" finds points in them.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "world/spec.h"
+
+namespace taut::scene {
+
+// Why a target or a selector does not work.
+struct TargetFault {
+    std::string message, remedy;
+};
+
+// What is known of one body without building it.
+struct BodyEntry {
+    std::string kind, name;           // "cloth", "flag"
+    int copies = 1;                   // more than one: called flag.0, flag.1, …
+    double points = 0;                // of one copy
+    std::vector<std::string> groups;  // names of its points, besides "all"
+    bool hasUv = false;               // "(u,v)"
+    bool hasLength = false;           // "50%"
+    bool isFaulty = false;            // its numbers are not to be trusted
+    world::SolverOverride solver;
+
+    std::string title() const { return kind + "." + name; }
+};
+
+class BodyIndex {
+  public:
+    // `faulty` names bodies with errors, "cloth.flag".
+    BodyIndex(const world::SceneSpec& scene, const std::set<std::string>& faulty);
+
+    // KIND.NAME@SELECTOR; NAME may hold the wildcard *, and ends in .0, .1, … for one copy of an array.
+    std::optional<TargetFault> pointsFault(const std::string& target) const;
+
+    // KIND.NAME of bodies with a surface.
+    std::optional<TargetFault> surfaceFault(const std::string& target) const;
+
+    // A selector alone, of the body with this title.
+    std::optional<TargetFault> selectorFault(const std::string& title, const std::string& selector) const;
+
+    // The bodies that KIND.NAME or KIND.NAME@SELECTOR names, sorted; none if it is faulty.
+    std::vector<const BodyEntry*> matches(const std::string& target) const;
+
+  private:
+    std::optional<TargetFault> bodiesFault(const std::string& target) const;
+
+    std::vector<BodyEntry> bodies_;
+};
+
+}  // namespace taut::scene

@@ -1,0 +1,56 @@
+#include "scene/body_size.h"
+
+#include <unistd.h>
+
+namespace taut::scene {
+
+namespace {
+
+BodySize sizeOfCopies(const world::BodySpec& body, double points, double springs, double cells) {
+    const glm::dvec3 count(body.array.count);
+    const double copies = count.x * count.y * count.z;
+    return {copies * points, copies * springs, copies * cells, points};
+}
+
+}  // namespace
+
+double BodySize::bytes() const {
+    // A point: model 100, planes of state, forces and masses 150, drawing 100. A spring: model 40, run or single 40.
+    // A tetrahedron: model and state 32 each.
+    return 350.0 * points + 80.0 * springs + 6.0 * 64.0 * cells;
+}
+
+BodySize sizeOf(const world::ClothSpec& cloth) {
+    if (cloth.meshData) {
+        const auto points = static_cast<double>(cloth.meshData->positions.size());
+        const auto triangles = static_cast<double>(cloth.meshData->triangles.size());
+        return sizeOfCopies(cloth, points, 3.0 * triangles, 0.0);
+    }
+    const double x = cloth.cells.x;
+    const double y = cloth.cells.y;
+    return sizeOfCopies(cloth, (x + 1) * (y + 1), 6.0 * x * y + x + y, 0.0);
+}
+
+BodySize sizeOf(const world::RopeSpec& rope) {
+    const double segments = rope.segments;
+    return sizeOfCopies(rope, segments + 1, rope.bend > 0.0 ? 2.0 * segments - 1 : segments, 0.0);
+}
+
+BodySize sizeOf(const world::BlockSpec& block) {
+    const glm::dvec3 n(block.cells);
+    const double cells = n.x * n.y * n.z;
+    // Three edges and six face diagonals a cell.
+    return sizeOfCopies(block, (n.x + 1) * (n.y + 1) * (n.z + 1), 9.0 * cells, cells);
+}
+
+BodySize sizeOf(const world::NetSpec& net) {
+    return sizeOfCopies(net, static_cast<double>(net.points.size()), static_cast<double>(net.springs.size()), 0.0);
+}
+
+double memoryLimit() {
+    const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
+    const double pageSize = static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    return 0.5 * pages * pageSize;
+}
+
+}  // namespace taut::scene

@@ -1,0 +1,146 @@
+#include "scene/document.h"
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace taut::scene {
+
+namespace {
+
+constexpr int maxDots = 16;  // in one key; toml++ itself limits the nesting of values
+
+Place placeOf(const toml::source_region& region, int origin) {
+    return {origin, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+bool isBefore(const Member& a, const Member& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+}
+
+Node nodeOf(const toml::node& source, int origin) {
+    Node node;
+    node.place = placeOf(source.source(), origin);
+    if (const toml::table* table = source.as_table()) {
+        node.kind = NodeKind::table;
+        for (const auto& [key, value] : *table) {
+            node.members.push_back({std::string(key.str()), placeOf(key.source(), origin), nodeOf(value, origin)});
+        }
+        std::stable_sort(node.members.begin(), node.members.end(), isBefore);
+    } else if (const toml::array* list = source.as_array()) {
+        node.kind = NodeKind::list;
+        for (const toml::node& item : *list) node.items.push_back(nodeOf(item, origin));
+    } else if (const auto* text = source.as_string()) {
+        node.kind = NodeKind::text;
+        node.text = text->get();
+    } else if (const auto* whole = source.as_integer()) {
+        node.kind = NodeKind::whole;
+        node.whole = whole->get();
+        node.number = static_cast<double>(whole->get());
+    } else if (const auto* number = source.as_floating_point()) {
+        node.kind = NodeKind::number;
+        node.number = number->get();
+    } else if (const auto* flag = source.as_boolean()) {
+        node.kind = NodeKind::flag;
+        node.flag = flag->get();
+    } else {
+        node.kind = NodeKind::time;
+    }
+    return node;
+}
+
+// Walks over a text as far as is needed to tell strings and comments from the rest.
+class Scanner {
+  public:
+    Scanner(std::string_view text, int origin) : text_(text), origin_(origin) {}
+
+    // Throws for what the parser would accept or survive badly.
+    void check() {
+        if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) fail("this is UTF-16; a scene is UTF-8");
+        const std::size_t zero = text_.find('\0');
+        if (zero != std::string_view::npos) {
+            at_ = zero;
+            fail("this is not a text file: it holds a zero byte");
+        }
+        int dots = 0;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '#') {
+                at_ = std::min(text_.find('\n', at_), text_.size());
+            } else if (c == '"' || c == '\'') {
+                skipString(c);
+            } else {
+                if (c == '.' && ++dots > maxDots) fail("this key has too many parts");
+                if (std::string_view(",[]{}=\n").find(c) != std::string_view::npos) dots = 0;
+                ++at_;
+            }
+        }
+    }
+
+  private:
+    void skipString(char quote) {
+        const std::string fence(3, quote);
+        const bool isLong = text_.substr(at_, 3) == fence;
+        at_ += isLong ? 3 : 1;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (isLong ? text_.substr(at_, 3) == fence : (c == quote || c == '\n')) break;
+            at_ += c == '\\' && quote == '"' ? 2 : 1;
+        }
+        at_ = std::min(at_ + (isLong ? 3 : 1), text_.size());
+    }
+
+    [[noreturn]] void fail(const std::string& message) const {
+        const std::string_view before = text_.substr(0, at_);
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::size_t start = before.rfind('\n') + 1;  // 0 when there is none
+        throw SyntaxError({origin_, static_cast<int>(line), static_cast<int>(at_ - start) + 1}, message);
+    }
+
+    std::string_view text_;
+    int origin_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace
+
+const Member* Node::find(std::string_view key) const {
+    const auto found = std::find_if(members.begin(), members.end(), [&](const Member& m) { return m.key == key; });
+    return found == members.end() ? nullptr : &*found;
+}
+
+Member* Node::find(std::string_view key) {
+    return const_cast<Member*>(std::as_const(*this).find(key));
+}
+
+std::string_view nameOf(NodeKind kind) {
+    switch (kind) {
+        case NodeKind::flag:
+            return "true or false";
+        case NodeKind::whole:
+            return "a whole number";
+        case NodeKind::number:
+            return "a number";
+        case NodeKind::text:
+            return "a text";
+        case NodeKind::time:
+            return "a date or time";
+        case NodeKind::list:
+            return "a list";
+        case NodeKind::table:
+            return "a table";
+    }
+    return "";
+}
+
+Node documentTree(std::string_view text, int origin) {
+    Scanner(text, origin).check();
+    try {
+        return nodeOf(toml::parse(text), origin);
+    } catch (const toml::parse_error& error) {
+        throw SyntaxError(placeOf(error.source(), origin), std::string(error.description()));
+    }
+}
+
+}  // namespace taut::scene

@@ -1,0 +1,138 @@
+// The field table: what a key of a scene file is called, means, may hold and where it goes. One table makes the
+// validator, the JSON schema and the manual. It knows nothing of TOML.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/document.h"
+#include "world/spec.h"
+
+namespace taut::scene {
+
+class Problems;
+
+enum class FieldKind {
+    number,
+    whole,  // a whole number
+    flag,   // true or false
+    text,
+    choice,       // one of `choices`
+    stepLength,   // "auto" or a number
+    vector,       // `components` numbers
+    wholeVector,  // `components` whole numbers
+    direction,    // three numbers that are not all zero
+    colour,       // three numbers 0 … 1 or "#rrggbb"
+    segment,      // two points in space
+    texts,        // a list of texts
+    table,        // fields of its own
+    tables,       // a list of tables
+};
+
+// Closed limits of a number. None is infinite: 1e12 of any unit is a slip of the pen.
+struct Range {
+    double low = -1e12;
+    double high = 1e12;
+};
+inline constexpr Range anyNumber{};
+inline constexpr double smallest = 1e-9;  // "above 0" means at least this: less is a slip too
+inline constexpr Range positive{smallest, 1e12};
+inline constexpr Range notNegative{0.0, 1e12};
+inline constexpr Range share{0.0, 1.0};
+
+// What the content of a text refers to, checked when the whole scene is known; or what a number stands for.
+enum class Role {
+    none,
+    material,  // [material.NAME]
+    camera,    // [camera.NAME]
+    mesh,      // a path of an OBJ file
+    texture,   // a path of a picture
+    points,    // KIND.NAME@SELECTOR
+    bodies,    // KIND.NAME of bodies that have a surface
+    selector,  // points of the body it stands in
+    time,      // a moment, taken to the nearest tick
+};
+
+// A value in the file's units. Vectors, directions, colours and segments are numbers; none is "not given".
+using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
+                           std::vector<std::string>>;
+
+struct Section;
+
+struct Field {
+    std::string key;
+    FieldKind kind = FieldKind::number;
+    int components = 1;  // of vectors
+    std::string unit;    // "m", "N/m"; empty: a plain number
+    Range range;
+    std::vector<std::string> choices;
+    bool required = false;
+    std::vector<std::string> only;  // variants of the section that have this field; empty: all
+    Role role = Role::none;
+    std::string help;
+
+    std::function<void(void*, const Value&)> write;  // into the section's struct
+    std::function<Value(const void*)> read;          // from it: of a fresh struct, this is the default
+
+    // Of kinds table and tables: the fields inside, and the struct that they are written to.
+    std::vector<Section> inside;  // exactly one
+    std::function<void*(void*, const world::Source&)> enter;
+};
+
+// What a section's own check gets to see.
+struct CheckInput {
+    Problems& problems;
+    const Node& table;
+    Place place;               // of the table's name
+    const std::string& where;  // "[cloth.flag]"
+    const std::string& variant;
+    bool isClean;  // no field inside was wrong or missing
+
+    // The place of a key's value, or of the table if the key is not given.
+    Place at(const std::string& key) const;
+};
+
+enum class Layout {
+    table,  // [solver]
+    named,  // [cloth.NAME]
+    list,   // [[joint]]
+};
+
+struct Section {
+    std::string name;
+    Layout layout = Layout::table;
+    std::string help;
+    std::vector<Field> fields;
+
+    // Which of several forms a table has, e.g. a collider's shape; no function: there is one form only.
+    std::function<std::string(const Node&)> variant;
+
+    // The struct to fill: a part of the scene, or a new body with its name. Not of a section inside another.
+    std::function<void*(world::SceneSpec&, const std::string& name, const world::Source&)> enter;
+
+    // What no single field can say. Called after the fields are read, also if some were wrong; may amend the struct.
+    std::function<void(const CheckInput&, void*)> check;
+
+    const Field* find(const std::string& key) const;
+    std::vector<std::string> keys() const;
+};
+
+// All sections of a scene file. `schema` and `title` stand in the one without a name.
+std::vector<Section> sceneSections();
+
+// "above 0 m", "between 0 and 1".
+std::string description(const Range& range, const std::string& unit);
+
+// "a list of 3 numbers [m]".
+std::string description(const Field& field);
+
+// The default as it would be written in a file, or an empty text if there is none.
+std::string defaultText(const Value& value);
+
+// Names, in the file's order of sections: the methods that `integrator` accepts.
+std::vector<std::string> methodNames();
+
+}  // namespace taut::scene

@@ -1,0 +1,252 @@
+// Builds the rows of the field table: one call a field, from a member pointer to functions that write and read it.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/trig.h"
+#include "scene/field.h"
+
+namespace taut::scene {
+
+// Numbers of a vector member, in order.
+template <int N, class Scalar>
+std::vector<double> numbersOf(const glm::vec<N, Scalar, glm::defaultp>& vector) {
+    std::vector<double> numbers;
+    for (int i = 0; i < N; ++i) numbers.push_back(static_cast<double>(vector[i]));
+    return numbers;
+}
+
+template <class Vector>
+Vector vectorOf(const std::vector<double>& numbers, std::size_t first = 0) {
+    Vector vector;
+    for (int i = 0; i < Vector::length(); ++i) {
+        vector[i] = static_cast<typename Vector::value_type>(numbers[first + static_cast<std::size_t>(i)]);
+    }
+    return vector;
+}
+
+template <class Spec>
+class FieldList {
+  public:
+    // Of a number that a file gives in another unit than the spec: spec = factor · file.
+    template <class Number, class Base>  // double or std::optional<double>, of the struct or its base
+    FieldList& number(const char* key, Number Base::*member, const char* unit, Range range, const char* help,
+                      double factor = 1.0) {
+        return add(
+            key, FieldKind::number, unit, range, help,
+            [=](Spec& s, const Value& value) { s.*member = std::get<double>(value) * factor; },
+            [=](const Spec& s) -> Value {
+                if constexpr (std::is_same_v<Number, double>) {
+                    return s.*member / factor;
+                } else {
+                    return s.*member ? Value(*(s.*member) / factor) : Value();
+                }
+            });
+    }
+    template <class Number, class Base>
+    FieldList& degrees(const char* key, Number Base::*member, Range range, const char* help) {
+        return number(key, member, "degrees", range, help, core::radians(1.0));
+    }
+    template <class Whole, class Base>  // int or std::int64_t
+    FieldList& whole(const char* key, Whole Base::*member, const char* unit, Range range, const char* help) {
+        return add(
+            key, FieldKind::whole, unit, range, help,
+            [=](Spec& s, const Value& value) { s.*member = static_cast<Whole>(std::get<std::int64_t>(value)); },
+            [=](const Spec& s) -> Value { return static_cast<std::int64_t>(s.*member); });
+    }
+    FieldList& flag(const char* key, bool Spec::*member, const char* help) {
+        return add(
+            key, FieldKind::flag, "", anyNumber, help,
+            [=](Spec& s, const Value& value) { s.*member = std::get<bool>(value); },
+            [=](const Spec& s) -> Value { return s.*member; });
+    }
+    template <class Text, class Base>  // std::string or std::optional<std::string>
+    FieldList& text(const char* key, Text Base::*member, Role role, const char* help) {
+        return add(
+                   key, FieldKind::text, "", anyNumber, help,
+                   [=](Spec& s, const Value& value) { s.*member = std::get<std::string>(value); },
+                   [=](const Spec& s) -> Value {
+                       if constexpr (std::is_same_v<Text, std::string>) {
+                           return s.*member;
+                       } else {
+                           return s.*member ? Value(*(s.*member)) : Value();
+                       }
+                   })
+            .role(role);
+    }
+    template <class Text, class Base>
+    FieldList& choice(const char* key, Text Base::*member, std::vector<std::string> choices, const char* help) {
+        text(key, member, Role::none, help);
+        last().kind = FieldKind::choice;
+        last().choices = std::move(choices);
+        return *this;
+    }
+    // The choices are the enumerators in order, counted from 0.
+    template <class Enum, class Base>
+    requires std::is_enum_v<Enum> FieldList& choice(const char* key, Enum Base::*member,
+                                                    std::vector<std::string> choices, const char* help) {
+        add(
+            key, FieldKind::choice, "", anyNumber, help,
+            [=](Spec& s, const Value& value) {
+                for (std::size_t i = 0; i < choices.size(); ++i) {
+                    if (choices[i] == std::get<std::string>(value)) s.*member = static_cast<Enum>(i);
+                }
+            },
+            [=](const Spec& s) -> Value { return choices[static_cast<std::size_t>(s.*member)]; });
+        last().choices = std::move(choices);
+        return *this;
+    }
+    // "auto", which is none, or a number.
+    FieldList& stepLength(const char* key, std::optional<double> Spec::*member, const char* help) {
+        return add(
+            key, FieldKind::stepLength, "s", Range{1e-9, 1.0}, help,
+            [=](Spec& s, const Value& value) {
+                if (const double* number = std::get_if<double>(&value)) {
+                    s.*member = *number;
+                } else {
+                    s.*member = std::nullopt;
+                }
+            },
+            [=](const Spec& s) -> Value { return s.*member ? Value(*(s.*member)) : Value(std::string("auto")); });
+    }
+    template <int N, class Scalar, class Base>
+    FieldList& vector(const char* key, glm::vec<N, Scalar, glm::defaultp> Base::*member, const char* unit, Range range,
+                      const char* help, double factor = 1.0) {
+        using Vector = glm::vec<N, Scalar, glm::defaultp>;
+        constexpr bool isWhole = std::is_integral_v<Scalar>;
+        add(
+            key, isWhole ? FieldKind::wholeVector : FieldKind::vector, unit, range, help,
+            [=](Spec& s, const Value& value) {
+                s.*member = vectorOf<Vector>(std::get<std::vector<double>>(value));
+                if constexpr (!isWhole) s.*member *= factor;
+            },
+            [=](const Spec& s) -> Value {
+                std::vector<double> numbers = numbersOf(s.*member);
+                for (double& number : numbers) number /= factor;
+                return numbers;
+            });
+        last().components = N;
+        return *this;
+    }
+    FieldList& rotation(const char* key, glm::dvec3 Spec::*member, const char* help) {
+        return vector(key, member, "degrees", Range{-1e6, 1e6}, help, core::radians(1.0));
+    }
+    FieldList& direction(const char* key, glm::dvec3 Spec::*member, const char* help) {
+        vector(key, member, "", Range{-1e6, 1e6}, help);
+        last().kind = FieldKind::direction;
+        return *this;
+    }
+    template <class Colour, class Base>  // dvec3 or std::optional<dvec3>
+    FieldList& colour(const char* key, Colour Base::*member, const char* help) {
+        add(
+            key, FieldKind::colour, "", share, help,
+            [=](Spec& s, const Value& value) {
+                s.*member = vectorOf<glm::dvec3>(std::get<std::vector<double>>(value));
+            },
+            [=](const Spec& s) -> Value {
+                if constexpr (std::is_same_v<Colour, glm::dvec3>) {
+                    return numbersOf(s.*member);
+                } else {
+                    return s.*member ? Value(numbersOf(*(s.*member))) : Value();
+                }
+            });
+        last().components = 3;
+        return *this;
+    }
+    FieldList& segment(const char* key, glm::dvec3 Spec::*start, glm::dvec3 Spec::*end, const char* help) {
+        add(
+            key, FieldKind::segment, "m", Range{-1e6, 1e6}, help,
+            [=](Spec& s, const Value& value) {
+                s.*start = vectorOf<glm::dvec3>(std::get<std::vector<double>>(value));
+                s.*end = vectorOf<glm::dvec3>(std::get<std::vector<double>>(value), 3);
+            },
+            [=](const Spec& s) -> Value {
+                std::vector<double> numbers = numbersOf(s.*start);
+                for (const double number : numbersOf(s.*end)) numbers.push_back(number);
+                return numbers;
+            });
+        last().components = 3;
+        return *this;
+    }
+    FieldList& texts(const char* key, std::vector<std::string> Spec::*member, Role role, const char* help) {
+        return add(
+                   key, FieldKind::texts, "", anyNumber, help,
+                   [=](Spec& s, const Value& value) { s.*member = std::get<std::vector<std::string>>(value); },
+                   [=](const Spec& s) -> Value { return s.*member; })
+            .role(role);
+    }
+
+    // A table inside, for a member of the struct, or for the struct itself.
+    template <class Part, class Base>
+    FieldList& table(const char* key, Part Base::*member, Section section, const char* help) {
+        return addInside(key, FieldKind::table, std::move(section), help,
+                         [=](Spec& s, const world::Source&) -> void* { return &(s.*member); });
+    }
+    FieldList& tableOfSelf(const char* key, Section section, const char* help) {
+        return addInside(key, FieldKind::table, std::move(section), help,
+                         [](Spec& s, const world::Source&) -> void* { return &s; });
+    }
+    template <class Entry, class Base>
+    FieldList& tables(const char* key, std::vector<Entry> Base::*member, Section section, const char* help) {
+        return addInside(key, FieldKind::tables, std::move(section), help,
+                         [=](Spec& s, const world::Source& source) -> void* {
+                             Entry& entry = (s.*member).emplace_back();
+                             if constexpr (requires { entry.source; }) entry.source = source;
+                             return &entry;
+                         });
+    }
+
+    // These three change the field added last.
+    FieldList& required() {
+        last().required = true;
+        return *this;
+    }
+    FieldList& only(std::vector<std::string> variants) {
+        last().only = std::move(variants);
+        return *this;
+    }
+    FieldList& role(Role role) {
+        last().role = role;
+        return *this;
+    }
+
+    std::vector<Field> take() { return std::move(fields_); }
+
+  private:
+    Field& last() { return fields_.back(); }
+
+    template <class Write, class Read>
+    FieldList& add(const char* key, FieldKind kind, const char* unit, Range range, const char* help, Write write,
+                   Read read) {
+        Field& field = fields_.emplace_back();
+        field.key = key;
+        field.kind = kind;
+        field.unit = unit;
+        field.range = range;
+        field.help = help;
+        field.write = [write](void* spec, const Value& value) { write(*static_cast<Spec*>(spec), value); };
+        field.read = [read](const void* spec) { return read(*static_cast<const Spec*>(spec)); };
+        return *this;
+    }
+    template <class Enter>
+    FieldList& addInside(const char* key, FieldKind kind, Section section, const char* help, Enter enter) {
+        Field& field = fields_.emplace_back();
+        field.key = key;
+        field.kind = kind;
+        field.help = help;
+        field.inside.push_back(std::move(section));
+        field.enter = [enter](void* spec, const world::Source& source) {
+            return enter(*static_cast<Spec*>(spec), source);
+        };
+        return *this;
+    }
+
+    std::vector<Field> fields_;
+};
+
+}  // namespace taut::scene

@@ -1,0 +1,59 @@
+// The rows of the field table, by topic; sceneSections() joins them. Each function is the table of one section.
+#pragma once
+
+#include "scene/field.h"
+
+namespace taut::scene {
+
+// Settings of the whole scene.
+Section fileSection();
+Section needSection();
+Section solverSection();
+Section worldSection();
+Section runSection();
+Section pictureSection();
+Section lightSection();
+Section backgroundSection();
+
+// What moves by its own laws.
+Section materialSection();
+Section clothSection();
+Section ropeSection();
+Section blockSection();
+Section netSection();
+
+// What ties, pushes and shows it.
+Section jointSection();
+Section massSection();
+Section anchorSection();
+Section colliderSection();
+Section windSection();
+Section cameraSection();
+
+// Parts of several sections.
+Section finishSection();
+std::vector<std::string> easeNames();
+std::vector<std::string> lumpingNames();
+
+// Keys must ascend in t. Reports each that does not; `list` is the value of `keys`.
+void checkAscending(const CheckInput& input);
+
+// Enters a new element with a name and a source.
+template <class Spec>
+auto enterNamed(std::vector<Spec> world::SceneSpec::*list) {
+    return [list](world::SceneSpec& scene, const std::string& name, const world::Source& source) -> void* {
+        Spec& spec = (scene.*list).emplace_back();
+        if constexpr (requires { spec.name; }) spec.name = name;
+        spec.source = source;
+        return &spec;
+    };
+}
+
+// Enters a part of the scene that exists once.
+template <class Part>
+auto enterPart(Part world::SceneSpec::*part) {
+    return
+        [part](world::SceneSpec& scene, const std::string&, const world::Source&) -> void* { return &(scene.*part); };
+}
+
+}  // namespace taut::scene

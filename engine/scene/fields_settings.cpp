@@ -1,0 +1,220 @@
+// The field table, part one: settings of the whole scene.
+#include "scene/field_list.h"
+#include "scene/fields_of.h"
+#include "scene/problems.h"
+
+namespace taut::scene {
+
+using namespace world;
+
+namespace {
+
+constexpr Range seconds{1e-3, 1e6};
+constexpr Range fieldOfView{1.0, 170.0};
+
+// Whether one can look from one point to another with y up.
+void checkView(const CheckInput& input, const Node& table, Place place, const dvec3& eye, const dvec3& target) {
+    const Member* member = table.find("eye");
+    const Place where = member != nullptr ? member->value.place : place;
+    if (eye == target) {
+        input.problems.addError(where, "eye and target are the same point");
+    } else if (eye.x == target.x && eye.z == target.z) {
+        input.problems.addError(where, "the camera looks straight up or down", "move eye a little aside");
+    }
+}
+
+void checkCamera(const CheckInput& input, const CameraSpec& camera) {
+    if (camera.orbitPeriod && *camera.orbitPeriod == 0.0) {
+        input.problems.addError(input.at("orbit_period_s"), "orbit_period_s must not be 0");
+    }
+    if (camera.keys.empty()) checkView(input, input.table, input.place, camera.eye, camera.target);
+    for (std::size_t i = 0; i < camera.keys.size(); ++i) {
+        const Node& item = input.table.find("keys")->value.items[i];
+        checkView(input, item, item.place, camera.keys[i].eye, camera.keys[i].target);
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> easeNames() {
+    return {"linear", "smooth", "in", "out", "hold"};
+}
+
+Section fileSection() {
+    Section section;
+    section.help = "At the top of the file, before the first table.";
+    section.enter = [](SceneSpec& scene, const std::string&, const Source&) -> void* { return &scene; };
+    section.fields = FieldList<SceneSpec>()
+                         .text("title", &SceneSpec::title, Role::none, "What the scene shows, in a few words.")
+                         .take();
+    Field schema;
+    schema.key = "schema";
+    schema.kind = FieldKind::whole;
+    schema.range = {1.0, 1.0};
+    schema.required = true;
+    schema.help = "Version of the format.";
+    schema.write = [](void*, const Value&) {};
+    schema.read = [](const void*) -> Value { return {}; };
+    section.fields.insert(section.fields.begin(), schema);
+    return section;
+}
+
+Section needSection() {
+    Section section;
+    section.name = "need";
+    section.help = "What \"accurate enough\" means for this scene.";
+    section.enter = enterPart(&SceneSpec::need);
+    section.fields =
+        FieldList<NeedSpec>()
+            .number("rms_position_m", &NeedSpec::rmsPosition, "m", positive, "Largest error of the points' positions.")
+            .number("rms_percent", &NeedSpec::rmsPercent, "%", Range{1e-9, 100.0},
+                    "The same as a share of the bounding box.")
+            .number("rms_pixels", &NeedSpec::rmsPixels, "px", positive, "The same in pixels of the picture.")
+            .number("horizon_s", &NeedSpec::horizon, "s", seconds, "Until when the error counts.")
+            .number("budget_ms", &NeedSpec::budget, "ms", positive, "Time that a frame may cost.")
+            .take();
+    return section;
+}
+
+Section solverSection() {
+    Section section;
+    section.name = "solver";
+    section.help = "How the motion is computed.";
+    section.enter = enterPart(&SceneSpec::solver);
+    section.fields =
+        FieldList<SolverSpec>()
+            .choice("integrator", &SolverSpec::integrator, methodNames(), "Method of integration.")
+            .stepLength("dt", &SolverSpec::dt, "Largest step; \"auto\" finds it from the stability limit.")
+            .number("safety", &SolverSpec::safety, "", Range{0.01, 1.0},
+                    "Share of the stability limit that \"auto\" uses.")
+            .choice("precision", &SolverSpec::precision, {"single", "double"}, "Precision of the computed numbers.")
+            .take();
+    return section;
+}
+
+Section worldSection() {
+    Section section;
+    section.name = "world";
+    section.help = "The surroundings.";
+    section.enter = enterPart(&SceneSpec::world);
+    section.fields = FieldList<WorldSpec>()
+                         .vector("gravity", &WorldSpec::gravity, "m/s²", Range{-1e6, 1e6}, "Acceleration of gravity.")
+                         .number("air_density_kg_per_m3", &WorldSpec::airDensity, "kg/m³", Range{0.0, 1e6},
+                                 "Density of the air, for wind.")
+                         .take();
+    return section;
+}
+
+Section runSection() {
+    Section section;
+    section.name = "run";
+    section.help = "How long the scene runs.";
+    section.enter = enterPart(&SceneSpec::run);
+    section.fields = FieldList<RunSpec>()
+                         .number("fps", &RunSpec::fps, "1/s", Range{0.1, 1000.0}, "Pictures a second of scene time.")
+                         .number("seconds", &RunSpec::seconds, "s", seconds, "Length of the run.")
+                         .role(Role::time)
+                         .take();
+    return section;
+}
+
+Section pictureSection() {
+    Section section;
+    section.name = "picture";
+    section.help = "The picture.";
+    section.enter = enterPart(&SceneSpec::picture);
+    section.fields =
+        FieldList<PictureSpec>()
+            .vector("size", &PictureSpec::size, "px", Range{16, 16384}, "Width and height.")
+            .text("camera", &PictureSpec::camera, Role::camera, "Name of the camera; the first by name if not given.")
+            .whole("samples", &PictureSpec::samples, "", Range{1, 16}, "Samples a pixel, against jagged edges.")
+            .whole("shadow_size", &PictureSpec::shadowSize, "px", Range{64, 16384}, "Edge of the shadow map.")
+            .take();
+    return section;
+}
+
+Section lightSection() {
+    Section section;
+    section.name = "light";
+    section.help = "The sun and the light of the sky.";
+    section.enter = enterPart(&SceneSpec::light);
+    section.fields =
+        FieldList<LightSpec>()
+            .direction("direction", &LightSpec::direction, "The way the light travels; any length.")
+            .colour("colour", &LightSpec::colour, "Colour of the direct light.")
+            .number("intensity", &LightSpec::intensity, "", Range{0.0, 1000.0}, "Strength of the direct light.")
+            .degrees("softness_deg", &LightSpec::softness, Range{0.0, 45.0},
+                     "Apparent size of the light; wider makes softer shadows.")
+            .colour("sky", &LightSpec::sky, "Ambient light from above.")
+            .colour("ground", &LightSpec::ground, "Ambient light from below.")
+            .number("ambient", &LightSpec::ambient, "", Range{0.0, 1000.0}, "Strength of the ambient light.")
+            .take();
+    return section;
+}
+
+Section backgroundSection() {
+    Section section;
+    section.name = "background";
+    section.help = "What lies behind everything.";
+    section.enter = enterPart(&SceneSpec::background);
+    section.fields =
+        FieldList<BackgroundSpec>()
+            .colour("top", &BackgroundSpec::top, "Colour at the top of the picture.")
+            .colour("horizon", &BackgroundSpec::horizon, "Colour at the horizon.")
+            .number("fade_start", &BackgroundSpec::fadeStart, "m", notNegative,
+                    "Distance from the camera's target where the ground begins to fade.")
+            .number("fade_end", &BackgroundSpec::fadeEnd, "m", positive, "Distance where the ground has gone.")
+            .take();
+    section.check = [](const CheckInput& input, void* target) {
+        const auto& background = *static_cast<const BackgroundSpec*>(target);
+        if (background.fadeEnd > background.fadeStart) return;
+        const bool namesEnd = input.table.find("fade_end") != nullptr;
+        input.problems.addError(input.at(namesEnd ? "fade_end" : "fade_start"), "fade_end must be above fade_start");
+    };
+    return section;
+}
+
+Section cameraSection() {
+    Section key;
+    key.fields = FieldList<CameraKey>()
+                     .number("t", &CameraKey::t, "s", Range{0.0, 1e6}, "Moment.")
+                     .required()
+                     .role(Role::time)
+                     .vector("eye", &CameraKey::eye, "m", Range{-1e6, 1e6}, "Where the camera stands.")
+                     .required()
+                     .vector("target", &CameraKey::target, "m", Range{-1e6, 1e6}, "What it looks at.")
+                     .required()
+                     .degrees("fov_deg", &CameraKey::fieldOfView, fieldOfView,
+                              "Vertical field of view; the camera's own if not given.")
+                     .choice("ease", &CameraKey::ease, easeNames(), "Way from the key before to this one.")
+                     .take();
+    Section section;
+    section.name = "camera";
+    section.layout = Layout::named;
+    section.help = "A place to look from.";
+    section.enter = enterNamed(&SceneSpec::cameras);
+    section.variant = [](const Node& table) -> std::string {
+        return table.find("keys") != nullptr             ? "a camera with keys"
+               : table.find("orbit_period_s") != nullptr ? "an orbiting camera"
+                                                         : "a still camera";
+    };
+    section.fields = FieldList<CameraSpec>()
+                         .vector("eye", &CameraSpec::eye, "m", Range{-1e6, 1e6}, "Where the camera stands.")
+                         .only({"a still camera", "an orbiting camera"})
+                         .vector("target", &CameraSpec::target, "m", Range{-1e6, 1e6}, "What it looks at.")
+                         .only({"a still camera", "an orbiting camera"})
+                         .degrees("fov_deg", &CameraSpec::fieldOfView, fieldOfView, "Vertical field of view.")
+                         .number("orbit_period_s", &CameraSpec::orbitPeriod, "s", Range{-1e6, 1e6},
+                                 "Time of one turn about the vertical through the target.")
+                         .only({"an orbiting camera"})
+                         .tables("keys", &CameraSpec::keys, key, "Keyframes, in the order of time.")
+                         .only({"a camera with keys"})
+                         .take();
+    section.check = [](const CheckInput& input, void* target) {
+        checkAscending(input);
+        if (input.isClean) checkCamera(input, *static_cast<const CameraSpec*>(target));
+    };
+    return section;
+}
+
+}  // namespace taut::scene

@@ -1,0 +1,107 @@
+#include "scene/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "scene/asset_files.h"
+#include "scene/body_size.h"
+#include "scene/document.h"
+#include "scene/overrides.h"
+#include "scene/references.h"
+#include "scene/scene_reader.h"
+#include "scene/suspicions.h"
+#include "scene/text_file.h"
+
+namespace taut::scene {
+
+namespace {
+
+constexpr std::uint64_t maxFileSize = 16U << 20U;  // [bytes]
+
+void throwIfAny(const Problems& problems) {
+    if (problems.errorCount() > 0) throw core::Error(core::ExitCode::badContent, problems.errors());
+}
+
+// Refuses a scene that asks for too much, at the body that asks for most.
+void checkSize(const ReadScene& scene, double limit, Problems& problems) {
+    BodySize total;
+    double bytes = 0, largest = 0;
+    std::string largestTitle;
+    const auto add = [&](const char* kind, const auto& bodies) {
+        for (const auto& body : bodies) {
+            const BodySize size = sizeOf(body);
+            total.points += size.points;
+            total.springs += size.springs;
+            bytes += size.bytes();
+            if (size.bytes() <= largest) continue;
+            largest = size.bytes();
+            largestTitle = fmt::format("{}.{}", kind, body.name);
+        }
+    };
+    add("cloth", scene.spec.cloths);
+    add("rope", scene.spec.ropes);
+    add("block", scene.spec.blocks);
+    add("net", scene.spec.nets);
+    if (bytes <= limit && total.points <= maxPoints) return;
+    constexpr double gigabyte = 1e9;
+    problems.addError(scene.owners.at(largestTitle),
+                      fmt::format("the scene is too large: {:.4g} points and {:.4g} springs need about {:.4g} GB; "
+                                  "the limit is {:.4g} points and {:.4g} GB",
+                                  total.points, total.springs, bytes / gigabyte, maxPoints, limit / gigabyte),
+                      fmt::format("{} is the largest: give it fewer cells, segments or copies", largestTitle));
+}
+
+template <class Element>
+void sortByName(std::vector<Element>& elements) {
+    std::sort(elements.begin(), elements.end(), [](const Element& a, const Element& b) { return a.name < b.name; });
+}
+
+void sortByName(world::SceneSpec& spec) {
+    sortByName(spec.cloths);
+    sortByName(spec.ropes);
+    sortByName(spec.blocks);
+    sortByName(spec.nets);
+    sortByName(spec.anchors);
+    sortByName(spec.colliders);
+    sortByName(spec.winds);
+    sortByName(spec.cameras);
+}
+
+}  // namespace
+
+Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options) {
+    return loadSceneText(textFile(path, maxFileSize), path.string(), options);
+}
+
+Loaded loadSceneText(std::string_view text, const std::string& fileName, const LoadOptions& options) {
+    std::vector<std::string> labels;
+    for (const std::string& override : options.overrides) labels.push_back(overrideLabel(override));
+    Problems problems(text, fileName, labels);
+
+    Node root;
+    try {
+        root = documentTree(text, 0);
+    } catch (const SyntaxError& error) {
+        problems.addError(error.place, error.what());
+        throwIfAny(problems);
+    }
+    const std::vector<Section> sections = sceneSections();
+    for (std::size_t i = 0; i < options.overrides.size(); ++i) {
+        applyOverride(options.overrides[i], static_cast<int>(i) + 1, sections, root, problems);
+    }
+    ReadScene scene = readScene(root, sections, fileName, labels, problems);
+    loadAssets(std::filesystem::path(fileName).parent_path(), options.assetFolders, scene, problems);
+    checkReferences(scene, problems);
+    throwIfAny(problems);
+    checkSize(scene, options.memoryLimit > 0 ? options.memoryLimit : memoryLimit(), problems);
+    throwIfAny(problems);
+
+    reportSuspicions(scene, problems);
+    sortByName(scene.spec);
+    return {std::move(scene.spec), problems.warnings()};
+}
+
+}  // namespace taut::scene

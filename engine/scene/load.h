@@ -1,0 +1,42 @@
+// The door of this folder: a scene file in, a checked world::SceneSpec out. It does not build the world.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "world/spec.h"
+
+namespace taut::scene {
+
+struct LoadOptions {
+    // "cloth.flag.cells=[72,48]", checked like the file itself; later ones win.
+    std::vector<std::string> overrides;
+    // Where models and textures are looked for when they do not lie beside the scene file: in each folder, in its
+    // `models` and in its `textures`.
+    std::vector<std::filesystem::path> assetFolders;
+    // What a scene may take [bytes]; 0: half of the machine's memory.
+    double memoryLimit = 0;
+};
+
+struct Loaded {
+    world::SceneSpec spec;
+    std::vector<std::string> warnings;  // file:line:col: warning: …, with the line and a caret
+};
+
+// Throws core::Error: inputOutput if the file cannot be read; usage for an override without key and value; badContent
+// for everything that is wrong with the content, all of it in the order of the file (of syntax errors the first),
+// each as "file:line:col: error: …" with the line, a caret and a remedy.
+Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options);
+
+// The same for a text. fileName is used in messages, and its folder to look up models and textures.
+Loaded loadSceneText(std::string_view text, const std::string& fileName, const LoadOptions& options);
+
+// The format as a JSON schema (draft 2020-12), for editors.
+std::string jsonSchema();
+
+// The format as a text to read: every section and field with unit, range, default and meaning.
+std::string manual();
+
+}  // namespace taut::scene

@@ -1,0 +1,63 @@
+// The manual of the scene format, made from the field table.
+#include <fmt/format.h>
+
+#include "scene/field.h"
+#include "scene/load.h"
+#include "scene/problems.h"
+
+namespace taut::scene {
+
+namespace {
+
+// "    cells            a list of 2 whole numbers, above 0; default [20, 20]" and its help below.
+void writeFields(const Section& section, void* target, const std::string& indent, std::string& out) {
+    for (const Field& field : section.fields) {
+        std::string facts = description(field);
+        const std::string range = description(field.range, "");
+        const bool hasRange = field.kind == FieldKind::number || field.kind == FieldKind::whole ||
+                              field.kind == FieldKind::vector || field.kind == FieldKind::wholeVector ||
+                              field.kind == FieldKind::stepLength;
+        if (hasRange && !range.empty()) facts += ", " + range;
+        if (field.required) facts += "; required";
+        if (field.inside.empty() && !field.required) {
+            const std::string text = defaultText(field.read(target));
+            if (!text.empty()) facts += "; default " + text;
+        }
+        out += fmt::format("{}{:<{}} {}\n", indent, field.key, 26 - static_cast<int>(indent.size()), facts);
+        std::string help = field.help;
+        if (!field.only.empty()) help += fmt::format(" Only for {}.", joined(field.only));
+        out += fmt::format("{:<27}{}\n", "", help);
+        if (!field.inside.empty()) writeFields(field.inside.front(), field.enter(target, {}), indent + "  ", out);
+    }
+}
+
+}  // namespace
+
+std::string manual() {
+    std::string out =
+        "A scene is a TOML file. Numbers are in SI units unless the key's name or the text below says otherwise;\n"
+        "y points up. What is left out has its default.\n";
+    world::SceneSpec scene;
+    for (const Section& section : sceneSections()) {
+        const std::string title = section.name.empty()              ? "the file"
+                                  : section.layout == Layout::named ? fmt::format("[{}.NAME]", section.name)
+                                  : section.layout == Layout::list  ? fmt::format("[[{}]]", section.name)
+                                                                    : fmt::format("[{}]", section.name);
+        out += fmt::format("\n{}\n  {}\n\n", title, section.help);
+        writeFields(section, section.enter(scene, "name", {}), "  ", out);
+    }
+    out +=
+        "\nTargets\n"
+        "  KIND.NAME@SELECTOR, e.g. cloth.flag@left. NAME may hold *, which stands for any letters. A copy of an\n"
+        "  array is NAME.0, NAME.1, …\n\n"
+        "  every body   all, #0 #1 … (points by number)\n"
+        "  cloth grid   left right top bottom, top-left top-right bottom-left bottom-right, corners, edges,\n"
+        "               (u,v) with u and v from 0 to 1, across and down\n"
+        "  cloth mesh   boundary top bottom left right\n"
+        "  rope         start end ends, 50%\n"
+        "  block        left right bottom top back front corners\n"
+        "  net          the names of its points\n";
+    return out;
+}
+
+}  // namespace taut::scene

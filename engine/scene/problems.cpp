@@ -1,0 +1,148 @@
+#include "scene/problems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <tuple>
+#include <utility>
+
+namespace taut::scene {
+
+namespace {
+
+constexpr std::size_t maxWidth = 120;  // of a printed source line
+constexpr std::size_t maxShown = 200;  // errors printed; more help nobody
+
+std::string_view lineOf(std::string_view text, int line) {
+    for (int i = 1; i < line; ++i) {
+        const std::size_t end = text.find('\n');
+        if (end == std::string_view::npos) return {};
+        text.remove_prefix(end + 1);
+    }
+    return text.substr(0, text.find('\n'));
+}
+
+// The source line fit to print, and the caret's indent in characters.
+std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
+    // Split into characters; a byte that continues one belongs to the character before.
+    std::vector<std::string> characters;
+    for (const char c : line) {
+        const auto byte = static_cast<unsigned char>(c);
+        if ((byte & 0xC0U) == 0x80U && !characters.empty()) {
+            characters.back() += c;
+        } else if (c != '\r') {
+            characters.emplace_back(1, c == '\t' ? ' ' : byte < 0x20 || byte == 0x7F ? '?' : c);
+        }
+    }
+    const std::size_t caret = column > 0 ? static_cast<std::size_t>(column) - 1 : 0;
+    const std::size_t first = caret > maxWidth - 20 ? caret - maxWidth / 2 : 0;
+    std::string shown;
+    for (std::size_t i = first; i < std::min(characters.size(), first + maxWidth); ++i) shown += characters[i];
+    return {shown, caret - first};
+}
+
+// Number of insertions, deletions, replacements and swaps of neighbours from one word to the other.
+int editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = static_cast<int>(i);
+    for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = static_cast<int>(j);
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const int replace = cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, replace});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+            }
+        }
+    }
+    return cost[a.size()][b.size()];
+}
+
+std::string lowerCase(std::string_view word) {
+    std::string lower(word);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
+}
+
+}  // namespace
+
+Problems::Problems(std::string_view text, std::string fileName, std::vector<std::string> labels)
+    : text_(text), fileName_(std::move(fileName)), labels_(std::move(labels)) {}
+
+void Problems::addError(Place place, std::string message, std::string remedy) {
+    errors_.push_back({place, std::move(message), std::move(remedy)});
+}
+
+void Problems::addWarning(Place place, std::string message, std::string remedy) {
+    warnings_.push_back({place, std::move(message), std::move(remedy)});
+}
+
+std::string Problems::errors() const {
+    std::string all;
+    std::size_t shown = 0;
+    for (const Problem& problem : sorted(errors_)) {
+        if (shown++ == maxShown) return all + fmt::format("\n… and {} more errors", errors_.size() - maxShown);
+        all += (all.empty() ? "" : "\n") + print(problem, "error");
+    }
+    return all;
+}
+
+std::vector<std::string> Problems::warnings() const {
+    std::vector<std::string> all;
+    for (const Problem& problem : sorted(warnings_)) {
+        if (all.size() == maxShown) break;
+        all.push_back(print(problem, "warning"));
+    }
+    return all;
+}
+
+std::vector<Problems::Problem> Problems::sorted(std::vector<Problem> problems) {
+    std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+        return std::tie(a.place.origin, a.place.line, a.place.column) <
+               std::tie(b.place.origin, b.place.line, b.place.column);
+    });
+    return problems;
+}
+
+std::string Problems::print(const Problem& problem, std::string_view severity) const {
+    const Place place = problem.place;
+    if (place.origin > 0) {
+        const std::string& label = labels_[static_cast<std::size_t>(place.origin) - 1];
+        const std::string remedy = problem.remedy.empty() ? "" : "; " + problem.remedy;
+        return fmt::format("{}: {}: {}{}", label, severity, problem.message, remedy);
+    }
+    const auto [line, caret] = excerpt(lineOf(text_, place.line), place.column);
+    const std::string remedy = problem.remedy.empty() ? "" : " " + problem.remedy;
+    return fmt::format("{}:{}:{}: {}: {}\n  {}\n  {}^{}", fileName_, place.line, place.column, severity,
+                       problem.message, line, std::string(caret, ' '), remedy);
+}
+
+std::string likelyWord(std::string_view word, const std::vector<std::string>& candidates) {
+    // A short word must match better; very long ones are not worth the time.
+    if (word.empty() || word.size() > 60) return {};
+    const std::string lower = lowerCase(word);
+    std::string best;
+    int bestDistance = 1 + static_cast<int>(word.size() < 3 ? 1 : word.size() < 6 ? 2 : 3);
+    for (const std::string& candidate : candidates) {
+        if (candidate.size() > 60) continue;
+        const bool isStem = word.size() >= 2 && candidate.starts_with(lower + "_");
+        const int distance = isStem ? 1 : editDistance(lower, lowerCase(candidate));
+        if (distance < bestDistance && distance < static_cast<int>(std::max(word.size(), candidate.size()))) {
+            best = candidate;
+            bestDistance = distance;
+        }
+    }
+    return best;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+    const std::string likely = likelyWord(word, candidates);
+    return likely.empty() ? "" : fmt::format("did you mean \"{}\"?", likely);
+}
+
+std::string joined(const std::vector<std::string>& words, std::string_view separator) {
+    return fmt::format("{}", fmt::join(words, separator));
+}
+
+}  // namespace taut::scene

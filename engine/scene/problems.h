@@ -1,0 +1,50 @@
+// Collects what is wrong with a text and prints it in the order of the file, each with its line and a caret.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/document.h"
+
+namespace taut::scene {
+
+class Problems {
+  public:
+    // The text is kept by reference. labels[k - 1] names override k, e.g. "--set cloth.flag.cells".
+    Problems(std::string_view text, std::string fileName, std::vector<std::string> labels);
+
+    // A remedy is a short phrase printed beside the caret: what to write instead.
+    void addError(Place place, std::string message, std::string remedy = {});
+    void addWarning(Place place, std::string message, std::string remedy = {});
+
+    int errorCount() const { return static_cast<int>(errors_.size()); }
+
+    // Sorted: the file from top to bottom, then the overrides in their order. At most 200.
+    std::string errors() const;  // joined by newlines
+    std::vector<std::string> warnings() const;
+
+  private:
+    struct Problem {
+        Place place;
+        std::string message, remedy;
+    };
+    static std::vector<Problem> sorted(std::vector<Problem> problems);
+    std::string print(const Problem& problem, std::string_view severity) const;
+
+    std::string_view text_;
+    std::string fileName_;
+    std::vector<std::string> labels_;
+    std::vector<Problem> errors_, warnings_;
+};
+
+// The candidate that a mistyped word probably means, or an empty text. Also finds "density_kg_per_m2" for "density".
+std::string likelyWord(std::string_view word, const std::vector<std::string>& candidates);
+
+// `did you mean "x"?`, or an empty text.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+
+// "a, b, c"
+std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
+
+}  // namespace taut::scene

@@ -1,0 +1,83 @@
+#include "scene/references.h"
+
+#include <fmt/format.h>
+
+#include "scene/body_index.h"
+
+namespace taut::scene {
+
+namespace {
+
+void report(const Reference& reference, const std::optional<TargetFault>& fault, Problems& problems) {
+    if (fault) problems.addError(reference.place, fault->message, fault->remedy);
+}
+
+void checkName(const Reference& reference, const std::string& kind, const std::vector<std::string>& names,
+               Problems& problems) {
+    for (const std::string& name : names) {
+        if (name == reference.text) return;
+    }
+    std::string remedy = suggestion(reference.text, names);
+    if (remedy.empty()) remedy = fmt::format("add a table [{}.{}]", kind, reference.text);
+    if (reference.text.empty()) remedy = "give a name";
+    problems.addError(reference.place, fmt::format("there is no {} \"{}\"", kind, reference.text), remedy);
+}
+
+// The first thing in which two overrides differ, or nothing.
+const char* difference(const world::SolverOverride& a, const world::SolverOverride& b) {
+    return a.integrator != b.integrator ? "integrator"
+           : a.dt != b.dt               ? "dt"
+           : a.safety != b.safety       ? "safety"
+                                        : nullptr;
+}
+
+// A joint makes one island of its bodies, and an island has one method and one step.
+void checkJoint(const world::JointSpec& joint, Place place, const BodyIndex& bodies, Problems& problems) {
+    std::vector<const BodyEntry*> tied = bodies.matches(joint.a);
+    for (const BodyEntry* body : bodies.matches(joint.b)) tied.push_back(body);
+    for (const BodyEntry* body : tied) {
+        const char* what = difference(tied.front()->solver, body->solver);
+        if (what == nullptr) continue;
+        problems.addError(place,
+                          fmt::format("this joint ties {} and {}, whose solver overrides differ in {}",
+                                      tied.front()->title(), body->title(), what),
+                          "give both the same");
+        return;
+    }
+}
+
+}  // namespace
+
+void checkReferences(const ReadScene& scene, Problems& problems) {
+    const BodyIndex bodies(scene.spec, scene.faulty);
+    std::vector<std::string> materials, cameras;
+    for (const auto& [name, material] : scene.spec.materials) materials.push_back(name);
+    for (const auto& camera : scene.spec.cameras) cameras.push_back(camera.name);
+
+    for (const Reference& reference : scene.references) {
+        switch (reference.role) {
+            case Role::material:
+                checkName(reference, "material", materials, problems);
+                break;
+            case Role::camera:
+                checkName(reference, "camera", cameras, problems);
+                break;
+            case Role::points:
+                report(reference, bodies.pointsFault(reference.text), problems);
+                break;
+            case Role::bodies:
+                report(reference, bodies.surfaceFault(reference.text), problems);
+                break;
+            case Role::selector:
+                report(reference, bodies.selectorFault(reference.owner, reference.text), problems);
+                break;
+            default:
+                break;
+        }
+    }
+    for (std::size_t i = 0; i < scene.spec.joints.size(); ++i) {
+        checkJoint(scene.spec.joints[i], scene.owners.at(fmt::format("joint[{}]", i)), bodies, problems);
+    }
+}
+
+}  // namespace taut::scene

@@ -1,0 +1,238 @@
+#include "scene/scene_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/value_reader.h"
+
+namespace taut::scene {
+
+namespace {
+
+bool isName(const std::string& name) {
+    return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    });
+}
+
+class SceneReader {
+  public:
+    SceneReader(const std::vector<Section>& sections, const std::string& fileName,
+                const std::vector<std::string>& labels, Problems& problems, ReadScene& out)
+        : sections_(sections), fileName_(fileName), labels_(labels), problems_(problems), out_(out) {}
+
+    void read(const Node& root) {
+        const Section& file =
+            *std::find_if(sections_.begin(), sections_.end(), [](const Section& s) { return s.name.empty(); });
+        // The keys before the first table are a table of their own.
+        Node settings;
+        settings.place = {0, 1, 1};
+        for (const Member& member : root.members) {
+            const auto section = std::find_if(sections_.begin(), sections_.end(),
+                                              [&](const Section& s) { return s.name == member.key; });
+            if (section != sections_.end() && !section->name.empty()) {
+                readSection(*section, member);
+            } else if (file.find(member.key) != nullptr) {
+                settings.members.push_back(member);
+            } else {
+                reportUnknownSection(file, member);
+            }
+        }
+        owner_.clear();
+        readTable(file, settings, settings.place, "the scene", file.enter(out_.spec, "", {}));
+    }
+
+  private:
+    world::Source sourceOf(Place place) const {
+        if (place.origin > 0) return {labels_[static_cast<std::size_t>(place.origin) - 1], 0, 0};
+        return {fileName_, place.line, place.column};
+    }
+
+    void reportUnknownSection(const Section& file, const Member& member) {
+        std::vector<std::string> names = file.keys();
+        for (const Section& section : sections_) {
+            if (!section.name.empty()) names.push_back(section.name);
+        }
+        problems_.addError(member.place, fmt::format("a scene has no \"{}\"", member.key),
+                           suggestion(member.key, names));
+    }
+
+    void readSection(const Section& section, const Member& member) {
+        if (section.layout == Layout::list) {
+            readList(section, member);
+        } else if (member.value.kind != NodeKind::table) {
+            const std::string name = section.layout == Layout::named ? ".NAME" : "";
+            problems_.addError(member.place,
+                               fmt::format("{} must be a table, not {}", section.name, nameOf(member.value.kind)),
+                               fmt::format("write [{}{}]", section.name, name));
+        } else if (section.layout == Layout::table) {
+            owner_.clear();
+            readTable(section, member.value, member.place, fmt::format("[{}]", section.name),
+                      section.enter(out_.spec, "", sourceOf(member.place)));
+        } else {
+            for (const Member& element : member.value.members) readNamed(section, element);
+        }
+    }
+
+    void readNamed(const Section& section, const Member& element) {
+        const std::string& name = element.key;
+        if (element.value.kind != NodeKind::table) {
+            problems_.addError(
+                element.place,
+                section.find(name) != nullptr
+                    ? fmt::format("{} belongs to a {} with a name", name, section.name)
+                    : fmt::format("{}.{} must be a table, not {}", section.name, name, nameOf(element.value.kind)),
+                fmt::format("write [{}.NAME]", section.name));
+            return;
+        }
+        if (!isName(name)) {
+            problems_.addError(element.place, fmt::format("\"{}\" cannot be the name of a {}", name, section.name),
+                               "a name has letters, digits, - and _");
+            return;
+        }
+        owner_ = fmt::format("{}.{}", section.name, name);
+        out_.owners.emplace(owner_, element.place);
+        const int before = problems_.errorCount();
+        readTable(section, element.value, element.place, fmt::format("[{}]", owner_),
+                  section.enter(out_.spec, name, sourceOf(element.place)));
+        if (problems_.errorCount() > before) out_.faulty.insert(owner_);
+    }
+
+    void readList(const Section& section, const Member& member) {
+        if (member.value.kind != NodeKind::list) {
+            problems_.addError(
+                member.place,
+                fmt::format("{} must be a list of tables, not {}", section.name, nameOf(member.value.kind)),
+                fmt::format("write [[{}]]", section.name));
+            return;
+        }
+        owner_.clear();
+        for (std::size_t i = 0; i < member.value.items.size(); ++i) {
+            const Node& item = member.value.items[i];
+            const std::string name = fmt::format("{}[{}]", section.name, i);
+            out_.owners.emplace(name, item.place);
+            readItem(section, item, name, fmt::format("[[{}]]", section.name),
+                     section.enter(out_.spec, "", sourceOf(item.place)));
+        }
+    }
+
+    // An element of a list of tables.
+    void readItem(const Section& section, const Node& item, const std::string& name, const std::string& where,
+                  void* target) {
+        if (item.kind == NodeKind::table) {
+            readTable(section, item, item.place, where, target);
+        } else {
+            problems_.addError(item.place, fmt::format("{} must be a table, not {}", name, nameOf(item.kind)));
+        }
+    }
+
+    void readTable(const Section& section, const Node& table, Place place, const std::string& where, void* target) {
+        const int before = problems_.errorCount();
+        const std::string variant = section.variant ? section.variant(table) : "";
+        // A variant that no field knows is a mistake that is reported where it stands.
+        const auto fits = [&](const Field& field) {
+            return field.only.empty() || variant.empty() ||
+                   std::find(field.only.begin(), field.only.end(), variant) != field.only.end();
+        };
+        for (const Member& member : table.members) {
+            const Field* field = section.find(member.key);
+            if (field == nullptr) {
+                reportUnknownKey(section, member, where);
+            } else if (!fits(*field) && isKnownVariant(section, variant)) {
+                problems_.addError(member.place, fmt::format("{} does not go with {}", member.key, variant),
+                                   fmt::format("it belongs to {}", joined(field->only)));
+            } else {
+                readField(*field, member, where, target);
+            }
+        }
+        for (const Field& field : section.fields) {
+            if (!field.required || !fits(field) || table.find(field.key) != nullptr) continue;
+            if (!field.only.empty() && variant.empty()) continue;
+            problems_.addError(place, fmt::format("{} needs {}", where, field.key), remedyFor(field));
+        }
+        if (!section.check) return;
+        section.check({problems_, table, place, where, variant, problems_.errorCount() == before}, target);
+    }
+
+    // Whether a variant is one that the table has, not a slip such as shape = "spere".
+    static bool isKnownVariant(const Section& section, const std::string& variant) {
+        const Field* shape = section.find("shape");
+        return shape == nullptr ||
+               std::find(shape->choices.begin(), shape->choices.end(), variant) != shape->choices.end();
+    }
+
+    static std::string remedyFor(const Field& field) {
+        std::string help = field.help;
+        if (!help.empty() && help.back() == '.') help.pop_back();
+        if (field.range.low == field.range.high) return fmt::format("write {} = {}", field.key, field.range.low);
+        return fmt::format("{} is {}: {}", field.key, description(field), help);
+    }
+
+    void reportUnknownKey(const Section& section, const Member& member, const std::string& where) {
+        const std::vector<std::string> keys = section.keys();
+        std::string remedy = suggestion(member.key, keys);
+        if (remedy.empty() && keys.size() <= 12) remedy = fmt::format("it has {}", joined(keys));
+        problems_.addError(member.place, fmt::format("{} has no key \"{}\"", where, member.key), remedy);
+    }
+
+    void readField(const Field& field, const Member& member, const std::string& where, void* target) {
+        const Node& node = member.value;
+        if (field.kind == FieldKind::table) {
+            if (node.kind != NodeKind::table) {
+                problems_.addError(node.place, fmt::format("{} must be a table, not {}", field.key, nameOf(node.kind)),
+                                   fmt::format("write {} = {{ … }}", field.key));
+                return;
+            }
+            readTable(field.inside.front(), node, member.place, fmt::format("{} of {}", field.key, where),
+                      field.enter(target, sourceOf(node.place)));
+        } else if (field.kind == FieldKind::tables) {
+            if (node.kind != NodeKind::list) {
+                problems_.addError(node.place,
+                                   fmt::format("{} must be a list of tables, not {}", field.key, nameOf(node.kind)),
+                                   fmt::format("write {} = [{{ … }}]", field.key));
+                return;
+            }
+            for (std::size_t i = 0; i < node.items.size(); ++i) {
+                const std::string name = fmt::format("{}[{}]", field.key, i);
+                void* entry = field.enter(target, sourceOf(node.items[i].place));
+                readItem(field.inside.front(), node.items[i], name, fmt::format("{} of {}", name, where), entry);
+            }
+        } else if (const std::optional<Value> value = fieldValue(field, node, problems_)) {
+            field.write(target, *value);
+            addReferences(field, node, *value);
+        }
+    }
+
+    void addReferences(const Field& field, const Node& node, const Value& value) {
+        if (field.role == Role::none) return;
+        if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) {
+            for (std::size_t i = 0; i < texts->size(); ++i) {
+                out_.references.push_back({field.role, node.items[i].place, (*texts)[i], 0.0, owner_});
+            }
+        } else if (const auto* text = std::get_if<std::string>(&value)) {
+            out_.references.push_back({field.role, node.place, *text, 0.0, owner_});
+        } else if (const auto* number = std::get_if<double>(&value)) {
+            out_.references.push_back({field.role, node.place, "", *number, owner_});
+        }
+    }
+
+    const std::vector<Section>& sections_;
+    const std::string& fileName_;
+    const std::vector<std::string>& labels_;
+    Problems& problems_;
+    ReadScene& out_;
+    std::string owner_;
+};
+
+}  // namespace
+
+ReadScene readScene(const Node& root, const std::vector<Section>& sections, const std::string& fileName,
+                    const std::vector<std::string>& labels, Problems& problems) {
+    ReadScene out;
+    out.spec.file = fileName;
+    SceneReader(sections, fileName, labels, problems, out).read(root);
+    return out;
+}
+
+}  // namespace taut::scene

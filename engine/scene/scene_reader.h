@@ -1,0 +1,35 @@
+// From a document to the scene's structs, by the field table. What refers to something else is listed, not resolved.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scene/field.h"
+#include "scene/problems.h"
+#include "world/spec.h"
+
+namespace taut::scene {
+
+// A text that refers to something, or a moment in time, with its place.
+struct Reference {
+    Role role = Role::none;
+    Place place;
+    std::string text;   // of a mesh, a texture: the path as written
+    double time = 0;    // [s]
+    std::string owner;  // "cloth.flag": the section it stands in; empty for a setting
+};
+
+struct ReadScene {
+    world::SceneSpec spec;                // sections in the order of the file
+    std::vector<Reference> references;    // in the order of the table
+    std::set<std::string> faulty;         // owners with an error inside
+    std::map<std::string, Place> owners;  // where "cloth.flag" or "joint[0]" begins
+};
+
+// `labels` are what the overrides are called, also in world::Source.
+ReadScene readScene(const Node& root, const std::vector<Section>& sections, const std::string& fileName,
+                    const std::vector<std::string>& labels, Problems& problems);
+
+}  // namespace taut::scene

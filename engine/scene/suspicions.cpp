@@ -1,0 +1,31 @@
+#include "scene/suspicions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut::scene {
+
+void reportSuspicions(const ReadScene& scene, Problems& problems) {
+    const world::SceneSpec& spec = scene.spec;
+    const double ticks = spec.run.fps * std::ceil(60.0 / spec.run.fps);  // a second
+    for (const Reference& reference : scene.references) {
+        if (reference.role != Role::time) continue;
+        const double nearest = std::round(reference.time * ticks);
+        if (std::abs(reference.time * ticks - nearest) <= 0.01) continue;
+        problems.addWarning(reference.place, fmt::format("{} s is not on a tick of 1/{} s: {:.9g} s is taken",
+                                                         reference.time, ticks, nearest / ticks));
+    }
+    for (const auto& [name, material] : spec.materials) {
+        const bool isUsed = std::any_of(spec.cloths.begin(), spec.cloths.end(),
+                                        [&](const world::ClothSpec& cloth) { return cloth.material == name; });
+        if (isUsed) continue;
+        problems.addWarning(scene.owners.at("material." + name), fmt::format("no cloth is made of {}", name));
+    }
+    if (spec.cloths.empty() && spec.ropes.empty() && spec.blocks.empty() && spec.nets.empty()) {
+        problems.addWarning({0, 1, 1}, "there is nothing to move: the scene has no cloth, rope, block or net");
+    }
+}
+
+}  // namespace taut::scene

@@ -13,21 +13,21 @@ namespace taut::collision {
 enum class ShapeKind { plane, box, sphere, capsule, cylinder, cone, hull, mesh, compound };
 
 struct Pose {
-    glm::dvec3 position{0.0};                      // [m]
-    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};       // unit (w, x, y, z)
+    glm::dvec3 position{0.0};                 // [m]
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // unit (w, x, y, z)
 };
 
 // Lengths in metres, about the shape's own origin; the axis of capsule, cylinder and cone is y.
 struct Shape {
     ShapeKind kind = ShapeKind::sphere;
-    glm::dvec3 normal{0.0, 1.0, 0.0};              // plane: unit, away from the solid; passes through the origin
-    glm::dvec3 halfSize{0.5};                      // box
-    double radius = 0.5;                           // sphere, capsule, cylinder, cone
-    double height = 1.0;                           // cylinder, cone: whole; capsule: between the two centres
-    std::vector<glm::dvec3> vertices;              // hull, mesh
-    std::vector<std::uint32_t> triangles;          // mesh: (3 · triangles) counter-clockwise seen from outside
+    glm::dvec3 normal{0.0, 1.0, 0.0};      // plane: unit, away from the solid; passes through the origin
+    glm::dvec3 halfSize{0.5};              // box
+    double radius = 0.5;                   // sphere, capsule, cylinder, cone
+    double height = 1.0;                   // cylinder, cone: whole; capsule: between the two centres
+    std::vector<glm::dvec3> vertices;      // hull, mesh
+    std::vector<std::uint32_t> triangles;  // mesh: (3 · triangles) counter-clockwise seen from outside
     struct Part;
-    std::vector<Part> parts;                       // compound
+    std::vector<Part> parts;  // compound
 };
 struct Shape::Part {
     Shape shape;
@@ -42,19 +42,19 @@ struct Material {
 // The points of one body during one step, planar: x plane, y plane, z plane, each `stride` long.
 template <class Real>
 struct MovingPoints {
-    int first = 0;                        // the body's points are first … last - 1
+    int first = 0;  // the body's points are first … last - 1
     int last = 0;
     int stride = 0;
-    const Real* xBefore = nullptr;        // (3 · stride) [m] at the start of the step
-    Real* x = nullptr;                    // (3 · stride) [m] at its end: projected out of the shapes
-    Real* v = nullptr;                    // (3 · stride) [m/s] over the step: changed by the contact impulse
-    const Real* inverseMass = nullptr;    // (stride) [1/kg]; 0 is a held point, which is left alone
-    double thickness = 0.0;               // [m] distance that the points keep from a surface
-    double friction = 1.0;                // factor on the collider's friction [-]
+    const Real* xBefore = nullptr;      // (3 · stride) [m] at the start of the step
+    Real* x = nullptr;                  // (3 · stride) [m] at its end: projected out of the shapes
+    Real* v = nullptr;                  // (3 · stride) [m/s] over the step: changed by the contact impulse
+    const Real* inverseMass = nullptr;  // (stride) [1/kg]; 0 is a held point, which is left alone
+    double thickness = 0.0;             // [m] distance that the points keep from a surface
+    double friction = 1.0;              // factor on the collider's friction [-]
 };
 
 struct Contact {
-    int point;            // index into the planes
+    int point;  // index into the planes
     int collider;
     glm::dvec3 position;  // [m] on the surface
     glm::dvec3 normal;    // unit, away from the collider

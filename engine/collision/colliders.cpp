@@ -1,0 +1,62 @@
+#include "collision/colliders.h"
+
+#include <string>
+
+#include "collision/impl.h"
+#include "core/error.h"
+
+namespace taut::collision {
+
+Colliders::Colliders() : impl_(std::make_unique<Impl>()) {}
+Colliders::~Colliders() = default;
+Colliders::Colliders(Colliders&&) noexcept = default;
+Colliders& Colliders::operator=(Colliders&&) noexcept = default;
+
+int Colliders::add(const Shape& shape, const Material& material, const Pose& pose) {
+    const auto fail = [](const std::string& what) {
+        throw core::Error(core::ExitCode::badContent, "collider material: " + what);
+    };
+    if (!(material.friction >= 0.0) || !isFinite(material.friction)) fail("the friction has to be zero or more");
+    if (!(material.restitution >= 0.0 && material.restitution <= 1.0)) fail("the restitution has to be from 0 to 1");
+
+    std::vector<Solid> made;
+    appendSolids(shape, Frame{}, made);
+    for (Solid& solid : made) place(solid, pose, pose);
+    const int number = size();
+    for (Solid& solid : made) {
+        solid.collider = number;
+        solid.material = material;
+        impl_->solids.push_back(std::move(solid));
+    }
+    impl_->firstSolid.push_back(impl_->solids.size());
+    return number;
+}
+
+int Colliders::size() const {
+    return static_cast<int>(impl_->firstSolid.size()) - 1;
+}
+
+void Colliders::move(int collider, const Pose& from, const Pose& to) {
+    TAUT_EXPECTS(collider >= 0 && collider < size());
+    const std::size_t first = impl_->firstSolid[static_cast<std::size_t>(collider)];
+    const std::size_t last = impl_->firstSolid[static_cast<std::size_t>(collider) + 1];
+    double travel = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+        place(impl_->solids[i], from, to);
+        const double way = travelOf(impl_->solids[i]);
+        if (way > travel) travel = way;
+    }
+    for (std::size_t i = first; i < last; ++i) impl_->solids[i].travel = travel;
+}
+
+double Colliders::distance(const glm::dvec3& position) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Solid& solid : impl_->solids) {
+        const dvec3 local = solid.to.toLocal(position);
+        const double d = std::visit([&](const auto& form) { return form.nearest(local).distance; }, solid.form);
+        if (d < least) least = d;
+    }
+    return least;
+}
+
+}  // namespace taut::collision

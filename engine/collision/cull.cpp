@@ -1,0 +1,108 @@
+#include "collision/cull.h"
+
+#include <cstring>
+
+namespace taut::collision {
+
+namespace {
+
+// Sixteen bytes of numbers, which is what every x86-64 processor takes at once; compilers split or emulate it
+// elsewhere.
+template <class Real>
+struct Pack;
+template <>
+struct Pack<float> {
+    using Type = float __attribute__((vector_size(16)));
+};
+template <>
+struct Pack<double> {
+    using Type = double __attribute__((vector_size(16)));
+};
+
+template <class Real>
+void rowBounds(const Real* a, const Real* b, int count, double& low, double& high) {
+    using Vector = typename Pack<Real>::Type;
+    constexpr int width = static_cast<int>(sizeof(Vector) / sizeof(Real));
+    constexpr Real infinite = std::numeric_limits<Real>::infinity();
+    Vector least{};
+    least += infinite;
+    Vector most = -least;
+    int i = 0;
+    for (; i + width <= count; i += width) {
+        Vector va;
+        Vector vb;
+        std::memcpy(&va, a + i, sizeof va);
+        std::memcpy(&vb, b + i, sizeof vb);
+        least = va < least ? va : least;
+        most = va > most ? va : most;
+        least = vb < least ? vb : least;
+        most = vb > most ? vb : most;
+    }
+    Real l = infinite;
+    Real m = -infinite;
+    for (; i < count; ++i) {
+        l = a[i] < l ? a[i] : l;
+        m = a[i] > m ? a[i] : m;
+        l = b[i] < l ? b[i] : l;
+        m = b[i] > m ? b[i] : m;
+    }
+    for (int k = 0; k < width; ++k) {
+        l = least[k] < l ? least[k] : l;
+        m = most[k] > m ? most[k] : m;
+    }
+    low = l;
+    high = m;
+}
+
+}  // namespace
+
+template <class Real>
+Box boundsOf(const BlockRows<Real>& rows) {
+    Box box;
+    for (int k = 0; k < 3; ++k) rowBounds(rows.before[k], rows.after[k], rows.count, box.low[k], box.high[k]);
+    return box;
+}
+
+template <class Real>
+void markNearBox(const BlockRows<Real>& rows, const Box& box, std::uint32_t bit, std::uint32_t* mask) {
+    for (int k = 0; k < 3; ++k) {
+        const Real* const a = rows.before[k];
+        const Real* const b = rows.after[k];
+        const Real low = static_cast<Real>(box.low[k]);
+        const Real high = static_cast<Real>(box.high[k]);
+        // One axis after the other; the bit is set by the first and taken away by the others.
+        if (k == 0) {
+            for (int i = 0; i < rows.count; ++i) {
+                const bool near = ((a[i] <= high) | (b[i] <= high)) & ((a[i] >= low) | (b[i] >= low));
+                mask[i] |= near ? bit : 0U;
+            }
+        } else {
+            for (int i = 0; i < rows.count; ++i) {
+                const bool near = ((a[i] <= high) | (b[i] <= high)) & ((a[i] >= low) | (b[i] >= low));
+                mask[i] &= near ? ~0U : ~bit;
+            }
+        }
+    }
+}
+
+template <class Real>
+void markUnderPlane(const BlockRows<Real>& rows, const dvec3& normal, double offset, double height, std::uint32_t bit,
+                    std::uint32_t* mask) {
+    const Real* const x = rows.after[0];
+    const Real* const y = rows.after[1];
+    const Real* const z = rows.after[2];
+    const Real nx = static_cast<Real>(normal.x);
+    const Real ny = static_cast<Real>(normal.y);
+    const Real nz = static_cast<Real>(normal.z);
+    const Real limit = static_cast<Real>(offset + height);
+    for (int i = 0; i < rows.count; ++i) mask[i] |= nx * x[i] + ny * y[i] + nz * z[i] < limit ? bit : 0U;
+}
+
+template Box boundsOf(const BlockRows<float>&);
+template Box boundsOf(const BlockRows<double>&);
+template void markNearBox(const BlockRows<float>&, const Box&, std::uint32_t, std::uint32_t*);
+template void markNearBox(const BlockRows<double>&, const Box&, std::uint32_t, std::uint32_t*);
+template void markUnderPlane(const BlockRows<float>&, const dvec3&, double, double, std::uint32_t, std::uint32_t*);
+template void markUnderPlane(const BlockRows<double>&, const dvec3&, double, double, std::uint32_t, std::uint32_t*);
+
+}  // namespace taut::collision

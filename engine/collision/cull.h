@@ -1,0 +1,31 @@
+// The loops over whole blocks of points that find out which of them may touch at all. Know boxes and planes only.
+#pragma once
+
+#include <cstdint>
+
+#include "collision/geometry.h"
+
+namespace taut::collision {
+
+// The planes of one block: six rows, x y z of the start and x y z of the end of the step.
+template <class Real>
+struct BlockRows {
+    const Real* before[3];
+    const Real* after[3];
+    int count = 0;
+};
+
+// The box of all paths; a coordinate that is not a number leaves it as it is.
+template <class Real>
+Box boundsOf(const BlockRows<Real>& rows);
+
+// Sets `bit` in the mask of every point whose path's box overlaps the given box.
+template <class Real>
+void markNearBox(const BlockRows<Real>& rows, const Box& box, std::uint32_t bit, std::uint32_t* mask);
+
+// Sets `bit` in the mask of every point whose end is lower than `height` [m] over the plane normal · x = offset.
+template <class Real>
+void markUnderPlane(const BlockRows<Real>& rows, const dvec3& normal, double offset, double height, std::uint32_t bit,
+                    std::uint32_t* mask);
+
+}  // namespace taut::collision

@@ -1,0 +1,71 @@
+// Geometry that the sources of this folder share: frames, boxes, nearest points and swept paths. Knows no Bullet.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+
+#include "collision/colliders.h"
+
+namespace taut::collision {
+
+using glm::dvec3;
+
+// Where a shape stands: local to world by rotation, then shift.
+struct Frame {
+    glm::dmat3 rotation{1.0};
+    dvec3 position{0.0};  // [m]
+
+    dvec3 toLocal(const dvec3& p) const { return (p - position) * rotation; }
+    dvec3 toWorld(const dvec3& p) const { return rotation * p + position; }
+    Frame of(const Frame& child) const { return {rotation * child.rotation, toWorld(child.position)}; }
+};
+
+// Axis-aligned; empty until a point is added.
+struct Box {
+    dvec3 low{std::numeric_limits<double>::infinity()};
+    dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const dvec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    void grow(double by) {
+        low -= by;
+        high += by;
+    }
+    dvec3 centre() const { return 0.5 * (low + high); }
+    dvec3 halfSize() const { return 0.5 * (high - low); }
+    bool contains(const dvec3& p) const {
+        return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
+    }
+};
+
+// Signed distance to a surface [m], negative inside, and its gradient, a unit vector away from the solid.
+struct Nearest {
+    double distance;
+    dvec3 normal;
+};
+
+// The path of a point during a step, seen from the shape; the shape stands still in it.
+struct Path {
+    dvec3 from;        // [m]
+    dvec3 to;          // [m]
+    double thickness;  // [m] distance to keep
+    double skin;       // [m] what rounding makes of a distance: nearer than thickness + skin counts as touching
+};
+
+// The half-space normal · p >= offset in which the path has to end.
+struct Touch {
+    dvec3 normal;
+    double offset;  // [m]
+};
+
+inline bool isFinite(double a) {
+    return a - a == 0.0;
+}
+inline bool isFinite(const dvec3& a) {
+    return isFinite(a.x) && isFinite(a.y) && isFinite(a.z);
+}
+
+}  // namespace taut::collision

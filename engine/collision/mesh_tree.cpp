@@ -1,0 +1,51 @@
+#include "collision/mesh_tree.h"
+
+#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
+#include <BulletCollision/CollisionShapes/btOptimizedBvh.h>
+#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+
+#include <algorithm>
+
+namespace taut::collision {
+
+MeshTree::MeshTree(std::span<const dvec3> vertices, std::span<const std::uint32_t> triangles) {
+    std::vector<double> places;
+    for (const dvec3& v : vertices) places.insert(places.end(), {v.x, v.y, v.z});
+    std::vector<int> corners(triangles.begin(), triangles.end());
+    const int count = static_cast<int>(triangles.size() / 3);
+    btTriangleIndexVertexArray arrays(count, corners.data(), 3 * static_cast<int>(sizeof(int)),
+                                      static_cast<int>(vertices.size()), places.data(),
+                                      3 * static_cast<int>(sizeof(double)));
+    btBvhTriangleMeshShape shape(&arrays, true);
+    const auto& built = shape.getOptimizedBvh()->getQuantizedNodeArray();
+
+    // Bullet's boxes are rounded to a grid; the tree keeps its order and takes exact ones, from the leaves up.
+    const int size = count == 1 ? 1 : 2 * count - 1;
+    nodes_.resize(static_cast<std::size_t>(size));
+    for (int i = size - 1; i >= 0; --i) {
+        Node& node = nodes_[static_cast<std::size_t>(i)];
+        if (built[i].isLeafNode()) {
+            node.triangle = built[i].getTriangleIndex();
+            node.skip = 1;
+            Box box;
+            for (int k = 0; k < 3; ++k) box.add(vertices[triangles[static_cast<std::size_t>(3 * node.triangle + k)]]);
+            const dvec3 largest = glm::max(glm::abs(box.low), glm::abs(box.high));
+            box.grow(1e-6 * (largest.x + largest.y + largest.z) + 1e-30);
+            for (int k = 0; k < 3; ++k) {
+                node.low[k] = static_cast<float>(box.low[k]);
+                node.high[k] = static_cast<float>(box.high[k]);
+            }
+        } else {
+            const Node& left = nodes_[static_cast<std::size_t>(i + 1)];
+            const Node& right = nodes_[static_cast<std::size_t>(i + 1 + left.skip)];
+            node.triangle = -1;
+            node.skip = 1 + left.skip + right.skip;
+            for (int k = 0; k < 3; ++k) {
+                node.low[k] = std::min(left.low[k], right.low[k]);
+                node.high[k] = std::max(left.high[k], right.high[k]);
+            }
+        }
+    }
+}
+
+}  // namespace taut::collision

@@ -1,0 +1,232 @@
+#include <array>
+#include <type_traits>
+
+#include "collision/convex_sweep.h"
+#include "collision/cull.h"
+#include "collision/impl.h"
+#include "collision/response.h"
+
+namespace taut::collision {
+
+namespace {
+
+constexpr int blockSize = 256;
+constexpr int mostAtOnce = 32;  // solids that a block of points is tried against: the bits of a mask
+constexpr int mostPasses = 4;   // over the solids that one point touches
+
+// What free fall adds to a speed in two steps: a resting point arrives with about one step's worth each time, and a
+// bounce from less would end within the step that follows.
+constexpr double restSpeedPerSecond = 2.0 * 9.81;  // [m/s²]
+
+// Rounding of a coordinate of 1 m, some times over: of the state, and of the frames it is taken through.
+template <class Real>
+constexpr double skinPerMetre = std::is_same_v<Real, float> ? 4.8e-7 : 4e-15;
+
+bool sweepForm(const Form& form, const Path& path, Touch& touch, bool& crossed) {
+    switch (form.index()) {
+        case 0:
+            return sweepConvex(*std::get_if<PlaneForm>(&form), path, touch);
+        case 1:
+            return sweepConvex(*std::get_if<BoxForm>(&form), path, touch);
+        case 2:
+            return sweepConvex(*std::get_if<SphereForm>(&form), path, touch);
+        case 3:
+            return sweepConvex(*std::get_if<CapsuleForm>(&form), path, touch);
+        case 4:
+            return sweepConvex(*std::get_if<CylinderForm>(&form), path, touch);
+        case 5:
+            return sweepConvex(*std::get_if<ConeForm>(&form), path, touch);
+        case 6:
+            return sweepHull(*std::get_if<Hull>(&form), path, touch);
+        default:
+            return std::get_if<TriangleMesh>(&form)->sweep(path, touch, crossed);
+    }
+}
+
+template <class Real>
+class Resolver {
+  public:
+    Resolver(const std::vector<Solid>& solids, const MovingPoints<Real>& points, double h,
+             std::vector<Contact>& contacts)
+        : solids_(solids), points_(points), h_(h), contacts_(contacts) {}
+
+    void resolveBlock(int first, int last) {
+        BlockRows<Real> rows;
+        for (int k = 0; k < 3; ++k) {
+            rows.before[k] = points_.xBefore + k * points_.stride + first;
+            rows.after[k] = points_.x + k * points_.stride + first;
+        }
+        rows.count = last - first;
+        Box box = boundsOf(rows);
+        const dvec3 largest = glm::max(glm::abs(box.low), glm::abs(box.high));
+        const double margin = points_.thickness + 20.0 * skinPerMetre<Real> * (largest.x + largest.y + largest.z);
+
+        std::array<const Solid*, mostAtOnce> near;
+        int count = 0;
+        for (const Solid& solid : solids_) {
+            if (!mayTouch(solid, box, margin)) continue;
+            if (count == mostAtOnce) {
+                if (last - first == 1) {  // one point within reach of more than 32 boxes: group after group
+                    resolveAgainst(first, rows, near, count, margin);
+                    count = 0;
+                } else {
+                    const int middle = first + (last - first) / 2;
+                    resolveBlock(first, middle);
+                    resolveBlock(middle, last);
+                    return;
+                }
+            }
+            near[static_cast<std::size_t>(count++)] = &solid;
+        }
+        if (count > 0) resolveAgainst(first, rows, near, count, margin);
+    }
+
+  private:
+    static bool mayTouch(const Solid& solid, const Box& box, double margin) {
+        if (solid.bounded) {
+            const dvec3 low = solid.bounds.low - margin;
+            const dvec3 high = solid.bounds.high + margin;
+            return box.low.x <= high.x && box.high.x >= low.x && box.low.y <= high.y && box.high.y >= low.y &&
+                   box.low.z <= high.z && box.high.z >= low.z;
+        }
+        const dvec3 normal = planeNormal(solid);
+        const double lowest =
+            glm::dot(normal, box.centre() - solid.to.position) - glm::dot(glm::abs(normal), box.halfSize());
+        return lowest < margin;
+    }
+
+    static dvec3 planeNormal(const Solid& solid) {
+        return solid.to.rotation * std::get_if<PlaneForm>(&solid.form)->normal;
+    }
+
+    void resolveAgainst(int first, const BlockRows<Real>& rows, const std::array<const Solid*, mostAtOnce>& near,
+                        int count, double margin) {
+        std::array<std::uint32_t, blockSize> mask{};
+        for (int c = 0; c < count; ++c) {
+            const Solid& solid = *near[static_cast<std::size_t>(c)];
+            if (solid.bounded) {
+                Box box = solid.bounds;
+                box.grow(margin);
+                markNearBox(rows, box, 1U << c, mask.data());
+            } else {
+                const dvec3 normal = planeNormal(solid);
+                markUnderPlane(rows, normal, glm::dot(normal, solid.to.position), margin, 1U << c, mask.data());
+            }
+        }
+        for (int i = 0; i < rows.count; ++i) {
+            const std::uint32_t bits = mask[static_cast<std::size_t>(i)];
+            if (bits != 0 && points_.inverseMass[first + i] != Real(0)) resolvePoint(first + i, bits, near);
+        }
+    }
+
+    void resolvePoint(int i, std::uint32_t bits, const std::array<const Solid*, mostAtOnce>& near) {
+        const int s = points_.stride;
+        const Real* const before = points_.xBefore + i;
+        Real* const x = points_.x + i;
+        Real* const v = points_.v + i;
+        MovingPoint point{{before[0], before[s], before[2 * s]}, {x[0], x[s], x[2 * s]}, {v[0], v[s], v[2 * s]}};
+        if (!isFinite(point.before) || !isFinite(point.x) || !isFinite(point.v)) return;
+        const double skin = skinPerMetre<Real> * (std::abs(point.before.x) + std::abs(point.before.y) +
+                                                  std::abs(point.before.z) + points_.thickness);
+
+        // Pressed out of one solid a point may stand in another: a few passes in the same order, then it is left.
+        const std::size_t firstContact = contacts_.size();
+        bool touches = false;
+        for (int pass = 0; pass < mostPasses; ++pass) {
+            bool again = false;
+            for (std::uint32_t rest = bits; rest != 0; rest &= rest - 1) {
+                const Solid& solid = *near[static_cast<std::size_t>(__builtin_ctz(rest))];
+                const Impact impact = resolveOne(solid, skin, pass == mostPasses - 1, point);
+                if (!impact.touches) continue;
+                touches = true;
+                again |= impact.shifted;
+                report(firstContact, i, solid.collider, impact);
+            }
+            const bool single = (bits & (bits - 1)) == 0 &&
+                                near[static_cast<std::size_t>(__builtin_ctz(bits))]->form.index() != meshIndex;
+            if (!again || single) break;
+        }
+        if (!touches) return;
+        for (int k = 0; k < 3; ++k) {
+            x[k * s] = point.rests ? before[k * s] : static_cast<Real>(point.x[k]);
+            v[k * s] = static_cast<Real>(point.v[k]);
+        }
+    }
+
+    Impact resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point) const {
+        const bool isMesh = solid.form.index() == meshIndex;
+        const bool jumped = solid.travel > fastestSurface * h_;
+        const Frame& from = jumped ? solid.to : solid.from;
+        const double thickness = isMesh && points_.thickness < 8.0 * skin ? 8.0 * skin : points_.thickness;
+        Path path{from.toLocal(point.before), solid.to.toLocal(point.x), thickness, skin};
+        Touch touch{};
+        bool crossed = false;
+        if (jumped || solid.turn.empty()) {
+            if (!sweepForm(solid.form, path, touch, crossed)) return {};
+        } else if (!sweepTurning(solid, point, path, touch, crossed)) {
+            return {};
+        }
+        const Surface surface{from,
+                              solid.to,
+                              jumped || solid.still,
+                              solid.material.friction * points_.friction,
+                              solid.material.restitution,
+                              h_,
+                              restSpeedPerSecond * h_,
+                              fastestSurface};
+        Impact impact = respond(surface, path, touch, point);
+        if (isLast && crossed && impact.touches) {  // wedged in a fold of the mesh: it goes where the mesh goes
+            point.x = solid.to.toWorld(path.from);
+            point.v = surfaceVelocity(surface, path.from);
+            point.rests = surface.still;
+        }
+        return impact;
+    }
+
+    // A solid that turns far is followed frame by frame; the first touch counts.
+    static bool sweepTurning(const Solid& solid, const MovingPoint& point, const Path& whole, Touch& touch,
+                             bool& crossed) {
+        Path piece = whole;
+        const std::size_t pieces = solid.turn.size() + 1;
+        for (std::size_t k = 1; k <= pieces; ++k) {
+            const double t = static_cast<double>(k) / static_cast<double>(pieces);
+            piece.to = k == pieces ? whole.to : solid.turn[k - 1].toLocal(point.before + t * (point.x - point.before));
+            if (sweepForm(solid.form, piece, touch, crossed)) return true;
+            piece.from = piece.to;
+        }
+        return false;
+    }
+
+    // A solid that is touched again in a later pass adds to its contact.
+    void report(std::size_t firstContact, int i, int collider, const Impact& impact) {
+        for (std::size_t c = firstContact; c < contacts_.size(); ++c) {
+            if (contacts_[c].collider != collider) continue;
+            contacts_[c].impulse += impact.impulse;
+            contacts_[c].position = impact.position;
+            contacts_[c].normal = impact.normal;
+            return;
+        }
+        contacts_.push_back({i, collider, impact.position, impact.normal, impact.impulse});
+    }
+
+    static constexpr std::size_t meshIndex = 7;
+
+    const std::vector<Solid>& solids_;
+    const MovingPoints<Real>& points_;
+    const double h_;
+    std::vector<Contact>& contacts_;
+};
+
+}  // namespace
+
+template <class Real>
+void Colliders::resolve(const MovingPoints<Real>& points, double h, std::vector<Contact>& contacts) const {
+    Resolver<Real> resolver(impl_->solids, points, h, contacts);
+    for (int first = points.first; first < points.last; first += blockSize)
+        resolver.resolveBlock(first, first + blockSize < points.last ? first + blockSize : points.last);
+}
+
+template void Colliders::resolve(const MovingPoints<float>&, double, std::vector<Contact>&) const;
+template void Colliders::resolve(const MovingPoints<double>&, double, std::vector<Contact>&) const;
+
+}  // namespace taut::collision

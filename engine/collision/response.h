@@ -1,0 +1,103 @@
+// What a touch does to a point: projection, the normal impulse with restitution, Coulomb's friction. Knows no shapes.
+#pragma once
+
+#include "collision/geometry.h"
+
+namespace taut::collision {
+
+// A point during a step, in the world.
+struct MovingPoint {
+    dvec3 before;        // [m]
+    dvec3 x;             // [m]
+    dvec3 v;             // [m/s]
+    bool rests = false;  // x is `before`, to the bit
+};
+
+// How the touched surface moves and what it is made of.
+struct Surface {
+    const Frame& from;
+    const Frame& to;
+    bool still;          // from and to are the same
+    double friction;     // Coulomb's μ of point and surface [-]
+    double restitution;  // [-]
+    double h;            // [s] length of the step
+    double restSpeed;    // [m/s] slower arrivals do not bounce
+    double fastest;      // [m/s] limit of the surface's speed
+};
+
+struct Impact {
+    bool touches = false;  // a contact worth reporting
+    bool shifted = false;  // x moved by more than rounding
+    double impulse = 0.0;  // normal, per mass [m/s]
+    dvec3 position{0.0};   // on the surface, in the world [m]
+    dvec3 normal{0.0};     // in the world
+};
+
+inline dvec3 surfaceVelocity(const Surface& surface, const dvec3& local) {
+    if (surface.still) return dvec3(0.0);
+    const dvec3 v = (surface.to.toWorld(local) - surface.from.toWorld(local)) / surface.h;
+    const double speed = std::sqrt(glm::dot(v, v));
+    return speed > surface.fastest ? v * (surface.fastest / speed) : v;
+}
+
+//      from o           The path in the frame of the shape. `fall` is how far it goes against the normal, `pressed`
+//            \          the part of that after the touch; friction acts on the way along the surface after the touch
+//   ----------x-------  just as it does on the velocity: so much of it as μ times `pressed` allows is undone. A point
+//              \        that sticks is then where it was, and does not creep down a slope by what gravity adds a step.
+//            to o
+inline Impact respond(const Surface& surface, const Path& path, const Touch& touch, MovingPoint& point) {
+    Impact impact;
+    const dvec3& n = touch.normal;
+    const double depth = touch.offset - glm::dot(n, path.to);
+    if (!(depth > -path.skin)) return impact;
+    const double out = depth > 0.0 ? depth : 0.0;
+    const dvec3 onSurface = path.to + (out - path.thickness) * n;
+
+    // Velocity relative to the surface: the approaching normal part goes, or comes back; the rest is slowed.
+    impact.normal = surface.to.rotation * n;
+    const dvec3 carried = surfaceVelocity(surface, onSurface);
+    const dvec3 u = point.v - carried;
+    const double un = glm::dot(u, impact.normal);
+    if (depth <= 0.0 && !(un < 0.0)) return impact;
+    const double bounce = un < -surface.restSpeed ? surface.restitution : 0.0;
+    impact.impulse = un < 0.0 ? -(1.0 + bounce) * un : 0.0;
+    const dvec3 slide = u - un * impact.normal;
+    const double slideSquare = glm::dot(slide, slide);
+    const double grip = surface.friction * impact.impulse;
+    const bool sticks = slideSquare <= grip * grip;
+    if (sticks && bounce == 0.0 && un < 0.0) {
+        point.v = carried;
+    } else {
+        point.v += impact.impulse * impact.normal;
+        if (sticks)
+            point.v -= slide;
+        else if (grip > 0.0)
+            point.v -= slide * (grip / std::sqrt(slideSquare));
+    }
+
+    // Position, in the frame of the shape.
+    const dvec3 way = path.to - path.from;
+    const double fall = -glm::dot(way, n);
+    double pressed = depth + path.skin < fall ? depth + path.skin : fall;
+    if (!(pressed > 0.0)) pressed = 0.0;
+    dvec3 end = path.to + (out + bounce * pressed) * n;
+    bool holds = false;
+    if (pressed > 0.0 && surface.friction > 0.0) {
+        const dvec3 along = (way + fall * n) * (pressed / fall);
+        const double square = glm::dot(along, along);
+        const double limit = surface.friction * pressed * (1.0 + bounce);
+        holds = square <= limit * limit;
+        end -= holds ? along : along * (limit / std::sqrt(square));
+    }
+    // Held where it stood within rounding of the surface: it stays to the bit, so that rounding cannot add up.
+    const double startHeight = glm::dot(n, path.from) - touch.offset;
+    point.rests = holds && sticks && surface.still && bounce == 0.0 && std::abs(startHeight) <= path.skin;
+    point.x = point.rests ? point.before : surface.to.toWorld(end);
+
+    impact.touches = impact.impulse > 0.0 || depth > path.skin;
+    impact.shifted = depth > path.skin || bounce > 0.0;
+    impact.position = surface.to.toWorld(onSurface);
+    return impact;
+}
+
+}  // namespace taut::collision

@@ -1,0 +1,160 @@
+#include "collision/solid.h"
+
+#include <string>
+
+#include "core/error.h"
+
+namespace taut::collision {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+    throw core::Error(core::ExitCode::badContent, "collider " + what);
+}
+
+void expectSize(double size, const char* what) {
+    if (!(size > 0.0) || !isFinite(size)) fail(std::string(what) + " has to be above zero, is " + std::to_string(size));
+}
+
+// The half size of a solid of revolution about y.
+Box roundBounds(double radius, double halfHeight) {
+    return {dvec3(-radius, -halfHeight, -radius), dvec3(radius, halfHeight, radius)};
+}
+
+Solid solidOf(Form form, const Box& bounds) {
+    Solid solid;
+    solid.form = std::move(form);
+    solid.localBounds = bounds;
+    return solid;
+}
+
+Solid makeSolid(const Shape& shape) {
+    const double radius = shape.radius;
+    const double halfHeight = 0.5 * shape.height;
+    switch (shape.kind) {
+        case ShapeKind::plane: {
+            const double length = std::sqrt(glm::dot(shape.normal, shape.normal));
+            if (!(length > 0.0) || !isFinite(length)) fail("plane: its normal has no direction");
+            Solid solid = solidOf(PlaneForm{shape.normal / length}, Box{});
+            solid.bounded = false;
+            return solid;
+        }
+        case ShapeKind::box:
+            for (int k = 0; k < 3; ++k) expectSize(shape.halfSize[k], "box: a half size");
+            return solidOf(BoxForm{shape.halfSize}, Box{-shape.halfSize, shape.halfSize});
+        case ShapeKind::sphere:
+            expectSize(radius, "sphere: the radius");
+            return solidOf(SphereForm{radius}, roundBounds(radius, radius));
+        case ShapeKind::capsule:
+            expectSize(radius, "capsule: the radius");
+            expectSize(shape.height, "capsule: the height");
+            return solidOf(CapsuleForm{radius, halfHeight}, roundBounds(radius, halfHeight + radius));
+        case ShapeKind::cylinder:
+            expectSize(radius, "cylinder: the radius");
+            expectSize(shape.height, "cylinder: the height");
+            return solidOf(CylinderForm{radius, halfHeight}, roundBounds(radius, halfHeight));
+        case ShapeKind::cone:
+            expectSize(radius, "cone: the radius");
+            expectSize(shape.height, "cone: the height");
+            return solidOf(ConeForm{radius, halfHeight, std::sqrt(radius * radius + shape.height * shape.height)},
+                           roundBounds(radius, halfHeight));
+        case ShapeKind::hull: {
+            Hull hull(shape.vertices);
+            const Box bounds = hull.bounds();
+            return solidOf(std::move(hull), bounds);
+        }
+        case ShapeKind::mesh: {
+            TriangleMesh mesh(shape.vertices, shape.triangles);
+            const Box bounds = mesh.bounds();
+            return solidOf(std::move(mesh), bounds);
+        }
+        case ShapeKind::compound:
+            break;
+    }
+    fail("of unknown shape");
+}
+
+glm::dquat unit(const glm::dquat& q) {
+    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!(length > 0.0) || !isFinite(length)) fail("pose: the rotation is not a quaternion of length above zero");
+    return {q.w / length, q.x / length, q.y / length, q.z / length};
+}
+
+Box worldBox(const Box& local, const Frame& frame) {
+    const glm::dmat3& r = frame.rotation;
+    const glm::dmat3 size(glm::abs(r[0]), glm::abs(r[1]), glm::abs(r[2]));
+    const dvec3 half = size * local.halfSize();
+    const dvec3 centre = frame.toWorld(local.centre());
+    return {centre - half, centre + half};
+}
+
+}  // namespace
+
+Frame frameOf(const Pose& pose) {
+    if (!isFinite(pose.position)) fail("pose: the position is not finite");
+    return {glm::mat3_cast(unit(pose.rotation)), pose.position};
+}
+
+void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid>& solids) {
+    if (shape.kind != ShapeKind::compound) {
+        solids.push_back(makeSolid(shape));
+        solids.back().inCollider = inCollider;
+        return;
+    }
+    if (shape.parts.empty()) fail("compound: has no parts");
+    for (const Shape::Part& part : shape.parts) appendSolids(part.shape, inCollider.of(frameOf(part.pose)), solids);
+}
+
+void place(Solid& solid, const Pose& from, const Pose& to) {
+    solid.from = frameOf(from).of(solid.inCollider);
+    solid.to = frameOf(to).of(solid.inCollider);
+    solid.still = from.position == to.position && from.rotation == to.rotation;
+    if (solid.still) solid.to = solid.from;
+
+    // A quaternion and its opposite are the same rotation: the nearer one turns the short way. What is between is a
+    // normalised mix, in pieces of less than about 25 degrees, in each of which a path is nearly straight.
+    const glm::dquat a = unit(from.rotation);
+    glm::dquat b = unit(to.rotation);
+    double match = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
+    if (match < 0.0) {
+        b = -b;
+        match = -match;
+    }
+    const double halfSine = match < 1.0 ? std::sqrt(1.0 - match * match) : 0.0;  // of half the angle
+    const int pieces = 1 + static_cast<int>(halfSine / 0.2);
+    solid.turn.resize(static_cast<std::size_t>(pieces - 1));
+    for (int i = 1; i < pieces; ++i) {
+        const double t = static_cast<double>(i) / pieces;
+        const glm::dquat mix(a.w + t * (b.w - a.w), a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
+                             a.z + t * (b.z - a.z));
+        const dvec3 position = from.position + t * (to.position - from.position);
+        solid.turn[static_cast<std::size_t>(i - 1)] = frameOf({position, mix}).of(solid.inCollider);
+    }
+
+    if (!solid.bounded) return;
+    solid.bounds = worldBox(solid.localBounds, solid.from);
+    const auto include = [&](const Frame& frame) {
+        const Box box = worldBox(solid.localBounds, frame);
+        solid.bounds.add(box.low);
+        solid.bounds.add(box.high);
+    };
+    for (const Frame& frame : solid.turn) include(frame);
+    include(solid.to);
+    // A corner's arc leaves the boxes at the ends of its chord by chord / 2 · tan(angle / 4), here under a tenth.
+    if (halfSine > 0.0) solid.bounds.grow(0.1 * travelOf(solid));
+}
+
+double travelOf(const Solid& solid) {
+    const Box box = solid.bounded ? solid.localBounds : Box{dvec3(-1.0), dvec3(1.0)};
+    double most = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        const dvec3 corner((i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
+                           (i & 4) != 0 ? box.high.z : box.low.z);
+        const dvec3 way = solid.to.toWorld(corner) - solid.from.toWorld(corner);
+        const double square = glm::dot(way, way);
+        if (square > most) most = square;
+    }
+    return std::sqrt(most);
+}
+
+}  // namespace taut::collision

@@ -1,0 +1,46 @@
+// A single shape in the world with its motion during the step: what a collider, or a part of a compound, is made of.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "collision/closed_forms.h"
+#include "collision/geometry.h"
+#include "collision/hull.h"
+#include "collision/triangle_mesh.h"
+
+namespace taut::collision {
+
+using Form = std::variant<PlaneForm, BoxForm, SphereForm, CapsuleForm, CylinderForm, ConeForm, Hull, TriangleMesh>;
+
+// Above this speed [m/s] of any of its places a collider is taken to have jumped: see Colliders::resolve.
+inline constexpr double fastestSurface = 100.0;
+
+struct Solid {
+    Form form;
+    Frame inCollider;
+    int collider = 0;
+    Material material;
+
+    Frame from, to;           // at the start and the end of the step
+    std::vector<Frame> turn;  // between the two, at equal times; empty unless the solid turns far
+    bool still = true;
+    double travel = 0.0;  // [m] how far the collider's fastest corner goes during the step
+    bool bounded = true;  // false: a plane
+    Box localBounds;      // [m] unless it is a plane
+    Box bounds;           // [m] in the world, of the whole step
+};
+
+// Throws core::Error(badContent) where the shape, or a part of it, cannot be built.
+void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid>& solids);
+
+// The frame of a pose; throws core::Error(badContent) if it is not finite or has no rotation.
+Frame frameOf(const Pose& pose);
+
+// Sets from, to, turn, still and bounds of one solid; travel is the collider's and set by the caller.
+void place(Solid& solid, const Pose& from, const Pose& to);
+
+// How far the farthest corner of the solid goes from `from` to `to` [m]; of a plane, of the metre round its origin.
+double travelOf(const Solid& solid);
+
+}  // namespace taut::collision

@@ -1,0 +1,148 @@
+// What the collision tests share: one point mass flown by leap-frog against colliders, and shapes to throw it at.
+#pragma once
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "collision/colliders.h"
+#include "core/trig.h"
+
+namespace taut::collision {
+
+inline constexpr double gravity = 9.81;  // [m/s²]
+
+// One point with its state in Real; a step is symplectic Euler, which for a constant force is leap-frog.
+template <class Real>
+struct Flyer {
+    Real before[3]{};
+    Real x[3]{};
+    Real v[3]{};
+    Real inverseMass = 1;
+    double thickness = 0.0;
+    double friction = 1.0;
+    std::vector<Contact> contacts;
+
+    explicit Flyer(const glm::dvec3& position, const glm::dvec3& velocity = glm::dvec3(0.0)) {
+        for (int k = 0; k < 3; ++k) {
+            before[k] = x[k] = static_cast<Real>(position[k]);
+            v[k] = static_cast<Real>(velocity[k]);
+        }
+    }
+    void fly(double h, const glm::dvec3& acceleration = glm::dvec3(0.0)) {
+        for (int k = 0; k < 3; ++k) {
+            before[k] = x[k];
+            v[k] += static_cast<Real>(h * acceleration[k]);
+            x[k] += static_cast<Real>(h) * v[k];
+        }
+    }
+    void resolve(const Colliders& colliders, double h) {
+        contacts.clear();
+        MovingPoints<Real> points;
+        points.last = 1;
+        points.stride = 1;
+        points.xBefore = before;
+        points.x = x;
+        points.v = v;
+        points.inverseMass = &inverseMass;
+        points.thickness = thickness;
+        points.friction = friction;
+        colliders.resolve(points, h, contacts);
+    }
+    void step(const Colliders& colliders, double h, const glm::dvec3& acceleration = glm::dvec3(0.0)) {
+        fly(h, acceleration);
+        resolve(colliders, h);
+    }
+    glm::dvec3 position() const { return {x[0], x[1], x[2]}; }
+    glm::dvec3 velocity() const { return {v[0], v[1], v[2]}; }
+};
+
+inline glm::dquat turned(const glm::dvec3& axis, double angle) {
+    return {core::cosine(0.5 * angle), core::sine(0.5 * angle) * glm::normalize(axis)};
+}
+
+inline Shape planeShape(const glm::dvec3& normal = {0.0, 1.0, 0.0}) {
+    Shape shape;
+    shape.kind = ShapeKind::plane;
+    shape.normal = normal;
+    return shape;
+}
+inline Shape boxShape(const glm::dvec3& halfSize) {
+    Shape shape;
+    shape.kind = ShapeKind::box;
+    shape.halfSize = halfSize;
+    return shape;
+}
+inline Shape roundShape(ShapeKind kind, double radius, double height = 1.0) {
+    Shape shape;
+    shape.kind = kind;
+    shape.radius = radius;
+    shape.height = height;
+    return shape;
+}
+// The eight corners of a box, and its twelve triangles, counter-clockwise seen from outside.
+inline Shape boxHull(const glm::dvec3& half) {
+    Shape shape;
+    shape.kind = ShapeKind::hull;
+    for (int i = 0; i < 8; ++i)
+        shape.vertices.emplace_back((i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
+                                    (i & 4) != 0 ? half.z : -half.z);
+    return shape;
+}
+inline Shape boxMesh(const glm::dvec3& half) {
+    Shape shape = boxHull(half);
+    shape.kind = ShapeKind::mesh;
+    shape.triangles = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                       2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    return shape;
+}
+// A square in the plane y = 0, `cells` by `cells`, without thickness.
+inline Shape sheetMesh(double half, std::uint32_t cells) {
+    Shape shape;
+    shape.kind = ShapeKind::mesh;
+    for (std::uint32_t i = 0; i <= cells; ++i)
+        for (std::uint32_t j = 0; j <= cells; ++j)
+            shape.vertices.emplace_back(half * (2.0 * i / cells - 1.0), 0.0, half * (2.0 * j / cells - 1.0));
+    for (std::uint32_t i = 0; i < cells; ++i) {
+        for (std::uint32_t j = 0; j < cells; ++j) {
+            const std::uint32_t a = i * (cells + 1) + j;
+            const std::uint32_t c = a + cells + 1;
+            shape.triangles.insert(shape.triangles.end(), {a, a + 1, c, c, a + 1, c + 1});
+        }
+    }
+    return shape;
+}
+inline Shape compoundOf(const Shape& shape, const Pose& pose = {}) {
+    Shape compound;
+    compound.kind = ShapeKind::compound;
+    compound.parts.push_back({shape, pose});
+    return compound;
+}
+
+// Vertices and triangles (faces as fans) of an OBJ file; empty if there is none.
+inline Shape readObj(const std::string& path, ShapeKind kind) {
+    Shape shape;
+    shape.kind = kind;
+    std::ifstream file(path);
+    std::string line;
+    while (std::getline(file, line)) {
+        std::istringstream words(line);
+        std::string word;
+        words >> word;
+        if (word == "v") {
+            glm::dvec3 v(0.0);
+            words >> v.x >> v.y >> v.z;
+            shape.vertices.push_back(v);
+        } else if (word == "f") {
+            std::vector<std::uint32_t> corners;
+            while (words >> word) corners.push_back(static_cast<std::uint32_t>(std::stoul(word)) - 1);
+            for (std::size_t i = 2; i < corners.size(); ++i)
+                shape.triangles.insert(shape.triangles.end(), {corners[0], corners[i - 1], corners[i]});
+        }
+    }
+    return shape;
+}
+
+}  // namespace taut::collision

@@ -1,1 +1,2 @@
-list(APPEND TAUT_UNIT_TESTS view_primitives_test.cpp view_tube_test.cpp) list(APPEND TAUT_UNIT_LINKS taut::view)
+list(APPEND TAUT_UNIT_TESTS view_primitives_test.cpp view_tube_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::view)

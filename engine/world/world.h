@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "ecs/registry.h"
 #include "view/frame_view.h"
 #include "world/spec.h"
 
@@ -67,6 +68,7 @@ class World {
     explicit World(const SceneSpec& spec, const Options& options = {});
     ~World();
     World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
 
     double tickSeconds() const;
     int ticksPerFrame() const;
@@ -84,6 +86,27 @@ class World {
     Metrics metrics() const;
     std::vector<IslandInfo> islands() const;
     std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, …
+
+    // Entities with their components (components.h), open to new kinds of both: a component added here together with
+    // a system below needs no change in this class.
+    ecs::Registry& registry();
+
+    // Called at the start of every tick with the time at its end and its length [s], after keyframed placements are
+    // set and before forces act; in the order of adding.
+    using System = std::function<void(World& world, double t, double dt)>;
+    void addSystem(System system);
+
+    // In mid-run. A new body is an island of its own, felt by the winds and colliders that are there.
+    ecs::Entity spawn(const ColliderSpec& spec);
+    ecs::Entity spawn(const ClothSpec& spec);
+    ecs::Entity spawn(const RopeSpec& spec);
+    ecs::Entity spawn(const BlockSpec& spec);
+    ecs::Entity spawn(const NetSpec& spec);
+    // Removes the entity and what it stood for. Expects that it is alive, and a body not joined to another.
+    void destroy(ecs::Entity entity);
+
+    // Positions of a body's points in the order of authoring [m]; expects an entity that is one.
+    std::vector<glm::dvec3> positions(ecs::Entity body) const;
 
   private:
     struct Impl;

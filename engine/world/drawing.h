@@ -1,0 +1,45 @@
+// How bodies and colliders become surfaces of a picture.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "collision/colliders.h"
+#include "view/frame_view.h"
+#include "view/primitives.h"
+#include "world/body.h"
+
+namespace taut::world {
+
+glm::vec3 linearColour(const dvec3& srgb);
+std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec);
+
+// Draws one body; what does not change is made once.
+class BodyDrawing {
+  public:
+    virtual ~BodyDrawing() = default;
+    // positions (points of the model) [m], in the order of authoring.
+    virtual void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const = 0;
+};
+std::unique_ptr<BodyDrawing> makeDrawing(const Body& body);
+
+// A collider's shape, for collision and for the eye.
+struct ColliderModel {
+    collision::Shape shape;
+    collision::Material material;
+    bool isGround = false;  // a level plane: drawn as the floor
+    struct Piece {
+        view::Mesh mesh;
+        glm::mat4 transform;  // from the piece to the collider
+        std::shared_ptr<const view::Finish> finish;
+    };
+    std::vector<Piece> pieces;
+};
+// Throws core::Error(badContent) with file, line and column for a shape that cannot be built.
+std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec);
+
+glm::mat4 matrixOf(const collision::Pose& pose);
+
+}  // namespace taut::world

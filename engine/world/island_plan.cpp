@@ -1,0 +1,279 @@
+#include "world/island_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "core/error.h"
+#include "world/targets.h"
+
+namespace taut::world {
+namespace {
+
+using core::Error;
+using core::ExitCode;
+
+// Disjoint sets with path halving; the smallest member stands for its set.
+class Sets {
+  public:
+    explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+    int find(int i) {
+        while (parent_[static_cast<std::size_t>(i)] != i) {
+            int& up = parent_[static_cast<std::size_t>(i)];
+            up = parent_[static_cast<std::size_t>(up)];
+            i = up;
+        }
+        return i;
+    }
+    void unite(int a, int b) {
+        a = find(a);
+        b = find(b);
+        parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+
+  private:
+    std::vector<int> parent_;
+};
+
+struct PointRef {
+    int body;
+    int point;
+};
+
+struct JointSpring {
+    PointRef a, b;
+    const JointSpec* spec;
+    double restLength;
+};
+
+class Planner {
+  public:
+    Planner(std::span<Body* const> bodies, const SceneSpec& spec)
+        : bodies_(bodies), spec_(spec), islands_(bodies.size()), firstGlobal_(firsts(bodies)), welds_(firstGlobalEnd()) {
+        for (const JointSpec& joint : spec.joints) addJoint(joint);
+    }
+
+    std::vector<IslandPlan> plans() {
+        std::vector<IslandPlan> plans;
+        for (int body = 0; body < static_cast<int>(bodies_.size()); ++body)
+            if (islands_.find(body) == body) plans.push_back(plan(body));
+        return plans;
+    }
+
+  private:
+    static std::vector<int> firsts(std::span<Body* const> bodies) {
+        std::vector<int> first;
+        int count = 0;
+        for (const Body* body : bodies) {
+            first.push_back(count);
+            count += body->model.pointCount();
+        }
+        return first;
+    }
+
+    int global(PointRef p) const { return firstGlobal_[static_cast<std::size_t>(p.body)] + p.point; }
+    Body& body(int i) const { return *bodies_[static_cast<std::size_t>(i)]; }
+    dvec3 position(PointRef p) const { return body(p.body).model.positions[static_cast<std::size_t>(p.point)]; }
+
+    std::vector<PointRef> points(const std::string& text, const Source& source) const {
+        std::vector<PointRef> found;
+        for (const Body* match : matchBodies(bodies_, text)) {
+            const auto number = static_cast<int>(std::find(bodies_.begin(), bodies_.end(), match) - bodies_.begin());
+            for (int i : selectPoints(match->model, parseTarget(text).selector)) found.push_back({number, i});
+        }
+        if (found.empty()) throw Error(ExitCode::badContent, at(source) + "\"" + text + "\" names no point");
+        return found;
+    }
+
+    void addJoint(const JointSpec& joint) {
+        const std::vector<PointRef> as = points(joint.a, joint.source);
+        std::vector<PointRef> bs = points(joint.b, joint.source);
+        const bool weld = joint.kind == "weld";
+        int made = 0;
+        double nearest = HUGE_VAL;
+        for (const PointRef& a : as) {
+            std::size_t best = bs.size();
+            double bestDistance = HUGE_VAL;
+            for (std::size_t i = 0; i < bs.size(); ++i) {
+                const dvec3 d = position(bs[i]) - position(a);
+                const double distance = std::sqrt(glm::dot(d, d));
+                if (bs[i].body != a.body && distance < bestDistance) {
+                    best = i;
+                    bestDistance = distance;
+                }
+            }
+            nearest = std::min(nearest, bestDistance);
+            if (best == bs.size() || (weld && bestDistance > joint.reach)) continue;
+            islands_.unite(a.body, bs[best].body);
+            ++made;
+            if (weld) {
+                welds_.unite(global(a), global(bs[best]));
+                bs.erase(bs.begin() + static_cast<std::ptrdiff_t>(best));
+            } else {
+                joints_.push_back({a, bs[best], &joint, bestDistance});
+            }
+        }
+        if (made == 0) {
+            const std::string why = std::isfinite(nearest)
+                                        ? "the nearest two points are " + std::to_string(nearest) + " m apart, more than reach_m = " +
+                                              std::to_string(joint.reach) + "; move the bodies together, or use kind = \"spring\""
+                                        : "both sides are the same body";
+            throw Error(ExitCode::badContent,
+                        at(joint.source) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" joins nothing: " + why);
+        }
+    }
+
+    IslandPlan plan(int root) {
+        IslandPlan plan;
+        std::vector<int> numberOf(firstGlobalEnd(), -1);  // by the global point that stands for a weld
+        for (int i = root; i < static_cast<int>(bodies_.size()); ++i)
+            if (islands_.find(i) == root) addBody(plan, i, numberOf);
+        for (const JointSpring& joint : joints_)
+            if (islands_.find(joint.a.body) == root)
+                plan.springs.push_back({pointOf(joint.a), pointOf(joint.b), joint.spec->stiffness, joint.restLength,
+                                        joint.spec->dampingTime, mechanics::SpringKind::joint});
+        plan.solver = solverOf(plan);
+        return plan;
+    }
+
+    std::size_t firstGlobalEnd() const {
+        return static_cast<std::size_t>(firstGlobal_.back() + bodies_.back()->model.pointCount());
+    }
+    int pointOf(PointRef p) const { return body(p.body).pointOf[static_cast<std::size_t>(p.point)]; }
+
+    void addBody(IslandPlan& plan, int number, std::vector<int>& numberOf) {
+        Body& b = body(number);
+        const mechanics::Model& model = b.model;
+        b.firstPoint = static_cast<int>(plan.points.size());
+        b.pointOf.assign(model.positions.size(), -1);
+        bool whole = true;
+        for (int i : localOrder(model)) {
+            const auto k = static_cast<std::size_t>(i);
+            int& island = numberOf[static_cast<std::size_t>(welds_.find(global({number, i})))];
+            if (island < 0) {
+                island = static_cast<int>(plan.points.size());
+                plan.points.push_back({model.masses[k], model.dragRates[k], model.held[k]});
+                plan.positions.push_back(model.positions[k]);
+                plan.velocities.push_back(model.velocities[k]);
+            } else {
+                weldOnto(plan, island, model, k);
+                whole = false;
+            }
+            b.pointOf[k] = island;
+        }
+        b.lastPoint = static_cast<int>(plan.points.size());
+        const int row = model.grid[0] > 0 ? model.grid[0] + 1 : 0;
+        if (b.lastPoint > b.firstPoint) plan.ranges.push_back({b.firstPoint, whole ? row : 0});
+        for (mechanics::Spring spring : model.springs) {
+            spring.a = b.pointOf[static_cast<std::size_t>(spring.a)];
+            spring.b = b.pointOf[static_cast<std::size_t>(spring.b)];
+            if (spring.a != spring.b) plan.springs.push_back(spring);
+        }
+        plan.bodies.push_back(&b);
+    }
+
+    // Two points become one: masses add, drag by mass, momentum is kept, held if either is.
+    static void weldOnto(IslandPlan& plan, int island, const mechanics::Model& model, std::size_t k) {
+        auto& point = plan.points[static_cast<std::size_t>(island)];
+        dvec3& velocity = plan.velocities[static_cast<std::size_t>(island)];
+        const double mass = point.mass + model.masses[k];
+        velocity = (point.mass * velocity + model.masses[k] * model.velocities[k]) / mass;
+        point.dragRate = (point.mass * point.dragRate + model.masses[k] * model.dragRates[k]) / mass;
+        point.mass = mass;
+        point.held = point.held || model.held[k];
+        if (point.held) velocity = dvec3(0.0);
+    }
+
+    // Grids and ropes are numbered well as they are. The points of a mesh are taken breadth first from one end of its
+    // longest side (Cuthill and McKee 1969), so that neighbours have near numbers.
+    static std::vector<int> localOrder(const mechanics::Model& model) {
+        std::vector<int> order(model.positions.size());
+        std::iota(order.begin(), order.end(), 0);
+        if (model.triangles.empty() || model.grid[0] > 0 || !model.cells.empty()) return order;
+        std::vector<std::vector<int>> neighbours(model.positions.size());
+        for (const mechanics::Spring& s : model.springs) {
+            neighbours[static_cast<std::size_t>(s.a)].push_back(s.b);
+            neighbours[static_cast<std::size_t>(s.b)].push_back(s.a);
+        }
+        dvec3 low = model.positions[0], high = low;
+        for (const dvec3& x : model.positions) {
+            low = glm::min(low, x);
+            high = glm::max(high, x);
+        }
+        const dvec3 size = high - low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+        std::vector<int> starts = order;
+        std::stable_sort(starts.begin(), starts.end(), [&](int a, int b) {
+            return model.positions[static_cast<std::size_t>(a)][axis] < model.positions[static_cast<std::size_t>(b)][axis];
+        });
+        std::vector<bool> seen(order.size(), false);
+        order.clear();
+        for (int start : starts) {
+            if (seen[static_cast<std::size_t>(start)]) continue;
+            seen[static_cast<std::size_t>(start)] = true;
+            order.push_back(start);
+            for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
+                std::vector<int>& around = neighbours[static_cast<std::size_t>(order[next])];
+                std::sort(around.begin(), around.end());
+                for (int i : around)
+                    if (!seen[static_cast<std::size_t>(i)]) {
+                        seen[static_cast<std::size_t>(i)] = true;
+                        order.push_back(i);
+                    }
+            }
+        }
+        return order;
+    }
+
+    SolverSpec solverOf(const IslandPlan& plan) const {
+        SolverSpec solver = spec_.solver;
+        const auto same = [&](const Body& a, const Body& b) {
+            return a.common.solver.integrator == b.common.solver.integrator && a.common.solver.dt == b.common.solver.dt &&
+                   a.common.solver.safety == b.common.solver.safety;
+        };
+        const Body& first = *plan.bodies.front();
+        for (const Body* other : plan.bodies)
+            if (!same(first, *other))
+                throw Error(ExitCode::badContent, at(other->common.source) + other->fullName() + " and " + first.fullName() +
+                                                      " are joined but differ in their solver; give both the same `solver`");
+        solver.integrator = first.common.solver.integrator.value_or(solver.integrator);
+        solver.safety = first.common.solver.safety.value_or(solver.safety);
+        if (first.common.solver.dt) solver.dt = first.common.solver.dt;
+        return solver;
+    }
+
+    std::span<Body* const> bodies_;
+    const SceneSpec& spec_;
+    Sets islands_;                 // (bodies)
+    std::vector<int> firstGlobal_;  // (bodies)
+    Sets welds_;                   // (points of all bodies)
+    std::vector<JointSpring> joints_;
+};
+
+}  // namespace
+
+std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec) {
+    if (bodies.empty()) return {};
+    return Planner(bodies, spec).plans();
+}
+
+std::string describeSpring(const IslandPlan& plan, int spring) {
+    static constexpr const char* kinds[] = {"structural", "shear", "bend", "joint"};
+    const mechanics::Spring& s = plan.springs[static_cast<std::size_t>(spring)];
+    std::string text = std::string(kinds[static_cast<int>(s.kind)]) + " spring ";
+    const auto name = [&](int point) {
+        for (const Body* body : plan.bodies)
+            for (std::size_t i = 0; i < body->pointOf.size(); ++i)
+                if (body->pointOf[i] == point) return std::pair(body, static_cast<int>(i));
+        return std::pair<const Body*, int>(nullptr, point);
+    };
+    const auto [bodyA, a] = name(s.a);
+    const auto [bodyB, b] = name(s.b);
+    text += std::to_string(a) + "–" + std::to_string(b);
+    if (bodyA != nullptr) text += " of " + bodyA->fullName();
+    if (bodyB != bodyA && bodyB != nullptr) text += " and " + bodyB->fullName();
+    return text;
+}
+
+}  // namespace taut::world

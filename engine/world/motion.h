@@ -1,0 +1,20 @@
+// Where keyframed things are at a time: colliders and cameras.
+#pragma once
+
+#include <span>
+
+#include "collision/colliders.h"
+#include "view/frame_view.h"
+#include "world/spec.h"
+
+namespace taut::world {
+
+// Share of the way after share u of the time, both 0 … 1, as animators name it.
+double eased(Ease ease, double u);
+
+// The pose of a collider: its keyframes, else its fixed position and rotation. Same bits on every machine.
+collision::Pose poseAt(const ColliderSpec& spec, double t);
+
+view::Camera cameraAt(const CameraSpec& spec, double t);
+
+}  // namespace taut::world

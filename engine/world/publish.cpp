@@ -1,0 +1,85 @@
+// The one hand-over from simulation to pictures.
+#include <algorithm>
+#include <cmath>
+
+#include "world/impl.h"
+#include "world/motion.h"
+
+namespace taut::world {
+namespace {
+
+constexpr double fullStrain = 0.05;  // strain that the debug view draws in full colour
+
+// Blue when compressed, grey at rest, red when stretched.
+glm::vec3 strainColour(double strain) {
+    const auto share = static_cast<float>(std::clamp(strain / fullStrain, -1.0, 1.0));
+    const glm::vec3 rest(0.55F), stretched(1.0F, 0.12F, 0.05F), compressed(0.05F, 0.25F, 1.0F);
+    return share >= 0 ? glm::mix(rest, stretched, share) : glm::mix(rest, compressed, -share);
+}
+
+void addMarks(const Island& island, view::Marks& marks) {
+    const IslandPlan& plan = island.plan();
+    for (const mechanics::Spring& s : plan.springs) {
+        if (s.kind == mechanics::SpringKind::bend) continue;  // they lie on top of the structural ones
+        const dvec3 a = island.position(s.a), b = island.position(s.b);
+        const double l = std::sqrt(glm::dot(b - a, b - a));
+        marks.lines.push_back({glm::vec3(a), glm::vec3(b), strainColour(s.restLength > 0 ? l / s.restLength - 1.0 : 0.0)});
+    }
+    for (std::size_t i = 0; i < plan.points.size(); ++i)
+        marks.dots.push_back({glm::vec3(island.position(static_cast<int>(i))),
+                              plan.points[i].held ? glm::vec3(0.95F, 0.75F, 0.05F) : glm::vec3(0.02F), 2.0F});
+    for (const collision::Contact& contact : island.contacts())
+        marks.dots.push_back({glm::vec3(contact.position), glm::vec3(0.1F, 0.85F, 0.2F), 4.0F});
+}
+
+view::Light lightOf(const LightSpec& spec) {
+    view::Light light;
+    light.direction = glm::normalize(glm::vec3(spec.direction));
+    light.colour = static_cast<float>(spec.intensity) * linearColour(spec.colour);
+    light.sky = static_cast<float>(spec.ambient) * linearColour(spec.sky);
+    light.ground = static_cast<float>(spec.ambient) * linearColour(spec.ground);
+    light.softness = static_cast<float>(spec.softness);
+    return light;
+}
+
+}  // namespace
+
+view::FrameView World::view(bool debug) const {
+    const Impl& w = *impl_;
+    view::FrameView view;
+    view.frame = w.tick / w.ticksPerFrame;
+    view.time = time();
+    view.light = lightOf(w.spec.light);
+    view.background = {linearColour(w.spec.background.top), linearColour(w.spec.background.horizon),
+                       static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd)};
+    bool chosen = false;
+    w.registry.each<CameraPart>([&](ecs::Entity, const CameraPart& part) {
+        if (chosen || (!w.spec.picture.camera.empty() && part.spec.name != w.spec.picture.camera)) return;
+        view.camera = cameraAt(part.spec, time());
+        chosen = true;
+    });
+    w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        if (part.spec.visible && part.model->isGround && !view.ground) {
+            view.ground = view::Ground{};
+            view.ground->height = static_cast<float>(part.spec.position.y);
+            view.ground->colour = linearColour(part.spec.finish.colour);
+        }
+        for (const ColliderModel::Piece& piece : part.model->pieces)
+            view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
+                                     matrixOf(placement.to) * piece.transform, part.spec.shape == "plane"});
+    });
+    for (ecs::Entity entity : w.bodies) {
+        const BodyPart& part = *w.registry.find<BodyPart>(entity);
+        const Island& island = w.islandOf(*part.body);
+        std::vector<glm::vec3> positions;
+        positions.reserve(part.body->pointOf.size());
+        for (int i : part.body->pointOf) positions.emplace_back(island.position(i));
+        part.drawing->addSurfaces(positions, view.surfaces);
+    }
+    view.showMarks = debug;
+    if (debug)
+        for (const auto& island : w.islands) addMarks(*island, view.marks);
+    return view;
+}
+
+}  // namespace taut::world

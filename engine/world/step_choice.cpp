@@ -1,0 +1,92 @@
+#include "world/step_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.h"
+#include "ode/method_table.h"
+
+namespace taut::world {
+namespace {
+
+using core::Error;
+using core::ExitCode;
+
+constexpr double mostSubsteps = 1e6;
+
+ode::FastestMode fastestMode(const IslandPlan& plan, const mechanics::StabilityShare& share, double omega) {
+    ode::FastestMode mode;
+    mode.omega = omega;
+    for (const mechanics::Spring& spring : plan.springs) mode.tau = std::max(mode.tau, spring.dampingTime);
+    for (double rate : share.dampingRate) mode.rate = std::max(mode.rate, rate);
+    bool first = true;
+    for (const auto& point : plan.points) {
+        if (point.held) continue;
+        mode.drag = first ? point.dragRate : std::min(mode.drag, point.dragRate);
+        first = false;
+    }
+    return mode;
+}
+
+void warnOverLimit(const IslandPlan& plan, const ode::MethodInfo& method, StepChoice& choice, double limitHere) {
+    const std::string name = plan.bodies.front()->fullName();
+    const std::string by = choice.limitingSpring.empty() ? "" : "; set by the " + choice.limitingSpring;
+    if (choice.limit == 0) {
+        choice.warnings.push_back(name + ": " + std::string(method.title) +
+                                  " is unstable for every step here: nothing damps its fastest motion" + by);
+    } else if (choice.step > limitHere * (1 + 1e-9)) {
+        choice.warnings.push_back(name + ": the step of " + inSeconds(choice.step) + " is over the stability limit of " +
+                                  std::string(method.title) + ", " + inSeconds(limitHere) +
+                                  " as the scene starts: it will diverge" + by);
+    } else if (choice.step > choice.limit * (1 + 1e-9)) {
+        choice.warnings.push_back(name + ": the step of " + inSeconds(choice.step) +
+                                  " is within the stability limit as the scene starts, " + inSeconds(limitHere) +
+                                  ", but over the one that holds in any shape, " + inSeconds(choice.limit) + by);
+    }
+}
+
+}  // namespace
+
+std::string inSeconds(double t) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g s", t);
+    return text;
+}
+
+StepChoice chooseStep(const IslandPlan& plan, const mechanics::StabilityShare& share, double tickSeconds) {
+    std::vector<double> inverseMasses;
+    for (const auto& point : plan.points) inverseMasses.push_back(point.held ? 0.0 : 1.0 / point.mass);
+    const mechanics::NetworkView network{plan.springs, inverseMasses};
+    const ode::MethodInfo* method = ode::findMethod(plan.solver.integrator);
+    const Body& body = *plan.bodies.front();
+    if (method == nullptr)
+        throw Error(ExitCode::badContent, at(body.common.source) + "no method \"" + plan.solver.integrator + "\"");
+
+    StepChoice choice;
+    choice.anywhere = mechanics::boundAnywhere(network, share.stiffness);
+    choice.here = mechanics::boundHere(network, share.stiffness, plan.positions);
+    if (choice.anywhere.spring >= 0) choice.limitingSpring = describeSpring(plan, choice.anywhere.spring);
+    choice.mode = fastestMode(plan, share, choice.anywhere.omega);
+    choice.limit = method->largestStep(choice.mode);
+    const double limitHere = method->largestStep(fastestMode(plan, share, choice.here.omega));
+
+    const double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
+    if (!(wanted > 0))
+        throw Error(ExitCode::badContent, at(body.common.source) + body.fullName() + ": dt = \"auto\" finds no step: " +
+                                              std::string(method->title) +
+                                              " is unstable for every step without damping; give dt in seconds, add "
+                                              "damping, or choose another integrator");
+    // A hair less, so that a dt of exactly a tick's part is not cut once more.
+    const double substeps = std::ceil(tickSeconds / wanted * (1 - 1e-12));
+    if (substeps > mostSubsteps)
+        throw Error(ExitCode::badContent, at(body.common.source) + body.fullName() + ": a step of " + inSeconds(wanted) +
+                                              " would need more than a million steps a tick; set by the " +
+                                              choice.limitingSpring + "; soften it, give its points more mass, or use fewer cells");
+    choice.substeps = std::max(1, static_cast<int>(substeps));
+    choice.step = tickSeconds / choice.substeps;
+    warnOverLimit(plan, *method, choice, limitHere);
+    return choice;
+}
+
+}  // namespace taut::world

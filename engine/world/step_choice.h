@@ -1,0 +1,30 @@
+// The step of an island: found from the stability bound or checked against it, fixed before tick 0.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanics/stability.h"
+#include "ode/method.h"
+#include "world/island_plan.h"
+
+namespace taut::world {
+
+struct StepChoice {
+    int substeps = 1;
+    double step = 0;             // h = tick / substeps [s]
+    double limit = 0;            // largest stable step [s], by the bound that holds in any configuration
+    ode::FastestMode mode;       // what the limit is computed from
+    mechanics::FrequencyBound anywhere, here;
+    std::string limitingSpring;  // in words; empty when no spring sets it
+    std::vector<std::string> warnings;
+};
+
+// share: what generators other than the springs add. Throws core::Error(badContent) when "auto" has no answer or
+// would need more than a million steps a tick.
+StepChoice chooseStep(const IslandPlan& plan, const mechanics::StabilityShare& share, double tickSeconds);
+
+// "3.2e-04 s"
+std::string inSeconds(double t);
+
+}  // namespace taut::world

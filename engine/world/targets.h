@@ -1,0 +1,29 @@
+// What "cloth.flag@top-left" means: which bodies, and which of their points.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mechanics/model.h"
+
+namespace taut::world {
+
+struct Target {
+    std::string kind;      // "cloth"
+    std::string name;      // "flag", may hold the wildcard *
+    std::string selector;  // "top-left"; empty: all points
+};
+
+// Splits KIND.NAME@SELECTOR; the parts may be empty when the text is malformed (the loader has checked it).
+Target parseTarget(std::string_view text);
+
+// Whether the pattern, in which * stands for any characters, fits the name.
+bool matches(std::string_view pattern, std::string_view name);
+
+// The points that a selector names, ascending: a group of the model ("left", "corners", "all" …), "#12" (by index),
+// "(u,v)" (the grid point nearest to that fraction of width and height, from the top left), "50%" (along a rope).
+// Empty when it names none.
+std::vector<int> selectPoints(const mechanics::Model& model, std::string_view selector);
+
+}  // namespace taut::world

@@ -7,26 +7,9 @@
 #include "core/error.h"
 #include "game/folders.h"
 #include "game/suggestion.h"
-#include "pipeline/machine.h"
 #include "scene/load.h"
-#include "world/world.h"
 
 namespace taut::game {
-namespace {
-
-constexpr double gigabyte = 1e9;  // [bytes]
-
-void refuseTooLarge(const world::SceneSpec& spec) {
-    const world::Estimate need = world::estimate(spec);
-    const double available = pipeline::machine().memory;
-    if (need.bytes <= available) return;
-    throw core::Error(core::ExitCode::badContent,
-                      fmt::format("{}: the scene is too large: {:.3g} points and {:.3g} springs need about {:.3g} GB, "
-                                  "and this machine has {:.3g} GB",
-                                  spec.file, need.points, need.springs, need.bytes / gigabyte, available / gigabyte));
-}
-
-}  // namespace
 
 std::filesystem::path sceneFile(const std::string& argument) {
     const std::filesystem::path given(argument);
@@ -54,12 +37,13 @@ world::SceneSpec readScene(const std::string& argument, const std::vector<std::s
     if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
     scene::Loaded loaded = scene::loadScene(sceneFile(argument), options);
     printWarnings(loaded.warnings);
-    refuseTooLarge(loaded.spec);
     return std::move(loaded.spec);
 }
 
 void printWarnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) fmt::print(stderr, "taut: warning: {}\n", warning);
+    // Those about a place in a file name it first and say themselves what they are.
+    for (const std::string& warning : warnings)
+        fmt::print(stderr, "{}{}\n", warning.find("warning: ") == std::string::npos ? "taut: warning: " : "", warning);
 }
 
 }  // namespace taut::game

@@ -13,8 +13,8 @@ namespace taut::game {
 // nearest shipped scene when it was a bare name.
 std::filesystem::path sceneFile(const std::string& argument);
 
-// Reads the scene with overrides ("key=value"), prints its warnings to standard error, and refuses one that needs more
-// memory than the machine has. Throws core::Error.
+// Reads the scene with overrides ("key=value") and prints its warnings to standard error. Throws core::Error, also for
+// a scene that needs more memory than the machine can give.
 world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides);
 
 void printWarnings(const std::vector<std::string>& warnings);

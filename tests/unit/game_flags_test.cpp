@@ -1,0 +1,72 @@
+#include "game/flags.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "game/progress.h"
+#include "game/suggestion.h"
+
+namespace taut::game {
+namespace {
+
+TEST(Flags, FrameRangesHaveThreeForms) {
+    EXPECT_EQ(frameRange("0-119").first, 0);
+    EXPECT_EQ(frameRange("0-119").last, 119);
+    EXPECT_EQ(frameRange("60").first, 60);
+    EXPECT_EQ(frameRange("60").last, 60);
+    EXPECT_EQ(frameRange("60-").first, 60);
+    EXPECT_FALSE(frameRange("60-").last.has_value());
+}
+
+TEST(Flags, BadFrameRangesAreUsageErrors) {
+    for (const char* text : {"", "-", "-5", "a-b", "5-3", "1-2-3", "1.5", "0x10", " 1", "99999999999999999999"}) {
+        try {
+            frameRange(text);
+            ADD_FAILURE() << "'" << text << "'";
+        } catch (const core::Error& error) {
+            EXPECT_EQ(error.code(), core::ExitCode::usage);
+        }
+    }
+}
+
+TEST(Flags, SizeIsWidthAndHeight) {
+    EXPECT_EQ(pictureSize("1280x720").width, 1280);
+    EXPECT_EQ(pictureSize("1280x720").height, 720);
+    for (const char* text : {"", "x", "1280", "1280x", "x720", "0x720", "-1x5", "16385x1", "1280 x 720", "1e3x5"})
+        EXPECT_THROW(pictureSize(text), core::Error) << text;
+}
+
+TEST(Suggestion, DistanceCountsInsertionsRemovalsReplacementsAndSwaps) {
+    EXPECT_EQ(editDistance("flag", "flag"), 0);
+    EXPECT_EQ(editDistance("flag", "flags"), 1);
+    EXPECT_EQ(editDistance("flag", "fag"), 1);
+    EXPECT_EQ(editDistance("flag", "flog"), 1);
+    EXPECT_EQ(editDistance("flag", "falg"), 1);
+    EXPECT_EQ(editDistance("", "abc"), 3);
+}
+
+TEST(Suggestion, NearestIsOfferedAndFarOnesAreNot) {
+    EXPECT_EQ(didYouMean("rendr", {"check", "render", "info"}), "; did you mean render?");
+    EXPECT_EQ(didYouMean("xyzzy", {"check", "render", "info"}), "");
+    EXPECT_EQ(didYouMean("x", {}), "");
+}
+
+TEST(Progress, ClockIsWrittenForPeople) {
+    EXPECT_EQ(clockText(7.4), "0:07");
+    EXPECT_EQ(clockText(725.0), "12:05");
+    EXPECT_EQ(clockText(3725.0), "1:02:05");
+}
+
+// 30 of 120 frames in 2 s: a second of scene time at 30 frames a second took two, and three times that is left.
+TEST(Progress, LineTellsShareSpeedAndTimeLeft) {
+    const Progress progress(120, 30.0, 0.0005, true);
+    const pipeline::FrameRecord record{
+        .frame = 29, .pictured = true, .simulating = 0.004, .drawing = 0.08, .encoding = 0.011};
+    const std::string line = progress.line(record, 2.0);
+    for (const char* part : {"frame 30/120", "25 %", "simulation 4.0 ms", "picture 80 ms", "file 11 ms",
+                             "0.50 x real time", "0:06 left", "h 0.5 ms"})
+        EXPECT_NE(line.find(part), std::string::npos) << part << " is missing in: " << line;
+}
+
+}  // namespace
+}  // namespace taut::game

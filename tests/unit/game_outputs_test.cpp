@@ -1,0 +1,62 @@
+#include "game/outputs.h"
+
+#include <gtest/gtest.h>
+
+#include "image/frame_sequence.h"
+#include "image/video_writer.h"
+#include "image_support.h"
+
+namespace taut::game {
+namespace {
+
+using core::ExitCode;
+using test::messageOf;
+using test::TemporaryFolder;
+
+// The tests have no terminal to ask on, or must not ask: standard input is replaced by an empty file.
+class WithoutTerminal {
+  public:
+    WithoutTerminal() : kept_(::dup(STDIN_FILENO)) {
+        if (std::freopen("/dev/null", "r", stdin) == nullptr) throw std::runtime_error("no /dev/null");
+    }
+    ~WithoutTerminal() {
+        ::dup2(kept_, STDIN_FILENO);
+        ::close(kept_);
+    }
+
+  private:
+    int kept_;
+};
+
+TEST(Outputs, ExistingFrameInTheRangeIsNotOverwrittenUnasked) {
+    const WithoutTerminal noTerminal;
+    const TemporaryFolder folder;
+    const auto pattern = folder / "f_##.png";
+    test::writeText(folder / "f_05.png", "old");
+    const std::string message =
+        messageOf(ExitCode::inputOutput, [&] { permitOverwriting(pattern, 0, 9, Overwrite::ask); });
+    EXPECT_NE(message.find("f_05.png exists already; -y overwrites it"), std::string::npos) << message;
+    messageOf(ExitCode::inputOutput, [&] { permitOverwriting(pattern, 5, 5, Overwrite::no); });
+    EXPECT_NO_THROW(permitOverwriting(pattern, 0, 9, Overwrite::yes));
+    EXPECT_NO_THROW(permitOverwriting(pattern, 6, 9, Overwrite::no));
+    EXPECT_NO_THROW(permitOverwriting(folder / "new", 0, 9, Overwrite::no));
+}
+
+TEST(Outputs, ExistingVideoIsNotOverwrittenUnasked) {
+    const WithoutTerminal noTerminal;
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.mp4", "old");
+    messageOf(ExitCode::inputOutput, [&] { permitOverwriting(folder / "a.mp4", 0, 9, Overwrite::ask); });
+    EXPECT_NO_THROW(permitOverwriting(folder / "b.mp4", 0, 9, Overwrite::ask));
+}
+
+TEST(Outputs, NameDecidesBetweenVideoAndFrames) {
+    const TemporaryFolder folder;
+    EXPECT_NE(dynamic_cast<image::VideoWriter*>(makeSink(folder / "a.mp4", 60.0).get()), nullptr);
+    EXPECT_NE(dynamic_cast<image::FrameSequence*>(makeSink(folder / "a_#.png", 60.0).get()), nullptr);
+    messageOf(ExitCode::usage, [&] { checkOutputName(folder / "a.png"); });
+    EXPECT_NO_THROW(checkOutputName(folder / "a.mkv"));
+}
+
+}  // namespace
+}  // namespace taut::game

@@ -1,0 +1,177 @@
+#include "game/program.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "image_support.h"
+
+namespace taut::game {
+namespace {
+
+using test::TemporaryFolder;
+
+struct Outcome {
+    int code = 0;
+    std::string out, err;
+};
+
+Outcome run(const std::vector<std::string>& arguments) {
+    std::vector<const char*> argv = {"taut"};
+    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    Outcome outcome;
+    outcome.code = runProgram(static_cast<int>(argv.size()), argv.data());
+    outcome.out = testing::internal::GetCapturedStdout();
+    outcome.err = testing::internal::GetCapturedStderr();
+    return outcome;
+}
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+// A mass on a spring, half a second at 20 pictures a second.
+std::filesystem::path springScene(const TemporaryFolder& folder) {
+    const auto path = folder / "spring.toml";
+    test::writeText(path, R"(schema = 1
+[run]
+fps = 20
+seconds = 0.5
+[picture]
+size = [64, 48]
+[net.spring]
+points = [ { name = "nail", position = [0, 2, 0], hold = true }, { name = "bob", position = [0, 1, 0] } ]
+springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]
+)");
+    return path;
+}
+
+TEST(Program, AloneItShowsHowToBegin) {
+    const Outcome outcome = run({});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_TRUE(has(outcome.out, "taut render flag -o flag.mp4")) << outcome.out;
+}
+
+TEST(Program, HelpAndVersionAreResults) {
+    EXPECT_EQ(run({"--help"}).code, 0);
+    EXPECT_TRUE(has(run({"--help"}).out, "doctor"));
+    EXPECT_TRUE(has(run({"render", "--help"}).out, "--frames"));
+    EXPECT_TRUE(has(run({"--version"}).out, "taut "));
+}
+
+TEST(Program, UnknownWordsAreUsageErrorsWithASuggestion) {
+    const Outcome command = run({"rendr", "flag"});
+    EXPECT_EQ(command.code, 2);
+    EXPECT_TRUE(has(command.err, "unknown command 'rendr'; did you mean render?")) << command.err;
+    const Outcome flag = run({"render", "flag", "--sise", "64x48", "-o", "x.mp4"});
+    EXPECT_EQ(flag.code, 2);
+    EXPECT_TRUE(has(flag.err, "unknown flag --sise; did you mean --size?")) << flag.err;
+    EXPECT_EQ(run({"--nonsense"}).code, 2);
+    EXPECT_EQ(run({"render"}).code, 2);
+    EXPECT_EQ(run({"render", "flag", "-y", "-n", "-o", "x.mp4"}).code, 2);
+    EXPECT_EQ(run({"render", "flag", "--threads", "0", "-o", "x.mp4"}).code, 2);
+    EXPECT_TRUE(has(run({"render", "flag"}).err, "-o out/frame_######.png"));
+    EXPECT_TRUE(has(run({"render", "flag", "-o", "a.png"}).err, "a_######.png"));
+}
+
+TEST(Program, MissingSceneIsExitCodeSix) {
+    const Outcome outcome = run({"check", "no/such.toml"});
+    EXPECT_EQ(outcome.code, 6);
+    EXPECT_TRUE(has(outcome.err, "there is no such scene file")) << outcome.err;
+    EXPECT_EQ(run({"info", "no-such-scene-at-all"}).code, 6);
+}
+
+TEST(Program, CheckReportsEveryFaultAndTheRightFilesToo) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "bad.toml", "schema = 1\n[run]\nfps = -3\nsecond = 4\n");
+    const Outcome outcome = run({"check", (folder / "bad.toml").string(), springScene(folder).string()});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_TRUE(has(outcome.err, "bad.toml:3:")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "bad.toml:4:")) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "spring.toml: ok")) << outcome.out;
+}
+
+TEST(Program, InfoTellsWhatTheSceneBuilds) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    EXPECT_TRUE(has(run({"info", scene}).out, "net.spring"));
+    const auto json = nlohmann::json::parse(run({"info", scene, "--json"}).out);
+    EXPECT_EQ(json["frames"], 10);
+    EXPECT_EQ(json["islands"][0]["points"], 2);
+    // ω = √(k/m) of 100 N/m and 1 kg; the bound may not lie below it.
+    EXPECT_GE(json["islands"][0]["omega_B1_per_s"].get<double>(), 10.0 * (1.0 - 1e-12));
+}
+
+TEST(Program, HashesNeedNoPicturesAndRepeat) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    const Outcome first = run({"render", scene, "--no-pictures", "--hash", "--quiet"});
+    EXPECT_EQ(first.code, 0) << first.err;
+    EXPECT_EQ(std::count(first.out.begin(), first.out.end(), '\n'), 10);
+    EXPECT_TRUE(first.out.starts_with("0 "));
+    EXPECT_TRUE(first.err.empty()) << first.err;
+    const Outcome second = run({"render", "--threads", "1", "--quiet", "--hash", "--no-pictures", scene});
+    EXPECT_EQ(first.out, second.out);
+    // 20 frames a second have 3 ticks a frame; the last of 10 frames is tick 27.
+    const Outcome ticks = run({"render", scene, "--no-pictures", "--hash-every", "tick", "--quiet"});
+    EXPECT_EQ(std::count(ticks.out.begin(), ticks.out.end(), '\n'), 28);
+}
+
+TEST(Program, FlagsOverrideTheScene) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    const Outcome outcome =
+        run({"render", scene, "--no-pictures", "--hash", "--quiet", "--fps", "10", "--seconds", "2"});
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 20) << outcome.err;
+    EXPECT_EQ(run({"render", scene, "--no-pictures", "--frames", "5-10"}).code, 2);
+    EXPECT_EQ(run({"render", scene, "--no-pictures", "--set", "run.fbs=3"}).code, 3);
+}
+
+TEST(Program, RendersFramesWithTheirRecordAndKeepsWhatExists) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    const std::string pattern = (folder / "out/f_###.png").string();
+    const Outcome outcome = run({"render", scene, "-o", pattern, "--frames", "2-4", "--metrics"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* name : {"f_002.png", "f_004.png", "run.json", "metrics.csv"})
+        EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/f_001.png"));
+    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
+    EXPECT_EQ(json["state_hash"].size(), 5U);
+    EXPECT_EQ(json["gl"]["backend"], "osmesa");
+    EXPECT_EQ(run({"render", scene, "-o", pattern, "--frames", "2-4", "-n"}).code, 6);
+    EXPECT_EQ(run({"render", scene, "-o", pattern, "--frames", "2-4", "-y", "--quiet"}).code, 0);
+}
+
+TEST(Program, RendersAVideoWithItsRecord) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"render", springScene(folder).string(), "-o", (folder / "a.mp4").string()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_GT(std::filesystem::file_size(folder / "a.mp4"), 1000U);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.run.json"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4.part"));
+}
+
+TEST(Program, DivergenceIsExitCodeFourAndKeepsFramesAndDiagnosis) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(
+        {"render", springScene(folder).string(), "-o", (folder / "out").string(), "--seconds", "20", "--set",
+         "net.spring.springs=[{a='nail',b='bob',stiffness_N_per_m=1e6,rest_length_m=0.9}]", "--set", "solver.dt=0.02"});
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_000000.png"));
+    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
+    EXPECT_EQ(json["ended"], "diverged");
+    EXPECT_EQ(json["divergence"]["body"], "net.spring");
+}
+
+TEST(Program, SchemaIsJson) {
+    const auto json = nlohmann::json::parse(run({"schema"}).out);
+    EXPECT_TRUE(json.contains("$schema"));
+    EXPECT_TRUE(has(run({"schema", "--manual"}).out, "cloth"));
+}
+
+}  // namespace
+}  // namespace taut::game

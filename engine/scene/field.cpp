@@ -9,10 +9,6 @@
 
 namespace taut::scene {
 
-std::vector<std::string> methodNames() {
-    return {"leapfrog", "velocity-verlet", "euler"};
-}
-
 std::vector<Section> sceneSections() {
     return {fileSection(),    needSection(),     solverSection(), worldSection(),     runSection(),
             pictureSection(), materialSection(), clothSection(),  ropeSection(),      blockSection(),

@@ -132,7 +132,4 @@ std::string description(const Field& field);
 // The default as it would be written in a file, or an empty text if there is none.
 std::string defaultText(const Value& value);
 
-// Names, in the file's order of sections: the methods that `integrator` accepts.
-std::vector<std::string> methodNames();
-
 }  // namespace taut::scene

@@ -7,6 +7,7 @@
 
 #include "scene/field_list.h"
 #include "scene/fields_of.h"
+#include "scene/method_names.h"
 #include "scene/problems.h"
 
 namespace taut::scene {

@@ -1,6 +1,7 @@
 // The field table, part one: settings of the whole scene.
 #include "scene/field_list.h"
 #include "scene/fields_of.h"
+#include "scene/method_names.h"
 #include "scene/problems.h"
 
 namespace taut::scene {

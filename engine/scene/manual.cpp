@@ -56,7 +56,7 @@ std::string manual() {
         "  cloth mesh   boundary top bottom left right\n"
         "  rope         start end ends, 50%\n"
         "  block        left right bottom top back front corners\n"
-        "  net          the names of its points\n";
+        "  net          the names of its points";
     return out;
 }
 

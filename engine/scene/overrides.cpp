@@ -108,6 +108,9 @@ void applyOverride(const std::string& text, int origin, const std::vector<Sectio
             if (isLast) *node = *value;
         } else if (node->kind == NodeKind::table) {
             Member* member = node->find(part);
+            if (member == nullptr && i == 0 && section != sections.end() && section->layout == Layout::list) {
+                return problems.addError(place, fmt::format("the scene has no [[{}]]", part));
+            }
             // A new body, collider, … cannot be made of one value: this is a slip.
             if (member == nullptr && i == 1 && section != sections.end() && section->layout == Layout::named) {
                 const std::string remedy = suggestion(part, keysOf(*node));

@@ -172,6 +172,12 @@ class SceneReader {
     void reportUnknownKey(const Section& section, const Member& member, const std::string& where) {
         const std::vector<std::string> keys = section.keys();
         std::string remedy = suggestion(member.key, keys);
+        // A key of a table inside that was written one level too high.
+        for (const Field& field : section.fields) {
+            if (field.kind != FieldKind::table || !remedy.empty()) continue;
+            const std::string inner = likelyWord(member.key, field.inside.front().keys());
+            if (!inner.empty()) remedy = fmt::format("did you mean {} = {{ {} = … }}?", field.key, inner);
+        }
         if (remedy.empty() && keys.size() <= 12) remedy = fmt::format("it has {}", joined(keys));
         problems_.addError(member.place, fmt::format("{} has no key \"{}\"", where, member.key), remedy);
     }

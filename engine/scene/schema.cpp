@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json tableSchema(const Section& section, const world::SceneSpec& defaults, const void* target);
+Json tableSchema(const Section& section, void* target);
 
 Json numberSchema(const Field& field, bool isWhole) {
     Json schema{{"type", isWhole ? "integer" : "number"}};
@@ -81,14 +81,14 @@ Json defaultJson(const Field& field, const Value& value) {
     return list;
 }
 
-Json fieldSchema(const Field& field, const world::SceneSpec& defaults, void* target) {
+Json fieldSchema(const Field& field, void* target) {
     Json schema;
     if (field.inside.empty()) {
         schema = valueSchema(field);
         const Value value = field.read(target);
         if (!field.required && value.index() != 0) schema["default"] = defaultJson(field, value);
     } else {
-        const Json table = tableSchema(field.inside.front(), defaults, field.enter(target, {}));
+        const Json table = tableSchema(field.inside.front(), field.enter(target, {}));
         schema = field.kind == FieldKind::table ? table : Json{{"type", "array"}, {"items", table}};
     }
     std::string help = field.help;
@@ -98,11 +98,11 @@ Json fieldSchema(const Field& field, const world::SceneSpec& defaults, void* tar
     return schema;
 }
 
-Json tableSchema(const Section& section, const world::SceneSpec& defaults, const void* target) {
+Json tableSchema(const Section& section, void* target) {
     Json properties = Json::object();
     Json required = Json::array();
     for (const Field& field : section.fields) {
-        properties[field.key] = fieldSchema(field, defaults, const_cast<void*>(target));
+        properties[field.key] = fieldSchema(field, target);
         if (field.required && field.only.empty()) required.push_back(field.key);
     }
     Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
@@ -117,7 +117,7 @@ std::string jsonSchema() {
     Json properties = Json::object();
     world::SceneSpec scene;
     for (const Section& section : sceneSections()) {
-        const Json table = tableSchema(section, scene, section.enter(scene, "name", {}));
+        const Json table = tableSchema(section, section.enter(scene, "name", {}));
         if (section.name.empty()) {
             for (const auto& [key, value] : table["properties"].items()) properties[key] = value;
             root["required"] = table["required"];
@@ -137,7 +137,7 @@ std::string jsonSchema() {
     root["type"] = "object";
     root["properties"] = properties;
     root["additionalProperties"] = false;
-    return root.dump(2) + "\n";
+    return root.dump(2);
 }
 
 }  // namespace taut::scene

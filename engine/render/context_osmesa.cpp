@@ -1,0 +1,60 @@
+#include <GL/osmesa.h>
+
+#include <array>
+
+#include "core/error.h"
+#include "render/context.h"
+
+namespace taut::render {
+
+namespace {
+
+class OsmesaContext final : public Context {
+  public:
+    OsmesaContext() {
+        const std::array<int, 13> wanted{OSMESA_FORMAT,
+                                         OSMESA_RGBA,
+                                         OSMESA_DEPTH_BITS,
+                                         0,
+                                         OSMESA_PROFILE,
+                                         OSMESA_CORE_PROFILE,
+                                         OSMESA_CONTEXT_MAJOR_VERSION,
+                                         3,
+                                         OSMESA_CONTEXT_MINOR_VERSION,
+                                         3,
+                                         0,
+                                         0,
+                                         0};
+        context_ = OSMesaCreateContextAttribs(wanted.data(), nullptr);
+        if (context_ == nullptr) {
+            throw core::Error(
+                core::ExitCode::noRenderer,
+                "no renderer: OSMesa gave no OpenGL 3.3 core context (OSMesaCreateContextAttribs failed); "
+                "install Debian's libosmesa6, or try --gl egl");
+        }
+    }
+    ~OsmesaContext() override { OSMesaDestroyContext(context_); }
+
+    void makeCurrent() override {
+        if (OSMesaMakeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE) {
+            throw core::Error(core::ExitCode::noRenderer,
+                              "no renderer: OSMesa's context cannot be used (OSMesaMakeCurrent failed); try --gl egl");
+        }
+    }
+    void release() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+  protected:
+    Function functionNamed(const char* name) override { return OSMesaGetProcAddress(name); }
+
+  private:
+    OSMesaContext context_ = nullptr;
+    std::array<unsigned char, 4> pixel_{};  // OSMesa wants a window; pictures are drawn elsewhere
+};
+
+}  // namespace
+
+std::unique_ptr<Context> makeOsmesaContext() {
+    return std::make_unique<OsmesaContext>();
+}
+
+}  // namespace taut::render

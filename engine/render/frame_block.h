@@ -1,0 +1,27 @@
+// What all shaders know of a picture, laid out as the uniform block Frame of shaders/frame.glsl (std140).
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace taut::render {
+
+struct FrameBlock {
+    glm::mat4 viewProjection;
+    glm::mat4 toMap;
+    glm::mat4 toLight;
+    glm::vec4 eye;
+    glm::vec4 lightWay;
+    glm::vec4 lightColour;
+    glm::vec4 skyLight;
+    glm::vec4 groundLight;
+    glm::vec4 backgroundTop;
+    glm::vec4 backgroundHorizon;
+    glm::vec4 fade;
+    glm::vec4 mapSize;
+    glm::vec4 occlusionArea;
+    glm::vec4 groundColour;
+    glm::vec4 debug;
+};
+static_assert(sizeof(FrameBlock) == 3 * 64 + 12 * 16);
+
+}  // namespace taut::render

@@ -1,0 +1,25 @@
+// The floor as a disc of cells, sorted by whether a shadow can fall on them. Pure geometry, it knows no GL.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/light_box.h"
+#include "render/occlusion_pass.h"
+
+namespace taut::render {
+
+struct GroundMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> shaded;  // triangles that shadow or occlusion may reach
+    std::vector<std::uint32_t> open;    // triangles in full light
+};
+
+// The disc of `radius` [m] around the camera's target, fine in the middle, coarse outside.
+GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightBox& box,
+                      std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion);
+
+}  // namespace taut::render

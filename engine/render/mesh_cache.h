@@ -1,0 +1,62 @@
+// Meshes in GL buffers, uploaded once for each pointer and given back when the pointer's owner is gone.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "render/gl.h"
+#include "render/light_box.h"
+#include "view/frame_view.h"
+
+namespace taut::render {
+
+// A surface ready to be drawn.
+struct DrawItem {
+    const view::Surface* surface = nullptr;
+    GLuint vertices = 0;  // buffer: positions, then normals
+    GLuint corners = 0;   // buffer: uv
+    GLuint indices = 0;   // buffer
+    GLsizei indexCount = 0;
+    std::size_t vertexCount = 0;
+    Bounds bounds;  // in the world
+};
+
+class MeshCache {
+  public:
+    explicit MeshCache(const Gl& gl);
+
+    // Uploads what is new. Expects topology, geometry and finish of every surface, of matching sizes.
+    std::vector<DrawItem> items(const std::vector<view::Surface>& surfaces);
+
+    // Draws the triangles of an item with the program in use: positions at location 0, normals 1, uv 2.
+    void draw(const DrawItem& item) const;
+
+    // Draws with positions only.
+    void drawShape(const DrawItem& item) const;
+
+    std::size_t size() const { return geometries_.size() + topologies_.size(); }
+
+  private:
+    struct GeometryEntry {
+        std::weak_ptr<const view::Geometry> owner;
+        GlObject vertices;
+        Bounds bounds;
+    };
+    struct TopologyEntry {
+        std::weak_ptr<const view::Topology> owner;
+        GlObject corners, indices;
+    };
+    const GeometryEntry& upload(const std::shared_ptr<const view::Geometry>& geometry);
+    const TopologyEntry& upload(const std::shared_ptr<const view::Topology>& topology);
+    void forgetExpired();
+    GlObject takeBuffer();
+
+    const Gl* gl_;
+    GlObject layout_;
+    std::map<const view::Geometry*, GeometryEntry> geometries_;
+    std::map<const view::Topology*, TopologyEntry> topologies_;
+    std::vector<GlObject> spare_;  // buffers of forgotten meshes, to be filled again
+};
+
+}  // namespace taut::render

@@ -1,0 +1,37 @@
+// How much of the sky the things above hide from each place of the ground: the soft darkening where they touch it.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "render/map_target.h"
+#include "render/mesh_cache.h"
+#include "render/program.h"
+
+namespace taut::render {
+
+// Where on the ground the map lies.
+struct OcclusionArea {
+    glm::vec2 low{0.0F};   // [m] x and z
+    glm::vec2 high{1.0F};  // [m]
+};
+
+// Around everything that is low enough to matter; none if nothing is.
+std::optional<OcclusionArea> occlusionArea(std::span<const Bounds> casters, float groundHeight);
+
+class OcclusionPass {
+  public:
+    OcclusionPass(const Gl& gl, const ShaderFolder& shaders);
+
+    void draw(std::span<const DrawItem> items, const MeshCache& meshes, const OcclusionArea& area, float groundHeight);
+    void bindMap() const;
+
+  private:
+    const Gl* gl_;
+    Program heights_, gather_;
+    MapTarget columns_;  // lowest and highest surface above each place
+    MapTarget map_;      // hidden part of the sky, 0 … 1
+    GlObject empty_;
+};
+
+}  // namespace taut::render

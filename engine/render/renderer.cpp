@@ -1,0 +1,144 @@
+#include "render/renderer.h"
+
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <numbers>
+#include <optional>
+
+#include "render/context.h"
+#include "render/frame_block.h"
+#include "render/ground_pass.h"
+#include "render/light_box.h"
+#include "render/marks_pass.h"
+#include "render/mesh_cache.h"
+#include "render/occlusion_pass.h"
+#include "render/program.h"
+#include "render/shadow_pass.h"
+#include "render/surface_pass.h"
+#include "render/targets.h"
+
+namespace taut::render {
+
+namespace {
+
+// Everything that lives in the context.
+struct Parts {
+    Parts(const Gl& gl, const RendererOptions& options)
+        : shaders(gl, options.shaders),
+          targets(gl, options.width, options.height, options.samples),
+          meshes(gl),
+          shadow(gl, shaders, options.shadowSize),
+          occlusion(gl, shaders),
+          surfaces(gl, shaders),
+          ground(gl, shaders),
+          marks(gl, shaders),
+          background(shaders.program("background.vert", "background.frag")),
+          frameBlock(gl, GlKind::buffer),
+          empty(gl, GlKind::vertexArray) {}
+
+    ShaderFolder shaders;
+    Targets targets;
+    MeshCache meshes;
+    ShadowPass shadow;
+    OcclusionPass occlusion;
+    SurfacePass surfaces;
+    GroundPass ground;
+    MarksPass marks;
+    Program background;
+    GlObject frameBlock;
+    GlObject empty;
+};
+
+glm::mat4 projectionOf(const view::Camera& camera, float aspect) {
+    return glm::perspective(camera.fieldOfView, aspect, camera.nearPlane, camera.farPlane) *
+           glm::lookAt(camera.eye, camera.target, camera.up);
+}
+
+FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, const LightBox& box, int texels,
+                   const std::optional<OcclusionArea>& occlusion) {
+    FrameBlock block{};
+    block.viewProjection = projection;
+    block.toMap = box.toMap;
+    block.toLight = glm::mat4(box.toLight);
+    block.eye = glm::vec4(view.camera.eye, 1.0F);
+    block.lightWay = glm::vec4(-glm::normalize(view.light.direction), view.light.softness);
+    block.lightColour = glm::vec4(view.light.colour / std::numbers::pi_v<float>, 0.0F);
+    block.skyLight = glm::vec4(view.light.sky, 0.0F);
+    block.groundLight = glm::vec4(view.light.ground, 0.0F);
+    block.backgroundTop = glm::vec4(view.background.top, 0.0F);
+    block.backgroundHorizon = glm::vec4(view.background.horizon, 0.0F);
+    block.fade = {view.camera.target.x, view.camera.target.z, view.background.fadeStart, view.background.fadeEnd};
+    block.mapSize = glm::vec4(box.size, glm::max(box.size.x, box.size.y) / static_cast<float>(texels));
+    if (occlusion) block.occlusionArea = glm::vec4(occlusion->low, 1.0F / (occlusion->high - occlusion->low));
+    if (view.ground) block.groundColour = glm::vec4(view.ground->colour, view.ground->gridSpacing);
+    block.debug = glm::vec4(view.showMarks ? 1.0F : 0.0F);
+    return block;
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+    RendererOptions options;
+    std::unique_ptr<Context> context;
+    std::unique_ptr<Parts> parts;
+};
+
+Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>()) {
+    impl_->options = options;
+    impl_->context = makeContext(options.backend);
+    const CurrentContext current(*impl_->context);
+    impl_->parts = std::make_unique<Parts>(impl_->context->gl(), options);
+}
+
+Renderer::~Renderer() {
+    const CurrentContext current(*impl_->context);
+    impl_->parts.reset();
+}
+
+RendererInfo Renderer::info() const {
+    return impl_->context->info();
+}
+
+image::Image Renderer::draw(const view::FrameView& view) {
+    const CurrentContext current(*impl_->context);
+    const Gl& gl = impl_->context->gl();
+    Parts& parts = *impl_->parts;
+    const RendererOptions& options = impl_->options;
+
+    const std::vector<DrawItem> items = parts.meshes.items(view.surfaces);
+    std::vector<Bounds> casters;
+    for (const DrawItem& item : items) casters.push_back(item.bounds);
+    const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+    const LightBox box = lightBox(view, casters, aspect, options.shadowSize);
+    std::optional<OcclusionArea> occlusion;
+    if (view.ground) occlusion = occlusionArea(casters, view.ground->height);
+
+    // The maps that shading reads.
+    parts.shadow.draw(items, parts.meshes, box);
+    if (occlusion) parts.occlusion.draw(items, parts.meshes, *occlusion, view.ground->height);
+
+    // The picture, roughly from front to back: what is hidden need not be shaded.
+    const glm::mat4 projection = projectionOf(view.camera, aspect);
+    const FrameBlock block = blockOf(view, projection, box, options.shadowSize, occlusion);
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts.frameBlock.id());
+    gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+    parts.targets.bind();
+    gl.DepthMask(GL_TRUE);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    parts.shadow.bindMaps();
+    parts.occlusion.bindMap();
+    parts.surfaces.draw(items, parts.meshes);
+    if (view.ground) parts.ground.draw(view, box, casters, occlusion);
+
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LEQUAL);
+    gl.BindVertexArray(parts.empty.id());
+    parts.background.use();
+    parts.background.set("toWorld", glm::inverse(projection));
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+
+    if (view.showMarks) parts.marks.draw(view, projection, options.width, options.height);
+    return parts.targets.read();
+}
+
+}  // namespace taut::render

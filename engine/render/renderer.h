@@ -1,0 +1,53 @@
+// Draws a FrameView into a picture, off-screen. It knows neither the world that is shown nor files of frames.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "image/image.h"
+#include "view/frame_view.h"
+
+namespace taut::render {
+
+enum class Backend { osmesa, egl };
+
+struct RendererOptions {
+    int width = 1280;  // [px]
+    int height = 720;
+    int samples = 4;        // of anti-aliasing, for each pixel
+    int shadowSize = 2048;  // [texels] edge of the shadow map; a multiple of 128
+    Backend backend = Backend::osmesa;
+    std::filesystem::path shaders;  // folder of the shader files
+};
+
+// What draws, in the words of the GL library.
+struct RendererInfo {
+    std::string backend;
+    std::string vendor;
+    std::string renderer;
+    std::string version;
+};
+
+// May be moved between threads between calls, not used by two at once. The picture depends on the view alone,
+// not on the pictures drawn before.
+class Renderer {
+  public:
+    // Throws Error(noRenderer) without a GL context, Error(inputOutput) without a shader file, and
+    // Error(badContent) for a shader that does not compile or for sizes that GL does not offer.
+    explicit Renderer(const RendererOptions& options);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    // Throws Error(inputOutput) for a texture that cannot be read.
+    image::Image draw(const view::FrameView& view);
+
+    RendererInfo info() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace taut::render

@@ -1,0 +1,86 @@
+#include "render/shadow_pass.h"
+
+#include <array>
+#include <string>
+
+#include "core/error.h"
+
+namespace taut::render {
+
+namespace {
+
+int checkedSize(const Gl& gl, int texels) {
+    GLint largest = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (texels < boundsEdge || texels % boundsEdge != 0 || texels > largest) {
+        throw core::Error(core::ExitCode::badContent,
+                          "a shadow map of " + std::to_string(texels) +
+                              " texels cannot be drawn: it must be a multiple of 128, at most " +
+                              std::to_string(largest));
+    }
+    return texels;
+}
+
+}  // namespace
+
+ShadowPass::ShadowPass(const Gl& gl, const ShaderFolder& shaders, int texels)
+    : gl_(&gl),
+      depth_(shaders.program("shadow.vert", "shadow.frag")),
+      reduce_(shaders.program("screen.vert", "shadow_reduce.frag",
+                              {"BLOCK " + std::to_string(checkedSize(gl, texels) / boundsEdge)})),
+      spread_(shaders.program("screen.vert", "shadow_spread.frag")),
+      map_(gl, texels, GL_DEPTH_COMPONENT32F, GL_NEAREST, 1.0F),
+      blocks_(gl, boundsEdge, GL_RG32F, GL_NEAREST, 1.0F),
+      neighbourhood_(gl, boundsEdge, GL_RG32F, GL_LINEAR, 1.0F),
+      comparing_(gl, GlKind::sampler),
+      empty_(gl, GlKind::vertexArray) {
+    const std::array<float, 4> lit{1.0F, 1.0F, 1.0F, 1.0F};
+    gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    gl.SamplerParameterfv(comparing_.id(), GL_TEXTURE_BORDER_COLOR, lit.data());
+}
+
+void ShadowPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, const LightBox& box) {
+    // Casters outside the box sideways are clipped; the box holds all of them along the light.
+    map_.bind(*gl_);
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->DepthFunc(GL_LESS);
+    gl_->DepthMask(GL_TRUE);
+    gl_->Disable(GL_CULL_FACE);
+    gl_->ClearDepth(1.0);
+    gl_->Clear(GL_DEPTH_BUFFER_BIT);
+    depth_.use();
+    for (const DrawItem& item : items) {
+        depth_.set("toMap", box.toMap * item.surface->transform);
+        meshes.drawShape(item);
+    }
+
+    // Least and largest depth: of each block, then of its neighbourhood.
+    gl_->Disable(GL_DEPTH_TEST);
+    gl_->BindVertexArray(empty_.id());
+    gl_->ActiveTexture(GL_TEXTURE0 + shadowBoundsUnit);
+    gl_->BindSampler(shadowBoundsUnit, 0);
+    blocks_.bind(*gl_);
+    gl_->BindTexture(GL_TEXTURE_2D, map_.texture.id());
+    reduce_.use();
+    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+    neighbourhood_.bind(*gl_);
+    gl_->BindTexture(GL_TEXTURE_2D, blocks_.texture.id());
+    spread_.use();
+    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void ShadowPass::bindMaps() const {
+    gl_->ActiveTexture(GL_TEXTURE0 + shadowMapUnit);
+    gl_->BindTexture(GL_TEXTURE_2D, map_.texture.id());
+    gl_->BindSampler(shadowMapUnit, comparing_.id());
+    gl_->ActiveTexture(GL_TEXTURE0 + shadowBoundsUnit);
+    gl_->BindTexture(GL_TEXTURE_2D, neighbourhood_.texture.id());
+    gl_->BindSampler(shadowBoundsUnit, 0);
+}
+
+}  // namespace taut::render

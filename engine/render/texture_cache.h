@@ -1,0 +1,23 @@
+// Picture files as GL textures, each read once. It knows nothing of surfaces.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "render/gl.h"
+
+namespace taut::render {
+
+class TextureCache {
+  public:
+    explicit TextureCache(const Gl& gl) : gl_(&gl) {}
+
+    // A repeating, mip-mapped sRGB texture from a PNG or JPEG file. Throws Error(inputOutput) if it cannot be read.
+    GLuint texture(const std::string& path);
+
+  private:
+    const Gl* gl_;
+    std::map<std::string, GlObject> textures_;
+};
+
+}  // namespace taut::render

@@ -1,0 +1,36 @@
+// The floor with its lines, fading into the horizon. SHADED where shadows may fall.
+#include "tone.glsl"
+#ifdef SHADED
+#include "shadow.glsl"
+uniform sampler2D occlusion;
+#endif
+in vec3 place;
+out vec4 colour;
+
+// How much of a pixel lines of a width cover that run at every whole number of x.
+float lines(float x, float width) {
+    float pixel = max(fwidth(x), 1e-5);
+    float drawn = max(width, pixel);
+    float distance = abs(fract(x + 0.5) - 0.5);
+    float cover = clamp((0.5 * drawn - distance) / pixel + 0.5, 0.0, 1.0) * width / drawn;
+    return mix(cover, width, clamp(2.0 * pixel - 0.5, 0.0, 1.0));
+}
+
+void main() {
+    vec3 albedo = groundColour.rgb;
+    if (groundColour.w > 0.0) {
+        vec2 cell = place.xz / groundColour.w;
+        float width = 0.012;
+        float cover = max(lines(cell.x, width), lines(cell.y, width));
+        albedo *= 1.0 - 0.3 * cover;
+    }
+    vec3 direct = lightColour.rgb * max(lightWay.y, 0.0);
+    vec3 ambient = skyLight.rgb;
+#ifdef SHADED
+    direct *= sunlight(place, vec3(0.0, 1.0, 0.0), false);
+    ambient *= 1.0 - 0.9 * texture(occlusion, (place.xz - occlusionArea.xy) * occlusionArea.zw).r;
+#endif
+    vec3 shown = filmic(albedo * (direct + ambient));
+    float away = smoothstep(fade.z, fade.w, length(place.xz - fade.xy));
+    colour = vec4(dithered(mix(shown, backgroundHorizon.rgb, away)), 1.0);
+}

@@ -1,0 +1,39 @@
+// Which part of the sky the columns around a place of the ground hide, weighted by the cosine: a column between the
+// elevations a and b, seen over the angle w, hides (sin² b - sin² a) w / 2π.
+uniform sampler2D occlusion;  // x: lowest surface above the ground, y: minus the highest [m]
+uniform vec2 texel;           // [m]
+out vec4 hidden;
+
+float sineSquared(float height, float distance) {
+    float square = height * height;
+    return square / (square + distance * distance);
+}
+
+void main() {
+    const int ways = 12;
+    const int rings = 7;
+    ivec2 here = ivec2(gl_FragCoord.xy);
+    ivec2 last = textureSize(occlusion, 0) - 1;
+    float size = 0.5 * (texel.x + texel.y);
+    float sum = 0.0;
+    for (int i = 0; i < ways; ++i) {
+        float angle = 6.2831853 * float(i) / float(ways);
+        vec2 way = vec2(cos(angle), sin(angle));
+        vec2 covered = vec2(1.0, 0.0);  // sin² of the elevations, from and to
+        float radius = 0.5;
+        for (int ring = 0; ring < rings; ++ring) {
+            ivec2 at = here + ivec2(round(way * radius));
+            vec2 column = texelFetch(occlusion, clamp(at, ivec2(0), last), 0).xy;
+            float distance = radius * size;
+            if (column.x < 1000.0) {
+                // Nearly above, a column hides all the sky that its lower end covers.
+                float from = ring == 0 ? sineSquared(column.x, distance) : sineSquared(column.x, distance * 1.2);
+                float to = ring == 0 ? 1.0 : sineSquared(-column.y, distance);
+                covered = vec2(min(covered.x, from), max(covered.y, to));
+            }
+            radius *= 1.75;
+        }
+        sum += max(covered.y - covered.x, 0.0);
+    }
+    hidden = vec4(sum / float(ways));
+}

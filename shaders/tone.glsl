@@ -1,0 +1,16 @@
+// What the fragment shaders share: noise, tone, ambient light.
+#include "frame.glsl"
+
+// Between 0 and 1, different from pixel to pixel: interleaved gradient noise (Jimenez 2014).
+float pixelNoise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
+
+// Scene light to what a display shows: Narkowicz's fit of the ACES curve (2015).
+vec3 filmic(vec3 light) {
+    vec3 x = 0.75 * light;
+    return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+// Hides the steps of eight bits in slow gradients; the step is one of the sRGB curve.
+vec3 dithered(vec3 colour) { return colour + (pixelNoise() - 0.5) / 255.0 * (1.8 * sqrt(max(colour, 0.0)) + 0.08); }
+
+vec3 hemisphere(vec3 normal) { return mix(groundLight.rgb, skyLight.rgb, 0.5 + 0.5 * normal.y); }

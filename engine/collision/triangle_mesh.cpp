@@ -90,6 +90,11 @@ bool TriangleMesh::findWayOut(const Path& path, Touch& touch) const {
     return true;
 }
 
+// The side from which a path comes. In the plane itself it is the front.
+bool TriangleMesh::isInFront(const Path& path, const Triangle& t) {
+    return glm::dot(path.from - t.corner, t.normal) > -path.skin;
+}
+
 bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
     crossed = false;
     const double reach = path.thickness + path.skin;
@@ -124,8 +129,10 @@ bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
         const Triangle& t = triangles_[static_cast<std::size_t>(index)];
         const double fromHeight = glm::dot(path.from - t.corner, t.normal);
         const double toHeight = glm::dot(path.to - t.corner, t.normal);
-        if ((fromHeight > 0.0) == (toHeight > 0.0)) return;
-        const double at = fromHeight / (fromHeight - toHeight);
+        const bool front = isInFront(path, t);
+        if (front ? !(toHeight < 0.0 && toHeight < fromHeight) : !(toHeight > 0.0)) return;
+        const double height = front == (fromHeight > 0.0) ? fromHeight : 0.0;
+        const double at = height / (height - toHeight);
         const double steep = std::abs(fromHeight - toHeight);
         if (at > first + 1e-12 || (at >= first - 1e-12 && steep <= steepest)) return;
         // Barycentric coordinates, with edges that overlap a little so that none lets a path through.
@@ -145,16 +152,22 @@ bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
     if (startsInside) return findWayOut(path, touch);
     if (crossing >= 0) {
         const Triangle& t = triangles_[static_cast<std::size_t>(crossing)];
-        const dvec3 normal = glm::dot(path.from - t.corner, t.normal) > 0.0 ? t.normal : -t.normal;
+        const dvec3 normal = isInFront(path, t) ? t.normal : -t.normal;
         touch = {normal, glm::dot(normal, t.corner) + path.thickness};
         crossed = true;
         return true;
     }
     if (endFoot.triangle < 0 || !(endFoot.square < reach * reach)) return false;
+    // Off the middle of a triangle the direction is its normal, which is exact however near the point is.
     const double distance = std::sqrt(endFoot.square);
     const Triangle& t = triangles_[static_cast<std::size_t>(endFoot.triangle)];
-    dvec3 normal = (path.to - endFoot.point) * (1.0 / distance);
-    if (!(distance > path.skin)) normal = glm::dot(path.from - t.corner, t.normal) > 0.0 ? t.normal : -t.normal;
+    const dvec3 apart = path.to - endFoot.point;
+    dvec3 normal = apart * (1.0 / distance);
+    if (!(distance > path.skin)) {
+        normal = isInFront(path, t) ? t.normal : -t.normal;
+    } else if (endFoot.square - endFoot.facing * endFoot.facing <= path.skin * path.skin) {
+        normal = glm::dot(apart, t.normal) > 0.0 ? t.normal : -t.normal;
+    }
     touch = {normal, glm::dot(normal, endFoot.point) + path.thickness};
     return true;
 }

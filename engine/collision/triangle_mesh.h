@@ -50,6 +50,7 @@ class TriangleMesh {
     void updateFoot(const dvec3& p, int triangle, Foot& foot) const;
     Foot footWithin(const dvec3& p, double radius) const;
     Nearest nearestFrom(const dvec3& p, const Foot& foot) const;
+    static bool isInFront(const Path& path, const Triangle& t);
     bool findWayOut(const Path& path, Touch& touch) const;
 
     void takeTriangles(std::span<const dvec3> vertices, std::span<const std::uint32_t> triangles);

@@ -14,6 +14,9 @@ namespace taut::collision {
 
 inline constexpr double gravity = 9.81;  // [m/s²]
 
+template <class Real>
+inline constexpr bool isFloat = sizeof(Real) == sizeof(float);
+
 // One point with its state in Real; a step is symplectic Euler, which for a constant force is leap-frog.
 template <class Real>
 struct Flyer {

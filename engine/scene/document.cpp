@@ -1,9 +1,22 @@
 #include "scene/document.h"
 
-#include <toml++/toml.h>
 #include <algorithm>
-#include <sstream>
 #include <utility>
+#include <vector>
+
+namespace {
+
+// Thrown where toml++ would end the program: a few malformed texts reach its assertions.
+struct Stumble {};
+[[noreturn]] void stumble() {
+    throw Stumble();
+}
+
+}  // namespace
+
+#undef NDEBUG  // with it toml++ would take its assertions for true instead
+#define TOML_ASSERT(condition) ((condition) ? void() : stumble())
+#include <toml++/toml.h>
 
 namespace taut::scene {
 
@@ -64,6 +77,7 @@ class Scanner {
             fail("this is not a text file: it holds a zero byte");
         }
         int dots = 0;
+        if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
         while (at_ < text_.size()) {
             const char c = text_[at_];
             if (c == '#') {
@@ -71,6 +85,8 @@ class Scanner {
             } else if (c == '"' || c == '\'') {
                 skipString(c);
             } else {
+                // toml++ 3.3 runs into undefined behaviour at some letters here; TOML 1.0 has none of them.
+                if (static_cast<unsigned char>(c) >= 0x80) fail("a letter beyond ASCII stands outside of quotes");
                 if (c == '.' && ++dots > maxDots) fail("this key has too many parts");
                 if (std::string_view(",[]{}=\n").find(c) != std::string_view::npos) dots = 0;
                 ++at_;
@@ -86,9 +102,21 @@ class Scanner {
         while (at_ < text_.size()) {
             const char c = text_[at_];
             if (isLong ? text_.substr(at_, 3) == fence : (c == quote || c == '\n')) break;
-            at_ += c == '\\' && quote == '"' ? 2 : 1;
+            const bool isEscape = c == '\\' && quote == '"';
+            if (isEscape && isLong) checkEscape();
+            at_ += isEscape ? 2 : 1;
         }
         at_ = std::min(at_ + (isLong ? 3 : 1), text_.size());
+        // A long string may end in one or two quotes of its own.
+        for (int i = 0; i < 2 && isLong && at_ < text_.size() && text_[at_] == quote; ++i) ++at_;
+    }
+
+    // toml++ stumbles over letters beyond ASCII after a backslash that breaks a line, as it does outside of strings.
+    void checkEscape() {
+        const std::size_t next = text_.find_first_not_of(" \t\r\n", at_ + 1);
+        if (next == std::string_view::npos || static_cast<unsigned char>(text_[next]) < 0x80) return;
+        at_ = next;
+        fail("a letter beyond ASCII follows a backslash");
     }
 
     [[noreturn]] void fail(const std::string& message) const {
@@ -102,6 +130,27 @@ class Scanner {
     int origin_;
     std::size_t at_ = 0;
 };
+
+// The line at which toml++ stumbles: the first lines up to it are the fewest that make it stumble.
+int stumbleLine(std::string_view text) {
+    std::vector<std::size_t> ends;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\n') ends.push_back(i + 1);
+    }
+    ends.push_back(text.size());
+    const auto doesStumble = [&](std::size_t end) {
+        try {
+            (void)toml::parse(text.substr(0, end));
+        } catch (const Stumble&) {
+            return true;
+        } catch (const toml::parse_error&) {
+        }
+        return false;
+    };
+    const auto found =
+        std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) { return !doesStumble(end); });
+    return static_cast<int>(std::min(found - ends.begin(), std::ssize(ends) - 1)) + 1;
+}
 
 }  // namespace
 
@@ -140,6 +189,8 @@ Node documentTree(std::string_view text, int origin) {
         return nodeOf(toml::parse(text), origin);
     } catch (const toml::parse_error& error) {
         throw SyntaxError(placeOf(error.source(), origin), std::string(error.description()));
+    } catch (const Stumble&) {
+        throw SyntaxError({origin, stumbleLine(text), 1}, "this line is not TOML");
     }
 }
 

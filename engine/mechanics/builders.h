@@ -19,7 +19,7 @@ enum class Lumping { weighted, uniform };
 struct RopeShape {
     glm::dvec3 start{0.0}, end{1.0, 0.0, 0.0};
     int segments = 20;
-    double length = 0.0;       // natural length [m]; 0 means the distance; longer hangs in a parabola along `sag`
+    double length = 0.0;       // natural length [m]; 0 means the distance; longer hangs slack along `sag`
     glm::dvec3 sag{0, -1, 0};  // direction of the slack, unit
     double mass = 1.0;         // whole rope [kg]
     double stretch = 1e4;      // EA [N]

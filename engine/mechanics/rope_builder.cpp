@@ -10,68 +10,94 @@ namespace {
 
 using glm::dvec3;
 
-// P(s) = start + s chord + 4 depth s (1 - s) sag: hangs between the ends s = 0 and s = 1, goes on beyond them.
-struct Parabola {
-    dvec3 start, chord, sag;
-    double depth = 0.0;  // [m]
-
-    dvec3 at(double s) const { return start + s * chord + (4.0 * depth * s * (1.0 - s)) * sag; }
-
-    // The first parameter after s whose point lies `reach` away in a straight line. |P'| <= |chord| + 4 depth up to
-    // s = 1, so a step of (what is missing) / that bound never jumps over it.
-    double next(double s, double reach) const {
-        const double fastest = glm::length(chord) + 4.0 * depth;
-        const dvec3 from = at(s);
-        double to = s + reach / fastest;
-        for (int i = 0; i < 400 && to < 1.0; ++i) {
-            const double missing = reach - glm::length(at(to) - from);
-            if (!(missing > 1e-15 * reach)) break;
-            to += missing / fastest;
-        }
-        return to;
-    }
-};
-
-// Where a chain of `links` chords of the same length, laid along the parabola from its start, comes to [-].
-double endOfChain(const Parabola& parabola, int links, double link) {
-    double s = 0.0;
-    for (int i = 0; i < links && s < 1.0; ++i) s = parabola.next(s, link);
-    return s;
-}
-
 // Any unit vector at a right angle to v, v not zero.
 dvec3 perpendicularTo(dvec3 v) {
     const dvec3 axis = std::abs(v.x) <= std::abs(v.z) ? dvec3(1, 0, 0) : dvec3(0, 0, 1);
     return glm::normalize(glm::cross(v, axis));
 }
 
-// Both ends in one place: a regular polygon that hangs from it. Its corner i stands at the angle 2 π i / n.
-void hangRing(const RopeShape& shape, double link, std::vector<dvec3>& positions) {
-    const int n = shape.segments;
-    const dvec3 side = perpendicularTo(shape.sag);
-    const double radius = link / (2.0 * core::sine(core::pi / n));
-    for (int i = 1; i < n; ++i) {
-        const double angle = 2.0 * core::pi * i / n;
-        positions[static_cast<std::size_t>(i)] =
-            shape.start + radius * ((1.0 - core::cosine(angle)) * shape.sag + core::sine(angle) * side);
+// Where `f`, which falls from above zero to below it, crosses zero between low and high.
+template <class F>
+double rootOf(F f, double low, double high) {
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        (f(middle) > 0.0 ? low : high) = middle;
     }
+    return 0.5 * (low + high);
 }
 
-// Slack: every chord has the natural length of its spring, so that the rope starts without strain.
-void hangParabola(const RopeShape& shape, double link, std::vector<dvec3>& positions) {
-    const dvec3 chord = shape.end - shape.start;
-    Parabola parabola{shape.start, chord, shape.sag};
-    // A rope that slackens along itself bows out sideways instead.
-    if (glm::length(glm::cross(chord, shape.sag)) < 1e-3 * glm::length(chord)) parabola.sag = perpendicularTo(chord);
-    double shallow = 0.0, deep = link * shape.segments;
-    for (int i = 0; i < 60; ++i) {
-        parabola.depth = 0.5 * (shallow + deep);
-        (endOfChain(parabola, shape.segments, link) < 1.0 ? deep : shallow) = parabola.depth;
+// Slack hangs in the catenary of a chain: link i runs along e + t_i g, g the sag, e at a right angle to it, and
+// t_i = a + κ ((n - 1)/2 - i), because each mass turns the rope by the same weight over the same level tension.
+// `level` and `drop` are the way from start to end along e and g, both in links.
+struct Catenary {
+    int links;
+    double a = 0.0, kappa = 0.0;
+
+    double slope(int i) const { return a + kappa * (0.5 * (links - 1) - i); }
+    glm::dvec2 link(int i) const { return glm::dvec2(1.0, slope(i)) / std::sqrt(1.0 + slope(i) * slope(i)); }
+    glm::dvec2 reach() const {
+        glm::dvec2 sum(0.0);
+        for (int i = 0; i < links; ++i) sum += link(i);
+        return sum;
     }
-    double s = 0.0;
-    for (int i = 1; i < shape.segments; ++i) {
-        s = parabola.next(s, link);
-        positions[static_cast<std::size_t>(i)] = parabola.at(s);
+
+    // The way down grows with a, the way along shrinks with κ.
+    void fit(double level, double drop) {
+        const double steepest = 1.0 / std::sqrt(1.0 - (drop / links) * (drop / links));
+        kappa = rootOf(
+            [&](double k) {
+                kappa = k;
+                const double most = steepest + k * links;
+                a = rootOf(
+                    [&](double slopeOffset) {
+                        a = slopeOffset;
+                        return drop - reach().y;
+                    },
+                    -most, most);
+                return reach().x - level;
+            },
+            0.0, 1e4);
+    }
+};
+
+// The links of a slack rope along the catenary. False if there is none: so steep, or so few links, that it would
+// have to fold.
+bool hangCatenary(const RopeShape& shape, double link, std::vector<dvec3>& positions) {
+    const dvec3 chord = shape.end - shape.start;
+    const double drop = glm::dot(chord, shape.sag);
+    const double level = glm::length(chord - drop * shape.sag);
+    if (level < 1e-3 * link) return false;
+    const dvec3 along = (chord - drop * shape.sag) / level;
+    Catenary catenary{shape.segments};
+    catenary.fit(level / link, drop / link);
+    if (glm::length(catenary.reach() - glm::dvec2(level, drop) / link) > 1e-9 * shape.segments) return false;
+    glm::dvec2 at(0.0);
+    for (int i = 0; i + 1 < shape.segments; ++i) {
+        at += link * catenary.link(i);
+        positions[static_cast<std::size_t>(i) + 1] = shape.start + at.x * along + at.y * shape.sag;
+    }
+    return true;
+}
+
+// Links that each turn by the same angle: from a straight line to a closed ring, whatever the distance of the ends.
+// Bulges along the sag, or sideways if the ends lie along it.
+void bendArc(const RopeShape& shape, double distance, double link, std::vector<dvec3>& positions) {
+    const int n = shape.segments;
+    const bool isRing = distance < 1e-9 * link;
+    const dvec3 chord = isRing ? perpendicularTo(shape.sag) : (shape.end - shape.start) / distance;
+    dvec3 bulge = shape.sag - glm::dot(shape.sag, chord) * chord;
+    bulge = glm::length(bulge) < 1e-3 ? perpendicularTo(chord) : glm::normalize(bulge);
+    // n links that turn by δ end sin(nδ/2)/sin(δ/2) links away.
+    const double turn = rootOf(
+        [&](double delta) {
+            return core::sine(0.5 * n * delta) / core::sine(0.5 * delta) - (isRing ? 0.0 : distance / link);
+        },
+        0.0, 2.0 * core::pi / n);
+    dvec3 at = shape.start;
+    for (int i = 0; i + 1 < n; ++i) {
+        const double angle = turn * (0.5 * (n - 1) - i);
+        at += link * (core::cosine(angle) * chord + core::sine(angle) * bulge);
+        positions[static_cast<std::size_t>(i) + 1] = at;
     }
 }
 
@@ -80,10 +106,7 @@ void placePoints(const RopeShape& shape, double distance, double length, std::ve
     positions.front() = shape.start;
     positions.back() = shape.end;
     if (n > 1 && length > distance * (1.0 + 1e-9)) {
-        if (distance < 1e-9 * length)
-            hangRing(shape, length / n, positions);
-        else
-            hangParabola(shape, length / n, positions);
+        if (!hangCatenary(shape, length / n, positions)) bendArc(shape, distance, length / n, positions);
     } else {
         for (int i = 1; i < n; ++i)
             positions[static_cast<std::size_t>(i)] =

@@ -1,0 +1,302 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "../support/eigenvalues.h"
+#include "mechanics/builders.h"
+#include "mechanics/volume.h"
+#include "mechanics_planar_state.h"
+
+namespace taut::mechanics {
+namespace {
+
+using glm::dvec3;
+using test::PlanarState;
+
+Model block(int cells) {
+    BlockShape shape;
+    shape.cells = glm::ivec3(cells);
+    shape.bulk = 2e4;
+    return buildBlock(shape);
+}
+
+Model tetrahedron() {
+    Model model;
+    model.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    model.masses = {0.1, 0.2, 0.3, 0.4};
+    model.cells = {{{0, 1, 2, 3}, 1.0 / 6.0, 600.0}};
+    return model;
+}
+
+VolumePreservation<double> generatorOf(const Model& model, double workingStretch = 1.5) {
+    return {model.cells, model.positions, workingStretch};
+}
+
+void scale(PlanarState<double>& state, const dvec3& factors) {
+    for (int i = 0; i < state.count; ++i)
+        for (int axis = 0; axis < 3; ++axis) state.x[state.index(i, axis)] *= factors[axis];
+}
+
+dvec3 sum(const std::vector<dvec3>& vectors) {
+    dvec3 total(0.0);
+    for (const dvec3& v : vectors) total += v;
+    return total;
+}
+
+// K = -∂f/∂x column by column, with the masses' roots divided out if asked.
+taut::test::Matrix stiffnessMatrix(const PlanarState<double>& state, const VolumePreservation<double>& volume) {
+    const auto n = static_cast<std::size_t>(3 * state.count);
+    taut::test::Matrix matrix(n);
+    for (std::size_t column = 0; column < n; ++column) {
+        core::AlignedArray<double> u(state.planes()), out(state.planes());
+        u[state.index(static_cast<int>(column / 3), static_cast<int>(column % 3))] = 1.0;
+        volume.addStiffnessProduct(state.motion(), u.data(), out.data());
+        for (std::size_t row = 0; row < n; ++row)
+            matrix.at(row, column) = out[state.index(static_cast<int>(row / 3), static_cast<int>(row % 3))];
+    }
+    return matrix;
+}
+
+double largestFrequencySquared(const PlanarState<double>& state, const VolumePreservation<double>& volume) {
+    taut::test::Matrix matrix = stiffnessMatrix(state, volume);
+    for (std::size_t row = 0; row < matrix.n; ++row)
+        for (std::size_t column = 0; column < matrix.n; ++column)
+            matrix.at(row, column) *= std::sqrt(state.inverseMass[row / 3] * state.inverseMass[column / 3]);
+    return taut::test::eigenvalues(matrix).back();
+}
+
+double boundSquared(const PlanarState<double>& state, const VolumePreservation<double>& volume) {
+    const StabilityShare share = state.stability(volume);
+    double bound = 0.0;
+    for (std::size_t i = 0; i < share.stiffness.size(); ++i)
+        bound = std::max(bound, share.stiffness[i] * state.inverseMass[i]);
+    return bound;
+}
+
+TEST(Volume, AtRestHasNoForceAndNoEnergy) {
+    const Model model = block(3);
+    PlanarState<double> state(model);
+    const VolumePreservation<double> volume = generatorOf(model);
+    // K · area · 1e-16 · a few dozen tetrahedra.
+    for (const dvec3& f : state.forces(volume)) EXPECT_LT(glm::length(f), 1e-10);
+    EXPECT_NEAR(volume.potentialEnergy(state.motion()), 0.0, 1e-20);
+}
+
+// V/V0 is the same everywhere under a uniform strain, so that E = ½ K V0 (V/V0 - 1)² for the whole block.
+TEST(Volume, UniformStrainStoresTheMaterialsEnergyAtEveryResolution) {
+    for (int cells : {1, 2, 4}) {
+        const Model model = block(cells);
+        PlanarState<double> state(model);
+        scale(state, {1.1, 0.95, 1.02});
+        const double change = 1.1 * 0.95 * 1.02 - 1.0;
+        EXPECT_NEAR(generatorOf(model).potentialEnergy(state.motion()), 0.5 * 2e4 * change * change, 1e-9);
+    }
+}
+
+TEST(Volume, ForcesPassNeitherMomentumNorSpin) {
+    const Model model = block(3);
+    PlanarState<double> state(model);
+    state.shake(0.1, 0.0);
+    const std::vector<dvec3> forces = state.forces(generatorOf(model));
+    dvec3 torque(0.0);
+    double size = 0.0;
+    for (int i = 0; i < state.count; ++i) {
+        torque += glm::cross(state.get(state.x, i), forces[static_cast<std::size_t>(i)]);
+        size += glm::length(forces[static_cast<std::size_t>(i)]);
+    }
+    EXPECT_GT(size, 1000.0);
+    EXPECT_LT(glm::length(sum(forces)), 1e-13 * size);  // rounding of some hundred terms
+    EXPECT_LT(glm::length(torque), 1e-13 * size);
+}
+
+TEST(Volume, ForceIsTheSlopeOfTheEnergy) {
+    const Model model = tetrahedron();
+    PlanarState<double> state(model);
+    state.shake(0.2, 0.0);
+    const VolumePreservation<double> volume = generatorOf(model);
+    const std::vector<dvec3> forces = state.forces(volume);
+    const double h = 1e-5;
+    for (int i = 0; i < 4; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            double& x = state.x[state.index(i, axis)];
+            const double here = x;
+            x = here + h;
+            const double up = volume.potentialEnergy(state.motion());
+            x = here - h;
+            const double down = volume.potentialEnergy(state.motion());
+            x = here;
+            // Quadratic in one coordinate, so no error of order h²; rounding 1e-14 J / h.
+            EXPECT_NEAR(forces[static_cast<std::size_t>(i)][axis], (down - up) / (2.0 * h), 1e-8);
+        }
+}
+
+TEST(Volume, StiffnessProductIsTheSlopeOfTheForce) {
+    const Model model = block(2);
+    PlanarState<double> state(model);
+    state.shake(0.15, 0.0);
+    const VolumePreservation<double> volume = generatorOf(model);
+    PlanarState<double> direction(model);
+    std::fill(direction.x.begin(), direction.x.end(), 0.0);
+    direction.shake(1.0, 0.0);
+    core::AlignedArray<double> product(state.planes());
+    volume.addStiffnessProduct(state.motion(), direction.x.data(), product.data());
+    const double h = 1e-6;
+    auto forcesAt = [&](double s) {
+        PlanarState<double> moved = state;
+        for (std::size_t k = 0; k < moved.x.size(); ++k) moved.x[k] += s * direction.x[k];
+        return moved.forces(volume);
+    };
+    const std::vector<dvec3> up = forcesAt(h), down = forcesAt(-h);
+    for (int i = 0; i < state.count; ++i) {
+        const auto p = static_cast<std::size_t>(i);
+        // Rounding of forces near 1e4 N: 1e-12 / h; the cubic term: h² · 1e4.
+        EXPECT_LT(glm::length(state.get(product, i) - (down[p] - up[p]) / (2.0 * h)), 1e-4);
+    }
+}
+
+TEST(Volume, StiffnessMatrixIsSymmetric) {
+    const Model model = block(1);
+    PlanarState<double> state(model);
+    state.shake(0.2, 0.0);
+    const taut::test::Matrix matrix = stiffnessMatrix(state, generatorOf(model));
+    for (std::size_t i = 0; i < matrix.n; ++i)
+        for (std::size_t j = 0; j < i; ++j) EXPECT_NEAR(matrix.at(i, j), matrix.at(j, i), 1e-9);
+}
+
+TEST(Volume, FlattenedOrMirroredTetrahedronIsPushedBack) {
+    const Model model = tetrahedron();
+    for (double height : {0.5, 0.0, -0.3, -1.0, -2.0}) {
+        PlanarState<double> state(model);
+        state.set(state.x, 3, {0, 0, height});
+        const std::vector<dvec3> forces = state.forces(generatorOf(model));
+        // V/V0 = height: F = K (1 - height) · area/3 upwards on the apex.
+        EXPECT_NEAR(forces[3].z, 600.0 * (1.0 - height) / 6.0, 1e-10);
+    }
+}
+
+TEST(Volume, CollapsedToALineHasNoForceButIsReported) {
+    const Model model = tetrahedron();
+    PlanarState<double> state(model);
+    for (int i = 0; i < 4; ++i) state.set(state.x, i, {0.25 * i, 0, 0});
+    const VolumePreservation<double> volume = generatorOf(model);
+    for (const dvec3& f : state.forces(volume)) EXPECT_EQ(f, dvec3(0.0));
+    const VolumeReport report = volume.inspect(state.motion());
+    EXPECT_EQ(report.smallestRatio, 0.0);
+    EXPECT_EQ(report.collapsed, 1);
+    EXPECT_EQ(report.inverted, 1);
+    EXPECT_EQ(report.overstretched, 0);
+}
+
+TEST(Volume, ReportCountsCollapsedInvertedAndOverstretched) {
+    const Model model = block(2);
+    PlanarState<double> state(model);
+    const VolumePreservation<double> volume = generatorOf(model);
+    VolumeReport report = volume.inspect(state.motion());
+    EXPECT_NEAR(report.smallestRatio, 1.0, 1e-14);  // rounding of 1/8 m edges
+    EXPECT_EQ(report.collapsed + report.inverted + report.overstretched, 0);
+
+    scale(state, {1.0, 0.05, 1.0});
+    report = volume.inspect(state.motion());
+    EXPECT_NEAR(report.smallestRatio, 0.05, 1e-14);
+    EXPECT_EQ(report.collapsed, 48);
+    EXPECT_EQ(report.inverted, 0);
+
+    scale(state, {1.0, -20.0, 1.0});
+    report = volume.inspect(state.motion());
+    EXPECT_EQ(report.inverted, 48);
+    EXPECT_EQ(report.overstretched, 0);
+
+    scale(state, {1.6, -1.0, 1.0});
+    EXPECT_EQ(volume.inspect(state.motion()).overstretched, 48);
+    scale(state, {1.5 / 1.6, 1.5, 1.0});
+    EXPECT_EQ(volume.inspect(state.motion()).overstretched, 0);
+
+    // One corner alone: the smallest cell is one that has it.
+    PlanarState<double> poked(model);
+    poked.set(poked.x, 0, {-0.1, -0.1, -0.1});
+    report = volume.inspect(poked.motion());
+    const auto& points = model.cells[static_cast<std::size_t>(report.smallestCell)].points;
+    EXPECT_EQ(std::count(points.begin(), points.end(), 0), 1);
+}
+
+// Rigorous in the working range, mirrored cells included.
+TEST(Volume, StabilityShareBoundsTheFrequencyInTheWholeWorkingRange) {
+    const Model model = block(2);
+    const VolumePreservation<double> volume = generatorOf(model, 1.5);
+    const dvec3 states[] = {{1, 1, 1},        {1.5, 1, 1},      {1.5, 1.5, 1}, {1.5, 1.5, 1.5}, {1, 0.02, 1},
+                            {1.5, 0.02, 1.5}, {1.5, 1e-9, 1.5}, {1, -1, 1},    {1.4, -0.5, 1.4}};
+    for (const dvec3& factors : states) {
+        PlanarState<double> state(model);
+        scale(state, factors);
+        ASSERT_EQ(volume.inspect(state.motion()).overstretched, 0);
+        const double bound = boundSquared(PlanarState<double>(model), volume);
+        EXPECT_LE(largestFrequencySquared(state, volume), bound) << factors.x << ' ' << factors.y << ' ' << factors.z;
+    }
+    for (int attempt = 1; attempt <= 3; ++attempt) {
+        PlanarState<double> state(model);
+        state.shake(0.04 * attempt, 0.0);
+        ASSERT_EQ(volume.inspect(state.motion()).overstretched, 0);
+        EXPECT_LE(largestFrequencySquared(state, volume), boundSquared(PlanarState<double>(model), volume));
+    }
+}
+
+TEST(Volume, StabilityShareIsNotFarAboveTheFrequency) {
+    const Model model = block(2);
+    PlanarState<double> state(model);
+    const VolumePreservation<double> tight = generatorOf(model, 1.5);
+    const double bound = boundSquared(state, tight);
+    scale(state, dvec3(1.5));
+    EXPECT_LT(bound, 16.0 * largestFrequencySquared(state, tight));
+}
+
+// Left its range, the share counts what is there.
+TEST(Volume, StabilityShareFollowsAStateBeyondTheWorkingStretch) {
+    const Model model = block(1);
+    const VolumePreservation<double> volume = generatorOf(model, 1.0);
+    for (const dvec3& factors : {dvec3(3, 3, 1), dvec3(3, 3, 3), dvec3(2, -2, 2)}) {
+        PlanarState<double> state(model);
+        scale(state, factors);
+        EXPECT_GT(volume.inspect(state.motion()).overstretched, 0);
+        EXPECT_LE(largestFrequencySquared(state, volume), boundSquared(state, volume));
+        EXPECT_GT(largestFrequencySquared(state, volume), boundSquared(PlanarState<double>(model), volume));
+    }
+}
+
+template <class Real>
+void expectSameBits() {
+    Model model = block(7);
+    const std::size_t regular = model.cells.size();
+    for (std::size_t k = 0; k < 100; ++k) model.cells.push_back(model.cells[(k * 97) % regular]);
+    PlanarState<Real> state(model);
+    state.shake(0.02, 0.0);
+    core::AlignedArray<Real> first;
+    test::forEachInstructionSet([&] {
+        state.forces(VolumePreservation<Real>(model.cells, model.positions));
+        if (first.empty()) first = state.f;
+        EXPECT_EQ(std::memcmp(first.data(), state.f.data(), first.size() * sizeof(Real)), 0)
+            << core::nameOf(core::instructionSet());
+    });
+}
+
+TEST(Volume, HasTheSameBitsForEveryInstructionSet) {
+    expectSameBits<float>();
+    expectSameBits<double>();
+}
+
+TEST(Volume, OrderOfCellsMattersOnlyInRounding) {
+    const Model model = block(5);
+    PlanarState<double> state(model);
+    state.shake(0.05, 0.0);
+    std::vector<VolumeCell> mixed;
+    const std::size_t n = model.cells.size();
+    ASSERT_NE(n % 7, 0U);
+    for (std::size_t k = 0; k < n; ++k) mixed.push_back(model.cells[7 * k % n]);
+    const std::vector<dvec3> f = state.forces(generatorOf(model));
+    const std::vector<dvec3> g = state.forces(VolumePreservation<double>(mixed, model.positions));
+    for (std::size_t i = 0; i < f.size(); ++i) EXPECT_LT(glm::length(f[i] - g[i]), 1e-10);  // forces of 1e3 N
+}
+
+}  // namespace
+}  // namespace taut::mechanics

@@ -27,12 +27,12 @@ int codeOf(core::ExitCode code) {
 void printShortHelp() {
     fmt::print(
         "taut plays scenes of ropes, cloth and soft bodies and renders them without a display.\n\n"
-        "  taut render flag -o flag.mp4               a video of a shipped scene\n"
+        "  taut render flag -o flag.mp4                 a video of a shipped scene\n"
         "  taut render my.toml -o out/frame_######.png  a picture file a frame\n"
-        "  taut info flag                             what a scene builds, its time step and its cost\n"
-        "  taut check my.toml                         whether a scene file is right\n"
-        "  taut doctor                                whether everything needed is installed\n"
-        "  taut schema > taut.schema.json             the scene format, for editors\n\n"
+        "  taut info flag                               what a scene builds, its time step and its cost\n"
+        "  taut check my.toml                           whether a scene file is right\n"
+        "  taut doctor                                  whether everything needed is installed\n"
+        "  taut schema > taut.schema.json               the scene format, for editors\n\n"
         "taut --help lists the commands, taut COMMAND --help their flags.\n");
     const std::vector<std::string> scenes = shippedScenes();
     if (!scenes.empty()) fmt::print("Shipped scenes: {}\n", fmt::join(scenes, ", "));

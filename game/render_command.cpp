@@ -18,6 +18,8 @@
 #include "game/outputs.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
+#include "image/several_sinks.h"
+#include "image/video_writer.h"
 #include "image/whole_file.h"
 #include "pipeline/run.h"
 #include "pipeline/run_record.h"
@@ -28,7 +30,7 @@ namespace {
 
 struct RenderFlags {
     std::string scene;
-    std::string output;
+    std::string output, video;
     std::string frames, size, camera, gl, hashEvery = "frame";
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
@@ -52,6 +54,9 @@ std::vector<std::string> allOverrides(const RenderFlags& flags) {
 void checkFlags(const RenderFlags& flags) {
     const auto fail = [](const char* message) { throw core::Error(core::ExitCode::usage, message); };
     if (!flags.output.empty()) checkOutputName(flags.output);
+    if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
+    if (!flags.video.empty() && !image::isVideoPath(flags.video))
+        fail("--video: the name must end in .mp4, .mov or .mkv");
     if (flags.output.empty() && !flags.noPictures)
         fail("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
     if (flags.output.empty() && flags.metrics) fail("--metrics writes a file beside the output: add -o");
@@ -81,6 +86,20 @@ std::unique_ptr<render::Renderer> makeRenderer(const RenderFlags& flags, const w
     options.shadowSize = picture.shadowSize;
     options.shaders = shaderFolder();
     return pipeline::workingRenderer(options, backends);
+}
+
+// Everything that was asked for, or null; asks before it overwrites.
+std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pipeline::RunOptions& options,
+                                              double fps) {
+    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
+    std::vector<std::unique_ptr<image::FrameSink>> sinks;
+    for (const std::string& output : {flags.output, flags.video}) {
+        if (output.empty()) continue;
+        if (!flags.noPictures) permitOverwriting(output, options.firstFrame, options.lastFrame, overwrite);
+        sinks.push_back(makeSink(output, fps));
+    }
+    if (sinks.empty()) return nullptr;
+    return std::make_unique<image::SeveralSinks>(std::move(sinks));
 }
 
 double smallestStep(const world::World& world) {
@@ -115,6 +134,7 @@ void printSummary(const RenderFlags& flags, const pipeline::RunResult& result) {
     std::string text = fmt::format("{} of {} simulated frames drawn", pictures, result.frames.size());
     if (flags.noPictures) text = fmt::format("{} frames simulated", result.frames.size());
     if (!flags.output.empty()) text += fmt::format(", in {}", flags.output);
+    if (!flags.video.empty()) text += fmt::format(" and {}", flags.video);
     fmt::print(stderr, "{}, {:.1f} s{}\n", text, result.seconds, result.interrupted ? " (interrupted)" : "");
 }
 
@@ -124,15 +144,7 @@ int render(const RenderFlags& flags) {
     const pipeline::RunOptions options = runOptions(flags, spec);
     const Interruption interruption;
 
-    std::unique_ptr<image::FrameSink> sink;
-    if (!flags.output.empty()) {
-        if (!flags.noPictures)
-            permitOverwriting(flags.output, options.firstFrame, options.lastFrame,
-                              flags.yes  ? Overwrite::yes
-                              : flags.no ? Overwrite::no
-                                         : Overwrite::ask);
-        sink = makeSink(flags.output, spec.run.fps);
-    }
+    const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, options, spec.run.fps);
     const core::ThreadLimit threads(flags.threads);
     world::World world(spec, {.threads = flags.threads});
     printWarnings(world.warnings());
@@ -162,6 +174,7 @@ int render(const RenderFlags& flags) {
 
 void addOutputFlags(CLI::App& command, RenderFlags& flags) {
     command.add_option("-o,--output", flags.output, "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv)");
+    command.add_option("--video", flags.video, "A video besides the frames of -o")->type_name("FILE");
     auto* yes = command.add_flag("-y,--yes", flags.yes, "Overwrite what exists");
     command.add_flag("-n,--no", flags.no, "Never overwrite")->excludes(yes);
     command.add_flag("--metrics", flags.metrics, "Write metrics.csv: energy, momentum, strain, contacts of each frame");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "image/read.h"
+#include "image/several_sinks.h"
 #include "image_support.h"
 
 namespace taut::image {
@@ -52,6 +53,19 @@ TEST(FrameSequence, UnwritableFolderFailsBeforeTheFirstFrame) {
     const TemporaryFolder folder;
     test::writeText(folder / "file", "");
     messageOf(ExitCode::inputOutput, [&] { FrameSequence s{FramePattern(folder / "file/f_#.png")}; });
+}
+
+TEST(SeveralSinks, EachGetsEveryFrameAndTheFirstHasTheCompanions) {
+    const TemporaryFolder folder;
+    std::vector<std::unique_ptr<FrameSink>> sinks;
+    sinks.push_back(std::make_unique<FrameSequence>(FramePattern(folder / "a")));
+    sinks.push_back(std::make_unique<FrameSequence>(FramePattern(folder / "b")));
+    SeveralSinks all(std::move(sinks));
+    all.write(3, test::testPicture(8, 6));
+    all.finish();
+    EXPECT_TRUE(std::filesystem::exists(folder / "a/frame_000003.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "b/frame_000003.png"));
+    EXPECT_EQ(all.companion("run.json"), folder / "a/run.json");
 }
 
 }  // namespace

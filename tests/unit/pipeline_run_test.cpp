@@ -109,7 +109,10 @@ TEST(Play, StoppingKeepsWholeFramesAndFinishesTheOutput) {
     world::World world(pendulum());
     RecordingSink sink;
     std::atomic<bool> stop = false;
-    const RunListener listener{[&](const FrameRecord& record) { stop = record.frame == 2; }, {}};
+    const RunListener listener{[&](const FrameRecord& record) {
+                                   if (record.frame == 2) stop = true;
+                               },
+                               {}};
     const RunResult result = play(world, {.lastFrame = 100000}, smallPicture, &sink, listener, stop);
     EXPECT_TRUE(result.interrupted);
     EXPECT_TRUE(sink.finished);

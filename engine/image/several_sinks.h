@@ -1,0 +1,24 @@
+// Gives each picture to several sinks: frames and a video from one run. It knows nothing of what they are.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "image/frame_sink.h"
+
+namespace taut::image {
+
+class SeveralSinks : public FrameSink {
+  public:
+    // Expects at least one; files that accompany the output lie with the first.
+    explicit SeveralSinks(std::vector<std::unique_ptr<FrameSink>> sinks);
+
+    void write(std::int64_t frame, const Image& image) override;
+    void finish() override;
+    std::filesystem::path companion(const std::string& name) const override;
+
+  private:
+    std::vector<std::unique_ptr<FrameSink>> sinks_;
+};
+
+}  // namespace taut::image

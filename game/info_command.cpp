@@ -122,8 +122,8 @@ void printIsland(const world::IslandInfo& i) {
 void printTable(const Facts& facts) {
     const world::SceneSpec& spec = facts.spec;
     fmt::print("{}{}\n", spec.file, spec.title.empty() ? "" : ": " + spec.title);
-    fmt::print("{} frames at {:.4g} a second, {} ticks of {:.4g} ms each, {} precision, {}x{} pixels\n", facts.frames,
-               spec.run.fps, facts.ticksPerFrame, 1e3 * facts.tickSeconds,
+    fmt::print("{} frames at {:.4g} a second, tick {:.4g} ms = frame / {}, {} precision, {}x{} pixels\n", facts.frames,
+               spec.run.fps, 1e3 * facts.tickSeconds, facts.ticksPerFrame,
                spec.solver.precision == world::Precision::double_ ? "double" : "single", spec.picture.size.x,
                spec.picture.size.y);
     for (const world::IslandInfo& island : facts.islands) printIsland(island);

@@ -35,8 +35,7 @@ std::string clockText(double seconds) {
     return fmt::format("{}:{:02}", all / 60, all % 60);
 }
 
-Progress::Progress(std::int64_t frames, double fps, double step, bool quiet)
-    : frames_(frames), fps_(fps), step_(step), quiet_(quiet), live_(isLiveTerminal()), lastShown_(start_) {}
+Progress::Progress(const ProgressFacts& facts, bool quiet) : facts_(facts), quiet_(quiet), live_(isLiveTerminal()) {}
 
 Progress::~Progress() {
     if (lineOpen_) fmt::print(stderr, "\n");
@@ -45,10 +44,11 @@ Progress::~Progress() {
 void Progress::frameDone(const pipeline::FrameRecord& record) {
     if (quiet_) return;
     const auto now = Clock::now();
-    const bool last = record.frame + 1 == frames_;
+    const double left = secondsLeft(record, now);
+    const bool last = record.frame + 1 == facts_.frames;
     if (!last && now - lastShown_ < (live_ ? std::chrono::nanoseconds(liveInterval) : plainInterval)) return;
     lastShown_ = now;
-    const std::string text = line(record, std::chrono::duration<double>(now - start_).count());
+    const std::string text = line(record, std::chrono::duration<double>(now - start_).count(), left);
     if (live_) {
         fmt::print(stderr, "\r{}\x1b[K", cutToTerminal(text));
         std::fflush(stderr);
@@ -58,16 +58,33 @@ void Progress::frameDone(const pipeline::FrameRecord& record) {
     }
 }
 
-std::string Progress::line(const pipeline::FrameRecord& record, double elapsed) const {
+double Progress::secondsLeft(const pipeline::FrameRecord& record, Clock::time_point now) {
+    if (record.pictured && !pictured_) {
+        pictured_ = true;
+        paceStart_ = now - std::chrono::duration_cast<Clock::duration>(
+                               std::chrono::duration<double>(record.simulating + record.drawing + record.encoding));
+        paceFrame_ = record.frame - 1;
+    }
+    const double spent = std::chrono::duration<double>(now - paceStart_).count();
+    return spent / static_cast<double>(record.frame - paceFrame_) *
+           static_cast<double>(facts_.frames - 1 - record.frame);
+}
+
+// The most wanted first: a narrow terminal cuts the rest.
+std::string Progress::line(const pipeline::FrameRecord& record, double elapsed, double left) const {
     const auto done = static_cast<double>(record.frame + 1);
-    const auto all = static_cast<double>(frames_);
-    const double left = elapsed / done * (all - done);
-    std::string text = fmt::format("frame {}/{}  {:3.0f} %  simulation {:.1f} ms", record.frame + 1, frames_,
-                                   100.0 * done / all, 1e3 * record.simulating);
+    std::string text =
+        fmt::format("frame {}/{} {:3.0f} %  {} left  simulation {:.1f}", record.frame + 1, facts_.frames,
+                    100.0 * done / static_cast<double>(facts_.frames), clockText(left), 1e3 * record.simulating);
     if (record.pictured)
-        text += fmt::format("  picture {:.0f} ms  file {:.0f} ms", 1e3 * record.drawing, 1e3 * record.encoding);
-    text += fmt::format("  {:.2f} x real time  {} left  h {:.3g} ms", done / fps_ / std::max(elapsed, 1e-9),
-                        clockText(left), 1e3 * step_);
+        text += fmt::format(" picture {:.0f} file {:.0f}", 1e3 * record.drawing, 1e3 * record.encoding);
+    text += fmt::format(" ms  {:.2f} x real time  h {:.3g} of {:.3g} ms", done / facts_.fps / std::max(elapsed, 1e-9),
+                        1e3 * facts_.step, 1e3 * facts_.stepLimit);
+    if (record.metrics) {
+        const world::Metrics& m = *record.metrics;
+        text += fmt::format("  strain {:.1f} %  energy {:.4g} J", 100.0 * m.maxStrain,
+                            m.kinetic + m.elastic + m.gravitational);
+    }
     return text;
 }
 

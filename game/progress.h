@@ -12,30 +12,41 @@ namespace taut::game {
 // A duration for people: "0:07", "12:05", "1:02:05".
 std::string clockText(double seconds);
 
+// What of a run never changes.
+struct ProgressFacts {
+    std::int64_t frames = 1;  // to simulate
+    double fps = 60.0;        // pictures a second of scene time
+    double step = 0.0;        // h of the island with the smallest [s]
+    double stepLimit = 0.0;   // its largest stable step [s]
+};
+
 class Progress {
   public:
-    // step: the smallest h of the islands [s]; fps: pictures a second of scene time.
-    Progress(std::int64_t frames, double fps, double step, bool quiet);
+    Progress(const ProgressFacts& facts, bool quiet);
     ~Progress();  // ends the live line
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
     void frameDone(const pipeline::FrameRecord& record);
 
-    // The line for a record, without a line end.
-    std::string line(const pipeline::FrameRecord& record, double elapsed) const;
+    // The line for a record, without a line end; elapsed and left are wall time [s].
+    std::string line(const pipeline::FrameRecord& record, double elapsed, double left) const;
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    std::int64_t frames_;
-    double fps_;
-    double step_;
+    double secondsLeft(const pipeline::FrameRecord& record, Clock::time_point now);
+
+    ProgressFacts facts_;
     bool quiet_;
     bool live_;
     bool lineOpen_ = false;
     Clock::time_point start_ = Clock::now();
-    Clock::time_point lastShown_;
+    Clock::time_point lastShown_ = start_;
+    // Where the pace is measured from: the start, or the first picture, because frames without one pass faster.
+    Clock::time_point paceStart_ = start_;
+    std::int64_t paceFrame_ = -1;
+    bool pictured_ = false;
 };
 
 }  // namespace taut::game

@@ -70,7 +70,10 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec
         throw core::Error(core::ExitCode::usage, fmt::format("--frames {}: the scene has frames 0-{}; --seconds makes "
                                                              "it longer",
                                                              flags.frames, count - 1));
-    return {.firstFrame = range.first, .lastFrame = last, .debugView = flags.debug, .metrics = flags.metrics};
+    return {.firstFrame = range.first,
+            .lastFrame = last,
+            .debugView = flags.debug,
+            .metrics = flags.metrics || !flags.quiet};
 }
 
 std::unique_ptr<render::Renderer> makeRenderer(const RenderFlags& flags, const world::PictureSpec& picture) {
@@ -102,10 +105,14 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pi
     return std::make_unique<image::SeveralSinks>(std::move(sinks));
 }
 
-double smallestStep(const world::World& world) {
-    double step = world.tickSeconds();
-    for (const world::IslandInfo& island : world.islands()) step = std::min(step, island.step);
-    return step;
+ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps) {
+    ProgressFacts facts{options.lastFrame + 1, fps, world.tickSeconds(), world.tickSeconds()};
+    for (const world::IslandInfo& island : world.islands()) {
+        if (island.step > facts.step) continue;
+        facts.step = island.step;
+        facts.stepLimit = island.stepLimit;
+    }
+    return facts;
 }
 
 pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunOptions& options, Progress& progress) {
@@ -158,7 +165,7 @@ int render(const RenderFlags& flags) {
 
     pipeline::RunResult result;
     {
-        Progress progress(options.lastFrame + 1, spec.run.fps, smallestStep(world), flags.quiet);
+        Progress progress(progressFacts(world, options, spec.run.fps), flags.quiet);
         result = pipeline::play(world, options, draw, flags.noPictures ? nullptr : sink.get(),
                                 listenerFor(flags, options, progress), interruption.flag());
     }

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <utility>
+
 #include "core/error.h"
+#include "game/interruption.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
 
@@ -57,15 +61,29 @@ TEST(Progress, ClockIsWrittenForPeople) {
     EXPECT_EQ(clockText(3725.0), "1:02:05");
 }
 
-// 30 of 120 frames in 2 s: a second of scene time at 30 frames a second took two, and three times that is left.
+// 30 frames at 30 a second are a second of scene time; it took two.
 TEST(Progress, LineTellsShareSpeedAndTimeLeft) {
-    const Progress progress(120, 30.0, 0.0005, true);
-    const pipeline::FrameRecord record{
+    const Progress progress({.frames = 120, .fps = 30.0, .step = 0.0005, .stepLimit = 0.0006}, true);
+    pipeline::FrameRecord record{
         .frame = 29, .pictured = true, .simulating = 0.004, .drawing = 0.08, .encoding = 0.011};
-    const std::string line = progress.line(record, 2.0);
-    for (const char* part : {"frame 30/120", "25 %", "simulation 4.0 ms", "picture 80 ms", "file 11 ms",
-                             "0.50 x real time", "0:06 left", "h 0.5 ms"})
+    const std::string line = progress.line(record, 2.0, 66.0);
+    for (const char* part : {"frame 30/120", "25 %", "1:06 left", "simulation 4.0 picture 80 file 11 ms",
+                             "0.50 x real time", "h 0.5 of 0.6 ms"})
         EXPECT_NE(line.find(part), std::string::npos) << part << " is missing in: " << line;
+    record.metrics = world::Metrics{.kinetic = 1.0, .elastic = 2.0, .gravitational = 4.0, .maxStrain = 0.05};
+    EXPECT_NE(progress.line(record, 2.0, 66.0).find("strain 5.0 %  energy 7 J"), std::string::npos);
+}
+
+TEST(Interruption, FirstSignalSetsTheFlagAndTheExitCode) {
+    for (const auto& [signal, code] :
+         {std::pair{SIGINT, core::ExitCode::interrupted}, {SIGTERM, core::ExitCode::terminated}}) {
+        const Interruption interruption;
+        EXPECT_FALSE(interruption.flag());
+        EXPECT_FALSE(interruption.exitCode().has_value());
+        std::raise(signal);
+        EXPECT_TRUE(interruption.flag());
+        EXPECT_EQ(interruption.exitCode(), code);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+// The cloth that the benchmarks step: square, hung from its top row, slightly rippled. Knows nothing of what it is
+// compared with.
+#pragma once
+
+#include <memory>
+
+#include "mechanics/mass_spring_system.h"
+#include "mechanics/model.h"
+#include "ode/method.h"
+
+namespace taut::bench {
+
+// side × side points: structural, shear and bend springs, all with dashpots, and drag.
+mechanics::Model hangingCloth(int side);
+
+// A step that is stable for the cloth with dashpots, half the leap-frog limit [s].
+double stableStep(const mechanics::Model& cloth);
+
+enum class Air { still, windy };
+
+// The cloth as taut runs it: leap-frog, gravity, and wind on the triangles when asked for.
+template <class Real>
+class ClothRun {
+  public:
+    ClothRun(const mechanics::Model& cloth, Air air);
+    void step(int count);
+    double lowestPoint() const;  // [m], finite as long as the run is
+
+  private:
+    double h_;  // [s]
+    mechanics::MassSpringSystem<Real> system_;
+    std::unique_ptr<ode::Method<Real>> method_;
+    ode::State<Real> state_;
+};
+
+extern template class ClothRun<float>;
+extern template class ClothRun<double>;
+
+}  // namespace taut::bench

@@ -1,0 +1,7 @@
+list(APPEND TAUT_PHYSICS_TESTS
+  free_motion_test.cpp
+  linear_modes_test.cpp
+  oscillator_damping_test.cpp
+  oscillator_energy_test.cpp
+  oscillator_limits_test.cpp)
+list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode)

@@ -156,17 +156,7 @@ class Resolver {
     Impact resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point) const {
         const bool isMesh = solid.form.index() == meshIndex;
         const bool jumped = solid.travel > fastestSurface * h_;
-        const Frame& from = jumped ? solid.to : solid.from;
-        const double thickness = isMesh && points_.thickness < 8.0 * skin ? 8.0 * skin : points_.thickness;
-        Path path{from.toLocal(point.before), solid.to.toLocal(point.x), thickness, skin};
-        Touch touch{};
-        bool crossed = false;
-        if (jumped || solid.turn.empty()) {
-            if (!sweepForm(solid.form, path, touch, crossed)) return {};
-        } else if (!sweepTurning(solid, point, path, touch, crossed)) {
-            return {};
-        }
-        const Surface surface{from,
+        const Surface surface{solid.from,
                               solid.to,
                               jumped || solid.still,
                               solid.material.friction * points_.friction,
@@ -174,10 +164,28 @@ class Resolver {
                               h_,
                               restSpeedPerSecond * h_,
                               fastestSurface};
-        Impact impact = respond(surface, path, touch, point);
+        const double thickness = isMesh && points_.thickness < 8.0 * skin ? 8.0 * skin : points_.thickness;
+        const dvec3 localStart = (jumped ? solid.to : solid.from).toLocal(point.before);
+        const Path world{surface.still ? point.before : solid.to.toWorld(localStart), point.x, thickness, skin};
+        Touch touch{};
+        bool crossed = false;
+        if (const PlaneForm* const plane = std::get_if<PlaneForm>(&solid.form)) {
+            const dvec3 normal = solid.to.rotation * plane->normal;
+            touch = {normal, glm::dot(normal, solid.to.position) + thickness};
+        } else {
+            const Path local{localStart, solid.to.toLocal(point.x), thickness, skin};
+            if (jumped || solid.turn.empty()) {
+                if (!sweepForm(solid.form, local, touch, crossed)) return {};
+            } else if (!sweepTurning(solid, point, local, touch, crossed)) {
+                return {};
+            }
+            touch.normal = solid.to.rotation * touch.normal;
+            touch.offset += glm::dot(touch.normal, solid.to.position);
+        }
+        Impact impact = respond(surface, world, touch, point);
         if (isLast && crossed && impact.touches) {  // wedged in a fold of the mesh: it goes where the mesh goes
-            point.x = solid.to.toWorld(path.from);
-            point.v = surfaceVelocity(surface, path.from);
+            point.x = world.from;
+            point.v = surfaceVelocity(surface, world.from);
             point.rests = surface.still;
         }
         return impact;

@@ -33,19 +33,20 @@ struct Impact {
     dvec3 normal{0.0};     // in the world
 };
 
-inline dvec3 surfaceVelocity(const Surface& surface, const dvec3& local) {
+// Of the surface's place that ends the step at `place`, by its way during the step.
+inline dvec3 surfaceVelocity(const Surface& surface, const dvec3& place) {
     if (surface.still) return dvec3(0.0);
-    const dvec3 v = (surface.to.toWorld(local) - surface.from.toWorld(local)) / surface.h;
+    const dvec3 v = (place - surface.from.toWorld(surface.to.toLocal(place))) / surface.h;
     const double speed = std::sqrt(glm::dot(v, v));
     return speed > surface.fastest ? v * (surface.fastest / speed) : v;
 }
 
-//      from o           The path in the frame of the shape. `fall` is how far it goes against the normal, `pressed`
-//            \          the part of that after the touch; friction acts on the way along the surface after the touch
-//   ----------x-------  just as it does on the velocity: so much of it as μ times `pressed` allows is undone. A point
-//              \        that sticks is then where it was, and does not creep down a slope by what gravity adds a step.
-//            to o
-inline Impact respond(const Surface& surface, const Path& path, const Touch& touch, MovingPoint& point) {
+//      from o           The path in the world, its start carried along by the surface. `fall` is how far it goes
+//            \          against the normal, `pressed` the part of that after the touch. Friction acts on the way along
+//   ----------x-------  the surface after the touch just as it does on the velocity: as much of it as μ times `pressed`
+//              \        allows is undone. A point that sticks is then where it was, and does not creep down a slope by
+//            to o       what gravity adds in a step.
+[[gnu::always_inline]] inline Impact respond(const Surface& surface, const Path& path, const Touch& touch, MovingPoint& point) {
     Impact impact;
     const dvec3& n = touch.normal;
     const double depth = touch.offset - glm::dot(n, path.to);
@@ -54,28 +55,27 @@ inline Impact respond(const Surface& surface, const Path& path, const Touch& tou
     const dvec3 onSurface = path.to + (out - path.thickness) * n;
 
     // Velocity relative to the surface: the approaching normal part goes, or comes back; the rest is slowed.
-    impact.normal = surface.to.rotation * n;
     const dvec3 carried = surfaceVelocity(surface, onSurface);
     const dvec3 u = point.v - carried;
-    const double un = glm::dot(u, impact.normal);
+    const double un = glm::dot(u, n);
     if (depth <= 0.0 && !(un < 0.0)) return impact;
     const double bounce = un < -surface.restSpeed ? surface.restitution : 0.0;
     impact.impulse = un < 0.0 ? -(1.0 + bounce) * un : 0.0;
-    const dvec3 slide = u - un * impact.normal;
+    const dvec3 slide = u - un * n;
     const double slideSquare = glm::dot(slide, slide);
     const double grip = surface.friction * impact.impulse;
     const bool sticks = slideSquare <= grip * grip;
     if (sticks && bounce == 0.0 && un < 0.0) {
         point.v = carried;
     } else {
-        point.v += impact.impulse * impact.normal;
+        point.v += impact.impulse * n;
         if (sticks)
             point.v -= slide;
         else if (grip > 0.0)
             point.v -= slide * (grip / std::sqrt(slideSquare));
     }
 
-    // Position, in the frame of the shape.
+    // Position.
     const dvec3 way = path.to - path.from;
     const double fall = -glm::dot(way, n);
     double pressed = depth + path.skin < fall ? depth + path.skin : fall;
@@ -92,11 +92,12 @@ inline Impact respond(const Surface& surface, const Path& path, const Touch& tou
     // Held where it stood within rounding of the surface: it stays to the bit, so that rounding cannot add up.
     const double startHeight = glm::dot(n, path.from) - touch.offset;
     point.rests = holds && sticks && surface.still && bounce == 0.0 && std::abs(startHeight) <= path.skin;
-    point.x = point.rests ? point.before : surface.to.toWorld(end);
+    point.x = point.rests ? point.before : end;
 
     impact.touches = impact.impulse > 0.0 || depth > path.skin;
     impact.shifted = depth > path.skin || bounce > 0.0;
-    impact.position = surface.to.toWorld(onSurface);
+    impact.position = onSurface;
+    impact.normal = n;
     return impact;
 }
 

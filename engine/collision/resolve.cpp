@@ -22,10 +22,9 @@ constexpr double restSpeedPerSecond = 2.0 * 9.81;  // [m/s²]
 template <class Real>
 constexpr double skinPerMetre = std::is_same_v<Real, float> ? 4.8e-7 : 4e-15;
 
+// A plane never comes here: its half-space is the touch itself.
 bool sweepForm(const Form& form, const Path& path, Touch& touch, bool& crossed) {
     switch (form.index()) {
-        case 0:
-            return sweepConvex(*std::get_if<PlaneForm>(&form), path, touch);
         case 1:
             return sweepConvex(*std::get_if<BoxForm>(&form), path, touch);
         case 2:
@@ -89,14 +88,9 @@ class Resolver {
             return box.low.x <= high.x && box.high.x >= low.x && box.low.y <= high.y && box.high.y >= low.y &&
                    box.low.z <= high.z && box.high.z >= low.z;
         }
-        const dvec3 normal = planeNormal(solid);
-        const double lowest =
-            glm::dot(normal, box.centre() - solid.to.position) - glm::dot(glm::abs(normal), box.halfSize());
-        return lowest < margin;
-    }
-
-    static dvec3 planeNormal(const Solid& solid) {
-        return solid.to.rotation * std::get_if<PlaneForm>(&solid.form)->normal;
+        const dvec3& normal = solid.above.normal;
+        return glm::dot(normal, box.centre()) - glm::dot(glm::abs(normal), box.halfSize()) <
+               solid.above.offset + margin;
     }
 
     void resolveAgainst(int first, const BlockRows<Real>& rows, const std::array<const Solid*, mostAtOnce>& near,
@@ -109,8 +103,7 @@ class Resolver {
                 box.grow(margin);
                 markNearBox(rows, box, 1U << c, mask.data());
             } else {
-                const dvec3 normal = planeNormal(solid);
-                markUnderPlane(rows, normal, glm::dot(normal, solid.to.position), margin, 1U << c, mask.data());
+                markUnderPlane(rows, solid.above.normal, solid.above.offset, margin, 1U << c, mask.data());
             }
         }
         for (int i = 0; i < rows.count; ++i) {
@@ -125,26 +118,28 @@ class Resolver {
         Real* const x = points_.x + i;
         Real* const v = points_.v + i;
         MovingPoint point{{before[0], before[s], before[2 * s]}, {x[0], x[s], x[2 * s]}, {v[0], v[s], v[2 * s]}};
-        if (!isFinite(point.before) || !isFinite(point.x) || !isFinite(point.v)) return;
+        const dvec3 sum = point.before + point.x + point.v;
+        if (!isFinite(sum.x + sum.y + sum.z)) return;  // for the caller to find
         const double skin = skinPerMetre<Real> * (std::abs(point.before.x) + std::abs(point.before.y) +
                                                   std::abs(point.before.z) + points_.thickness);
 
         // Pressed out of one solid a point may stand in another: a few passes in the same order, then it is left.
+        const Solid& first = *near[static_cast<std::size_t>(__builtin_ctz(bits))];
+        const bool single = (bits & (bits - 1)) == 0 && first.form.index() != meshIndex;
+        const int passes = single ? 1 : mostPasses;
         const std::size_t firstContact = contacts_.size();
         bool touches = false;
-        for (int pass = 0; pass < mostPasses; ++pass) {
+        Impact impact;
+        for (int pass = 0; pass < passes; ++pass) {
             bool again = false;
             for (std::uint32_t rest = bits; rest != 0; rest &= rest - 1) {
                 const Solid& solid = *near[static_cast<std::size_t>(__builtin_ctz(rest))];
-                const Impact impact = resolveOne(solid, skin, pass == mostPasses - 1, point);
-                if (!impact.touches) continue;
+                if (!resolveOne(solid, skin, pass == mostPasses - 1, point, impact)) continue;
                 touches = true;
                 again |= impact.shifted;
                 report(firstContact, i, solid.collider, impact);
             }
-            const bool single = (bits & (bits - 1)) == 0 &&
-                                near[static_cast<std::size_t>(__builtin_ctz(bits))]->form.index() != meshIndex;
-            if (!again || single) break;
+            if (!again) break;
         }
         if (!touches) return;
         for (int k = 0; k < 3; ++k) {
@@ -153,8 +148,7 @@ class Resolver {
         }
     }
 
-    Impact resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point) const {
-        const bool isMesh = solid.form.index() == meshIndex;
+    bool resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point, Impact& impact) const {
         const bool jumped = solid.travel > fastestSurface * h_;
         const Surface surface{solid.from,
                               solid.to,
@@ -164,31 +158,33 @@ class Resolver {
                               h_,
                               restSpeedPerSecond * h_,
                               fastestSurface};
-        const double thickness = isMesh && points_.thickness < 8.0 * skin ? 8.0 * skin : points_.thickness;
-        const dvec3 localStart = (jumped ? solid.to : solid.from).toLocal(point.before);
-        const Path world{surface.still ? point.before : solid.to.toWorld(localStart), point.x, thickness, skin};
+        Path world{point.before, point.x, points_.thickness, skin};
         Touch touch{};
         bool crossed = false;
-        if (const PlaneForm* const plane = std::get_if<PlaneForm>(&solid.form)) {
-            const dvec3 normal = solid.to.rotation * plane->normal;
-            touch = {normal, glm::dot(normal, solid.to.position) + thickness};
+        if (!solid.bounded) {
+            if (!surface.still) world.from = solid.to.toWorld(solid.from.toLocal(point.before));
+            touch = {solid.above.normal, solid.above.offset + world.thickness};
         } else {
-            const Path local{localStart, solid.to.toLocal(point.x), thickness, skin};
+            const double least = solid.form.index() == meshIndex ? 8.0 * skin : 0.0;
+            if (world.thickness < least) world.thickness = least;
+            const dvec3 localStart = (jumped ? solid.to : solid.from).toLocal(point.before);
+            if (!surface.still) world.from = solid.to.toWorld(localStart);
+            const Path local{localStart, solid.to.toLocal(point.x), world.thickness, skin};
             if (jumped || solid.turn.empty()) {
-                if (!sweepForm(solid.form, local, touch, crossed)) return {};
+                if (!sweepForm(solid.form, local, touch, crossed)) return false;
             } else if (!sweepTurning(solid, point, local, touch, crossed)) {
-                return {};
+                return false;
             }
             touch.normal = solid.to.rotation * touch.normal;
             touch.offset += glm::dot(touch.normal, solid.to.position);
         }
-        Impact impact = respond(surface, world, touch, point);
-        if (isLast && crossed && impact.touches) {  // wedged in a fold of the mesh: it goes where the mesh goes
+        if (!respond(surface, world, touch, point, impact)) return false;
+        if (isLast && crossed) {  // wedged in a fold of the mesh: it goes where the mesh goes
             point.x = world.from;
             point.v = surfaceVelocity(surface, world.from);
             point.rests = surface.still;
         }
-        return impact;
+        return true;
     }
 
     // A solid that turns far is followed frame by frame; the first touch counts.

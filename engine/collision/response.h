@@ -26,11 +26,10 @@ struct Surface {
 };
 
 struct Impact {
-    bool touches = false;  // a contact worth reporting
-    bool shifted = false;  // x moved by more than rounding
-    double impulse = 0.0;  // normal, per mass [m/s]
-    dvec3 position{0.0};   // on the surface, in the world [m]
-    dvec3 normal{0.0};     // in the world
+    double impulse;  // normal, per mass [m/s]
+    dvec3 position;  // on the surface [m]
+    dvec3 normal;
+    bool shifted;  // x moved by more than rounding
 };
 
 // Of the surface's place that ends the step at `place`, by its way during the step.
@@ -46,11 +45,12 @@ inline dvec3 surfaceVelocity(const Surface& surface, const dvec3& place) {
 //   ----------x-------  the surface after the touch just as it does on the velocity: as much of it as μ times `pressed`
 //              \        allows is undone. A point that sticks is then where it was, and does not creep down a slope by
 //            to o       what gravity adds in a step.
-[[gnu::always_inline]] inline Impact respond(const Surface& surface, const Path& path, const Touch& touch, MovingPoint& point) {
-    Impact impact;
+//
+// Returns false where there is nothing to report; `impact` then means nothing.
+inline bool respond(const Surface& surface, const Path& path, const Touch& touch, MovingPoint& point, Impact& impact) {
     const dvec3& n = touch.normal;
     const double depth = touch.offset - glm::dot(n, path.to);
-    if (!(depth > -path.skin)) return impact;
+    if (!(depth > -path.skin)) return false;
     const double out = depth > 0.0 ? depth : 0.0;
     const dvec3 onSurface = path.to + (out - path.thickness) * n;
 
@@ -58,7 +58,7 @@ inline dvec3 surfaceVelocity(const Surface& surface, const dvec3& place) {
     const dvec3 carried = surfaceVelocity(surface, onSurface);
     const dvec3 u = point.v - carried;
     const double un = glm::dot(u, n);
-    if (depth <= 0.0 && !(un < 0.0)) return impact;
+    if (depth <= 0.0 && !(un < 0.0)) return false;
     const double bounce = un < -surface.restSpeed ? surface.restitution : 0.0;
     impact.impulse = un < 0.0 ? -(1.0 + bounce) * un : 0.0;
     const dvec3 slide = u - un * n;
@@ -94,11 +94,10 @@ inline dvec3 surfaceVelocity(const Surface& surface, const dvec3& place) {
     point.rests = holds && sticks && surface.still && bounce == 0.0 && std::abs(startHeight) <= path.skin;
     point.x = point.rests ? point.before : end;
 
-    impact.touches = impact.impulse > 0.0 || depth > path.skin;
     impact.shifted = depth > path.skin || bounce > 0.0;
     impact.position = onSurface;
     impact.normal = n;
-    return impact;
+    return impact.impulse > 0.0 || depth > path.skin;
 }
 
 }  // namespace taut::collision

@@ -131,7 +131,11 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
         solid.turn[static_cast<std::size_t>(i - 1)] = frameOf({position, mix}).of(solid.inCollider);
     }
 
-    if (!solid.bounded) return;
+    if (!solid.bounded) {
+        solid.above.normal = solid.to.rotation * std::get_if<PlaneForm>(&solid.form)->normal;
+        solid.above.offset = glm::dot(solid.above.normal, solid.to.position);
+        return;
+    }
     solid.bounds = worldBox(solid.localBounds, solid.from);
     const auto include = [&](const Frame& frame) {
         const Box box = worldBox(solid.localBounds, frame);

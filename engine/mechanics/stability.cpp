@@ -51,7 +51,9 @@ FrequencyBound overSprings(const NetworkView& network, std::span<const double> a
             bound.spring = static_cast<int>(s);
         }
     }
-    bound.omega = std::sqrt(largest + largestExtra(network, extra));
+    const double more = largestExtra(network, extra);
+    bound.omega = std::sqrt(largest + more);
+    bound.bySprings = largest >= more;
     return bound;
 }
 

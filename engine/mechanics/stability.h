@@ -17,7 +17,8 @@ struct NetworkView {
 
 struct FrequencyBound {
     double omega = 0;  // [1/s]
-    int spring = -1;   // the spring that sets it
+    int spring = -1;   // the spring that sets the springs' part, -1 without springs
+    bool bySprings = true;  // false: what generators add is more than the springs' part
 };
 
 // B1: ω² <= max over springs of S_i w_i + S_j w_j, S_i the summed stiffness at i. Holds in any configuration.

@@ -89,7 +89,7 @@ class IslandOf final : public Island {
             const dvec3 d = at(state_.x, s.b) - at(state_.x, s.a);
             const double stretch = std::sqrt(glm::dot(d, d)) - s.restLength;
             metrics.elastic += 0.5 * s.stiffness * stretch * stretch;
-            if (s.restLength > 0) metrics.maxStrain = std::max(metrics.maxStrain, std::abs(stretch) / s.restLength);
+            if (s.restLength > 0 && s.kind != mechanics::SpringKind::bend) metrics.maxStrain = std::max(metrics.maxStrain, std::abs(stretch) / s.restLength);
         }
         for (const auto& generator : system_.generators())
             (generator.get() == gravity_ ? metrics.gravitational : metrics.elastic) +=

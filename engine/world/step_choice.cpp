@@ -66,7 +66,10 @@ StepChoice chooseStep(const IslandPlan& plan, const mechanics::StabilityShare& s
     StepChoice choice;
     choice.anywhere = mechanics::boundAnywhere(network, share.stiffness);
     choice.here = mechanics::boundHere(network, share.stiffness, plan.positions);
-    if (choice.anywhere.spring >= 0) choice.limitingSpring = describeSpring(plan, choice.anywhere.spring);
+    if (!choice.anywhere.bySprings)
+        choice.limitingSpring = "volume cells or anchors of " + body.fullName();
+    else if (choice.anywhere.spring >= 0)
+        choice.limitingSpring = describeSpring(plan, choice.anywhere.spring);
     choice.mode = fastestMode(plan, share, choice.anywhere.omega);
     choice.limit = method->largestStep(choice.mode);
     const double limitHere = method->largestStep(fastestMode(plan, share, choice.here.omega));

@@ -16,7 +16,7 @@ struct StepChoice {
     double limit = 0;            // largest stable step [s], by the bound that holds in any configuration
     ode::FastestMode mode;       // what the limit is computed from
     mechanics::FrequencyBound anywhere, here;
-    std::string limitingSpring;  // in words; empty when no spring sets it
+    std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
     std::vector<std::string> warnings;
 };
 

@@ -36,7 +36,7 @@ struct Metrics {  // at a published tick, velocities synchronised
     double gravitational = 0;       // [J]
     glm::dvec3 momentum{0.0};       // [kg m/s]
     glm::dvec3 angularMomentum{0.0};  // [kg m²/s] about the origin
-    double maxStrain = 0;           // largest |l - L|/L of any spring
+    double maxStrain = 0;           // largest |l - L|/L of any spring but those of bending
     int contacts = 0;
     int invertedCells = 0;          // V/V0 <= 0
     double minVolumeRatio = 1;      // smallest V/V0
@@ -54,7 +54,7 @@ struct IslandInfo {
     double stepLimit = 0;             // [s] largest stable step by B1 with damping
     double step = 0;                  // [s] chosen
     int substeps = 1;
-    std::string limitingSpring;
+    std::string limitingSpring;       // what sets the limit, in words
     std::uint64_t bytes = 0;
 };
 

@@ -1,0 +1,111 @@
+// The same scene gives the same state hash at every tick: for every number of threads, every instruction set, and —
+// through the recorded hashes, which the builds of both compilers are held against — every compiler.
+#include <gtest/gtest.h>
+
+#include <cinttypes>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/instruction_set.h"
+#include "scene/load.h"
+#include "world/world.h"
+
+namespace taut {
+namespace {
+
+const std::filesystem::path source = TAUT_SOURCE_DIR;
+
+std::filesystem::path pathOf(const std::string& scene) {
+    if (scene == "everything") return source / "tests/determinism/everything.toml";
+    return source / "assets/scenes" / (scene + ".toml");
+}
+
+std::vector<std::uint64_t> hashes(const std::string& scene, const std::string& precision, int ticks, int threads,
+                                  core::InstructionSet set) {
+    const core::InstructionSet before = core::instructionSet();
+    core::useInstructionSet(set);
+    scene::LoadOptions options;
+    options.overrides = {"solver.precision=\"" + precision + "\""};
+    options.assetFolders = {source / "assets"};
+    world::World world(scene::loadScene(pathOf(scene), options).spec, {.threads = threads});
+    std::vector<std::uint64_t> chain{world.stateHash()};
+    for (int i = 0; i < ticks; ++i) {
+        if (const auto divergence = world.advance()) ADD_FAILURE() << divergence->message;
+        chain.push_back(world.stateHash());
+    }
+    core::useInstructionSet(before);
+    return chain;
+}
+
+constexpr int ticks = 40;
+
+class EveryPrecision : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryPrecision, HashesAreTheSameForOneTwoAndSevenThreads) {
+    const auto one = hashes("everything", GetParam(), ticks, 1, core::instructionSet());
+    EXPECT_EQ(one, hashes("everything", GetParam(), ticks, 2, core::instructionSet()));
+    EXPECT_EQ(one, hashes("everything", GetParam(), ticks, 7, core::instructionSet()));
+}
+
+TEST_P(EveryPrecision, HashesAreTheSameForEveryInstructionSet) {
+    const auto sse2 = hashes("everything", GetParam(), ticks, 2, core::InstructionSet::sse2);
+    for (core::InstructionSet set : {core::InstructionSet::avx2, core::InstructionSet::avx512})
+        if (core::isSupported(set)) EXPECT_EQ(sse2, hashes("everything", GetParam(), ticks, 2, set)) << nameOf(set);
+}
+
+TEST_P(EveryPrecision, HashesChangeWhenAnythingDoes) {
+    scene::LoadOptions options;
+    options.overrides = {"solver.precision=\"" + std::string(GetParam()) + "\"", "rope.line.mass_kg=1.0001"};
+    world::World world(scene::loadScene(pathOf("everything"), options).spec, {.threads = 2});
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(world.advance());
+    EXPECT_NE(world.stateHash(), hashes("everything", GetParam(), 3, 2, core::instructionSet()).back());
+}
+
+INSTANTIATE_TEST_SUITE_P(StateHash, EveryPrecision, testing::Values("single", "double"));
+
+// scene precision ticks hash; a line that begins with # says why the hashes below it changed.
+struct Recorded {
+    std::string scene, precision;
+    int ticks = 0;
+    std::uint64_t hash = 0;
+};
+
+std::vector<Recorded> recorded() {
+    std::ifstream file(source / "tests/determinism/hashes.txt");
+    std::vector<Recorded> all;
+    for (std::string line; std::getline(file, line);) {
+        if (line.empty() || line[0] == '#') continue;
+        std::istringstream words(line);
+        Recorded r;
+        words >> r.scene >> r.precision >> r.ticks >> std::hex >> r.hash;
+        EXPECT_FALSE(words.fail()) << line;
+        all.push_back(r);
+    }
+    return all;
+}
+
+TEST(RecordedHash, IsWhatThisBuildComputes) {
+    const std::vector<Recorded> all = recorded();
+    ASSERT_GE(all.size(), 9U);
+    for (const Recorded& r : all) {
+        const std::uint64_t hash = hashes(r.scene, r.precision, r.ticks, 2, core::instructionSet()).back();
+        char line[128];
+        std::snprintf(line, sizeof line, "%s %s %d %016" PRIx64, r.scene.c_str(), r.precision.c_str(), r.ticks, hash);
+        EXPECT_EQ(hash, r.hash) << "computed: " << line
+                                << "\nWhere the change of state is meant, put this line into "
+                                   "tests/determinism/hashes.txt, with a line above it that says why.";
+    }
+}
+
+TEST(RecordedHash, CoversEveryShippedScene) {
+    std::map<std::string, int> seen;
+    for (const Recorded& r : recorded()) ++seen[r.scene];
+    for (const auto& entry : std::filesystem::directory_iterator(source / "assets/scenes"))
+        if (entry.path().extension() == ".toml") EXPECT_TRUE(seen.contains(entry.path().stem())) << entry.path();
+}
+
+}  // namespace
+}  // namespace taut

@@ -1,0 +1,38 @@
+#include "core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace taut::core {
+namespace {
+
+TEST(ParallelFor, CallsEachIndexOnce) {
+    std::vector<std::atomic<int>> calls(1000);
+    parallelFor(1000, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+    for (const auto& count : calls) EXPECT_EQ(count, 1);
+}
+
+TEST(ParallelFor, NestsAndTakesNothing) {
+    std::atomic<int> calls = 0;
+    parallelFor(0, [&](int) { ++calls; });
+    EXPECT_EQ(calls, 0);
+    parallelFor(8, [&](int) { parallelFor(8, [&](int) { ++calls; }); });
+    EXPECT_EQ(calls, 64);
+}
+
+TEST(ParallelFor, HandsOnAnException) {
+    EXPECT_THROW(parallelFor(16, [](int i) { if (i == 7) throw std::runtime_error("seven"); }), std::runtime_error);
+}
+
+TEST(ThreadLimit, OneThreadRunsEverythingOnTheCaller) {
+    const ThreadLimit limit(1);
+    const auto caller = std::this_thread::get_id();
+    parallelFor(100, [&](int) { EXPECT_EQ(std::this_thread::get_id(), caller); });
+}
+
+}  // namespace
+}  // namespace taut::core

@@ -1,0 +1,1 @@
+list(APPEND TAUT_UNIT_TESTS house_test.cpp)

@@ -1,0 +1,10 @@
+list(APPEND TAUT_UNIT_TESTS
+  world_bodies_test.cpp
+  world_components_test.cpp
+  world_divergence_test.cpp
+  world_islands_test.cpp
+  world_motion_test.cpp
+  world_publish_test.cpp
+  world_step_choice_test.cpp
+  world_targets_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::world)

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "support/scenes.h"
+#include "world/island_plan.h"
+#include "world/world.h"
+
+namespace taut::world {
+namespace {
+
+SceneSpec twoRopes() {
+    SceneSpec scene;
+    scene.ropes = {support::rope("a", {0, 0, 0}, {1, 0, 0}), support::rope("b", {1, 0, 0}, {2, 0, 0})};
+    return scene;
+}
+
+TEST(Islands, BodiesThatNothingCouplesAreApart) {
+    const World world(twoRopes());
+    EXPECT_EQ(world.islands().size(), 2U);
+}
+
+TEST(Islands, AWeldMakesOnePointOfTwo) {
+    SceneSpec scene = twoRopes();
+    scene.joints = {{"rope.a@end", "rope.b@start", "weld", 0, 0, 0.01, {}}};
+    const std::vector<IslandInfo> islands = World(scene).islands();
+    ASSERT_EQ(islands.size(), 1U);
+    EXPECT_EQ(islands[0].points, 21);  // 11 + 11 - 1
+    EXPECT_EQ(islands[0].springs, 20);
+    EXPECT_NEAR(islands[0].mass, 2.0, 1e-14);
+}
+
+TEST(Islands, AWeldAddsMassesAndKeepsMomentum) {
+    SceneSpec scene = twoRopes();
+    scene.ropes[1].velocity = {0, 0, 2};
+    scene.joints = {{"rope.a@end", "rope.b@start", "weld", 0, 0, 0.01, {}}};
+    std::vector<Body> bodies = buildBodies(scene);
+    const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
+    const int welded = bodies[0].pointOf.back();
+    EXPECT_EQ(welded, bodies[1].pointOf.front());
+    const auto& point = plans[0].points[static_cast<std::size_t>(welded)];
+    EXPECT_NEAR(point.mass, 0.1, 1e-15);  // twice half a segment of a tenth of a kilogram
+    EXPECT_NEAR(plans[0].velocities[static_cast<std::size_t>(welded)].z, 1.0, 1e-15);
+}
+
+TEST(Islands, ASpringJointKeepsItsStartingLength) {
+    SceneSpec scene = twoRopes();
+    scene.ropes[1].start.x = 1.5;
+    scene.joints = {{"rope.a@end", "rope.b@start", "spring", 500, 1e-3, 0.01, {}}};
+    std::vector<Body> bodies = buildBodies(scene);
+    const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
+    ASSERT_EQ(plans.size(), 1U);
+    const mechanics::Spring& joint = plans[0].springs.back();
+    EXPECT_EQ(joint.kind, mechanics::SpringKind::joint);
+    EXPECT_DOUBLE_EQ(joint.restLength, 0.5);
+    EXPECT_EQ(joint.stiffness, 500.0);
+}
+
+TEST(Islands, AJointThatJoinsNothingSaysHowFarItIs) {
+    SceneSpec scene = twoRopes();
+    scene.ropes[1].start.x = 1.5;
+    scene.joints = {{"rope.a@end", "rope.b@start", "weld", 0, 0, 0.01, {"s.toml", 9, 1}}};
+    try {
+        const World world(scene);
+        FAIL();
+    } catch (const core::Error& error) {
+        EXPECT_NE(std::string(error.what()).find("s.toml:9:1: error: the joint"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("0.5"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Islands, JoinedBodiesMustAgreeOnTheirSolver) {
+    SceneSpec scene = twoRopes();
+    scene.ropes[1].solver.integrator = "velocity-verlet";
+    EXPECT_EQ(World(scene).islands()[1].method, "velocity-verlet");
+    scene.joints = {{"rope.a@end", "rope.b@start", "weld", 0, 0, 0.01, {}}};
+    EXPECT_THROW(World{scene}, core::Error);
+}
+
+TEST(Islands, EachChoosesItsOwnNumberOfSubsteps) {
+    SceneSpec scene = twoRopes();
+    scene.ropes[1].stretch = 1e6;
+    const std::vector<IslandInfo> islands = World(scene).islands();
+    EXPECT_EQ(islands[0].name, "rope.a");
+    // ω grows with the root of the stiffness, a hundred times higher; damping time and ceilings bend it a little.
+    const double ratio = static_cast<double>(islands[1].substeps) / islands[0].substeps;
+    EXPECT_GT(ratio, 9.0);
+    EXPECT_LT(ratio, 30.0);
+}
+
+TEST(Islands, MeshPointsAreNumberedForLocality) {
+    // A strip of triangles whose vertices come in a shuffled order.
+    SceneSpec scene;
+    ClothSpec spec;
+    spec.name = "strip";
+    auto mesh = std::make_shared<MeshData>();
+    const int columns = 200;
+    const auto number = [&](int column, int row) { return (2 * column + row) * 7 % (2 * columns); };
+    mesh->positions.resize(static_cast<std::size_t>(2 * columns));
+    for (int c = 0; c < columns; ++c)
+        for (int r = 0; r < 2; ++r) mesh->positions[static_cast<std::size_t>(number(c, r))] = {0.1 * c, 0.1 * r, 0.0};
+    for (int c = 0; c + 1 < columns; ++c) {
+        mesh->triangles.push_back({number(c, 0), number(c + 1, 0), number(c, 1)});
+        mesh->triangles.push_back({number(c + 1, 0), number(c + 1, 1), number(c, 1)});
+    }
+    spec.mesh = "strip.obj";
+    spec.meshData = mesh;
+    scene.cloths = {spec};
+    std::vector<Body> bodies = buildBodies(scene);
+    const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
+    int farthest = 0;
+    for (const mechanics::Spring& s : plans[0].springs) farthest = std::max(farthest, std::abs(s.a - s.b));
+    // Two points a column, springs span at most two columns; breadth-first order adds a level more.
+    EXPECT_LE(farthest, 8);
+}
+
+}  // namespace
+}  // namespace taut::world

@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scenes.h"
+#include "world/drawing.h"
+#include "world/world.h"
+
+namespace taut::world {
+namespace {
+
+SceneSpec smallScene() {
+    SceneSpec scene;
+    scene.cloths = {support::cloth("a", 4)};
+    scene.ropes = {support::rope("b", {0, 1, 0}, {1, 1, 0})};
+    scene.colliders = {support::ball("ball", {0, 1, 0}, 0.3), support::ground()};
+    scene.cameras.resize(2);
+    scene.cameras[0].name = "close";
+    scene.cameras[0].eye = {1, 1, 1};
+    scene.cameras[1].name = "far";
+    scene.cameras[1].eye = {9, 9, 9};
+    return scene;
+}
+
+const view::Surface* surface(const view::FrameView& view, const std::string& name) {
+    for (const view::Surface& s : view.surfaces)
+        if (s.name == name) return &s;
+    return nullptr;
+}
+
+TEST(Publish, EveryBodyAndVisibleColliderIsASurfaceAndTheLevelPlaneTheGround) {
+    const view::FrameView view = World(smallScene()).view(false);
+    EXPECT_EQ(view.surfaces.size(), 3U);
+    ASSERT_NE(surface(view, "cloth.a"), nullptr);
+    EXPECT_TRUE(surface(view, "cloth.a")->twoSided);
+    EXPECT_EQ(surface(view, "cloth.a")->topology->triangles.size(), 3U * 32U);
+    ASSERT_TRUE(view.ground);
+    EXPECT_EQ(view.ground->height, 0.0F);
+    EXPECT_TRUE(view.marks.lines.empty());
+}
+
+TEST(Publish, WhatDoesNotChangeIsShared) {
+    World world(smallScene());
+    const view::FrameView first = world.view(false);
+    ASSERT_FALSE(world.advance());
+    const view::FrameView second = world.view(false);
+    EXPECT_EQ(surface(first, "cloth.a")->topology, surface(second, "cloth.a")->topology);
+    EXPECT_EQ(surface(first, "cloth.a")->finish, surface(second, "cloth.a")->finish);
+    EXPECT_NE(surface(first, "cloth.a")->geometry, surface(second, "cloth.a")->geometry);
+    EXPECT_EQ(surface(first, "ball")->geometry, surface(second, "ball")->geometry);
+}
+
+TEST(Publish, TheNamedCameraIsUsed) {
+    SceneSpec scene = smallScene();
+    EXPECT_EQ(World(scene).view(false).camera.eye.x, 1.0F);
+    scene.picture.camera = "far";
+    EXPECT_EQ(World(scene).view(false).camera.eye.x, 9.0F);
+}
+
+TEST(Publish, TheDebugViewShowsSpringsPointsAndContacts) {
+    SceneSpec scene = smallScene();
+    scene.cloths[0].origin = {-0.5, 1.31, -0.5};
+    scene.cloths[0].down = {0, 0, 1};
+    World world(scene);
+    for (int i = 0; i < 10; ++i) ASSERT_FALSE(world.advance());
+    const view::FrameView view = world.view(true);
+    EXPECT_TRUE(view.showMarks);
+    EXPECT_EQ(view.marks.lines.size(), 40U + 32U + 10U);  // structural and shear of the cloth, the rope's segments
+    EXPECT_EQ(view.marks.dots.size(), 25U + 11U + static_cast<std::size_t>(world.metrics().contacts));
+    EXPECT_GT(world.metrics().contacts, 0);
+}
+
+// IEC 61966-2-1: the published pairs of the sRGB curve.
+TEST(Publish, ColoursBecomeLinear) {
+    EXPECT_NEAR(linearColour({0.5, 0.04045, 1.0}).x, 0.21404F, 1e-5F);
+    EXPECT_NEAR(linearColour({0.5, 0.04045, 1.0}).y, 0.0031308F, 1e-6F);
+    EXPECT_EQ(linearColour({0.5, 0.04045, 1.0}).z, 1.0F);
+}
+
+TEST(Publish, ABlockShowsSixSidesWithEdges) {
+    SceneSpec scene;
+    BlockSpec spec;
+    spec.name = "b";
+    spec.cells = {2, 3, 4};
+    scene.blocks = {spec};
+    const view::FrameView view = World(scene).view(false);
+    const view::Surface& block = *surface(view, "block.b");
+    const std::size_t faces = 2 * (2 * 3 + 3 * 4 + 2 * 4);
+    EXPECT_EQ(block.topology->triangles.size(), 3 * 2 * faces);
+    EXPECT_EQ(block.geometry->positions.size(), 2U * (3 * 4 + 4 * 5 + 3 * 5));
+    for (const glm::vec3& n : block.geometry->normals)  // at rest each points along an axis
+        EXPECT_NEAR(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}), 1.0F, 1e-6F);
+}
+
+}  // namespace
+}  // namespace taut::world

@@ -1,0 +1,84 @@
+#include "world/step_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "support/scenes.h"
+#include "world/world.h"
+
+namespace taut::world {
+namespace {
+
+SceneSpec oneRope() {
+    SceneSpec scene;
+    scene.ropes = {support::rope("a", {0, 0, 0}, {1, 0, 0})};
+    scene.ropes[0].source = {"s.toml", 5, 1};
+    return scene;
+}
+
+// numerics, section 3: h = σ 2 (√(τ² + 1/Ω²) - τ).
+TEST(StepChoice, AutoIsTheSafeShareOfTheLimitRoundedToWholeSubsteps) {
+    const SceneSpec scene = oneRope();
+    const IslandInfo island = World(scene).islands()[0];
+    const double omega = island.omegaBound, tau = scene.ropes[0].dampingTime;
+    const double limit = 2.0 * (std::sqrt(tau * tau + 1.0 / (omega * omega)) - tau);
+    EXPECT_NEAR(island.stepLimit, limit, 1e-12 * limit);
+    EXPECT_EQ(island.substeps, static_cast<int>(std::ceil((1.0 / 60.0) / (0.9 * limit))));
+    EXPECT_DOUBLE_EQ(island.step, 1.0 / 60.0 / island.substeps);
+}
+
+// B1 by hand: k = EA/ℓ = 1e5 N/m, inner masses 0.1 kg: S w = 2k/m for both ends of an inner spring.
+TEST(StepChoice, TheBoundOfARopeIsTwiceTheRootOfKOverM) {
+    const IslandInfo island = World(oneRope()).islands()[0];
+    EXPECT_NEAR(island.omegaBound, 2.0 * std::sqrt(1e5 / 0.1), 1e-9);
+    EXPECT_NE(island.limitingSpring.find("structural spring"), std::string::npos);
+    EXPECT_NE(island.limitingSpring.find("of rope.a"), std::string::npos);
+}
+
+TEST(StepChoice, AStepByHandIsAMaximum) {
+    SceneSpec scene = oneRope();
+    scene.solver.dt = 1.0 / 60.0 / 1000.5;
+    EXPECT_EQ(World(scene).islands()[0].substeps, 1001);
+    scene.solver.dt = 1.0 / 60.0 / 1000.0;
+    EXPECT_EQ(World(scene).islands()[0].substeps, 1000);
+    EXPECT_TRUE(World(scene).warnings().empty());
+}
+
+TEST(StepChoice, AStepOverTheLimitIsReportedWithItsSpringBeforeTheFirstFrame) {
+    SceneSpec scene = oneRope();
+    scene.solver.dt = 1e-3;  // the limit is 2/2000 s without damping, less with it
+    const World world(scene);
+    ASSERT_EQ(world.warnings().size(), 1U);
+    const std::string warning = world.warnings()[0];
+    EXPECT_NE(warning.find("rope.a: the step of"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("over the stability limit of leap-frog"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("structural spring"), std::string::npos) << warning;
+}
+
+TEST(StepChoice, ExplicitEulerWithoutDampingHasNoAutomaticStep) {
+    SceneSpec scene = oneRope();
+    scene.ropes[0].dampingTime = 0.0;
+    scene.ropes[0].drag = 0.0;
+    scene.solver.integrator = "euler";
+    try {
+        const World world(scene);
+        FAIL();
+    } catch (const core::Error& error) {
+        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(std::string(error.what()).find("s.toml:5:1: error: rope.a: dt = \"auto\" finds no step"), 0U)
+            << error.what();
+    }
+    scene.ropes[0].dampingTime = 1e-4;
+    EXPECT_NEAR(World(scene).islands()[0].stepLimit, 1e-4, 1e-9);  // 2ζ/ω = τ for ζ < 1
+}
+
+TEST(StepChoice, AnAbsurdlyStiffBodyIsRefusedInsteadOfRunForEver) {
+    SceneSpec scene = oneRope();
+    scene.ropes[0].stretch = 1e18;
+    EXPECT_THROW(World{scene}, core::Error);
+}
+
+}  // namespace
+}  // namespace taut::world

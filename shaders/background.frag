@@ -6,5 +6,5 @@ out vec4 colour;
 void main() {
     float up = max(way.y, 0.0) * inversesqrt(dot(way, way));
     float part = smoothstep(0.0, 0.45, up);
-    colour = vec4(dithered(mix(backgroundHorizon.rgb, backgroundTop.rgb, part)), 1.0);
+    colour = vec4(dithered(mix(backgroundHorizon.rgb, backgroundTop.rgb, part)), 0.0);
 }

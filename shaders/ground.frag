@@ -32,5 +32,5 @@ void main() {
 #endif
     vec3 shown = filmic(albedo * (direct + ambient));
     float away = smoothstep(fade.z, fade.w, length(place.xz - fade.xy));
-    colour = vec4(dithered(mix(shown, backgroundHorizon.rgb, away)), 1.0);
+    colour = vec4(dithered(mix(shown, backgroundHorizon.rgb, away)), 0.0);
 }

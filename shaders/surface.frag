@@ -7,6 +7,7 @@ uniform float weave;
 uniform float thread;  // [m]
 uniform float roughness;
 uniform float sheen;
+uniform float mark;  // which surface, 1/255 … 1
 in vec3 place;
 in vec3 upright;
 in vec2 material;
@@ -86,5 +87,5 @@ void main() {
         float grey = dot(light, vec3(0.3, 0.6, 0.1));
         light = mix(light, vec3(0.6 * grey + 0.25), 0.85);
     }
-    colour = vec4(filmic(light), 1.0);
+    colour = vec4(filmic(light), mark);
 }

@@ -57,6 +57,8 @@ Program::Program(const Gl& gl, GlObject object) : gl_(&gl), object_(std::move(ob
     set("shadowBounds", static_cast<int>(shadowBoundsUnit));
     set("occlusion", static_cast<int>(occlusionUnit));
     set("picture", static_cast<int>(pictureUnit));
+    set("pictureDepth", static_cast<int>(pictureDepthUnit));
+    set("covering", static_cast<int>(coveringUnit));
     const GLuint block = gl_->GetUniformBlockIndex(object_.id(), "Frame");
     if (block != GL_INVALID_INDEX) gl_->UniformBlockBinding(object_.id(), block, frameBlockBinding);
 }

@@ -13,7 +13,14 @@ namespace taut::render {
 
 // Fixed places of what several shaders read; a program finds them by name when it is linked.
 inline constexpr GLuint frameBlockBinding = 0;  // uniform block Frame
-enum TextureUnit : int { shadowMapUnit = 0, shadowBoundsUnit = 1, occlusionUnit = 2, pictureUnit = 3 };
+enum TextureUnit : int {
+    shadowMapUnit = 0,
+    shadowBoundsUnit = 1,
+    occlusionUnit = 2,
+    pictureUnit = 3,
+    pictureDepthUnit = 4,
+    coveringUnit = 5,
+};
 
 class Program {
   public:

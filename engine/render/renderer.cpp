@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "render/context.h"
+#include "render/edge_pass.h"
 #include "render/frame_block.h"
 #include "render/ground_pass.h"
 #include "render/light_box.h"
@@ -31,6 +32,7 @@ struct Parts {
           occlusion(gl, shaders),
           surfaces(gl, shaders),
           ground(gl, shaders),
+          edges(gl, shaders),
           marks(gl, shaders),
           background(shaders.program("background.vert", "background.frag")),
           frameBlock(gl, GlKind::buffer),
@@ -43,6 +45,7 @@ struct Parts {
     OcclusionPass occlusion;
     SurfacePass surfaces;
     GroundPass ground;
+    EdgePass edges;
     MarksPass marks;
     Program background;
     GlObject frameBlock;
@@ -122,7 +125,7 @@ image::Image Renderer::draw(const view::FrameView& view) {
     const FrameBlock block = blockOf(view, projection, box, options.shadowSize, occlusion);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts.frameBlock.id());
     gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
-    parts.targets.bind();
+    parts.targets.bindShading();
     gl.DepthMask(GL_TRUE);
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     parts.shadow.bindMaps();
@@ -137,6 +140,8 @@ image::Image Renderer::draw(const view::FrameView& view) {
     parts.background.set("toWorld", glm::inverse(projection));
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
 
+    if (parts.targets.hasSmoothEdges()) parts.edges.draw(view, items, parts.meshes, parts.targets);
+    parts.targets.bindFinished();
     if (view.showMarks) parts.marks.draw(view, projection, options.width, options.height);
     return parts.targets.read();
 }

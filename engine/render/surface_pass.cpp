@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/edge_pass.h"
+
 namespace taut::render {
 
 Program& SurfacePass::programFor(const view::Surface& surface) {
@@ -18,7 +20,8 @@ Program& SurfacePass::programFor(const view::Surface& surface) {
 void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
-    for (const DrawItem& item : items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const DrawItem& item = items[i];
         const view::Surface& surface = *item.surface;
         const view::Finish& finish = *surface.finish;
         Program& program = programFor(surface);
@@ -33,6 +36,7 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
         program.set("thread", std::max(finish.thread, 1e-5F));
         program.set("roughness", finish.roughness);
         program.set("sheen", finish.sheen);
+        program.set("mark", itemMark(i));
         if (finish.pattern == view::Pattern::image) {
             const GLuint texture = textures_.texture(finish.texture);
             gl_->ActiveTexture(GL_TEXTURE0 + pictureUnit);

@@ -1,69 +1,147 @@
 #include "render/targets.h"
 
-#include <algorithm>
 #include <string>
 
 #include "core/error.h"
+#include "render/program.h"
 
 namespace taut::render {
 
-Targets::Targets(const Gl& gl, int width, int height, int samples)
-    : gl_(&gl),
-      width_(width),
-      height_(height),
-      drawColour_(gl, GlKind::renderbuffer),
-      drawDepth_(gl, GlKind::renderbuffer),
-      drawTarget_(gl, GlKind::framebuffer),
-      readColour_(gl, GlKind::renderbuffer),
-      readTarget_(gl, GlKind::framebuffer) {
+namespace {
+
+void expectSize(const Gl& gl, int width, int height) {
     GLint largest = 0;
-    GLint mostSamples = 0;
     gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-    gl.GetIntegerv(GL_MAX_SAMPLES, &mostSamples);
     if (width < 1 || height < 1 || width > largest || height > largest) {
         throw core::Error(core::ExitCode::badContent,
                           "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
                               " cannot be drawn: each side must be 1 to " + std::to_string(largest) + " pixels");
     }
-    const GLsizei count = samples > 1 ? std::min(samples, mostSamples) : 0;
-    gl.BindRenderbuffer(GL_RENDERBUFFER, drawColour_.id());
-    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_SRGB8_ALPHA8, width, height);
-    gl.BindRenderbuffer(GL_RENDERBUFFER, drawDepth_.id());
-    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT32F, width, height);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, drawTarget_.id());
-    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, drawColour_.id());
-    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, drawDepth_.id());
-    bool complete = gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-
-    gl.BindRenderbuffer(GL_RENDERBUFFER, readColour_.id());
-    gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, width, height);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, readTarget_.id());
-    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, readColour_.id());
-    complete = complete && gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    if (!complete) throw core::Error(core::ExitCode::noRenderer, "no renderer: GL offers no multisampled sRGB target");
-    rgba_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
 }
 
-void Targets::bind() const {
-    gl_->BindFramebuffer(GL_FRAMEBUFFER, drawTarget_.id());
+void expectComplete(const Gl& gl) {
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+    throw core::Error(core::ExitCode::noRenderer, "no renderer: GL cannot draw into the targets that a picture needs");
+}
+
+}  // namespace
+
+Targets::Targets(const Gl& gl, int width, int height, int samples)
+    : gl_(&gl),
+      width_(width),
+      height_(height),
+      smooth_(samples == 4),
+      shadedColour_(gl, GlKind::renderbuffer),
+      shadedTarget_(gl, GlKind::framebuffer),
+      copyTarget_(gl, GlKind::framebuffer),
+      coverage_(gl, GlKind::texture),
+      coverageDepth_(gl, GlKind::renderbuffer),
+      coverageTarget_(gl, GlKind::framebuffer),
+      finishedColour_(gl, GlKind::renderbuffer),
+      resolveTarget_(gl, GlKind::framebuffer),
+      finishedTarget_(gl, GlKind::framebuffer) {
+    expectSize(gl, width, height);
+    if (samples != 1 && samples != 4) {
+        throw core::Error(core::ExitCode::badContent,
+                          "anti-aliasing takes 1 or 4 samples a pixel, not " + std::to_string(samples));
+    }
+    const auto storage = [&](const GlObject& buffer, GLenum format, int count) {
+        gl.BindRenderbuffer(GL_RENDERBUFFER, buffer.id());
+        gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, format, width, height);
+    };
+    const auto attach = [&](const GlObject& target, GLenum point, const GlObject& buffer) {
+        gl.BindFramebuffer(GL_FRAMEBUFFER, target.id());
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.id());
+    };
+    const auto attachTexture = [&](const GlObject& target, GLenum point, GLenum kind, const GlObject& texture) {
+        gl.BindFramebuffer(GL_FRAMEBUFFER, target.id());
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, point, kind, texture.id(), 0);
+    };
+
+    // Shaded picture: colour to be drawn into, a copy of its bytes and its depth to be read.
+    storage(shadedColour_, GL_SRGB8_ALPHA8, 0);
+    shadedDepth_ = texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+    attach(shadedTarget_, GL_COLOR_ATTACHMENT0, shadedColour_);
+    attachTexture(shadedTarget_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadedDepth_);
+    expectComplete(gl);
+    if (!smooth_) return;
+    copiedColour_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    attachTexture(copyTarget_, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, copiedColour_);
+    expectComplete(gl);
+
+    // What covers each sample.
+    gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, coverage_.id());
+    gl.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_RGBA8, width, height, GL_TRUE);
+    storage(coverageDepth_, GL_DEPTH_COMPONENT32F, samples);
+    attach(coverageTarget_, GL_DEPTH_ATTACHMENT, coverageDepth_);
+    attachTexture(coverageTarget_, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, coverage_);
+    expectComplete(gl);
+
+    // The final picture, without and with depth: depth cannot be read as a texture while it is attached.
+    storage(finishedColour_, GL_SRGB8_ALPHA8, 0);
+    attach(resolveTarget_, GL_COLOR_ATTACHMENT0, finishedColour_);
+    expectComplete(gl);
+    attach(finishedTarget_, GL_COLOR_ATTACHMENT0, finishedColour_);
+    attachTexture(finishedTarget_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadedDepth_);
+    expectComplete(gl);
+}
+
+GlObject Targets::texture(GLenum format, GLenum layout, GLenum type) const {
+    GlObject object(*gl_, GlKind::texture);
+    gl_->BindTexture(GL_TEXTURE_2D, object.id());
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width_, height_, 0, layout, type, nullptr);
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return object;
+}
+
+void Targets::bind(const GlObject& target) const {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, target.id());
     gl_->Viewport(0, 0, width_, height_);
+}
+
+void Targets::bindShading() const {
+    bind(shadedTarget_);
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
 }
 
-image::Image Targets::read() {
-    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, drawTarget_.id());
-    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, readTarget_.id());
-    gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    gl_->BindFramebuffer(GL_FRAMEBUFFER, readTarget_.id());
-    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+void Targets::bindCoverage() const {
+    bind(coverageTarget_);
+    gl_->Disable(GL_FRAMEBUFFER_SRGB);
+}
 
-    image::Image picture{width_, height_, {}};
+void Targets::bindResolve() {
+    gl_->Disable(GL_FRAMEBUFFER_SRGB);
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, shadedTarget_.id());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, copyTarget_.id());
+    gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    bind(resolveTarget_);
+    gl_->ActiveTexture(GL_TEXTURE0 + pictureUnit);
+    gl_->BindTexture(GL_TEXTURE_2D, copiedColour_.id());
+    gl_->ActiveTexture(GL_TEXTURE0 + pictureDepthUnit);
+    gl_->BindTexture(GL_TEXTURE_2D, shadedDepth_.id());
+    gl_->ActiveTexture(GL_TEXTURE0 + coveringUnit);
+    gl_->BindTexture(GL_TEXTURE_2D_MULTISAMPLE, coverage_.id());
+}
+
+void Targets::bindFinished() const {
+    bind(smooth_ ? finishedTarget_ : shadedTarget_);
+    gl_->Enable(GL_FRAMEBUFFER_SRGB);
+}
+
+image::Image Targets::read() const {
     const auto width = static_cast<std::size_t>(width_);
     const auto height = static_cast<std::size_t>(height_);
+    std::vector<std::uint8_t> rgba(width * height * 4);
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, smooth_ ? resolveTarget_.id() : shadedTarget_.id());
+    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+
+    image::Image picture{width_, height_, {}};
     picture.rgb.resize(width * height * 3);
     for (std::size_t row = 0; row < height; ++row) {
-        const std::uint8_t* from = rgba_.data() + (height - 1 - row) * width * 4;
+        const std::uint8_t* from = rgba.data() + (height - 1 - row) * width * 4;
         std::uint8_t* to = picture.rgb.data() + row * width * 3;
         for (std::size_t x = 0; x < width; ++x) {
             to[3 * x] = from[4 * x];

@@ -1,0 +1,31 @@
+// Smooth edges: the outlines of everything once more with four samples a pixel, coloured from the picture that was
+// shaded with one. A software renderer shades a multisampled target several times a pixel, hidden surfaces included;
+// this way it costs a third.
+#pragma once
+
+#include <span>
+
+#include "render/mesh_cache.h"
+#include "render/program.h"
+#include "render/targets.h"
+#include "view/frame_view.h"
+
+namespace taut::render {
+
+// What the shaders write for an item beside its colour or depth, above 0; 0 is ground and sky.
+float itemMark(std::size_t item);
+
+class EdgePass {
+  public:
+    EdgePass(const Gl& gl, const ShaderFolder& shaders);
+
+    // From the shaded picture of the targets to the final one.
+    void draw(const view::FrameView& view, std::span<const DrawItem> items, const MeshCache& meshes, Targets& targets);
+
+  private:
+    const Gl* gl_;
+    Program surfaces_, resolve_;
+    GlObject empty_;
+};
+
+}  // namespace taut::render

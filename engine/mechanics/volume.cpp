@@ -54,33 +54,47 @@ Corners gradientsOf(const Corners& p) {
     return {-(g1 + g2 + g3), g1, g2, g3};
 }
 
-// What the stability bound is made of, for the face opposite each corner.
-struct Faces {
-    std::array<double, 4> gradients;  // |∂V/∂p_i|, a third of the area [m²]
-    std::array<double, 4> edges;      // sum of its three edges [m]
-};
-
-Faces facesOf(const Corners& p) {
-    Faces faces{};
-    const Corners g = gradientsOf(p);
-    for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t j = (i + 1) % 4, k = (i + 2) % 4, l = (i + 3) % 4;
-        faces.gradients[i] = glm::length(g[i]);
-        faces.edges[i] = glm::length(p[j] - p[k]) + glm::length(p[k] - p[l]) + glm::length(p[l] - p[j]);
-    }
-    return faces;
+// |V/V0 - 1| within the working stretch s, from mirrored cells to those stretched along all three axes.
+double largestChange(double s) {
+    return std::max(1.0 + s, s * s * s - 1.0);
 }
 
-// Σ_j |K_ij| for corner i, with gradients stretched by `areas`, edges by `lengths`, |V/V0 - 1| = `change`.
-double rowBound(const VolumeCell& cell, const Faces& faces, std::size_t i, double areas, double lengths,
-                double change) {
-    const auto& g = faces.gradients;
-    const double sum = g[0] + g[1] + g[2] + g[3];
-    return cell.bulkModulus * (areas * areas * g[i] * sum / cell.restVolume + change * lengths * faces.edges[i] / 6.0);
+// What the stability bound is made of: lengths of the gradients [m²], and of the second derivatives [m] that couple two
+// corners, which are a sixth of the edge between the other two.
+struct Lengths {
+    std::array<double, 4> gradients;
+    std::array<std::array<double, 4>, 4> couplings;  // symmetric, 0 on the diagonal
+};
+
+Lengths lengthsOf(const Corners& p) {
+    Lengths lengths{};
+    const Corners g = gradientsOf(p);
+    for (std::size_t i = 0; i < 4; ++i) {
+        lengths.gradients[i] = glm::length(g[i]);
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            const std::size_t k = i > 0 ? 0 : j > 1 ? 1 : 2, l = 6 - i - j - k;  // the other two: all four sum to 6
+            lengths.couplings[i][j] = lengths.couplings[j][i] = glm::length(p[k] - p[l]) / 6.0;
+        }
+    }
+    return lengths;
+}
+
+// The larger of the lengths within the working stretch s and those of the moment; couplings times K |V/V0 - 1|.
+Lengths worstLengths(const VolumeCell& cell, const Corners& rest, const Corners& now, double s) {
+    const double change = cell.bulkModulus * largestChange(s);
+    const double changeNow = cell.bulkModulus * std::abs(volumeOf(now) / cell.restVolume - 1.0);
+    Lengths worst = lengthsOf(rest);
+    const Lengths here = lengthsOf(now);
+    for (std::size_t i = 0; i < 4; ++i) {
+        worst.gradients[i] = std::max(s * s * worst.gradients[i], here.gradients[i]);
+        for (std::size_t j = 0; j < 4; ++j)
+            worst.couplings[i][j] = std::max(change * s * worst.couplings[i][j], changeNow * here.couplings[i][j]);
+    }
+    return worst;
 }
 
 bool isBeyond(const Corners& rest, const Corners& now, double ratio, double s) {
-    if (ratio > s * s * s || ratio < -1.0) return true;
+    if (std::abs(ratio - 1.0) > largestChange(s)) return true;
     for (std::size_t a = 0; a < 4; ++a)
         for (std::size_t b = a + 1; b < 4; ++b)
             if (glm::length(now[b] - now[a]) > s * glm::length(rest[b] - rest[a])) return true;
@@ -185,17 +199,36 @@ void VolumePreservation<Real>::addStiffnessProduct(const Motion<Real>& motion, c
 
 template <class Real>
 void VolumePreservation<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
-    const double s = workingStretch_;
-    const double change = std::max(2.0, s * s * s - 1.0);
+    if (cells_.empty()) return;
+    const auto count = static_cast<std::size_t>(motion.count);
+    std::vector<Lengths> worst;
+    std::vector<double> touching(count, 0.0), coupled(count, 0.0);
+    auto inverseMass = [&](int point) { return static_cast<double>(motion.inverseMass[point]); };
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         const VolumeCell& cell = cells_[c];
-        const Corners now = cornersOf(cell, motion.x, motion.stride);
-        const double changeNow = std::abs(volumeOf(now) / cell.restVolume - 1.0);
-        const Faces rest = facesOf(rest_[c]), here = facesOf(now);
-        for (std::size_t i = 0; i < 4; ++i)
-            share.stiffness[static_cast<std::size_t>(cell.points[i])] +=
-                std::max(rowBound(cell, rest, i, s * s, s, change), rowBound(cell, here, i, 1.0, 1.0, changeNow));
+        worst.push_back(worstLengths(cell, rest_[c], cornersOf(cell, motion.x, motion.stride), workingStretch_));
+        const double root = std::sqrt(cell.bulkModulus / cell.restVolume);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto point = static_cast<std::size_t>(cell.points[i]);
+            touching[point] += root * worst[c].gradients[i];
+            for (std::size_t j = 0; j < 4; ++j)
+                coupled[point] +=
+                    worst[c].couplings[i][j] * std::sqrt(inverseMass(cell.points[i]) * inverseMass(cell.points[j]));
+        }
     }
+    double first = 0.0;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        double row = 0.0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const int point = cells_[c].points[i];
+            row += inverseMass(point) * worst[c].gradients[i] * touching[static_cast<std::size_t>(point)];
+        }
+        first = std::max(first, row * std::sqrt(cells_[c].bulkModulus / cells_[c].restVolume));
+    }
+    const double bound = first + *std::max_element(coupled.begin(), coupled.end());
+    for (std::size_t i = 0; i < count; ++i)
+        if (touching[i] > 0.0 && motion.inverseMass[i] > Real(0))
+            share.stiffness[i] += bound / static_cast<double>(motion.inverseMass[i]);
 }
 
 template class VolumePreservation<float>;

@@ -45,18 +45,21 @@ class VolumePreservation final : public ForceGenerator<Real> {
     // The exact product; indefinite where a cell is compressed.
     void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
 
-    // Row bound of K = ∂²E. With g_i = ∂V/∂p_i, and H_ij = ∂²V/∂p_i∂p_j, a cross product with a sixth of the edge
-    // between the other two corners, so that |H_ij| = |edge|/6:
+    // A bound λ of ω² that holds in the whole working range, given to every point that it acts on as λ/w.
     //
-    //   K_ij = (K/V0) g_i g_jᵀ + K (V/V0 - 1) H_ij
-    //   Σ_j |K_ij| <= (K/V0) |g_i| Σ_j |g_j| + K |V/V0 - 1| (edges of the face opposite i)/6
+    // With g_i = ∂V/∂p_i, a third of the area of the face opposite i, and H_ij = ∂²V/∂p_i∂p_j, a cross product with a
+    // sixth of the edge between the other two corners,
     //
-    // and |g_i| is a third of the area of that face. In every state in which no edge is longer than s times its rest
-    // length, no face larger than s² times, and -1 <= V/V0 <= s³, that is at most
+    //   ∂²E = Σ_cells (K/V0) g gᵀ + K (V/V0 - 1) H.
     //
-    //   (K/V0) s⁴ |g_i0| Σ_j |g_j0| + K max(2, s³ - 1) s (rest edges)/6,     s the working stretch,
+    // The first sum is GᵀG with rows √(K/V0) gᵀ; its largest eigenvalue over the masses is that of G w Gᵀ, whose rows
+    // (Gershgorin) sum to at most √(K/V0) Σ_i w_i |g_i| T_i, T_i the sum of √(K/V0) |g_i| over the cells at point i.
+    // In the second the row of point i sums to at most Σ_cells K |V/V0 - 1| Σ_j √(w_i w_j) |edge|/6. While no edge is
+    // longer than s, no face larger than s² times at rest, and V/V0 lies within its bounds, mirrored cells included,
     //
-    // mirrored cells included. A cell that has left this range counts with the motion's own values if they are more.
+    //   |g_i| <= s² |g_i| at rest,   edge <= s edge at rest,   |V/V0 - 1| <= max(1 + s, s³ - 1).
+    //
+    // Where a cell has left this range the motion's own values count if they are more.
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
   private:

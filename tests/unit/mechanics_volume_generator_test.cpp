@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "../support/eigenvalues.h"
 #include "mechanics/builders.h"
 #include "mechanics/volume.h"
 #include "mechanics_planar_state.h"
+#include "support/eigenvalues.h"
 
 namespace taut::mechanics {
 namespace {
@@ -248,7 +248,7 @@ TEST(Volume, StabilityShareIsNotFarAboveTheFrequency) {
     const VolumePreservation<double> tight = generatorOf(model, 1.5);
     const double bound = boundSquared(state, tight);
     scale(state, dvec3(1.5));
-    EXPECT_LT(bound, 16.0 * largestFrequencySquared(state, tight));
+    EXPECT_LT(bound, 6.0 * largestFrequencySquared(state, tight));
 }
 
 // Left its range, the share counts what is there.

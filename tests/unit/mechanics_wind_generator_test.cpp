@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "../support/eigenvalues.h"
 #include "core/trig.h"
 #include "mechanics/builders.h"
 #include "mechanics/wind.h"
 #include "mechanics_planar_state.h"
+#include "support/eigenvalues.h"
 
 namespace taut::mechanics {
 namespace {

@@ -5,6 +5,6 @@ out vec4 colour;
 
 void main() {
     float up = max(way.y, 0.0) * inversesqrt(dot(way, way));
-    float part = smoothstep(0.0, 0.45, up);
+    float part = up * up / (up * up + 0.0064);  // half way at five degrees
     colour = vec4(dithered(mix(backgroundHorizon.rgb, backgroundTop.rgb, part)), 0.0);
 }

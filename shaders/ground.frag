@@ -31,6 +31,8 @@ void main() {
     ambient *= 1.0 - 0.9 * texture(occlusion, (place.xz - occlusionArea.xy) * occlusionArea.zw).r;
 #endif
     vec3 shown = filmic(albedo * (direct + ambient));
-    float away = smoothstep(fade.z, fade.w, length(place.xz - fade.xy));
+    // Even over the rows of the picture, which go with one over the distance.
+    float distance = max(length(place.xz - fade.xy), fade.z);
+    float away = smoothstep(0.0, 1.0, (1.0 - fade.z / distance) / max(1.0 - fade.z / fade.w, 1e-3));
     colour = vec4(dithered(mix(shown, backgroundHorizon.rgb, away)), 0.0);
 }

@@ -37,7 +37,9 @@ OcclusionPass::OcclusionPass(const Gl& gl, const ShaderFolder& shaders)
     : gl_(&gl),
       heights_(shaders.program("heights.vert", "heights.frag")),
       gather_(shaders.program("screen.vert", "occlusion.frag")),
+      blur_(shaders.program("screen.vert", "occlusion_blur.frag")),
       columns_(gl, edge, GL_RG32F, GL_NEAREST, nothing),
+      rough_(gl, edge, GL_R16F, GL_NEAREST, 0.0F),
       map_(gl, edge, GL_R16F, GL_LINEAR, 0.0F),
       empty_(gl, GlKind::vertexArray) {}
 
@@ -63,12 +65,17 @@ void OcclusionPass::draw(std::span<const DrawItem> items, const MeshCache& meshe
     gl_->BlendEquation(GL_FUNC_ADD);
     gl_->Disable(GL_BLEND);
 
-    map_.bind(*gl_);
+    rough_.bind(*gl_);
     gl_->BindVertexArray(empty_.id());
     gl_->ActiveTexture(GL_TEXTURE0 + occlusionUnit);
     gl_->BindTexture(GL_TEXTURE_2D, columns_.texture.id());
     gather_.use();
     gather_.set("texel", size / static_cast<float>(edge));
+    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+
+    map_.bind(*gl_);
+    gl_->BindTexture(GL_TEXTURE_2D, rough_.texture.id());
+    blur_.use();
     gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -28,9 +28,10 @@ class OcclusionPass {
 
   private:
     const Gl* gl_;
-    Program heights_, gather_;
+    Program heights_, gather_, blur_;
     MapTarget columns_;  // lowest and highest surface above each place
-    MapTarget map_;      // hidden part of the sky, 0 … 1
+    MapTarget rough_;    // hidden part of the sky, 0 … 1
+    MapTarget map_;      // the same, smooth
     GlObject empty_;
 };
 

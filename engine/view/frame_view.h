@@ -61,15 +61,15 @@ struct Camera {
 
 struct Light {
     glm::vec3 direction{-0.4F, -1.0F, -0.3F};  // the way the light travels
-    glm::vec3 colour{3.0F};                    // radiance times intensity
-    glm::vec3 sky{0.45F, 0.55F, 0.75F};        // ambient light from above
-    glm::vec3 ground{0.25F, 0.23F, 0.2F};      // ambient light from below
+    glm::vec3 colour{3.0F, 2.73F, 2.36F};      // radiance times intensity
+    glm::vec3 sky{0.2F, 0.27F, 0.38F};         // ambient light from above
+    glm::vec3 ground{0.13F, 0.12F, 0.1F};      // ambient light from below
     float softness = 0.03F;                    // [rad] apparent size of the light: width of the penumbra
 };
 
 struct Background {
-    glm::vec3 top{0.10F, 0.15F, 0.25F};
-    glm::vec3 horizon{0.45F, 0.5F, 0.6F};
+    glm::vec3 top{0.051F, 0.084F, 0.163F};
+    glm::vec3 horizon{0.319F, 0.367F, 0.448F};
     float fadeStart = 8.0F;  // [m] from the camera target, where the ground begins to fade into the horizon
     float fadeEnd = 30.0F;   // [m]
 };

@@ -53,7 +53,9 @@ TEST_P(EveryPrecision, HashesAreTheSameForOneTwoAndSevenThreads) {
 TEST_P(EveryPrecision, HashesAreTheSameForEveryInstructionSet) {
     const auto sse2 = hashes("everything", GetParam(), ticks, 2, core::InstructionSet::sse2);
     for (core::InstructionSet set : {core::InstructionSet::avx2, core::InstructionSet::avx512})
-        if (core::isSupported(set)) EXPECT_EQ(sse2, hashes("everything", GetParam(), ticks, 2, set)) << nameOf(set);
+        if (core::isSupported(set)) {
+            EXPECT_EQ(sse2, hashes("everything", GetParam(), ticks, 2, set)) << nameOf(set);
+        }
 }
 
 TEST_P(EveryPrecision, HashesChangeWhenAnythingDoes) {
@@ -104,7 +106,9 @@ TEST(RecordedHash, CoversEveryShippedScene) {
     std::map<std::string, int> seen;
     for (const Recorded& r : recorded()) ++seen[r.scene];
     for (const auto& entry : std::filesystem::directory_iterator(source / "assets/scenes"))
-        if (entry.path().extension() == ".toml") EXPECT_TRUE(seen.contains(entry.path().stem())) << entry.path();
+        if (entry.path().extension() == ".toml") {
+            EXPECT_TRUE(seen.contains(entry.path().stem())) << entry.path();
+        }
 }
 
 }  // namespace

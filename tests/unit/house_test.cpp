@@ -48,7 +48,9 @@ std::vector<Include> includesBelow(const std::filesystem::path& folder) {
 
 TEST(House, EveryFolderOfTheEngineHasItsPlace) {
     for (const auto& entry : std::filesystem::directory_iterator(source / "engine"))
-        if (entry.is_directory()) EXPECT_TRUE(allowed.contains(entry.path().filename())) << entry.path();
+        if (entry.is_directory()) {
+            EXPECT_TRUE(allowed.contains(entry.path().filename())) << entry.path();
+        }
 }
 
 TEST(House, IncludesPointOneWay) {
@@ -73,8 +75,9 @@ TEST(House, ThirdPartyHeadersStayOutOfPublicOnes) {
     static const std::regex inside(R"(^(bt|Bullet|LinearMath|toml|GL/|EGL/|glad|stb_|libdeflate|tbb|oneapi|tiny_obj|nlohmann|CLI))");
     const Folders inner = {"gl.h"};  // private to one folder, behind its pimpl
     for (const Include& include : includesBelow(source / "engine"))
-        if (include.file.extension() == ".h" && std::regex_search(include.what, inside))
+        if (include.file.extension() == ".h" && std::regex_search(include.what, inside)) {
             EXPECT_TRUE(inner.contains(include.file.filename())) << include.file << " includes " << include.what;
+        }
 }
 
 TEST(House, FilesStayShort) {
@@ -92,7 +95,9 @@ TEST(House, TheTopLevelHoldsWhatWasAgreed) {
     const Folders agreed = {"CMakeLists.txt", "engine", "game", "shaders", "assets", "tests", "README.md", "out"};
     for (const auto& entry : std::filesystem::directory_iterator(source)) {
         const std::string name = entry.path().filename();
-        if (!name.starts_with(".") && !name.starts_with("build")) EXPECT_TRUE(agreed.contains(name)) << name;
+        if (!name.starts_with(".") && !name.starts_with("build")) {
+            EXPECT_TRUE(agreed.contains(name)) << name;
+        }
     }
 }
 

@@ -97,8 +97,11 @@ TEST(Bodies, JitterIsSmallSeededAndSparesHeldPoints) {
     for (std::size_t i = 0; i < one.model.positions.size(); ++i) {
         const dvec3 d = one.model.positions[i] - still.model.positions[i];
         largest = std::max({largest, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-        if (one.model.held[i]) EXPECT_EQ(d, dvec3(0.0));
-        else EXPECT_NE(one.model.positions[i], other.model.positions[i]);
+        if (one.model.held[i]) {
+            EXPECT_EQ(d, dvec3(0.0));
+        } else {
+            EXPECT_NE(one.model.positions[i], other.model.positions[i]);
+        }
     }
     EXPECT_LE(largest, 1e-3);
     EXPECT_GT(largest, 0.9e-3);  // of over two hundred even numbers one comes near the bound

@@ -1,5 +1,6 @@
 list(APPEND TAUT_PHYSICS_TESTS
   free_motion_test.cpp
+  frequency_bounds_test.cpp
   linear_modes_test.cpp
   oscillator_damping_test.cpp
   oscillator_energy_test.cpp

@@ -57,6 +57,38 @@ FrequencyBound overSprings(const NetworkView& network, std::span<const double> a
     return bound;
 }
 
+// The last component of the normalised eigenvector s of a symmetric tridiagonal matrix (diagonal alpha, beside it beta) for
+// its eigenvalue theta. A recurrence from one end drowns in rounding where s decays; two pivot sequences of T - θI, from
+// both ends to where s is largest, do not (twisted factorisation, Dhillon and Parlett 2004).
+double lastComponent(const std::vector<double>& alpha, const std::vector<double>& beta, double theta) {
+    const std::size_t n = alpha.size();
+    const auto safe = [](double pivot) { return pivot == 0.0 ? 1e-300 : pivot; };
+    std::vector<double> down(n), up(n);
+    for (std::size_t i = 0; i < n; ++i)
+        down[i] = alpha[i] - theta - (i > 0 ? beta[i - 1] * beta[i - 1] / safe(down[i - 1]) : 0.0);
+    for (std::size_t i = n; i-- > 0;)
+        up[i] = alpha[i] - theta - (i + 1 < n ? beta[i] * beta[i] / safe(up[i + 1]) : 0.0);
+    std::size_t twist = 0;
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double gamma = std::abs(down[i] + up[i] - (alpha[i] - theta));
+        if (gamma < least) {
+            least = gamma;
+            twist = i;
+        }
+    }
+    double last = 1.0, square = 1.0, s = 1.0;
+    for (std::size_t i = twist; i-- > 0;) {
+        s *= -beta[i] / safe(down[i]);
+        square += s * s;
+    }
+    for (std::size_t i = twist; i + 1 < n; ++i) {
+        last *= -beta[i] / safe(up[i + 1]);
+        square += last * last;
+    }
+    return last / std::sqrt(square);
+}
+
 }  // namespace
 
 FrequencyBound boundAnywhere(const NetworkView& network, std::span<const double> extraStiffness) {
@@ -122,6 +154,7 @@ double estimateFrequency(std::span<const double> inverseMasses, const StiffnessP
     if (norm == 0) return 0;
     for (auto& x : q) x /= std::sqrt(norm);
     std::vector<double> alpha, beta;
+    double scale = 0;
     for (int k = 0; k < products; ++k) {
         for (std::size_t i = 0; i < n; ++i) scaled[i] = q[i] * std::sqrt(inverseMasses[i]);
         std::fill(r.begin(), r.end(), glm::dvec3(0.0));
@@ -140,7 +173,8 @@ double estimateFrequency(std::span<const double> inverseMasses, const StiffnessP
         b = std::sqrt(b);
         alpha.push_back(a);
         beta.push_back(b);
-        if (b <= 1e-12 * std::abs(a)) break;
+        scale = std::max({scale, std::abs(a), b});
+        if (b <= 1e-12 * scale) break;
         for (std::size_t i = 0; i < n; ++i) {
             before[i] = q[i];
             q[i] = r[i] / b;
@@ -164,15 +198,7 @@ double estimateFrequency(std::span<const double> inverseMasses, const StiffnessP
         const double middle = 0.5 * (low + high);
         (above(middle) ? low : high) = middle;
     }
-    // The residual of the Ritz pair is β_m |s_m|; its last component comes from the eigenvector recurrence.
-    double s = 1, sBefore = 0, sum = 1;
-    for (std::size_t i = 0; i + 1 < alpha.size(); ++i) {
-        const double next = ((low - alpha[i]) * s - (i > 0 ? beta[i - 1] : 0.0) * sBefore) / beta[i];
-        sBefore = s;
-        s = next;
-        sum += s * s;
-    }
-    return std::sqrt(low + beta.back() * std::abs(s) / std::sqrt(sum));
+    return std::sqrt(low + beta.back() * std::abs(lastComponent(alpha, beta, low)));
 }
 
 }  // namespace taut::mechanics

@@ -202,6 +202,11 @@ std::optional<TargetFault> BodyIndex::bodiesFault(const std::string& target) con
     std::vector<std::string> titles;
     for (const BodyEntry& body : bodies_) {
         titles.push_back(body.title());
+        const bool isBeyond = body.copies > 1 && title.starts_with(body.title() + ".");
+        if (isBeyond) {
+            return TargetFault{fmt::format("there is no {}", title),
+                               fmt::format("the copies are {0}.0 … {0}.{1}", body.title(), body.copies - 1)};
+        }
         if (body.title() != title) continue;
         return TargetFault{fmt::format("{} is an array", title),
                            fmt::format("write {0}.0 … {0}.{1}, or {0}.*", title, body.copies - 1)};

@@ -1,5 +1,7 @@
 #include "scene/document.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -163,20 +165,22 @@ Member* Node::find(std::string_view key) {
     return const_cast<Member*>(std::as_const(*this).find(key));
 }
 
-std::string_view nameOf(NodeKind kind) {
-    switch (kind) {
+std::string description(const Node& node) {
+    constexpr std::size_t maxLength = 40;
+    switch (node.kind) {
         case NodeKind::flag:
-            return "true or false";
+            return node.flag ? "true" : "false";
         case NodeKind::whole:
-            return "a whole number";
+            return fmt::format("{}", node.whole);
         case NodeKind::number:
-            return "a number";
+            return fmt::format("{}", node.number);
         case NodeKind::text:
-            return "a text";
+            if (node.text.size() > maxLength) return "a long text";
+            return fmt::format("\"{}\"", node.text);
         case NodeKind::time:
             return "a date or time";
         case NodeKind::list:
-            return "a list";
+            return fmt::format("a list of {}", node.items.size());
         case NodeKind::table:
             return "a table";
     }
@@ -188,7 +192,10 @@ Node documentTree(std::string_view text, int origin) {
     try {
         return nodeOf(toml::parse(text), origin);
     } catch (const toml::parse_error& error) {
-        throw SyntaxError(placeOf(error.source(), origin), std::string(error.description()));
+        std::string_view message = error.description();
+        constexpr std::string_view opening = "Error while parsing ";
+        if (message.starts_with(opening)) message.remove_prefix(opening.size());
+        throw SyntaxError(placeOf(error.source(), origin), std::string(message));
     } catch (const Stumble&) {
         throw SyntaxError({origin, stumbleLine(text), 1}, "this line is not TOML");
     }

@@ -40,8 +40,8 @@ struct Member {
     Node value;
 };
 
-// "a number", "a list", … for messages.
-std::string_view nameOf(NodeKind kind);
+// What a value is, for messages: "7", "\"red\"", "a list of 3", …
+std::string description(const Node& node);
 
 // The first thing in a text that is not TOML.
 struct SyntaxError : std::runtime_error {

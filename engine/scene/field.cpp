@@ -36,11 +36,11 @@ std::string description(const Range& range, const std::string& unit) {
     const std::string suffix = unit.empty() ? "" : " " + unit;
     const bool hasLow = range.low > anyNumber.low;
     const bool hasHigh = range.high < anyNumber.high;
-    if (range.low == range.high) return fmt::format("{}{}", range.low, suffix);
-    if (hasLow && hasHigh) return fmt::format("between {} and {}{}", range.low, range.high, suffix);
-    if (hasHigh) return fmt::format("at most {}{}", range.high, suffix);
+    if (range.low == range.high) return fmt::format("{:g}{}", range.low, suffix);
+    if (hasLow && hasHigh) return fmt::format("between {:g} and {:g}{}", range.low, range.high, suffix);
+    if (hasHigh) return fmt::format("at most {:g}{}", range.high, suffix);
     if (range.low == smallest) return fmt::format("above 0{}", suffix);
-    if (hasLow) return fmt::format("at least {}{}", range.low, suffix);
+    if (hasLow) return fmt::format("at least {:g}{}", range.low, suffix);
     return "";
 }
 

@@ -16,11 +16,11 @@ using namespace world;
 
 namespace {
 
-constexpr Range place{-1e6, 1e6};          // [m]
-constexpr Range length{1e-6, 1e6};         // [m]
-constexpr Range count{1.0, 2147483646.0};  // of cells; what is too much is said with figures once all is read
-constexpr Range dampingTime{0.0, 1e3};     // [s]
-constexpr Range dragRate{0.0, 1e6};        // [1/s]
+constexpr Range place{-1e6, 1e6};       // [m]
+constexpr Range length{1e-6, 1e6};      // [m]
+constexpr Range count{1.0, 1e9};        // of cells; what is too much is said with figures once all is read
+constexpr Range dampingTime{0.0, 1e3};  // [s]
+constexpr Range dragRate{0.0, 1e6};     // [1/s]
 constexpr Range copies{1.0, 100000.0};
 constexpr double maxCopies = 100000;
 
@@ -77,7 +77,7 @@ std::vector<Field> withBodyFields(FieldList<Spec> list) {
         .flag("collide", &Spec::collide, "Whether colliders stop it.")
         .table("finish", &Spec::finish, finishSection(), "How it looks.")
         .table("solver", &Spec::solver, overrideSection(), "Its own way to be computed.")
-        .table("array", &Spec::array, arraySection(), "Copies, called NAME.0, NAME.1, …");
+        .table("array", &Spec::array, arraySection(), "Copies, called NAME.0, NAME.1 and so on.");
     return list.take();
 }
 

@@ -106,7 +106,7 @@ Section jointSection() {
     section.enter = enterNamed(&SceneSpec::joints);
     section.variant = [](const Node& table) -> std::string {
         const Member* kind = table.find("kind");
-        return kind != nullptr && kind->value.text == "spring" ? "spring" : "weld";
+        return kind != nullptr && kind->value.text == "spring" ? "a spring joint" : "a weld";
     };
     section.fields = FieldList<JointSpec>()
                          .text("a", &JointSpec::a, Role::points, "Points of one body: KIND.NAME@SELECTOR.")
@@ -115,12 +115,12 @@ Section jointSection() {
                          .required()
                          .choice("kind", &JointSpec::kind, {"weld", "spring"}, "Points made one, or springs.")
                          .number("stiffness_N_per_m", &JointSpec::stiffness, "N/m", positive, "Of each spring.")
-                         .only({"spring"})
+                         .only({"a spring joint"})
                          .number("damping_time_s", &JointSpec::dampingTime, "s", Range{0.0, 1e3}, "Of each spring.")
-                         .only({"spring"})
+                         .only({"a spring joint"})
                          .number("reach_m", &JointSpec::reach, "m", Range{0.0, 1e3},
                                  "Largest distance of two points that a weld makes one.")
-                         .only({"weld"})
+                         .only({"a weld"})
                          .take();
     return section;
 }

@@ -127,7 +127,7 @@ void applyOverride(const std::string& text, int origin, const std::vector<Sectio
                 *node = *value;
             }
         } else {
-            return problems.addError(place, fmt::format("{} is {}: it has no \"{}\"", path, nameOf(node->kind), part));
+            return problems.addError(place, fmt::format("{} is {}: it has no \"{}\"", path, description(*node), part));
         }
         path += (path.empty() ? "" : ".") + part;
     }

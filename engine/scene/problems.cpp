@@ -42,6 +42,14 @@ std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
     return {shown, caret - first};
 }
 
+// What a text says must not move the cursor of a terminal.
+std::string printable(std::string text) {
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+    }
+    return text;
+}
+
 // Number of insertions, deletions, replacements and swaps of neighbours from one word to the other.
 int editDistance(std::string_view a, std::string_view b) {
     std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
@@ -71,11 +79,11 @@ Problems::Problems(std::string_view text, std::string fileName, std::vector<std:
     : text_(text), fileName_(std::move(fileName)), labels_(std::move(labels)) {}
 
 void Problems::addError(Place place, std::string message, std::string remedy) {
-    errors_.push_back({place, std::move(message), std::move(remedy)});
+    errors_.push_back({place, printable(std::move(message)), printable(std::move(remedy))});
 }
 
 void Problems::addWarning(Place place, std::string message, std::string remedy) {
-    warnings_.push_back({place, std::move(message), std::move(remedy)});
+    warnings_.push_back({place, printable(std::move(message)), printable(std::move(remedy))});
 }
 
 std::string Problems::errors() const {
@@ -123,11 +131,12 @@ std::string likelyWord(std::string_view word, const std::vector<std::string>& ca
     if (word.empty() || word.size() > 60) return {};
     const std::string lower = lowerCase(word);
     std::string best;
-    int bestDistance = 1 + static_cast<int>(word.size() < 3 ? 1 : word.size() < 6 ? 2 : 3);
+    int bestDistance = 1 + static_cast<int>(word.size() < 3 ? 1 : word.size() < 8 ? 2 : 3);
     for (const std::string& candidate : candidates) {
         if (candidate.size() > 60) continue;
         const bool isStem = word.size() >= 2 && candidate.starts_with(lower + "_");
-        const int distance = isStem ? 1 : editDistance(lower, lowerCase(candidate));
+        const bool isStart = word.size() >= 3 && candidate.starts_with(lower);
+        const int distance = isStem ? 1 : std::min(editDistance(lower, lowerCase(candidate)), isStart ? 2 : 60);
         if (distance < bestDistance && distance < static_cast<int>(std::max(word.size(), candidate.size()))) {
             best = candidate;
             bestDistance = distance;

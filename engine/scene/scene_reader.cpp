@@ -64,7 +64,7 @@ class SceneReader {
         } else if (member.value.kind != NodeKind::table) {
             const std::string name = section.layout == Layout::named ? ".NAME" : "";
             problems_.addError(member.place,
-                               fmt::format("{} must be a table, not {}", section.name, nameOf(member.value.kind)),
+                               fmt::format("{} must be a table, not {}", section.name, description(member.value)),
                                fmt::format("write [{}{}]", section.name, name));
         } else if (section.layout == Layout::table) {
             owner_.clear();
@@ -82,7 +82,7 @@ class SceneReader {
                 element.place,
                 section.find(name) != nullptr
                     ? fmt::format("{} belongs to a {} with a name", name, section.name)
-                    : fmt::format("{}.{} must be a table, not {}", section.name, name, nameOf(element.value.kind)),
+                    : fmt::format("{}.{} must be a table, not {}", section.name, name, description(element.value)),
                 fmt::format("write [{}.NAME]", section.name));
             return;
         }
@@ -103,7 +103,7 @@ class SceneReader {
         if (member.value.kind != NodeKind::list) {
             problems_.addError(
                 member.place,
-                fmt::format("{} must be a list of tables, not {}", section.name, nameOf(member.value.kind)),
+                fmt::format("{} must be a list of tables, not {}", section.name, description(member.value)),
                 fmt::format("write [[{}]]", section.name));
             return;
         }
@@ -123,7 +123,7 @@ class SceneReader {
         if (item.kind == NodeKind::table) {
             readTable(section, item, item.place, where, target);
         } else {
-            problems_.addError(item.place, fmt::format("{} must be a table, not {}", name, nameOf(item.kind)));
+            problems_.addError(item.place, fmt::format("{} must be a table, not {}", name, description(item)));
         }
     }
 
@@ -140,7 +140,9 @@ class SceneReader {
             if (field == nullptr) {
                 reportUnknownKey(section, member, where);
             } else if (!fits(*field) && isKnownVariant(section, variant)) {
-                problems_.addError(member.place, fmt::format("{} does not go with {}", member.key, variant),
+                const std::string form =
+                    section.find("shape") != nullptr ? fmt::format("shape \"{}\"", variant) : variant;
+                problems_.addError(member.place, fmt::format("{} does not go with {}", member.key, form),
                                    fmt::format("it belongs to {}", joined(field->only)));
             } else {
                 readField(*field, member, where, target);
@@ -171,13 +173,20 @@ class SceneReader {
 
     void reportUnknownKey(const Section& section, const Member& member, const std::string& where) {
         const std::vector<std::string> keys = section.keys();
-        std::string remedy = suggestion(member.key, keys);
-        // A key of a table inside that was written one level too high.
-        for (const Field& field : section.fields) {
-            if (field.kind != FieldKind::table || !remedy.empty()) continue;
-            const std::string inner = likelyWord(member.key, field.inside.front().keys());
-            if (!inner.empty()) remedy = fmt::format("did you mean {} = {{ {} = … }}?", field.key, inner);
-        }
+        // A key of a table inside that was written one level too high, or mistyped here, or both.
+        std::string remedy;
+        const auto lookInside = [&](bool mayBeMistyped) {
+            for (const Field& field : section.fields) {
+                if (field.kind != FieldKind::table || !remedy.empty()) continue;
+                const std::vector<std::string> inner = field.inside.front().keys();
+                const std::string likely = likelyWord(member.key, inner);
+                if (likely.empty() || (!mayBeMistyped && likely != member.key)) continue;
+                remedy = fmt::format("did you mean {} = {{ {} = … }}?", field.key, likely);
+            }
+        };
+        lookInside(false);
+        if (remedy.empty()) remedy = suggestion(member.key, keys);
+        lookInside(true);
         if (remedy.empty() && keys.size() <= 12) remedy = fmt::format("it has {}", joined(keys));
         problems_.addError(member.place, fmt::format("{} has no key \"{}\"", where, member.key), remedy);
     }
@@ -186,7 +195,7 @@ class SceneReader {
         const Node& node = member.value;
         if (field.kind == FieldKind::table) {
             if (node.kind != NodeKind::table) {
-                problems_.addError(node.place, fmt::format("{} must be a table, not {}", field.key, nameOf(node.kind)),
+                problems_.addError(node.place, fmt::format("{} must be a table, not {}", field.key, description(node)),
                                    fmt::format("write {} = {{ … }}", field.key));
                 return;
             }
@@ -195,7 +204,7 @@ class SceneReader {
         } else if (field.kind == FieldKind::tables) {
             if (node.kind != NodeKind::list) {
                 problems_.addError(node.place,
-                                   fmt::format("{} must be a list of tables, not {}", field.key, nameOf(node.kind)),
+                                   fmt::format("{} must be a list of tables, not {}", field.key, description(node)),
                                    fmt::format("write {} = [{{ … }}]", field.key));
                 return;
             }

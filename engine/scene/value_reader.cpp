@@ -59,33 +59,32 @@ class ValueReader {
         return std::nullopt;
     }
     std::nullopt_t failKind(const Node& node) const {
-        return fail(node, field_.key, description(field_), std::string(nameOf(node.kind)));
+        return fail(node, field_.key, description(field_), description(node));
     }
 
     std::optional<double> number(const Node& node, const std::string& name) const {
         const std::string unit = field_.unit.empty() ? "" : fmt::format(" [{}]", field_.unit);
         const bool isWhole = field_.kind == FieldKind::whole || field_.kind == FieldKind::wholeVector;
         if (node.kind == NodeKind::number && isWhole) {
-            return fail(node, name, "a whole number", fmt::format("{}", node.number));
+            return fail(node, name, "a whole number", description(node));
         }
         if (node.kind != NodeKind::number && node.kind != NodeKind::whole) {
-            return fail(node, name, (isWhole ? "a whole number" : "a number") + unit, std::string(nameOf(node.kind)));
+            return fail(node, name, (isWhole ? "a whole number" : "a number") + unit, description(node));
         }
         if (!std::isfinite(node.number)) {
-            return fail(node, name, "a finite number" + unit, fmt::format("{}", node.number));
+            return fail(node, name, "a finite number" + unit, description(node));
         }
         const Range& range = field_.range;
         if (node.number >= range.low && node.number <= range.high) return node.number;
-        const std::string found =
-            node.kind == NodeKind::whole ? fmt::format("{}", node.whole) : fmt::format("{}", node.number);
+        const std::string found = description(node);
         // "Above 0" would not explain what is wrong with a number that is just too small or too large.
         if (range.low == smallest && node.number > 0.0) {
             const std::string suffix = field_.unit.empty() ? "" : " " + field_.unit;
-            return fail(node, name, fmt::format("between {} and {}{}", range.low, range.high, suffix), found);
+            return fail(node, name, fmt::format("between {:g} and {:g}{}", range.low, range.high, suffix), found);
         }
         std::string expected = description(range, field_.unit);
         if (expected.empty() || (node.number > range.high && range.high == anyNumber.high)) {
-            expected = fmt::format("at most {} in size", anyNumber.high);
+            expected = fmt::format("at most {:g} in size", anyNumber.high);
         }
         return fail(node, name, expected, found);
     }
@@ -101,7 +100,7 @@ class ValueReader {
     }
 
     std::optional<std::string> text(const Node& node, const std::string& name) const {
-        if (node.kind != NodeKind::text) return fail(node, name, "a text", std::string(nameOf(node.kind)));
+        if (node.kind != NodeKind::text) return fail(node, name, "a text", description(node));
         // A path or a name with a zero byte or a line break in it can only be a trap.
         const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
         if (std::any_of(node.text.begin(), node.text.end(), isControl)) {
@@ -115,14 +114,13 @@ class ValueReader {
         if (std::find(field_.choices.begin(), field_.choices.end(), node.text) != field_.choices.end()) {
             return Value(node.text);
         }
-        return fail(node, field_.key, description(field_), fmt::format("\"{}\"", node.text),
-                    suggestion(node.text, field_.choices));
+        return fail(node, field_.key, description(field_), description(node), suggestion(node.text, field_.choices));
     }
 
     std::optional<Value> stepLength(const Node& node) const {
         if (node.kind == NodeKind::text && node.text == "auto") return Value(node.text);
         if (node.kind == NodeKind::text) {
-            return fail(node, field_.key, description(field_), fmt::format("\"{}\"", node.text));
+            return fail(node, field_.key, description(field_), description(node));
         }
         if (node.kind != NodeKind::number && node.kind != NodeKind::whole) return failKind(node);
         return wrapped(number(node, field_.key));
@@ -133,9 +131,9 @@ class ValueReader {
         const bool isWhole = field_.kind == FieldKind::wholeVector;
         const std::string unit = field_.unit.empty() ? "" : fmt::format(" [{}]", field_.unit);
         const std::string expected = fmt::format("a list of {} {}numbers{}", size, isWhole ? "whole " : "", unit);
-        if (node.kind != NodeKind::list) return fail(node, name, expected, std::string(nameOf(node.kind)));
+        if (node.kind != NodeKind::list) return fail(node, name, expected, description(node));
         if (node.items.size() != size) {
-            return fail(node, name, expected, fmt::format("a list of {}", node.items.size()));
+            return fail(node, name, expected, description(node));
         }
         std::vector<double> values;
         for (std::size_t i = 0; i < size; ++i) {
@@ -151,7 +149,8 @@ class ValueReader {
         if (!values) return std::nullopt;
         const auto isTiny = [](double x) { return std::abs(x) < smallest; };
         if (std::all_of(values->begin(), values->end(), isTiny)) {
-            return fail(node, field_.key, "a direction", "three zeros");
+            problems_.addError(node.place, fmt::format("{} must not be [0, 0, 0]", field_.key));
+            return std::nullopt;
         }
         return Value(*values);
     }
@@ -159,7 +158,7 @@ class ValueReader {
     std::optional<std::vector<double>> colour(const Node& node) const {
         if (node.kind == NodeKind::list) return numbers(node, field_.key);
         if (node.kind != NodeKind::text) {
-            return fail(node, field_.key, description(field_), std::string(nameOf(node.kind)));
+            return fail(node, field_.key, description(field_), description(node));
         }
         std::vector<double> digits;
         for (const char c : node.text) {
@@ -167,7 +166,7 @@ class ValueReader {
             if (digit != std::string_view::npos) digits.push_back(static_cast<double>(digit < 16 ? digit : digit - 6));
         }
         if (node.text.size() != 7 || node.text[0] != '#' || digits.size() != 6) {
-            return fail(node, field_.key, description(field_), fmt::format("\"{}\"", node.text));
+            return fail(node, field_.key, description(field_), description(node));
         }
         return std::vector<double>{(16 * digits[0] + digits[1]) / 255, (16 * digits[2] + digits[3]) / 255,
                                    (16 * digits[4] + digits[5]) / 255};
@@ -176,7 +175,7 @@ class ValueReader {
     std::optional<Value> segment(const Node& node) const {
         if (node.kind != NodeKind::list) return failKind(node);
         if (node.items.size() != 2) {
-            return fail(node, field_.key, description(field_), fmt::format("a list of {}", node.items.size()));
+            return fail(node, field_.key, description(field_), description(node));
         }
         auto start = numbers(node.items[0], field_.key + "[0]");
         const auto end = numbers(node.items[1], field_.key + "[1]");

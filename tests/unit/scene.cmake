@@ -1,0 +1,12 @@
+list(APPEND TAUT_UNIT_TESTS
+  scene_contradiction_errors_test.cpp
+  scene_field_table_test.cpp
+  scene_fields_test.cpp
+  scene_files_test.cpp
+  scene_obj_test.cpp
+  scene_overrides_test.cpp
+  scene_reference_errors_test.cpp
+  scene_robustness_test.cpp
+  scene_syntax_errors_test.cpp
+  scene_value_errors_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::scene)

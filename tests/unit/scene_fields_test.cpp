@@ -1,0 +1,296 @@
+// Every field of the format lands in its member, and its default is that of the struct.
+#include <cmath>
+#include <set>
+
+#include "core/trig.h"
+#include "scene/document.h"
+#include "scene/field.h"
+#include "unit/scene_full_text.h"
+#include "unit/scene_support.h"
+
+namespace taut::scene {
+namespace {
+
+using core::radians;
+using glm::dvec2;
+using glm::dvec3;
+using glm::ivec2;
+using glm::ivec3;
+
+world::SceneSpec fullSpec() {
+    const AssetFolder folder;
+    return folder.load(fullScene).spec;
+}
+
+template <class Body>
+const Body& named(const std::vector<Body>& bodies, const std::string& name) {
+    for (const Body& body : bodies) {
+        if (body.name == name) return body;
+    }
+    throw std::runtime_error("there is no " + name);
+}
+
+// Angles pass through one multiplication, so that the last bit may differ.
+void expectNear(const dvec3& a, const dvec3& b) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 1e-15);
+}
+
+TEST(SceneFields, SettingsLandInTheirMembers) {
+    const world::SceneSpec scene = fullSpec();
+    EXPECT_EQ(scene.title, "everything");
+    EXPECT_EQ(scene.need.rmsPosition, 1e-3);
+    EXPECT_EQ(scene.need.rmsPercent, 2.5);
+    EXPECT_EQ(scene.need.rmsPixels, 3.5);
+    EXPECT_EQ(scene.need.horizon, 0.75);
+    EXPECT_EQ(scene.need.budget, 16.0);
+    EXPECT_EQ(scene.solver.integrator, "velocity-verlet");
+    EXPECT_EQ(scene.solver.dt, 1e-3);
+    EXPECT_EQ(scene.solver.safety, 0.8);
+    EXPECT_EQ(scene.solver.precision, world::Precision::double_);
+    EXPECT_EQ(scene.world.gravity, dvec3(0.5, -1.62, 0.25));
+    EXPECT_EQ(scene.world.airDensity, 0.02);
+    EXPECT_EQ(scene.run.fps, 30.0);
+    EXPECT_EQ(scene.run.seconds, 4.5);
+    EXPECT_EQ(scene.picture.size, ivec2(640, 360));
+    EXPECT_EQ(scene.picture.camera, "main");
+    EXPECT_EQ(scene.picture.samples, 8);
+    EXPECT_EQ(scene.picture.shadowSize, 1024);
+}
+
+TEST(SceneFields, LightAndBackgroundLandInTheirMembers) {
+    const world::SceneSpec scene = fullSpec();
+    EXPECT_EQ(scene.light.direction, dvec3(1, -2, 3));
+    EXPECT_EQ(scene.light.colour, dvec3(1.0, 128.0 / 255.0, 0.0));
+    EXPECT_EQ(scene.light.intensity, 2.5);
+    EXPECT_EQ(scene.light.softness, radians(9.0));
+    EXPECT_EQ(scene.light.sky, dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(scene.light.ground, dvec3(0.4, 0.5, 0.6));
+    EXPECT_EQ(scene.light.ambient, 0.7);
+    EXPECT_EQ(scene.background.top, dvec3(0.11, 0.12, 0.13));
+    EXPECT_EQ(scene.background.horizon, dvec3(0.21, 0.22, 0.23));
+    EXPECT_EQ(scene.background.fadeStart, 9.0);
+    EXPECT_EQ(scene.background.fadeEnd, 31.0);
+}
+
+TEST(SceneFields, MaterialLandsInItsMembers) {
+    const world::MaterialSpec silk = fullSpec().materials.at("silk");
+    EXPECT_EQ(silk.density, 0.07);
+    EXPECT_EQ(silk.stretch, 300.0);
+    EXPECT_EQ(silk.shear, 120.0);
+    EXPECT_EQ(silk.bend, 0.2);
+    EXPECT_EQ(silk.dampingTime, 2e-4);
+    EXPECT_EQ(silk.drag, 0.4);
+    EXPECT_EQ(silk.lumping, "uniform");
+}
+
+void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder) {
+    SCOPED_TRACE(body.name);
+    EXPECT_EQ(body.velocity, dvec3(1, 2, 3));
+    EXPECT_EQ(body.spin, dvec3(4, 5, 6));
+    EXPECT_EQ(body.jitter, 0.001);
+    EXPECT_EQ(body.seed, 9);
+    EXPECT_EQ(body.friction, 0.9);
+    EXPECT_EQ(body.thickness, 0.01);
+    EXPECT_FALSE(body.collide);
+    EXPECT_EQ(body.finish.colour, dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(body.finish.backColour, dvec3(0.4, 0.5, 0.6));
+    EXPECT_EQ(body.finish.accent, dvec3(0.7, 0.8, 0.9));
+    EXPECT_EQ(body.finish.pattern, "image");
+    EXPECT_EQ(body.finish.repeat, 0.3);
+    EXPECT_EQ(body.finish.weave, 0.4);
+    EXPECT_EQ(body.finish.thread, 0.02);
+    EXPECT_EQ(body.finish.roughness, 0.5);
+    EXPECT_EQ(body.finish.sheen, 0.6);
+    EXPECT_EQ(body.finish.texture, (folder / "square.png").string());
+    EXPECT_EQ(body.solver.integrator, "euler");
+    EXPECT_EQ(body.solver.dt, 2e-4);
+    EXPECT_EQ(body.solver.safety, 0.7);
+    EXPECT_EQ(body.array.count, ivec3(2, 3, 4));
+    EXPECT_EQ(body.array.stepX, dvec3(1, 0, 0));
+    EXPECT_EQ(body.array.stepY, dvec3(0, 2, 0));
+    EXPECT_EQ(body.array.stepZ, dvec3(0, 0, 3));
+}
+
+TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
+    const AssetFolder folder;
+    const world::SceneSpec scene = folder.load(fullScene).spec;
+    const world::BodySpec& flag = named(scene.cloths, "flag");
+    EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
+    EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
+    EXPECT_EQ(flag.source.line, 46);
+    EXPECT_EQ(flag.source.column, 8);
+    expectCommonMembers(flag, folder);
+
+    // The same lines in bodies of the other kinds.
+    const std::string full = fullScene;
+    const std::size_t first = full.find("velocity = [1, 2, 3]");
+    const std::string common = full.substr(first, full.find("[cloth.shirt]") - first);
+    const world::SceneSpec others =
+        folder
+            .load("schema = 1\n[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\n" + common + "[block.b]\nhold = [\"all\"]\n" +
+                  common + "[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0] }]\nhold = [\"a\"]\n" + common)
+            .spec;
+    expectCommonMembers(others.ropes[0], folder);
+    expectCommonMembers(others.blocks[0], folder);
+    expectCommonMembers(others.nets[0], folder);
+    EXPECT_EQ(others.blocks[0].hold, std::vector<std::string>{"all"});
+    EXPECT_EQ(others.nets[0].hold, std::vector<std::string>{"a"});
+}
+
+TEST(SceneFields, ClothsLandInTheirMembers) {
+    const AssetFolder folder;
+    const world::SceneSpec scene = folder.load(fullScene).spec;
+    const world::ClothSpec& flag = named(scene.cloths, "flag");
+    EXPECT_EQ(flag.size, dvec2(1.8, 1.2));
+    EXPECT_EQ(flag.cells, ivec2(36, 24));
+    EXPECT_EQ(flag.origin, dvec3(0.5, 3, 0.25));
+    EXPECT_EQ(flag.across, dvec3(0, 0, 1));  // made a unit vector
+    EXPECT_EQ(flag.down, dvec3(0, -1, 0));
+    EXPECT_EQ(flag.material, "silk");
+    EXPECT_EQ(flag.meshData, nullptr);
+    const world::ClothSpec& shirt = named(scene.cloths, "shirt");
+    EXPECT_EQ(shirt.mesh, (folder / "square.obj").string());
+    ASSERT_NE(shirt.meshData, nullptr);
+    EXPECT_EQ(shirt.meshData->positions.size(), 4U);
+    EXPECT_EQ(shirt.position, dvec3(1, 2, 3));
+    expectNear(shirt.rotation, {core::pi / 2, core::pi, core::pi / 4});
+    EXPECT_EQ(shirt.scale, 0.01);
+}
+
+TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
+    const world::SceneSpec scene = fullSpec();
+    const world::RopeSpec& rail = named(scene.ropes, "rail");
+    EXPECT_EQ(rail.start, dvec3(-4, 2, 1));
+    EXPECT_EQ(rail.end, dvec3(-1, 2.5, 1.5));
+    EXPECT_EQ(rail.segments, 12);
+    EXPECT_EQ(rail.length, 3.5);
+    EXPECT_EQ(rail.mass, 2.5);
+    EXPECT_EQ(rail.stretch, 4e4);
+    EXPECT_EQ(rail.bend, 6.0);
+    EXPECT_EQ(rail.dampingTime, 3e-4);
+    EXPECT_EQ(rail.drag, 0.6);
+    EXPECT_EQ(rail.radius, 0.03);
+    EXPECT_EQ(rail.lumping, "uniform");
+    EXPECT_EQ(rail.hold, (std::vector<std::string>{"ends", "25%"}));
+    const world::BlockSpec& jelly = named(scene.blocks, "jelly");
+    EXPECT_EQ(jelly.size, dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(jelly.cells, ivec3(2, 3, 5));
+    EXPECT_EQ(jelly.position, dvec3(7, 8, 9));
+    expectNear(jelly.rotation, {0, core::pi / 2, 0});
+    EXPECT_EQ(jelly.density, 950.0);
+    EXPECT_EQ(jelly.young, 1e4);
+    EXPECT_EQ(jelly.bulk, 3e4);
+    EXPECT_EQ(jelly.dampingTime, 4e-4);
+    EXPECT_EQ(jelly.drag, 0.7);
+    EXPECT_EQ(jelly.workingStretch, 2.0);
+    EXPECT_EQ(jelly.lumping, "uniform");
+}
+
+TEST(SceneFields, NetLandsInItsMembers) {
+    const world::SceneSpec scene = fullSpec();
+    const world::NetSpec& net = named(scene.nets, "cradle");
+    ASSERT_EQ(net.points.size(), 2U);
+    EXPECT_EQ(net.points[0].name, "a");
+    EXPECT_EQ(net.points[0].position, dvec3(0, 1, 0));
+    EXPECT_EQ(net.points[0].mass, 3.0);
+    EXPECT_TRUE(net.points[0].hold);
+    EXPECT_FALSE(net.points[1].hold);
+    EXPECT_EQ(net.points[1].source.line, 95);
+    ASSERT_EQ(net.springs.size(), 1U);
+    EXPECT_EQ(net.springs[0].a, "a");
+    EXPECT_EQ(net.springs[0].b, "b");
+    EXPECT_EQ(net.springs[0].stiffness, 20.0);
+    EXPECT_EQ(net.springs[0].restLength, 0.5);
+    EXPECT_EQ(net.springs[0].dampingTime, 5e-4);
+    EXPECT_EQ(net.dampingTime, 6e-4);
+    EXPECT_EQ(net.drag, 0.8);
+    EXPECT_EQ(net.radius, 0.04);
+    EXPECT_EQ(net.ball, 0.07);
+}
+
+TEST(SceneFields, TiesAndWindLandInTheirMembers) {
+    const world::SceneSpec scene = fullSpec();
+    ASSERT_EQ(scene.joints.size(), 2U);
+    EXPECT_EQ(scene.joints[0].a, "rope.rail@end");
+    EXPECT_EQ(scene.joints[0].b, "net.cradle@b");
+    EXPECT_EQ(scene.joints[0].kind, "spring");
+    EXPECT_EQ(scene.joints[0].stiffness, 50.0);
+    EXPECT_EQ(scene.joints[0].dampingTime, 7e-4);
+    EXPECT_EQ(scene.joints[1].kind, "weld");
+    EXPECT_EQ(scene.joints[1].reach, 0.05);
+    ASSERT_EQ(scene.masses.size(), 1U);
+    EXPECT_EQ(scene.masses[0].target, "block.*@corners");
+    EXPECT_EQ(scene.masses[0].mass, 1.5);
+    const world::AnchorSpec& hand = named(scene.anchors, "hand");
+    EXPECT_EQ(hand.target, "cloth.flag.*@top-left");
+    EXPECT_EQ(hand.at, dvec3(1, 2, 4));
+    EXPECT_EQ(hand.stiffness, 60.0);
+    EXPECT_EQ(hand.damping, 0.9);
+    const world::WindSpec& wind = named(scene.winds, "breeze");
+    EXPECT_EQ(wind.velocity, dvec3(6, 0, 1));
+    EXPECT_EQ(wind.gustAmplitude, 2.5);
+    EXPECT_EQ(wind.gustPeriod, 1.7);
+    EXPECT_EQ(wind.gustLength, 3.0);
+    EXPECT_EQ(wind.gustSeed, 7);
+    EXPECT_EQ(wind.drag, 1.1);
+    EXPECT_EQ(wind.lift, 0.5);
+    EXPECT_EQ(wind.on, std::vector<std::string>{"cloth.flag.*"});
+}
+
+TEST(SceneFields, CollidersLandInTheirMembers) {
+    const AssetFolder folder;
+    const world::SceneSpec scene = folder.load(fullScene).spec;
+    const world::ColliderSpec& ball = named(scene.colliders, "ball");
+    EXPECT_EQ(ball.shape, "sphere");
+    EXPECT_EQ(ball.position, dvec3(0, 1, 2));
+    expectNear(ball.rotation, {0, 0, core::pi / 2});
+    EXPECT_EQ(ball.radius, 0.4);
+    EXPECT_EQ(ball.friction, 0.6);
+    EXPECT_EQ(ball.restitution, 0.5);
+    EXPECT_FALSE(ball.visible);
+    EXPECT_EQ(ball.finish.colour, dvec3(0, 0, 1));
+    const world::ColliderSpec& body = named(scene.colliders, "body");
+    EXPECT_EQ(body.mesh, (folder / "square.obj").string());
+    EXPECT_EQ(body.scale, 0.02);
+    ASSERT_NE(body.meshData, nullptr);
+    EXPECT_EQ(named(scene.colliders, "floor").normal, dvec3(0, 1, 0));  // made a unit vector
+    EXPECT_EQ(named(scene.colliders, "post").height, 2.5);
+    const world::ColliderSpec& lift = named(scene.colliders, "lift");
+    EXPECT_EQ(lift.size, dvec3(1, 2, 3));
+    EXPECT_EQ(lift.edge, 0.05);
+    ASSERT_EQ(lift.keys.size(), 2U);
+    EXPECT_EQ(lift.keys[0].t, 0.5);
+    EXPECT_EQ(lift.keys[0].position, dvec3(1, 0, 0));
+    expectNear(lift.keys[0].rotation, {0, core::pi, 0});
+    EXPECT_EQ(lift.keys[0].ease, world::Ease::in);
+    const world::ColliderSpec& table = named(scene.colliders, "table");
+    ASSERT_EQ(table.parts.size(), 3U);
+    EXPECT_EQ(table.parts[0].shape, "box");
+    EXPECT_EQ(table.parts[0].size, dvec3(2, 0.1, 1));
+    EXPECT_EQ(table.parts[0].position, dvec3(0, 1, 0));
+    expectNear(table.parts[0].rotation, {core::pi / 2, 0, 0});
+    EXPECT_EQ(table.parts[1].radius, 0.2);
+    EXPECT_EQ(table.parts[1].height, 0.3);
+    EXPECT_EQ(table.parts[2].scale, 0.5);
+    ASSERT_NE(table.parts[2].meshData, nullptr);
+}
+
+TEST(SceneFields, CamerasLandInTheirMembers) {
+    const world::SceneSpec scene = fullSpec();
+    const world::CameraSpec& main = named(scene.cameras, "main");
+    EXPECT_EQ(main.fieldOfView, radians(45.0));
+    ASSERT_EQ(main.keys.size(), 2U);
+    EXPECT_EQ(main.keys[0].t, 0.0);
+    EXPECT_EQ(main.keys[0].eye, dvec3(1, 2, 3));
+    EXPECT_EQ(main.keys[0].target, dvec3(4, 5, 6));
+    EXPECT_EQ(main.keys[0].fieldOfView, radians(30.0));
+    EXPECT_EQ(main.keys[0].ease, world::Ease::hold);
+    EXPECT_EQ(main.keys[1].fieldOfView, std::nullopt);
+    const world::CameraSpec& turning = named(scene.cameras, "turning");
+    EXPECT_EQ(turning.eye, dvec3(3, 2, 1));
+    EXPECT_EQ(turning.target, dvec3(0, 1, 0.5));
+    EXPECT_EQ(turning.orbitPeriod, 20.0);
+}
+
+}  // namespace
+}  // namespace taut::scene

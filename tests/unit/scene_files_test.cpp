@@ -1,0 +1,192 @@
+// Scene files on disk, and the files that they name.
+#include "unit/scene_support.h"
+
+namespace taut::scene {
+namespace {
+
+constexpr const char* minimal = "schema = 1\n[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\n";
+
+// The message and the exit code of loading a path.
+std::pair<std::string, core::ExitCode> failureOf(const AssetFolder& folder, const std::string& name) {
+    try {
+        loadScene(folder / name, {});
+    } catch (const core::Error& error) {
+        return {folder.withoutFolder(error.what()), error.code()};
+    }
+    return {"", core::ExitCode::ok};
+}
+
+TEST(SceneFiles, AMissingFileAFolderAndALoopOfLinksAreInputOutputErrors) {
+    const AssetFolder folder;
+    using core::ExitCode;
+    EXPECT_EQ(failureOf(folder, "no.toml"),
+              std::pair(std::string("no.toml: error: there is no such file"), ExitCode::inputOutput));
+    EXPECT_EQ(failureOf(folder, "models"),
+              std::pair(std::string("models: error: this is a folder, not a file"), ExitCode::inputOutput));
+    std::filesystem::create_symlink(folder / "loop.toml", folder / "loop.toml");
+    EXPECT_EQ(failureOf(folder, "loop.toml").second, ExitCode::inputOutput);
+    EXPECT_EQ(failureOf(folder, "s.toml/x").second, ExitCode::inputOutput);
+}
+
+TEST(SceneFiles, AFileThatCannotBeReadIsAnInputOutputError) {
+    // Its first page is never mapped, so that reading fails for every user.
+    try {
+        loadScene("/proc/self/mem", {});
+        ADD_FAILURE() << "was read";
+    } catch (const core::Error& error) {
+        EXPECT_EQ(error.code(), core::ExitCode::inputOutput);
+        EXPECT_STREQ(error.what(), "/proc/self/mem: error: the file cannot be read to its end");
+    }
+}
+
+TEST(SceneFiles, AFileAboveTheLimitIsRefused) {
+    const AssetFolder folder;
+    folder.write("large.toml", std::string(minimal) + "#" + std::string(16U << 20U, 'x'));
+    EXPECT_EQ(failureOf(folder, "large.toml"),
+              std::pair(std::string("large.toml: error: the file is larger than 16 MiB"), core::ExitCode::badContent));
+}
+
+TEST(SceneFiles, ByteOrderMarksAndWindowsLineEndsAreRead) {
+    const AssetFolder folder;
+    std::string text = "\xEF\xBB\xBF";
+    for (const char c : std::string(minimal)) text += c == '\n' ? "\r\n" : std::string(1, c);
+    folder.write("windows.toml", text);
+    EXPECT_EQ(loadScene(folder / "windows.toml", {}).spec.ropes.size(), 1U);
+    folder.write("bad.toml", text + "x = 1\r\n");
+    EXPECT_EQ(failureOf(folder, "bad.toml").first, "bad.toml:4:1: error: [rope.r] has no key \"x\"\n  x = 1\n  ^");
+}
+
+TEST(SceneFiles, WhatIsNoTextIsReported) {
+    const AssetFolder folder;
+    EXPECT_EQ(folder.messageOf(std::string("schema = 1\n\0\0", 13)),
+              "s.toml:2:1: error: this is not a text file: it holds a zero byte\n  ??\n  ^");
+    EXPECT_EQ(folder.messageOf("\xFF\xFEs\1c\1"),
+              "s.toml:1:1: error: this is UTF-16; a scene is UTF-8\n  \xFF\xFEs?c?\n  ^");
+    EXPECT_EQ(folder.messageOf("title = \"\xC3(\"\n").substr(0, 16), "s.toml:1:9: erro");
+    EXPECT_EQ(folder.messageOf("\x89PNG\r\n\x1A\n").substr(0, 15), "s.toml:1:1: err");
+}
+
+TEST(SceneFiles, AnEmptyFileLacksItsSchema) {
+    const AssetFolder folder;
+    EXPECT_EQ(folder.messageOf(""), "s.toml:1:1: error: the scene needs schema\n  \n  ^ write schema = 1");
+    EXPECT_EQ(folder.messageOf("schema = 2\n"),
+              "s.toml:1:10: error: schema must be 1, not 2\n  schema = 2\n           ^");
+}
+
+TEST(SceneFiles, EndlessNestingEndsInAMessage) {
+    const AssetFolder folder;
+    const std::string lists = "a = " + std::string(100000, '[');
+    EXPECT_NE(folder.messageOf(lists).find("exceeded maximum nested value depth"), std::string::npos);
+    std::string tables = "a = ";
+    std::string keys = "a";
+    for (int i = 0; i < 100000; ++i) {
+        tables += "{a=";
+        keys += ".a";
+    }
+    EXPECT_NE(folder.messageOf(tables).find("exceeded maximum nested value depth"), std::string::npos);
+    EXPECT_NE(folder.messageOf(keys + " = 1").find("this key has too many parts"), std::string::npos);
+    EXPECT_NE(folder.messageOf("[" + keys + "]").find("this key has too many parts"), std::string::npos);
+}
+
+TEST(SceneFiles, ALongLineIsShownAroundItsFault) {
+    const AssetFolder folder;
+    const std::string message =
+        folder.messageOf("schema = 1\ntitle = \"" + std::string(5000, 'x') + "\"; # and more\n");
+    EXPECT_LT(message.size(), 400U);
+    EXPECT_TRUE(message.starts_with("s.toml:2:5011: error: ")) << message;
+}
+
+TEST(SceneFiles, AllFaultsAreReportedInTheOrderOfTheFile) {
+    const AssetFolder folder;
+    EXPECT_EQ(folder.messageOf("schema = 1\n"
+                               "[wind.w]\n"
+                               "on = [\"cloth.none\"]\n"
+                               "[run]\n"
+                               "fps = 0\n"
+                               "[cloth.c]\n"
+                               "material = \"none\"\n"
+                               "cells = [1, -1]\n"),
+              "s.toml:3:7: error: there is no cloth.none\n"
+              "  on = [\"cloth.none\"]\n"
+              "        ^\n"
+              "s.toml:5:7: error: fps must be between 0.1 and 1000 1/s, not 0\n"
+              "  fps = 0\n"
+              "        ^\n"
+              "s.toml:7:12: error: there is no material \"none\"\n"
+              "  material = \"none\"\n"
+              "             ^ add a table [material.none]\n"
+              "s.toml:8:13: error: cells[1] must be between 1 and 1e+09, not -1\n"
+              "  cells = [1, -1]\n"
+              "              ^");
+}
+
+TEST(SceneFiles, AssetsAreLookedForBesideTheSceneFirst) {
+    const AssetFolder scenes, assets;
+    assets.write("models/shirt.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+    assets.write("square.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+    LoadOptions options;
+    options.assetFolders = {(assets / "x").parent_path()};
+    const std::string head = "schema = 1\n[collider.c]\nshape = \"mesh\"\nmesh = ";
+    EXPECT_EQ(scenes.load(head + "\"shirt.obj\"\n", options).spec.colliders[0].mesh,
+              (assets / "models/shirt.obj").string());
+    EXPECT_EQ(scenes.load(head + "\"square.obj\"\n", options).spec.colliders[0].mesh, (scenes / "square.obj").string());
+    const std::string absolute = (assets / "square.obj").string();
+    EXPECT_EQ(scenes.load(head + "\"" + absolute + "\"\n").spec.colliders[0].mesh, absolute);
+    EXPECT_EQ(assets.withoutFolder(scenes.messageOf(head + "\"none.obj\"\n", options)),
+              "s.toml:4:8: error: there is no file \"none.obj\"\n"
+              "  mesh = \"none.obj\"\n"
+              "         ^ looked for none.obj, none.obj, models/none.obj, textures/none.obj");
+}
+
+TEST(SceneFiles, SuspiciousButLegalContentWarns) {
+    const AssetFolder folder;
+    const Loaded loaded = folder.load(
+        "schema = 1\n"
+        "[run]\n"
+        "seconds = 0.51\n"
+        "[material.m]\n"
+        "[collider.c]\n"
+        "shape = \"sphere\"\n"
+        "keys = [{ t = 0.5 }, { t = 1.00001 }, { t = 1.008 }]\n");
+    ASSERT_EQ(loaded.warnings.size(), 4U);
+    EXPECT_EQ(folder.withoutFolder(loaded.warnings[1]),
+              "s.toml:3:11: warning: 0.51 s is not on a tick of 1/60 s: 0.516666667 s is taken\n"
+              "  seconds = 0.51\n"
+              "            ^");
+    EXPECT_TRUE(folder.withoutFolder(loaded.warnings[0]).starts_with("s.toml:1:1: warning: there is nothing to move"));
+    EXPECT_TRUE(folder.withoutFolder(loaded.warnings[2]).starts_with("s.toml:4:11: warning: no cloth is made of m"));
+    EXPECT_TRUE(folder.withoutFolder(loaded.warnings[3]).starts_with("s.toml:7:45: warning: 1.008 s is not on a tick"));
+}
+
+TEST(SceneFiles, BodiesAreSortedByNameAndTiesKeepTheirOrder) {
+    const AssetFolder folder;
+    const world::SceneSpec scene = folder
+                                       .load(
+                                           "schema = 1\n"
+                                           "[rope.b]\nends = [[0, 0, 0], [1, 0, 0]]\n"
+                                           "[rope.a]\nends = [[0, 0, 0], [1, 0, 0]]\n"
+                                           "[[mass]]\ntarget = \"rope.b@end\"\nmass_kg = 1\n"
+                                           "[[mass]]\ntarget = \"rope.a@end\"\nmass_kg = 1\n")
+                                       .spec;
+    EXPECT_EQ(scene.ropes[0].name, "a");
+    EXPECT_EQ(scene.ropes[1].name, "b");
+    EXPECT_EQ(scene.masses[0].target, "rope.b@end");
+    EXPECT_EQ(scene.masses[1].target, "rope.a@end");
+}
+
+TEST(SceneFiles, TheShippedScenesLoad) {
+    const std::filesystem::path assets = std::filesystem::path(TAUT_SOURCE_DIR) / "assets";
+    LoadOptions options;
+    options.assetFolders = {assets};
+    for (const auto& entry : std::filesystem::directory_iterator(assets / "scenes")) {
+        if (entry.path().extension() != ".toml") continue;
+        SCOPED_TRACE(entry.path().string());
+        Loaded loaded;
+        ASSERT_NO_THROW(loaded = loadScene(entry.path(), options));
+        EXPECT_EQ(loaded.warnings, std::vector<std::string>());
+        EXPECT_FALSE(loaded.spec.title.empty());
+    }
+}
+
+}  // namespace
+}  // namespace taut::scene

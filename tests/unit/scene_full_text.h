@@ -1,0 +1,168 @@
+// A scene that gives every field of the format, each a value of its own that is not its default.
+#pragma once
+
+namespace taut::scene {
+
+inline constexpr const char* fullScene = R"toml(schema = 1
+title = "everything"
+[need]
+rms_position_m = 1e-3
+rms_percent = 2.5
+rms_pixels = 3.5
+horizon_s = 0.75
+budget_ms = 16
+[solver]
+integrator = "velocity-verlet"
+dt = 1e-3
+safety = 0.8
+precision = "double"
+[world]
+gravity = [0.5, -1.62, 0.25]
+air_density_kg_per_m3 = 0.02
+[run]
+fps = 30
+seconds = 4.5
+[picture]
+size = [640, 360]
+camera = "main"
+samples = 8
+shadow_size = 1024
+[light]
+direction = [1, -2, 3]
+colour = "#ff8000"
+intensity = 2.5
+softness_deg = 90e-1
+sky = [0.1, 0.2, 0.3]
+ground = [0.4, 0.5, 0.6]
+ambient = 0.7
+[background]
+top = [0.11, 0.12, 0.13]
+horizon = [0.21, 0.22, 0.23]
+fade_start = 9
+fade_end = 31
+[material.silk]
+density_kg_per_m2 = 0.07
+stretch_N_per_m = 300
+shear_N_per_m = 120
+bend_N_per_m = 0.2
+damping_time_s = 2e-4
+drag_per_s = 0.4
+lumping = "uniform"
+[cloth.flag]
+size = [1.8, 1.2]
+cells = [36, 24]
+origin = [0.5, 3, 0.25]
+across = [0, 0, 2]
+down = [0, -3, 0]
+material = "silk"
+hold = ["left", "#7", "(0.5,1)"]
+velocity = [1, 2, 3]
+spin_rad_per_s = [4, 5, 6]
+jitter_m = 0.001
+seed = 9
+friction = 0.9
+thickness = 0.01
+collide = false
+finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, thread_m = 0.02, roughness = 0.5, sheen = 0.6, texture = "square.png" }
+solver = { integrator = "euler", dt = 2e-4, safety = 0.7 }
+array = { count = [2, 3, 4], step_x = [1, 0, 0], step_y = [0, 2, 0], step_z = [0, 0, 3] }
+[cloth.shirt]
+mesh = "square.obj"
+material = "silk"
+position = [1, 2, 3]
+rotation_deg = [90, 180, 45]
+scale = 0.01
+[rope.rail]
+ends = [[-4, 2, 1], [-1, 2.5, 1.5]]
+segments = 12
+length_m = 3.5
+mass_kg = 2.5
+stretch_N = 4e4
+bend_N = 6
+damping_time_s = 3e-4
+drag_per_s = 0.6
+radius = 0.03
+lumping = "uniform"
+hold = ["ends", "25%"]
+[block.jelly]
+size = [0.1, 0.2, 0.3]
+cells = [2, 3, 5]
+position = [7, 8, 9]
+rotation_deg = [0, 90, 0]
+density_kg_per_m3 = 950
+young_Pa = 1e4
+bulk_Pa = 3e4
+damping_time_s = 4e-4
+drag_per_s = 0.7
+working_stretch = 2
+lumping = "uniform"
+[net.cradle]
+points = [{ name = "a", position = [0, 1, 0], mass_kg = 3, hold = true }, { name = "b", position = [1, 1, 0] }]
+springs = [{ a = "a", b = "b", stiffness_N_per_m = 20, rest_length_m = 0.5, damping_time_s = 5e-4 }]
+damping_time_s = 6e-4
+drag_per_s = 0.8
+radius = 0.04
+ball = 0.07
+[[joint]]
+a = "rope.rail@end"
+b = "net.cradle@b"
+kind = "spring"
+stiffness_N_per_m = 50
+damping_time_s = 7e-4
+[[joint]]
+a = "rope.rail@start"
+b = "net.cradle@a"
+kind = "weld"
+reach_m = 0.05
+[[mass]]
+target = "block.*@corners"
+mass_kg = 1.5
+[anchor.hand]
+target = "cloth.flag.*@top-left"
+at = [1, 2, 4]
+stiffness_N_per_m = 60
+damping_kg_per_s = 0.9
+[collider.ball]
+shape = "sphere"
+position = [0, 1, 2]
+rotation_deg = [0, 0, 90]
+radius = 0.4
+friction = 0.6
+restitution = 0.5
+visible = false
+finish = { colour = "#0000ff" }
+[collider.body]
+shape = "hull"
+mesh = "square.obj"
+scale = 0.02
+[collider.floor]
+shape = "plane"
+normal = [0, 5, 0]
+[collider.lift]
+shape = "box"
+size = [1, 2, 3]
+edge = 0.05
+keys = [{ t = 0.5, position = [1, 0, 0], rotation_deg = [0, 180, 0], ease = "in" }, { t = 1 }]
+[collider.post]
+shape = "capsule"
+radius = 0.1
+height = 2.5
+[collider.table]
+shape = "compound"
+parts = [{ shape = "box", size = [2, 0.1, 1], position = [0, 1, 0], rotation_deg = [90, 0, 0] }, { shape = "cone", radius = 0.2, height = 0.3 }, { shape = "hull", mesh = "square.obj", scale = 0.5 }]
+[wind.breeze]
+velocity = [6, 0, 1]
+gust = { amplitude = 2.5, period_s = 1.7, length_m = 3, seed = 7 }
+drag = 1.1
+lift = 0.5
+on = ["cloth.flag.*"]
+[camera.main]
+fov_deg = 45
+keys = [{ t = 0, eye = [1, 2, 3], target = [4, 5, 6], fov_deg = 30, ease = "hold" }, { t = 1, eye = [1, 2, 4], target = [4, 5, 6] }]
+[camera.turning]
+eye = [3, 2, 1]
+target = [0, 1, 0.5]
+orbit_period_s = 20
+)toml";
+
+}  // namespace taut::scene

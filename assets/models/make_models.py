@@ -1,0 +1,328 @@
+#!/usr/bin/env python3
+"""Makes the meshes and pictures that the shipped scenes use: *.obj here and *.png in ../textures.
+
+Plain Python, no packages. Run it from anywhere; it writes the same bytes each time.
+Lengths in metres, y up. Faces are counter-clockwise seen from outside, or from above for the poncho.
+"""
+import math
+import os
+import struct
+import zlib
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TEXTURES = os.path.join(HERE, "..", "textures")
+
+
+def write_obj(name, comment, vertices, triangles, uv=None):
+    with open(os.path.join(HERE, name), "w", newline="\n") as out:
+        out.write("# %s\n# %d vertices, %d triangles; made by make_models.py\n" % (comment, len(vertices), len(triangles)))
+        for v in vertices:
+            out.write("v %.5f %.5f %.5f\n" % tuple(v))
+        for t in uv or []:
+            out.write("vt %.5f %.5f\n" % tuple(t))
+        for t in triangles:
+            out.write("f " + " ".join("%d/%d" % (i + 1, i + 1) if uv else "%d" % (i + 1) for i in t) + "\n")
+
+
+def edges_of(triangles):
+    """Each directed edge once, or the mesh is not consistently oriented and edge-manifold."""
+    edges = set()
+    for t in triangles:
+        for k in range(3):
+            edge = (t[k], t[(k + 1) % 3])
+            assert edge not in edges, "edge %s is used twice in one direction" % (edge,)
+            edges.add(edge)
+    return edges
+
+
+def assert_watertight(vertices, triangles):
+    edges = edges_of(triangles)
+    assert all((b, a) in edges for a, b in edges), "the mesh has a hole"
+    volume = 0.0
+    for a, b, c in triangles:
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = vertices[a], vertices[b], vertices[c]
+        volume += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+    assert volume > 0, "the faces look inwards"
+
+
+# ---- the tailor's dummy: a smooth union of ellipsoids and capsules, meshed by surface nets ----
+
+
+def ellipsoid(p, centre, radii):
+    """About the distance; exact on the surface."""
+    q = [(p[i] - centre[i]) / radii[i] for i in range(3)]
+    k0 = math.sqrt(sum(x * x for x in q))
+    k1 = math.sqrt(sum((q[i] / radii[i]) ** 2 for i in range(3)))
+    return k0 * (k0 - 1.0) / k1 if k1 > 0 else -min(radii)
+
+
+def capsule(p, a, b, radius_a, radius_b):
+    ab = [b[i] - a[i] for i in range(3)]
+    ap = [p[i] - a[i] for i in range(3)]
+    t = sum(ab[i] * ap[i] for i in range(3)) / sum(x * x for x in ab)
+    t = min(1.0, max(0.0, t))
+    return math.sqrt(sum((ap[i] - t * ab[i]) ** 2 for i in range(3))) - (radius_a + t * (radius_b - radius_a))
+
+
+def smooth_union(distances, width):
+    low = distances[0]
+    for d in distances[1:]:
+        h = max(width - abs(low - d), 0.0) / width
+        low = min(low, d) - h * h * width * 0.25
+    return low
+
+
+def dummy_distance(p):
+    p = (abs(p[0]), p[1], p[2])
+    body = smooth_union(
+        [
+            ellipsoid(p, (0.0, 0.93, 0.0), (0.168, 0.175, 0.118)),  # hips
+            ellipsoid(p, (0.0, 1.10, 0.0), (0.126, 0.16, 0.095)),  # waist
+            ellipsoid(p, (0.0, 1.27, 0.004), (0.165, 0.17, 0.115)),  # chest
+            capsule(p, (0.0, 1.405, -0.004), (0.165, 1.385, -0.004), 0.058, 0.055),  # shoulders
+            capsule(p, (0.185, 1.375, -0.002), (0.36, 1.10, 0.01), 0.05, 0.036),  # arm down to the elbow
+            capsule(p, (0.0, 1.40, -0.008), (0.0, 1.58, 0.004), 0.056, 0.05),  # neck
+        ],
+        0.07,
+    )
+    head = smooth_union(
+        [
+            ellipsoid(p, (0.0, 1.695, 0.008), (0.076, 0.098, 0.092)),
+            ellipsoid(p, (0.0, 1.645, 0.03), (0.058, 0.075, 0.066)),  # jaw
+        ],
+        0.05,
+    )
+    return smooth_union([body, head], 0.03)
+
+
+def surface_net(distance, low, counts, cell):
+    """One vertex in each cell that the surface crosses, one quad at each crossed edge of the grid."""
+    nx, ny, nz = counts
+
+    def at(i, j, k):
+        return (low[0] + i * cell, low[1] + j * cell, low[2] + k * cell)
+
+    value = {(i, j, k): distance(at(i, j, k)) for i in range(nx) for j in range(ny) for k in range(nz)}
+    corners = [(a, b, c) for a in (0, 1) for b in (0, 1) for c in (0, 1)]
+    pairs = [(a, b) for a in corners for b in corners if a < b and sum(x != y for x, y in zip(a, b)) == 1]
+    number, vertices = {}, []
+    for i in range(nx - 1):
+        for j in range(ny - 1):
+            for k in range(nz - 1):
+                crossings = []
+                for a, b in pairs:
+                    va = value[i + a[0], j + a[1], k + a[2]]
+                    vb = value[i + b[0], j + b[1], k + b[2]]
+                    if (va < 0) != (vb < 0):
+                        t = va / (va - vb)
+                        crossings.append([a[n] + t * (b[n] - a[n]) for n in range(3)])
+                if crossings:
+                    mean = [sum(c[n] for c in crossings) / len(crossings) for n in range(3)]
+                    number[i, j, k] = len(vertices)
+                    vertices.append(project(distance, [at(i, j, k)[n] + mean[n] * cell for n in range(3)]))
+    triangles = []
+    for i, j, k in value:
+        for axis in range(3):
+            there = [i, j, k]
+            there[axis] += 1
+            there = tuple(there)
+            if there not in value or (value[i, j, k] < 0) == (value[there] < 0):
+                continue
+            u, v = (axis + 1) % 3, (axis + 2) % 3
+            quad = []
+            for du, dv in ((0, 0), (-1, 0), (-1, -1), (0, -1)):
+                c = [i, j, k]
+                c[u] += du
+                c[v] += dv
+                quad.append(number[tuple(c)])
+            if value[i, j, k] > 0:
+                quad.reverse()
+            # The shorter diagonal makes the rounder pair.
+            d = [sum((vertices[quad[a]][n] - vertices[quad[a + 2]][n]) ** 2 for n in range(3)) for a in (0, 1)]
+            if d[0] <= d[1]:
+                triangles += [(quad[0], quad[1], quad[2]), (quad[0], quad[2], quad[3])]
+            else:
+                triangles += [(quad[1], quad[2], quad[3]), (quad[1], quad[3], quad[0])]
+    return vertices, triangles
+
+
+def project(distance, p):
+    """Onto the surface, by two steps of Newton along the gradient."""
+    e = 1e-5
+    for _ in range(2):
+        d = distance(p)
+        g = []
+        for n in range(3):
+            q = list(p)
+            q[n] += e
+            g.append((distance(q) - d) / e)
+        square = sum(x * x for x in g)
+        p = [p[n] - d * g[n] / square for n in range(3)]
+    return p
+
+
+def make_dummy():
+    # The grid is symmetric about x = 0 and its lines meet no flat part of the shape.
+    cell = 0.0225
+    vertices, triangles = surface_net(dummy_distance, (-20.5 * cell, 0.731, -7.5 * cell), (42, 50, 17), cell)
+    assert_watertight(vertices, triangles)
+    write_obj("dummy.obj", "A tailor's dummy: torso, arms to the elbow, head. Watertight.", vertices, triangles)
+    return len(vertices)
+
+
+# ---- the poncho: rings about the hole, each with as many points as keep the triangles near equilateral ----
+
+
+def make_poncho():
+    hole, rim, spacing = 0.125, 0.66, 0.027
+    rings = round((rim - hole) / (spacing * math.sqrt(3) / 2))
+    vertices, uv, triangles, first = [], [], [], []
+    for r in range(rings + 1):
+        radius = hole + (rim - hole) * r / rings
+        count = round(2 * math.pi * radius / spacing)
+        first.append((len(vertices), count, 0.5 * (r % 2)))
+        for n in range(count):
+            angle = 2 * math.pi * (n + 0.5 * (r % 2)) / count
+            x, z = radius * math.cos(angle), -radius * math.sin(angle)
+            vertices.append((x, 0.0, z))
+            uv.append((x + rim, z + rim))
+    for inner, outer in zip(first, first[1:]):
+        # Walk both rings side by side; the one that is behind takes the next step.
+        i = o = 0
+        while i < inner[1] or o < outer[1]:
+            angle_i = (i + 1 + inner[2]) / inner[1]
+            angle_o = (o + 1 + outer[2]) / outer[1]
+            a, b = inner[0] + i % inner[1], outer[0] + o % outer[1]
+            if i == inner[1] or (o < outer[1] and angle_o < angle_i):
+                triangles.append((a, b, outer[0] + (o + 1) % outer[1]))
+                o += 1
+            else:
+                triangles.append((a, b, inner[0] + (i + 1) % inner[1]))
+                i += 1
+    edges_of(triangles)
+    write_obj("poncho.obj", "A round poncho with a hole for the neck, flat, seen from above.", vertices, triangles, uv)
+    return len(vertices)
+
+
+# ---- the curtain: sewn in pleats, uv along the flat cloth ----
+
+
+def make_curtain():
+    pleats, width, height, depth = 9, 2.7, 2.0, 0.055
+    steps, rows = 10, 46
+    columns = pleats * steps
+    fine = 2000
+    path = [(width * t / fine, depth * math.cos(2 * math.pi * pleats * t / fine)) for t in range(fine + 1)]
+    length = [0.0]
+    for a, b in zip(path, path[1:]):
+        length.append(length[-1] + math.hypot(b[0] - a[0], b[1] - a[1]))
+    across = []
+    for c in range(columns + 1):
+        s = length[-1] * c / columns
+        n = next(n for n in range(1, fine + 1) if length[n] >= s - 1e-9)
+        t = (s - length[n - 1]) / (length[n] - length[n - 1])
+        across.append([path[n - 1][k] + t * (path[n][k] - path[n - 1][k]) for k in (0, 1)] + [s])
+    vertices, uv, triangles = [], [], []
+    for r in range(rows + 1):
+        # Pleats are sharper at the top than at the hem; what they lose in depth they gain in nothing else.
+        for x, z, s in across:
+            vertices.append((x - width / 2, -height * r / rows, z))
+            uv.append((s, height * r / rows))
+    for r in range(rows):
+        for c in range(columns):
+            a = r * (columns + 1) + c
+            b, d = a + 1, a + columns + 1
+            if (r + c) % 2:
+                triangles += [(a, d, d + 1), (a, d + 1, b)]
+            else:
+                triangles += [(a, d, b), (b, d, d + 1)]
+    edges_of(triangles)
+    write_obj("curtain.obj", "A curtain in nine pleats, hanging from y = 0; front to +z.", vertices, triangles, uv)
+    return len(vertices), length[-1]
+
+
+# ---- pictures ----
+
+
+def write_png(name, size, colour):
+    """colour(u, v) -> (r, g, b) 0 … 1; four samples a pixel."""
+    rows = []
+    for y in range(size):
+        row = bytearray([0])
+        for x in range(size):
+            total = [0.0, 0.0, 0.0]
+            for sx, sy in ((0.125, 0.375), (0.375, 0.875), (0.625, 0.125), (0.875, 0.625)):
+                for n, c in enumerate(colour((x + sx) / size, (y + sy) / size)):
+                    total[n] += c
+            row += bytes(int(255 * t / 4 + 0.5) for t in total)
+        rows.append(bytes(row))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    with open(os.path.join(TEXTURES, name), "wb") as out:
+        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0)))
+        out.write(chunk(b"IDAT", zlib.compress(b"".join(rows), 9)) + chunk(b"IEND", b""))
+
+
+def hex_colour(text):
+    return tuple(int(text[i : i + 2], 16) / 255 for i in (1, 3, 5))
+
+
+def poncho_colour(u, v):
+    """Rings of bands, with a row of zigzags and one of diamonds."""
+    x, y = 2 * u - 1, 2 * v - 1
+    r = math.hypot(x, y)
+    turn = (math.atan2(y, x) / (2 * math.pi)) % 1.0
+    night, rust, sand, teal, cream = map(hex_colour, ("#1f2a44", "#b5432a", "#dda448", "#1f7a78", "#f0e6d2"))
+    wave = abs(2 * ((turn * 36) % 1.0) - 1)
+    bands = [(0.22, sand), (0.28, rust), (0.30, cream), (0.345, night), (0.36, cream), (0.43, teal), (0.44, sand)]
+    for outer, colour in bands:
+        if r < outer:
+            return colour
+    if r < 0.56:
+        return cream if r < 0.465 + 0.06 * wave else rust
+    if r < 0.575:
+        return sand
+    if r < 0.68:
+        wave = abs(2 * ((turn * 40) % 1.0) - 1)
+        return sand if abs(r - 0.6275) < 0.04 * wave else night
+    for outer, colour in [(0.695, sand), (0.77, rust), (0.785, cream), (0.83, teal), (0.845, cream)]:
+        if r < outer:
+            return colour
+    if r < 0.94:
+        wave = abs(2 * ((turn * 60) % 1.0) - 1)
+        return rust if r < 0.868 + 0.05 * wave else night
+    return sand if r < 0.965 else night
+
+
+def flag_colour(u, v):
+    """Blue over white; a coil spring hangs from the seam and carries a golden weight. The flag shows v < 2/3."""
+    blue, white, gold, ink = map(hex_colour, ("#163a6b", "#f3efe4", "#e6a823", "#c8372d"))
+    middle, top, bottom, turns, half, thick = 0.5, 0.09, 0.37, 5, 0.085, 0.021
+
+    def near(ax, ay, bx, by, width):
+        t = ((u - ax) * (bx - ax) + (v - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
+        t = min(1.0, max(0.0, t))
+        return math.hypot(u - ax - t * (bx - ax), v - ay - t * (by - ay)) < width / 2
+
+    if math.hypot(u - middle, v - 0.475) < 0.083:
+        return gold
+    points = [(middle, 0.055), (middle, top)]
+    for n in range(2 * turns):
+        points.append((middle + (half if n % 2 else -half), top + (bottom - top) * (n + 0.5) / (2 * turns)))
+    points += [(middle, bottom), (middle, 0.41)]
+    if any(near(*a, *b, thick) for a, b in zip(points, points[1:])) or near(0.38, 0.05, 0.62, 0.05, 0.026):
+        return white
+    if 0.245 < u < 0.755:
+        return blue
+    return ink if 0.215 < u < 0.785 and False else white if 0.225 < u < 0.775 else ink
+
+
+if __name__ == "__main__":
+    os.makedirs(TEXTURES, exist_ok=True)
+    print("dummy", make_dummy(), "vertices")
+    print("poncho", make_poncho(), "vertices")
+    print("curtain", *make_curtain(), "vertices, metres of cloth")
+    write_png("poncho.png", 768, poncho_colour)
+    write_png("flag.png", 512, flag_colour)

@@ -7,6 +7,19 @@
 
 namespace taut::collision {
 
+namespace {
+
+template <class T>
+const T& formOf(const T& form) {
+    return form;
+}
+template <class T>
+const T& formOf(const std::shared_ptr<const T>& form) {
+    return *form;
+}
+
+}  // namespace
+
 Colliders::Colliders() : impl_(std::make_unique<Impl>()) {}
 Colliders::~Colliders() = default;
 Colliders::Colliders(Colliders&&) noexcept = default;
@@ -32,6 +45,12 @@ int Colliders::add(const Shape& shape, const Material& material, const Pose& pos
     return number;
 }
 
+Colliders Colliders::clone() const {
+    Colliders copy;
+    *copy.impl_ = *impl_;
+    return copy;
+}
+
 int Colliders::size() const {
     return static_cast<int>(impl_->firstSolid.size()) - 1;
 }
@@ -53,7 +72,7 @@ double Colliders::distance(const glm::dvec3& position) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Solid& solid : impl_->solids) {
         const dvec3 local = solid.to.toLocal(position);
-        const double d = std::visit([&](const auto& form) { return form.nearest(local).distance; }, solid.form);
+        const double d = std::visit([&](const auto& form) { return formOf(form).nearest(local).distance; }, solid.form);
         if (d < least) least = d;
     }
     return least;

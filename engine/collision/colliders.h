@@ -74,6 +74,9 @@ class Colliders {
     int add(const Shape& shape, const Material& material, const Pose& pose);
     int size() const;
 
+    // The same colliders, to be moved on their own; hulls and meshes are shared, not built again.
+    Colliders clone() const;
+
     // The pose at the start and the end of the coming step; it holds until the next call, so a collider that stops is
     // told once more, with twice the same pose. Still colliders never call it. Between the two the position runs
     // straight and the rotation turns the short way. A collider of which any corner would be faster than 100 m/s is

@@ -36,9 +36,9 @@ bool sweepForm(const Form& form, const Path& path, Touch& touch, bool& crossed) 
         case 5:
             return sweepConvex(*std::get_if<ConeForm>(&form), path, touch);
         case 6:
-            return sweepHull(*std::get_if<Hull>(&form), path, touch);
+            return sweepHull(**std::get_if<std::shared_ptr<const Hull>>(&form), path, touch);
         default:
-            return std::get_if<TriangleMesh>(&form)->sweep(path, touch, crossed);
+            return (*std::get_if<std::shared_ptr<const TriangleMesh>>(&form))->sweep(path, touch, crossed);
     }
 }
 

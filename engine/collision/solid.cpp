@@ -59,14 +59,12 @@ Solid makeSolid(const Shape& shape) {
             return solidOf(ConeForm{radius, halfHeight, std::sqrt(radius * radius + shape.height * shape.height)},
                            roundBounds(radius, halfHeight));
         case ShapeKind::hull: {
-            Hull hull(shape.vertices);
-            const Box bounds = hull.bounds();
-            return solidOf(std::move(hull), bounds);
+            auto hull = std::make_shared<const Hull>(shape.vertices);
+            return solidOf(hull, hull->bounds());
         }
         case ShapeKind::mesh: {
-            TriangleMesh mesh(shape.vertices, shape.triangles);
-            const Box bounds = mesh.bounds();
-            return solidOf(std::move(mesh), bounds);
+            auto mesh = std::make_shared<const TriangleMesh>(shape.vertices, shape.triangles);
+            return solidOf(mesh, mesh->bounds());
         }
         case ShapeKind::compound:
             break;

@@ -1,6 +1,7 @@
 // A single shape in the world with its motion during the step: what a collider, or a part of a compound, is made of.
 #pragma once
 
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -11,7 +12,9 @@
 
 namespace taut::collision {
 
-using Form = std::variant<PlaneForm, BoxForm, SphereForm, CapsuleForm, CylinderForm, ConeForm, Hull, TriangleMesh>;
+// Hulls and meshes never change once built, so copies of a solid share them.
+using Form = std::variant<PlaneForm, BoxForm, SphereForm, CapsuleForm, CylinderForm, ConeForm,
+                          std::shared_ptr<const Hull>, std::shared_ptr<const TriangleMesh>>;
 
 // Above this speed [m/s] of any of its places a collider is taken to have jumped: see Colliders::resolve.
 inline constexpr double fastestSurface = 100.0;

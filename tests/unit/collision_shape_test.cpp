@@ -113,6 +113,18 @@ TEST(CollisionShape, MeshWithASliverAndRepeatedVerticesIsClosed) {
     EXPECT_NEAR(colliders.distance({0.1, 0.3, 0.0}), -0.2, 1e-15);
 }
 
+TEST(CollisionShape, CloneMovesOnItsOwn) {
+    Colliders first;
+    first.add(boxHull({0.5, 0.5, 0.5}), {}, {});
+    first.add(boxMesh({0.5, 0.5, 0.5}), {}, {{5.0, 0.0, 0.0}});
+    Colliders second = first.clone();
+    second.move(0, {}, {.position = {0.0, 1.0, 0.0}});
+    EXPECT_EQ(second.size(), 2);
+    EXPECT_EQ(first.distance({0.0, 2.0, 0.0}), 1.5);
+    EXPECT_EQ(second.distance({0.0, 2.0, 0.0}), 0.5);
+    EXPECT_EQ(second.distance({5.0, 1.0, 0.0}), first.distance({5.0, 1.0, 0.0}));
+}
+
 TEST(CollisionShape, RealModelsHoldAPoint) {
     // What falls on the hull or on the mesh of a model comes to rest on it, at its thickness.
     for (const char* name : {"box.obj", "spider.obj", "WusonOBJ.obj", "regr01.obj"}) {

@@ -13,23 +13,6 @@
 namespace taut::collision {
 namespace {
 
-// The same numbers on every machine: a linear congruential generator (Knuth's MMIX constants).
-class Numbers {
-  public:
-    double next(double low, double high) {
-        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-        return low + (high - low) * static_cast<double>(state_ >> 11) / 9007199254740992.0;
-    }
-    glm::dvec3 point(double size) {
-        const double x = next(-size, size);
-        const double y = next(-size, size);
-        return {x, y, next(-size, size)};
-    }
-
-  private:
-    std::uint64_t state_ = 1;
-};
-
 double distanceTo(const Shape& shape, const glm::dvec3& p, const Pose& pose = {}) {
     Colliders colliders;
     colliders.add(shape, {}, pose);

@@ -17,6 +17,23 @@ inline constexpr double gravity = 9.81;  // [m/s²]
 template <class Real>
 inline constexpr bool isFloat = sizeof(Real) == sizeof(float);
 
+// The same numbers on every machine: a linear congruential generator (Knuth's MMIX constants).
+class Numbers {
+  public:
+    double next(double low, double high) {
+        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+        return low + (high - low) * static_cast<double>(state_ >> 11) / 9007199254740992.0;
+    }
+    glm::dvec3 point(double size) {
+        const double x = next(-size, size);
+        const double y = next(-size, size);
+        return {x, y, next(-size, size)};
+    }
+
+  private:
+    std::uint64_t state_ = 1;
+};
+
 // One point with its state in Real; a step is symplectic Euler, which for a constant force is leap-frog.
 template <class Real>
 struct Flyer {

@@ -11,8 +11,8 @@ out vec4 colour;
 float lines(float x, float width) {
     float pixel = max(fwidth(x), 1e-5);
     float drawn = max(width, pixel);
-    float distance = abs(fract(x + 0.5) - 0.5);
-    float cover = clamp((0.5 * drawn - distance) / pixel + 0.5, 0.0, 1.0) * width / drawn;
+    float off = abs(fract(x + 0.5) - 0.5);
+    float cover = clamp((0.5 * drawn - off) / pixel + 0.5, 0.0, 1.0) * width / drawn;
     return mix(cover, width, clamp(2.0 * pixel - 0.5, 0.0, 1.0));
 }
 
@@ -32,7 +32,7 @@ void main() {
 #endif
     vec3 shown = filmic(albedo * (direct + ambient));
     // Even over the rows of the picture, which go with one over the distance.
-    float distance = max(length(place.xz - fade.xy), fade.z);
-    float away = smoothstep(0.0, 1.0, (1.0 - fade.z / distance) / max(1.0 - fade.z / fade.w, 1e-3));
+    float far = max(length(place.xz - fade.xy), fade.z);
+    float away = smoothstep(0.0, 1.0, (1.0 - fade.z / far) / max(1.0 - fade.z / fade.w, 1e-3));
     colour = vec4(dithered(mix(shown, backgroundHorizon.rgb, away)), 0.0);
 }

@@ -4,9 +4,9 @@ uniform sampler2D occlusion;  // x: lowest surface above the ground, y: minus th
 uniform vec2 texel;           // [m]
 out vec4 hidden;
 
-float sineSquared(float height, float distance) {
+float sineSquared(float height, float away) {
     float square = height * height;
-    return square / (square + distance * distance);
+    return square / (square + away * away);
 }
 
 void main() {
@@ -26,11 +26,11 @@ void main() {
         for (int ring = 0; ring < rings; ++ring) {
             ivec2 at = here + ivec2(round(way * radius));
             vec2 column = texelFetch(occlusion, clamp(at, ivec2(0), last), 0).xy;
-            float distance = radius * size;
+            float away = radius * size;
             if (column.x < 1000.0) {
                 // Nearly above, a column hides all the sky that its lower end covers.
-                float from = ring == 0 ? sineSquared(column.x, distance) : sineSquared(column.x, distance * 1.2);
-                float to = ring == 0 ? 1.0 : sineSquared(-column.y, distance);
+                float from = ring == 0 ? sineSquared(column.x, away) : sineSquared(column.x, away * 1.2);
+                float to = ring == 0 ? 1.0 : sineSquared(-column.y, away);
                 covered = vec2(min(covered.x, from), max(covered.y, to));
             }
             radius *= 1.6;

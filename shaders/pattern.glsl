@@ -16,8 +16,8 @@ vec3 patternColour(vec2 uv, vec2 pixel) { return frontColour; }
 vec3 patternColour(vec2 uv, vec2 pixel) {
     vec2 x = uv / repeat;
     vec2 w = max(pixel / repeat, 1e-4);
-    vec2 half = vec2(band(x.x, w.x, 0.0, 0.5), band(x.y, w.y, 0.0, 0.5));
-    return mix(frontColour, accentColour, half.x + half.y - 2.0 * half.x * half.y);
+    vec2 other = vec2(band(x.x, w.x, 0.0, 0.5), band(x.y, w.y, 0.0, 0.5));
+    return mix(frontColour, accentColour, other.x + other.y - 2.0 * other.x * other.y);
 }
 #elif PATTERN == 2
 vec3 patternColour(vec2 uv, vec2 pixel) {

@@ -1,45 +1,66 @@
 // How much of the light reaches a place, 0 … 1. `facing` is the surface's normal, on the side of the light.
 // `casts`: whether the surface itself is in the shadow map.
 //
-// The penumbra is as wide as the distance to what throws the shadow makes it. Reading the map is dear, so the map
-// of bounds (least and largest depth around) tells first where nothing can be in between. A branch saves nothing
-// on a processor that runs pixels in groups, a loop that ends early does.
+// The penumbra is as wide as the distance to what throws the shadow makes it (percentage-closer soft shadows,
+// Fernando 2005). Reading the map is dear, so the map of bounds (least and largest depth around) tells first where
+// nothing can be in between. A branch saves nothing on a processor that runs pixels in groups, a loop that ends
+// early does.
 uniform sampler2DShadow shadowMap;
+uniform sampler2D shadowDepth;  // the same map, as depth
 uniform sampler2D shadowBounds;
+
+const mat2 goldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
 float sunlight(vec3 place, vec3 facing, bool casts) {
     const float blocks = 128.0;
+    float texel = mapSize.w;
     vec3 n = mat3(toLight) * facing;
-    vec3 at = (toMap * vec4(place + facing * (casts ? mapSize.w : 0.0), 1.0)).xyz;
+    vec3 at = (toMap * vec4(place + facing * (casts ? texel : 0.0), 1.0)).xyz;
     vec2 bounds = textureLod(shadowBounds, at.xy, 0.0).rg;
     float depth = min(at.z, 1.0);
 
     // Depth along the surface's own plane, and how far it can rise within the neighbourhood.
     vec2 slope = n.xy / max(n.z, 0.15);
-    float widest = max(mapSize.x, mapSize.y);
-    float rise = casts ? length(slope) * 2.5 * widest / blocks : 0.0;
+    float rise = casts ? length(slope) * 2.5 * max(mapSize.x, mapSize.y) / blocks : 0.0;
     float gap = (at.z - bounds.r) * mapSize.z;
     bool clear = depth - bounds.r <= 0.0005;
     bool dark = depth - rise / mapSize.z > bounds.g + 0.0005;
-    bool near = gap < rise + 2.0 * mapSize.w;  // nothing but the surface itself
-
-    float least = 1.2 * mapSize.w;
-    float radius = near ? least : clamp(0.5 * lightWay.w * gap, least, 1.5 * min(mapSize.x, mapSize.y) / blocks);
-    int pairs = clear || dark ? 0 : (near ? 2 : 8);
+    bool alone = gap < rise + 2.0 * texel;  // nothing but the surface itself
+    bool known = clear || dark || alone;
 
     float angle = 6.2831853 * pixelNoise();
     vec2 way = vec2(cos(angle), sin(angle));
-    float reached = 0.0;
-    float step = 1.0 / float(max(pairs, 1));
-    float bias = 0.5 * mapSize.w;
-    for (int i = 0; i < pairs; ++i) {
-        vec2 off = way * (radius * sqrt((float(i) + 0.5) * step));
-        vec2 uv = off / mapSize.xy;
-        float rises = dot(slope, off) / mapSize.z;
-        float ref = at.z - bias / mapSize.z;
-        reached += textureLod(shadowMap, vec3(at.xy + uv, min(ref + rises, 1.0)), 0.0);
-        reached += textureLod(shadowMap, vec3(at.xy - uv, min(ref - rises, 1.0)), 0.0);
-        way = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688) * way;  // the golden angle
+    vec2 toUv = 1.0 / mapSize.xy;
+    vec2 rising = slope / mapSize.z;
+    float ref = at.z - 0.5 * texel / mapSize.z;
+    float least = 1.2 * texel;
+    float widest = 1.5 * min(mapSize.x, mapSize.y) / blocks;
+
+    // How far away are the things in between, on average?
+    float radius = clamp(0.5 * lightWay.w * gap, least, widest);
+    vec2 found = vec2(0.0);  // sum of distances, number
+    int searches = known ? 0 : 5;
+    for (int i = 0; i < searches; ++i) {
+        vec2 off = way * (radius * sqrt((float(i) + 0.5) * 0.2));
+        float rises = dot(rising, off);
+        vec2 between = vec2(ref + rises - textureLod(shadowDepth, at.xy + off * toUv, 0.0).r,
+                            ref - rises - textureLod(shadowDepth, at.xy - off * toUv, 0.0).r);
+        vec2 isBetween = step(0.0, between);
+        found += vec2(dot(between, isBetween), isBetween.x + isBetween.y);
+        way = goldenTurn * way;
     }
-    return pairs == 0 ? (dark && !clear ? 0.0 : 1.0) : 0.5 * step * reached;
+    float away = found.x / max(found.y, 1.0) * mapSize.z;
+    radius = alone ? least : clamp(0.5 * lightWay.w * away, least, widest);
+
+    int pairs = clear || dark ? 0 : (alone ? 2 : clamp(int(radius / texel), 3, 10));
+    float share = 1.0 / float(max(pairs, 1));
+    float reached = 0.0;
+    for (int i = 0; i < pairs; ++i) {
+        vec2 off = way * (radius * sqrt((float(i) + 0.5) * share));
+        float rises = dot(rising, off);
+        reached += textureLod(shadowMap, vec3(at.xy + off * toUv, min(ref + rises, 1.0)), 0.0);
+        reached += textureLod(shadowMap, vec3(at.xy - off * toUv, min(ref - rises, 1.0)), 0.0);
+        way = goldenTurn * way;
+    }
+    return pairs == 0 ? (dark && !clear ? 0.0 : 1.0) : 0.5 * share * reached;
 }

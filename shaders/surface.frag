@@ -21,7 +21,7 @@ float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     vec2 middle = fract(cell) - 0.5;
     vec2 index = floor(cell);
     float warp = mod(index.x + index.y, 2.0);
-    float strength = weave * clamp(1.6 - 2.2 * max(pixel.x, pixel.y) / thread, 0.0, 1.0);
+    float strength = weave * clamp(1.56 - 3.1 * max(pixel.x, pixel.y) / thread, 0.0, 1.0);
     vec2 tilt = middle * mix(vec2(0.8, 2.0), vec2(2.0, 0.8), warp);
     vec2 square = 4.0 * middle * middle;
     float depth = max(square.x * square.x, square.y * square.y);
@@ -72,7 +72,7 @@ void main() {
 
     // Gloss of a dielectric, and the bright rim of fibres.
     vec3 halfWay = normalize(lightWay.xyz + toEye);
-    float alpha = max(roughness * roughness, 0.02);
+    float alpha = mix(0.04, 1.0, roughness * roughness);
     float exponent = 2.0 / (alpha * alpha);
     float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
     float rim2 = rim * rim;
@@ -85,7 +85,7 @@ void main() {
 
     if (debug.x > 0.0) {
         float grey = dot(light, vec3(0.3, 0.6, 0.1));
-        light = mix(light, vec3(0.6 * grey + 0.25), 0.85);
+        light = mix(light, vec3(0.4 * grey + 0.06), 0.85);
     }
     colour = vec4(filmic(light), mark);
 }

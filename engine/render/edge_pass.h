@@ -15,12 +15,16 @@ namespace taut::render {
 // What the shaders write for an item beside its colour or depth, above 0; 0 is ground and sky.
 float itemMark(std::size_t item);
 
+// The part of a picture in which the items can be seen; all of it if one of them reaches behind the camera.
+PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height);
+
 class EdgePass {
   public:
     EdgePass(const Gl& gl, const ShaderFolder& shaders);
 
-    // From the shaded picture of the targets to the final one.
-    void draw(const view::FrameView& view, std::span<const DrawItem> items, const MeshCache& meshes, Targets& targets);
+    // Smooths the part of the shaded picture that shows the items.
+    void draw(const view::FrameView& view, std::span<const DrawItem> items, const MeshCache& meshes,
+              const PixelBox& part, Targets& targets);
 
   private:
     const Gl* gl_;

@@ -1,22 +1,11 @@
 #include "render/light_box.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace taut::render {
 
 namespace {
-
-std::array<glm::vec3, 8> cornersOf(const Bounds& bounds) {
-    std::array<glm::vec3, 8> corners{};
-    for (int i = 0; i < 8; ++i) {
-        corners[static_cast<std::size_t>(i)] = {(i & 1) != 0 ? bounds.high.x : bounds.low.x,
-                                                (i & 2) != 0 ? bounds.high.y : bounds.low.y,
-                                                (i & 4) != 0 ? bounds.high.z : bounds.low.z};
-    }
-    return corners;
-}
 
 // What the camera sees up to where the ground has faded away.
 Bounds seenPart(const view::FrameView& view, const glm::mat3& toLight, float aspect) {
@@ -49,10 +38,18 @@ void Bounds::include(glm::vec3 point) {
     empty = false;
 }
 
+std::array<glm::vec3, 8> Bounds::corners() const {
+    std::array<glm::vec3, 8> result{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        result[i] = {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
+    }
+    return result;
+}
+
 Bounds Bounds::transformed(const glm::mat4& transform) const {
     Bounds result;
     if (empty) return result;
-    for (const glm::vec3& corner : cornersOf(*this)) result.include(glm::vec3(transform * glm::vec4(corner, 1.0F)));
+    for (const glm::vec3& corner : corners()) result.include(glm::vec3(transform * glm::vec4(corner, 1.0F)));
     return result;
 }
 
@@ -67,7 +64,7 @@ LightBox lightBox(const view::FrameView& view, std::span<const Bounds> casters, 
     Bounds across;
     for (const Bounds& caster : casters) {
         if (!caster.empty) {
-            for (const glm::vec3& corner : cornersOf(caster)) across.include(box.toLight * corner);
+            for (const glm::vec3& corner : caster.corners()) across.include(box.toLight * corner);
         }
     }
     if (across.empty) across.include(box.toLight * view.camera.target);

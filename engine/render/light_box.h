@@ -1,6 +1,7 @@
 // Which part of the world the shadow map covers: pure geometry, it knows no GL.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -15,6 +16,7 @@ struct Bounds {
 
     void include(glm::vec3 point);
     Bounds transformed(const glm::mat4& transform) const;
+    std::array<glm::vec3, 8> corners() const;
 };
 
 // A box along the light. Map coordinates: x and y from 0 to 1 across it, z from 0 (next to the light) to 1.

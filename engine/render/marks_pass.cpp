@@ -27,7 +27,7 @@ class DepthCue {
         const float range = farthest_ - nearest_;
         if (!(range > 0.0F)) return own;
         const float part = std::clamp((glm::distance(place, eye_) - nearest_) / range, 0.0F, 1.0F);
-        return glm::mix(own, veil_, 0.5F * part);
+        return glm::mix(own, veil_, 0.35F * part);
     }
 
   private:

@@ -55,6 +55,7 @@ Program::Program(const Gl& gl, GlObject object) : gl_(&gl), object_(std::move(ob
     use();
     set("shadowMap", static_cast<int>(shadowMapUnit));
     set("shadowBounds", static_cast<int>(shadowBoundsUnit));
+    set("shadowDepth", static_cast<int>(shadowDepthUnit));
     set("occlusion", static_cast<int>(occlusionUnit));
     set("picture", static_cast<int>(pictureUnit));
     set("pictureDepth", static_cast<int>(pictureDepthUnit));

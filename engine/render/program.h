@@ -20,6 +20,7 @@ enum TextureUnit : int {
     pictureUnit = 3,
     pictureDepthUnit = 4,
     coveringUnit = 5,
+    shadowDepthUnit = 6,
 };
 
 class Program {

@@ -140,8 +140,11 @@ image::Image Renderer::draw(const view::FrameView& view) {
     parts.background.set("toWorld", glm::inverse(projection));
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
 
-    if (parts.targets.hasSmoothEdges()) parts.edges.draw(view, items, parts.meshes, parts.targets);
-    parts.targets.bindFinished();
+    if (parts.targets.hasSmoothEdges()) {
+        const PixelBox part = pixelBox(items, projection, options.width, options.height);
+        parts.edges.draw(view, items, parts.meshes, part, parts.targets);
+    }
+    parts.targets.bindShading();
     if (view.showMarks) parts.marks.draw(view, projection, options.width, options.height);
     return parts.targets.read();
 }

@@ -78,6 +78,8 @@ void ShadowPass::bindMaps() const {
     gl_->ActiveTexture(GL_TEXTURE0 + shadowMapUnit);
     gl_->BindTexture(GL_TEXTURE_2D, map_.texture.id());
     gl_->BindSampler(shadowMapUnit, comparing_.id());
+    gl_->ActiveTexture(GL_TEXTURE0 + shadowDepthUnit);
+    gl_->BindTexture(GL_TEXTURE_2D, map_.texture.id());
     gl_->ActiveTexture(GL_TEXTURE0 + shadowBoundsUnit);
     gl_->BindTexture(GL_TEXTURE_2D, neighbourhood_.texture.id());
     gl_->BindSampler(shadowBoundsUnit, 0);

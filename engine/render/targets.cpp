@@ -1,5 +1,6 @@
 #include "render/targets.h"
 
+#include <algorithm>
 #include <string>
 
 #include "core/error.h"
@@ -31,15 +32,13 @@ Targets::Targets(const Gl& gl, int width, int height, int samples)
       width_(width),
       height_(height),
       smooth_(samples == 4),
-      shadedColour_(gl, GlKind::renderbuffer),
-      shadedTarget_(gl, GlKind::framebuffer),
+      colour_(gl, GlKind::renderbuffer),
+      target_(gl, GlKind::framebuffer),
       copyTarget_(gl, GlKind::framebuffer),
       coverage_(gl, GlKind::texture),
       coverageDepth_(gl, GlKind::renderbuffer),
       coverageTarget_(gl, GlKind::framebuffer),
-      finishedColour_(gl, GlKind::renderbuffer),
-      resolveTarget_(gl, GlKind::framebuffer),
-      finishedTarget_(gl, GlKind::framebuffer) {
+      resolveTarget_(gl, GlKind::framebuffer) {
     expectSize(gl, width, height);
     if (samples != 1 && samples != 4) {
         throw core::Error(core::ExitCode::badContent,
@@ -59,10 +58,10 @@ Targets::Targets(const Gl& gl, int width, int height, int samples)
     };
 
     // Shaded picture: colour to be drawn into, a copy of its bytes and its depth to be read.
-    storage(shadedColour_, GL_SRGB8_ALPHA8, 0);
-    shadedDepth_ = texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
-    attach(shadedTarget_, GL_COLOR_ATTACHMENT0, shadedColour_);
-    attachTexture(shadedTarget_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadedDepth_);
+    storage(colour_, GL_SRGB8_ALPHA8, 0);
+    depth_ = texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+    attach(target_, GL_COLOR_ATTACHMENT0, colour_);
+    attachTexture(target_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_);
     expectComplete(gl);
     if (!smooth_) return;
     copiedColour_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
@@ -77,12 +76,8 @@ Targets::Targets(const Gl& gl, int width, int height, int samples)
     attachTexture(coverageTarget_, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, coverage_);
     expectComplete(gl);
 
-    // The final picture, without and with depth: depth cannot be read as a texture while it is attached.
-    storage(finishedColour_, GL_SRGB8_ALPHA8, 0);
-    attach(resolveTarget_, GL_COLOR_ATTACHMENT0, finishedColour_);
-    expectComplete(gl);
-    attach(finishedTarget_, GL_COLOR_ATTACHMENT0, finishedColour_);
-    attachTexture(finishedTarget_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadedDepth_);
+    // The same colour without depth: a texture cannot be read while it is attached.
+    attach(resolveTarget_, GL_COLOR_ATTACHMENT0, colour_);
     expectComplete(gl);
 }
 
@@ -102,7 +97,7 @@ void Targets::bind(const GlObject& target) const {
 }
 
 void Targets::bindShading() const {
-    bind(shadedTarget_);
+    bind(target_);
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
 }
 
@@ -111,30 +106,32 @@ void Targets::bindCoverage() const {
     gl_->Disable(GL_FRAMEBUFFER_SRGB);
 }
 
-void Targets::bindResolve() {
+void Targets::bindResolve(const PixelBox& part) {
     gl_->Disable(GL_FRAMEBUFFER_SRGB);
-    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, shadedTarget_.id());
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
     gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, copyTarget_.id());
-    gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    // One pixel more to each side, for the neighbours.
+    const int left = std::max(part.x - 1, 0);
+    const int low = std::max(part.y - 1, 0);
+    const int right = std::min(part.x + part.width + 1, width_);
+    const int high = std::min(part.y + part.height + 1, height_);
+    gl_->Disable(GL_SCISSOR_TEST);
+    gl_->BlitFramebuffer(left, low, right, high, left, low, right, high, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     bind(resolveTarget_);
-    gl_->ActiveTexture(GL_TEXTURE0 + pictureUnit);
-    gl_->BindTexture(GL_TEXTURE_2D, copiedColour_.id());
-    gl_->ActiveTexture(GL_TEXTURE0 + pictureDepthUnit);
-    gl_->BindTexture(GL_TEXTURE_2D, shadedDepth_.id());
-    gl_->ActiveTexture(GL_TEXTURE0 + coveringUnit);
-    gl_->BindTexture(GL_TEXTURE_2D_MULTISAMPLE, coverage_.id());
-}
-
-void Targets::bindFinished() const {
-    bind(smooth_ ? finishedTarget_ : shadedTarget_);
-    gl_->Enable(GL_FRAMEBUFFER_SRGB);
+    const auto bindTexture = [&](int unit, GLenum kind, const GlObject& object) {
+        gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        gl_->BindTexture(kind, object.id());
+    };
+    bindTexture(pictureUnit, GL_TEXTURE_2D, copiedColour_);
+    bindTexture(pictureDepthUnit, GL_TEXTURE_2D, depth_);
+    bindTexture(coveringUnit, GL_TEXTURE_2D_MULTISAMPLE, coverage_);
 }
 
 image::Image Targets::read() const {
     const auto width = static_cast<std::size_t>(width_);
     const auto height = static_cast<std::size_t>(height_);
     std::vector<std::uint8_t> rgba(width * height * 4);
-    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, smooth_ ? resolveTarget_.id() : shadedTarget_.id());
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
 

@@ -10,25 +10,29 @@
 
 namespace taut::render {
 
+struct PixelBox {
+    int x = 0;  // from the left
+    int y = 0;  // from below
+    int width = 0;
+    int height = 0;
+};
+
 class Targets {
   public:
     // Throws Error(badContent) if GL does not offer the size.
     Targets(const Gl& gl, int width, int height, int samples);
 
-    // Smooth edges are made for exactly four samples a pixel, else left out.
+    // Smooth edges are made from exactly four samples a pixel, else left out.
     bool hasSmoothEdges() const { return smooth_; }
 
     void bindShading() const;   // to draw into, one sample a pixel
     void bindCoverage() const;  // to draw into, four samples a pixel; bytes are kept as they are
 
-    // To draw the final picture into, with textures bound for the shaded picture (its bytes, its depth) and the
-    // coverage; bytes are kept as they are.
-    void bindResolve();
+    // To draw a part of the picture again, with textures bound for what has been shaded there (its bytes, its depth)
+    // and for the coverage; bytes are kept as they are.
+    void bindResolve(const PixelBox& part);
 
-    // To draw over the picture that has been made, with the depth of the shaded one.
-    void bindFinished() const;
-
-    image::Image read() const;  // what has been made; the rows run from the top
+    image::Image read() const;  // the rows run from the top
 
   private:
     GlObject texture(GLenum format, GLenum layout, GLenum type) const;
@@ -37,10 +41,10 @@ class Targets {
     const Gl* gl_;
     int width_, height_;
     bool smooth_;
-    GlObject shadedColour_, shadedDepth_, shadedTarget_;
+    GlObject colour_, depth_, target_;
     GlObject copiedColour_, copyTarget_;
     GlObject coverage_, coverageDepth_, coverageTarget_;
-    GlObject finishedColour_, resolveTarget_, finishedTarget_;
+    GlObject resolveTarget_;
 };
 
 }  // namespace taut::render

@@ -58,10 +58,11 @@ TEST(ExplicitEulerLimit, GrowsWithDampingUpToOneAndFallsBeyond) {
     for (double zeta : zetas)
         for (double share : {0.0, 0.5, 1.0}) {
             SCOPED_TRACE("ζ = " + std::to_string(zeta) + ", dashpot share " + std::to_string(share));
-            if (zeta > 0.0)
+            if (zeta > 0.0) {
                 expectLimit("euler", damped(zeta * (1.0 - share), zeta * share), eulerLimit(zeta));
-            else  // no step is small enough: 1 + z² a step at z = 0.02 gives e^40
+            } else {  // no step is small enough: 1 + z² a step at z = 0.02 gives e^40
                 EXPECT_GT(largestAmplitude("euler", damped(0.0, 0.0), 0.02 / omega), 1e11);
+            }
         }
 }
 

@@ -1,42 +1,44 @@
-// Small scenes built in code, for tests of the world.
+// Scenes written in code: what several tests of the world begin with.
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "world/spec.h"
+#include "world/components.h"
+#include "world/world.h"
 
-namespace taut::support {
+namespace taut::test {
 
-inline world::ClothSpec cloth(const std::string& name, int cells = 8) {
-    world::ClothSpec spec;
-    spec.name = name;
-    spec.cells = {cells, cells};
-    spec.origin = {0.0, 2.0, 0.0};
-    return spec;
+using glm::dvec3;
+
+// Double precision, one tick of `tick` seconds, one step a tick unless the limit asks for more.
+inline world::SceneSpec exactScene(double tick, std::string method = "leapfrog") {
+    world::SceneSpec scene;
+    scene.solver.precision = world::Precision::double_;
+    scene.solver.integrator = std::move(method);
+    scene.solver.dt = tick;
+    scene.run.fps = 1.0 / tick;
+    return scene;
 }
 
-inline world::RopeSpec rope(const std::string& name, world::dvec3 start, world::dvec3 end, int segments = 10) {
-    world::RopeSpec spec;
-    spec.name = name;
-    spec.start = start;
-    spec.end = end;
-    spec.segments = segments;
-    return spec;
+// The first body of that name in the world.
+inline ecs::Entity bodyOf(world::World& world, const std::string& name) {
+    ecs::Entity found{};
+    world.registry().each<world::Identity>([&](ecs::Entity entity, const world::Identity& identity) {
+        if (identity.fullName() == name) found = entity;
+    });
+    return found;
 }
 
-inline world::ColliderSpec ball(const std::string& name, world::dvec3 position, double radius) {
-    world::ColliderSpec spec;
-    spec.name = name;
-    spec.position = position;
-    spec.radius = radius;
-    return spec;
+inline std::vector<dvec3> positionsOf(world::World& world, const std::string& name) {
+    return world.positions(bodyOf(world, name));
 }
 
-inline world::ColliderSpec ground() {
-    world::ColliderSpec spec;
-    spec.name = "ground";
-    spec.shape = "plane";
-    return spec;
+// Advances until the ticks are done or the world diverges.
+inline std::optional<world::Divergence> advance(world::World& world, int ticks) {
+    for (int i = 0; i < ticks; ++i)
+        if (auto divergence = world.advance()) return divergence;
+    return std::nullopt;
 }
 
-}  // namespace taut::support
+}  // namespace taut::test

@@ -7,5 +7,5 @@ list(APPEND TAUT_PHYSICS_TESTS
   network_limits_test.cpp
   oscillator_damping_test.cpp
   oscillator_energy_test.cpp
-  oscillator_limits_test.cpp
+  oscillator_limits_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode)

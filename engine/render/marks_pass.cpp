@@ -7,7 +7,7 @@ namespace taut::render {
 
 namespace {
 
-constexpr float lineWidth = 1.5F;    // [px at 720p]
+constexpr float lineWidth = 1.5F;    // [px at 720p], never thinner than a pixel
 constexpr float inFront = 0.996F;    // marks move this much closer to the eye, out of the surface that they lie on
 constexpr float hiddenPart = 0.22F;  // strength of a mark behind a surface
 
@@ -93,7 +93,7 @@ void MarksPass::draw(const view::FrameView& view, const glm::mat4& viewProjectio
         const glm::vec2 along = (glm::vec2(to) / to.w - glm::vec2(from) / from.w) * screen;
         const float length = glm::length(along);
         if (!(length > 0.01F)) continue;
-        const float half = 0.5F * lineWidth * pixel;
+        const float half = std::max(0.5F * lineWidth * pixel, 0.5F);
         const glm::vec2 across = glm::vec2(-along.y, along.x) * ((half + 1.0F) / length);
         const glm::vec3 nearColour = cue.colour(line.colour, line.from);
         const glm::vec3 farColour = cue.colour(line.colour, line.to);
@@ -105,7 +105,7 @@ void MarksPass::draw(const view::FrameView& view, const glm::mat4& viewProjectio
     for (const auto& dot : view.marks.dots) {
         const glm::vec4 at = projected(dot.at);
         if (at.z + at.w <= 0.0F || at.w <= 0.0F) continue;
-        const float radius = dot.radius * pixel;
+        const float radius = std::max(dot.radius * pixel, 0.7F);
         const float reach = radius + 1.0F;
         const glm::vec3 colour = cue.colour(dot.colour, dot.at);
         const auto corner = [&](float x, float y) {

@@ -40,7 +40,7 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    // Throws Error(inputOutput) for a texture that cannot be read.
+    // Throws Error(inputOutput) for a texture that cannot be read, Error(badContent) for one that is no picture.
     image::Image draw(const view::FrameView& view);
 
     RendererInfo info() const;

@@ -12,7 +12,8 @@ class TextureCache {
   public:
     explicit TextureCache(const Gl& gl) : gl_(&gl) {}
 
-    // A repeating, mip-mapped sRGB texture from a PNG or JPEG file. Throws Error(inputOutput) if it cannot be read.
+    // A repeating, mip-mapped sRGB texture from a PNG or JPEG file. Throws what image::readImage throws:
+    // Error(inputOutput) for a file that cannot be read, Error(badContent) for one that is no picture.
     GLuint texture(const std::string& path);
 
   private:

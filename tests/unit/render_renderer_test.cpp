@@ -1,0 +1,159 @@
+// How the renderer behaves as an object: repeatable, on either library, on any thread, clear about what fails.
+#include "render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <thread>
+
+#include "core/error.h"
+#include "render/context.h"
+#include "render/mesh_cache.h"
+#include "render_support.h"
+
+namespace taut::render::test {
+namespace {
+
+view::FrameView someView() {
+    view::FrameView view = floorView();
+    view.light.direction = {0.5F, -1.0F, -0.3F};
+    view.surfaces.push_back(surface(view::sphereMesh(0.4F), {0.3F, 0.4F, 0.0F}, {0.6F, 0.2F, 0.1F}));
+    view::Surface cloth = surface(view::quadMesh({0.3F, 1.0F, 0.2F}, 0.6F), {-0.6F, 0.8F, 0.0F}, {0.1F, 0.3F, 0.6F});
+    view::Finish finish = *cloth.finish;
+    finish.pattern = view::Pattern::tartan;
+    finish.weave = 1.0F;
+    finish.sheen = 0.5F;
+    cloth.finish = std::make_shared<const view::Finish>(finish);
+    cloth.twoSided = true;
+    view.surfaces.push_back(cloth);
+    return view;
+}
+
+std::string messageOf(const std::function<void()>& action, core::ExitCode code) {
+    try {
+        action();
+    } catch (const core::Error& error) {
+        EXPECT_EQ(error.code(), code) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+}
+
+TEST(RenderRenderer, DrawsTheSamePixelsWhateverItDrewBefore) {
+    Renderer renderer(smallOptions());
+    const view::FrameView view = someView();
+    view::FrameView other = view;
+    other.surfaces.pop_back();
+    other.camera.eye.x = 2.0F;
+    other.showMarks = true;
+    other.marks.dots.push_back({{0.0F, 0.5F, 0.0F}, glm::vec3(1.0F), 5.0F});
+    const image::Image first = renderer.draw(view);
+    EXPECT_NE(renderer.draw(other).rgb, first.rgb);
+    EXPECT_EQ(renderer.draw(view).rgb, first.rgb);
+    EXPECT_EQ(pictureOf(view).rgb, first.rgb);
+}
+
+TEST(RenderRenderer, BothLibrariesDrawTheSamePixels) {
+    RendererOptions options = smallOptions();
+    const image::Image osmesa = pictureOf(someView(), options);
+    options.backend = Backend::egl;
+    EXPECT_EQ(pictureOf(someView(), options).rgb, osmesa.rgb);
+}
+
+TEST(RenderRenderer, TellsWhatDraws) {
+    RendererOptions options = smallOptions();
+    for (const Backend backend : {Backend::osmesa, Backend::egl}) {
+        options.backend = backend;
+        const RendererInfo info = Renderer(options).info();
+        EXPECT_EQ(info.backend, backend == Backend::osmesa ? "osmesa" : "egl");
+        EXPECT_FALSE(info.vendor.empty());
+        EXPECT_FALSE(info.renderer.empty());
+        EXPECT_FALSE(info.version.empty());
+    }
+}
+
+TEST(RenderRenderer, DrawsOnAnotherThreadThanItWasMadeOn) {
+    RendererOptions options = smallOptions();
+    for (const Backend backend : {Backend::osmesa, Backend::egl}) {
+        options.backend = backend;
+        Renderer renderer(options);
+        const image::Image here = renderer.draw(someView());
+        image::Image there;
+        std::thread([&] { there = renderer.draw(someView()); }).join();
+        EXPECT_EQ(there.rgb, here.rgb);
+    }
+}
+
+TEST(RenderRenderer, MeshesThatAreGoneAreForgotten) {
+    const std::unique_ptr<Context> context = makeContext(Backend::osmesa);
+    const CurrentContext current(*context);
+    MeshCache meshes(context->gl());
+    view::Surface moving = surface(view::sphereMesh(0.4F), glm::vec3(0.0F), glm::vec3(0.5F));
+    for (int frame = 0; frame < 1000; ++frame) {
+        moving.geometry = std::make_shared<const view::Geometry>(*moving.geometry);
+        EXPECT_EQ(meshes.items({moving}).size(), 1U);
+        EXPECT_LE(meshes.size(), 3U);  // the topology, this frame's geometry and at most the one before
+    }
+    moving = {};
+    EXPECT_TRUE(meshes.items({}).empty());
+    EXPECT_EQ(meshes.size(), 0U);
+}
+
+TEST(RenderRenderer, SurfaceWithoutTrianglesIsLeftOut) {
+    view::FrameView view = floorView();
+    const image::Image empty = pictureOf(view);
+    view::Surface nothing = surface(view::sphereMesh(0.4F), glm::vec3(0.0F), glm::vec3(0.5F));
+    nothing.topology = std::make_shared<const view::Topology>();
+    nothing.geometry = std::make_shared<const view::Geometry>();
+    view.surfaces.push_back(nothing);
+    EXPECT_EQ(pictureOf(view).rgb, empty.rgb);
+}
+
+TEST(RenderRenderer, MissingShaderFolderIsNamed) {
+    RendererOptions options = smallOptions();
+    options.shaders = "/nowhere/shaders";
+    const std::string message = messageOf([&] { Renderer renderer(options); }, core::ExitCode::inputOutput);
+    EXPECT_NE(message.find("/nowhere/shaders/"), std::string::npos) << message;
+}
+
+TEST(RenderRenderer, ShaderThatDoesNotCompileIsNamedWithTheLog) {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "render_broken_shaders";
+    std::filesystem::remove_all(folder);
+    std::filesystem::copy(smallOptions().shaders, folder, std::filesystem::copy_options::recursive);
+    std::ofstream(folder / "background.frag") << "out vec4 colour;\nvoid main() { colour = wrongName; }\n";
+    RendererOptions options = smallOptions();
+    options.shaders = folder;
+    const std::string message = messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    EXPECT_NE(message.find("background.frag"), std::string::npos) << message;
+    EXPECT_NE(message.find("wrongName"), std::string::npos) << message;
+    std::filesystem::remove_all(folder);
+}
+
+TEST(RenderRenderer, MissingTextureIsNamed) {
+    view::FrameView view = someView();
+    view::Finish finish = *view.surfaces[0].finish;
+    finish.pattern = view::Pattern::image;
+    finish.texture = "/nowhere/linen.png";
+    view.surfaces[0].finish = std::make_shared<const view::Finish>(finish);
+    const std::string message = messageOf([&] { pictureOf(view); }, core::ExitCode::inputOutput);
+    EXPECT_NE(message.find("/nowhere/linen.png"), std::string::npos) << message;
+}
+
+TEST(RenderRenderer, SizesThatCannotBeDrawnAreRefused) {
+    RendererOptions options = smallOptions();
+    options.width = 1000000;
+    messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    options = smallOptions();
+    options.height = 0;
+    messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    options = smallOptions();
+    options.shadowSize = 1000;
+    messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    options = smallOptions();
+    options.samples = 3;
+    messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+}
+
+}  // namespace
+}  // namespace taut::render::test

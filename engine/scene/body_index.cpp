@@ -61,8 +61,10 @@ bool fits(std::string_view pattern, const BodyEntry& body) {
     return false;
 }
 
-// A plain decimal number that is the whole text.
+// A plain decimal number that is the whole text but for blanks around it.
 std::optional<double> number(std::string_view text) {
+    while (text.starts_with(' ')) text.remove_prefix(1);
+    while (text.ends_with(' ')) text.remove_suffix(1);
     double value = 0;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
     if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;

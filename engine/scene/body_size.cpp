@@ -15,9 +15,8 @@ BodySize sizeOfCopies(const world::BodySpec& body, double points, double springs
 }  // namespace
 
 double BodySize::bytes() const {
-    // A point: model 100, planes of state, forces and masses 150, drawing 100. A spring: model 40, run or single 40.
-    // A tetrahedron: model and state 32 each.
-    return 350.0 * points + 80.0 * springs + 6.0 * 64.0 * cells;
+    // As world::estimate counts them; a cell of a block has six tetrahedra, each as large as a spring.
+    return 600.0 * points + 120.0 * (springs + 6.0 * cells);
 }
 
 BodySize sizeOf(const world::ClothSpec& cloth) {

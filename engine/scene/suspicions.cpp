@@ -17,7 +17,8 @@ void reportSuspicions(const ReadScene& scene, Problems& problems) {
         problems.addWarning(reference.place, fmt::format("{} s is not on a tick of 1/{} s: {:.9g} s is taken",
                                                          reference.time, ticks, nearest / ticks));
     }
-    for (const auto& [name, material] : spec.materials) {
+    for (const auto& entry : spec.materials) {
+        const std::string& name = entry.first;
         const bool isUsed = std::any_of(spec.cloths.begin(), spec.cloths.end(),
                                         [&](const world::ClothSpec& cloth) { return cloth.material == name; });
         if (isUsed) continue;

@@ -168,13 +168,13 @@ TEST(SceneErrors, ReferencesToWhatIsNotThereAreReported) {
          "s.toml:5:9: error: \"(0.5,1.5)\" is not a place on a cloth\n"
          "  hold = [\"(0.5,1.5)\"]\n"
          "          ^ write (u,v), each 0 … 1"},
-        {"a place with a blank",
+        {"a place without a comma",
          "[material.m]\n"
          "[cloth.c]\n"
          "material = \"m\"\n"
-         "hold = [\"(0.5, 0.5)\"]\n",
-         "s.toml:5:9: error: \"(0.5, 0.5)\" is not a place on a cloth\n"
-         "  hold = [\"(0.5, 0.5)\"]\n"
+         "hold = [\"(0.5)\"]\n",
+         "s.toml:5:9: error: \"(0.5)\" is not a place on a cloth\n"
+         "  hold = [\"(0.5)\"]\n"
          "          ^ write (u,v), each 0 … 1"},
         {"a place on a rope",
          "[rope.r]\n"

@@ -274,8 +274,8 @@ TEST(SceneErrors, ValuesOutOfRangeAreReported) {
          "[cloth.c]\n"
          "material = \"m\"\n"
          "cells = [100000, 100000]\n",
-         "s.toml:3:8: error: the scene is too large: 1e+10 points and 6e+10 springs need about 8300 GB; the limit is "
-         "5e+07 points and 16 GB\n"
+         "s.toml:3:8: error: the scene is too large: 1e+10 points and 6e+10 springs need about 1.32e+04 GB; the limit "
+         "is 5e+07 points and 16 GB\n"
          "  [cloth.c]\n"
          "         ^ cloth.c is the largest: give it fewer cells, segments or copies"},
         {"a wide field of view",

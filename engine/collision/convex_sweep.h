@@ -52,6 +52,9 @@ bool sweepConvex(const Form& form, const Path& path, Touch& touch) {
         return reachConvex(form, path, start, sweepGap(start.distance, path.thickness), touch);
     }
     touch = {end.normal, glm::dot(end.normal, path.to) - end.distance + path.thickness};
+    // A path shorter than the height at its end cannot have come through the shape.
+    const dvec3 way = path.to - path.from;
+    if (end.distance > 0.0 && glm::dot(way, way) < end.distance * end.distance) return true;
     const Nearest start = form.nearest(path.from);
     if (start.distance > -path.skin && glm::dot(start.normal, end.normal) <= 0.0)
         reachConvex(form, path, start, sweepGap(start.distance, path.thickness), touch);

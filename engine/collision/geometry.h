@@ -15,10 +15,14 @@ using glm::dvec3;
 struct Frame {
     glm::dmat3 rotation{1.0};
     dvec3 position{0.0};  // [m]
+    bool turned = false;  // false: the rotation is none, and is left out
 
-    dvec3 toLocal(const dvec3& p) const { return (p - position) * rotation; }
-    dvec3 toWorld(const dvec3& p) const { return rotation * p + position; }
-    Frame of(const Frame& child) const { return {rotation * child.rotation, toWorld(child.position)}; }
+    dvec3 toLocal(const dvec3& p) const { return turned ? (p - position) * rotation : p - position; }
+    dvec3 toWorld(const dvec3& p) const { return turned ? rotation * p + position : p + position; }
+    dvec3 directionToWorld(const dvec3& d) const { return turned ? rotation * d : d; }
+    Frame of(const Frame& child) const {
+        return {rotation * child.rotation, toWorld(child.position), turned || child.turned};
+    }
 };
 
 // Axis-aligned; empty until a point is added.

@@ -175,7 +175,7 @@ class Resolver {
             } else if (!sweepTurning(solid, point, local, touch, crossed)) {
                 return false;
             }
-            touch.normal = solid.to.rotation * touch.normal;
+            touch.normal = solid.to.directionToWorld(touch.normal);
             touch.offset += glm::dot(touch.normal, solid.to.position);
         }
         if (!respond(surface, world, touch, point, impact)) return false;

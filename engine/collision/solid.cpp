@@ -90,7 +90,8 @@ Box worldBox(const Box& local, const Frame& frame) {
 
 Frame frameOf(const Pose& pose) {
     if (!isFinite(pose.position)) fail("pose: the position is not finite");
-    return {glm::mat3_cast(unit(pose.rotation)), pose.position};
+    const glm::dquat q = unit(pose.rotation);
+    return {glm::mat3_cast(q), pose.position, q.x != 0.0 || q.y != 0.0 || q.z != 0.0};
 }
 
 void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid>& solids) {
@@ -130,7 +131,7 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
     }
 
     if (!solid.bounded) {
-        solid.above.normal = solid.to.rotation * std::get_if<PlaneForm>(&solid.form)->normal;
+        solid.above.normal = solid.to.directionToWorld(std::get_if<PlaneForm>(&solid.form)->normal);
         solid.above.offset = glm::dot(solid.above.normal, solid.to.position);
         return;
     }

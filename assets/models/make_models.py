@@ -209,7 +209,7 @@ def make_poncho():
 
 def make_curtain():
     pleats, width, height, depth = 9, 2.7, 2.0, 0.055
-    steps, rows = 10, 46
+    steps, rows = 9, 38
     columns = pleats * steps
     fine = 2000
     path = [(width * t / fine, depth * math.cos(2 * math.pi * pleats * t / fine)) for t in range(fine + 1)]
@@ -224,7 +224,6 @@ def make_curtain():
         across.append([path[n - 1][k] + t * (path[n][k] - path[n - 1][k]) for k in (0, 1)] + [s])
     vertices, uv, triangles = [], [], []
     for r in range(rows + 1):
-        # Pleats are sharper at the top than at the hem; what they lose in depth they gain in nothing else.
         for x, z, s in across:
             vertices.append((x - width / 2, -height * r / rows, z))
             uv.append((s, height * r / rows))
@@ -232,6 +231,7 @@ def make_curtain():
         for c in range(columns):
             a = r * (columns + 1) + c
             b, d = a + 1, a + columns + 1
+            # Cut one way and the other by turns, so that the cloth has no grain.
             if (r + c) % 2:
                 triangles += [(a, d, d + 1), (a, d + 1, b)]
             else:
@@ -297,26 +297,31 @@ def poncho_colour(u, v):
 
 
 def flag_colour(u, v):
-    """Blue over white; a coil spring hangs from the seam and carries a golden weight. The flag shows v < 2/3."""
-    blue, white, gold, ink = map(hex_colour, ("#163a6b", "#f3efe4", "#e6a823", "#c8372d"))
-    middle, top, bottom, turns, half, thick = 0.5, 0.09, 0.37, 5, 0.085, 0.021
+    """Blue between red: a coil spring carries a golden weight. The flag shows two thirds of the square.
 
-    def near(ax, ay, bx, by, width):
-        t = ((u - ax) * (bx - ax) + (v - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
+    A grid of cloth counts v from its top, pictures are laid with v upwards: hence the turned v.
+    """
+    v = 1.0 - v
+    blue, white, gold, red = map(hex_colour, ("#163a6b", "#f3efe4", "#e6a823", "#c8372d"))
+    middle, top, bottom, turns, half = 0.5, 0.12, 0.38, 5, 0.085
+
+    def near(a, b, width):
+        along = (b[0] - a[0], b[1] - a[1])
+        t = ((u - a[0]) * along[0] + (v - a[1]) * along[1]) / (along[0] ** 2 + along[1] ** 2)
         t = min(1.0, max(0.0, t))
-        return math.hypot(u - ax - t * (bx - ax), v - ay - t * (by - ay)) < width / 2
+        return math.hypot(u - a[0] - t * along[0], v - a[1] - t * along[1]) < width / 2
 
-    if math.hypot(u - middle, v - 0.475) < 0.083:
+    if math.hypot(u - middle, v - 0.505) < 0.085:
         return gold
-    points = [(middle, 0.055), (middle, top)]
+    coil = [(middle, 0.075), (middle, top)]
     for n in range(2 * turns):
-        points.append((middle + (half if n % 2 else -half), top + (bottom - top) * (n + 0.5) / (2 * turns)))
-    points += [(middle, bottom), (middle, 0.41)]
-    if any(near(*a, *b, thick) for a, b in zip(points, points[1:])) or near(0.38, 0.05, 0.62, 0.05, 0.026):
+        coil.append((middle + (half if n % 2 else -half), top + (bottom - top) * (n + 0.5) / (2 * turns)))
+    coil += [(middle, bottom), (middle, 0.45)]
+    if any(near(a, b, 0.021) for a, b in zip(coil, coil[1:])) or near((0.37, 0.07), (0.63, 0.07), 0.026):
         return white
-    if 0.245 < u < 0.755:
+    if 0.27 < u < 0.73:
         return blue
-    return ink if 0.215 < u < 0.785 and False else white if 0.225 < u < 0.775 else ink
+    return white if 0.245 < u < 0.755 else red
 
 
 if __name__ == "__main__":

@@ -33,8 +33,11 @@ float sunlight(vec3 place, vec3 facing, bool casts) {
     vec2 toUv = 1.0 / mapSize.xy;
     vec2 rising = slope / mapSize.z;
     float ref = at.z - 0.5 * texel / mapSize.z;
-    float least = 1.2 * texel;
+    vec3 right = dFdx(place);
+    vec3 below = dFdy(place);
+    float pixel = sqrt(sqrt(dot(right, right) * dot(below, below)));  // [m] its size on the surface
     float widest = 1.5 * min(mapSize.x, mapSize.y) / blocks;
+    float least = min(max(1.2 * texel, 0.7 * pixel), widest);
 
     // How far away are the things in between, on average?
     float radius = clamp(0.5 * lightWay.w * gap, least, widest);

@@ -15,16 +15,16 @@ out vec4 colour;
 
 #ifdef WEAVE
 // Over and under: each cell of the weave is a pillow, stretched along the thread that lies on top. Tilts the normal
-// and returns how open the place is, 0 … 1. Fades where threads become smaller than pixels.
+// and returns how open the place is, 0 … 1. Fades, along either thread, where threads become smaller than pixels.
 float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     vec2 cell = uv / thread;
     vec2 middle = fract(cell) - 0.5;
     vec2 index = floor(cell);
     float warp = mod(index.x + index.y, 2.0);
-    float strength = weave * clamp(1.56 - 3.1 * max(pixel.x, pixel.y) / thread, 0.0, 1.0);
-    vec2 tilt = middle * mix(vec2(0.8, 2.0), vec2(2.0, 0.8), warp);
+    vec2 strength = weave * clamp(1.6 - 2.7 * pixel / thread, 0.0, 1.0);
+    vec2 tilt = strength * middle * mix(vec2(0.8, 2.0), vec2(2.0, 0.8), warp);
     vec2 square = 4.0 * middle * middle;
-    float depth = max(square.x * square.x, square.y * square.y);
+    vec2 depth = strength * square * square;
 
     // Directions of the material on the surface, from how place and uv change over the screen.
     vec3 placeX = dFdx(place);
@@ -36,8 +36,8 @@ float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     along *= inversesqrt(max(dot(along, along), 1e-20));
     across *= inversesqrt(max(dot(across, across), 1e-20));
     float turned = uvX.x * uvY.y - uvX.y * uvY.x < 0.0 ? -1.0 : 1.0;
-    normal = normalize(normal + strength * turned * (tilt.x * along + tilt.y * across));
-    return 1.0 - 0.55 * strength * depth - 0.12 * (weave - strength);
+    normal = normalize(normal + turned * (tilt.x * along + tilt.y * across));
+    return 1.0 - 0.55 * max(depth.x, depth.y) - 0.1 * (weave - 0.5 * (strength.x + strength.y));
 }
 #endif
 

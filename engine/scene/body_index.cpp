@@ -108,9 +108,11 @@ std::optional<TargetFault> selectorFaultIn(const BodyEntry& body, const std::str
     if (selector.starts_with('#')) return indexFault(body, selector);
     if (selector.starts_with('(')) return uvFault(body, selector);
     if (selector.ends_with('%')) return percentFault(body, selector);
+    const bool isGroup =
+        selector == "all" || std::find(body.groups.begin(), body.groups.end(), selector) != body.groups.end();
+    if (isGroup || body.isFaulty) return std::nullopt;
     std::vector<std::string> groups = body.groups;
     groups.push_back("all");
-    if (body.isFaulty || std::find(groups.begin(), groups.end(), selector) != groups.end()) return std::nullopt;
     std::string remedy = suggestion(selector, groups);
     if (remedy.empty() && groups.size() <= 12) remedy = "it has " + joined(groups);
     return TargetFault{fmt::format("{} has no points \"{}\"", body.title(), selector), remedy};

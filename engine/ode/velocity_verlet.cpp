@@ -3,7 +3,8 @@
 //   v½ = v + (h/2)(a_el - γ v),  x' = x + h v½,  v' = (v½ + (h/2) a_el')/(1+b),  b = γ h/2
 //
 // a_el is kept from the step before. a_el' sees the velocity extrapolated from half steps, w = 1.5 v½ - 0.5 v½(before),
-// as leap-frog does; at the start and after a contact a_el is evaluated anew, from v.
+// as leap-frog does; at the start and after a contact a_el is evaluated anew, from v. That a contact has been is part of
+// the state, so that a copy of it goes on in the same way.
 #include "ode/method_table.h"
 
 namespace taut::ode {
@@ -12,11 +13,11 @@ namespace {
 template <class Real>
 class VelocityVerlet final : public Method<Real> {
   public:
-    enum Memory { acceleration, halfVelocity, extrapolated, count };
+    enum Memory { acceleration, halfVelocity, extrapolated, stale, count };  // stale: one number, 0 or 1
 
     void start(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
         state.memory.assign(count, core::AlignedArray<Real>(state.layout.size()));
-        stale_ = false;
+        state.memory[stale] = core::AlignedArray<Real>(1);
         evaluate(system, t, state, state.v.data());
         // The half step before the first: v(-h/2) = v0 - (h/2) a(x0, v0).
         forEach(state.layout, [&](std::size_t at, std::size_t i) {
@@ -26,8 +27,8 @@ class VelocityVerlet final : public Method<Real> {
     }
 
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
-        if (stale_) evaluate(system, t, state, state.v.data());
-        stale_ = false;
+        if (state.memory[stale][0] != Real(0)) evaluate(system, t, state, state.v.data());
+        state.memory[stale][0] = Real(0);
         const Real half = static_cast<Real>(0.5 * h);
         const Real* drag = system.dragRates();
         forEach(state.layout, [&](std::size_t at, std::size_t i) {
@@ -49,7 +50,7 @@ class VelocityVerlet final : public Method<Real> {
     }
 
     void touch(State<Real>& state, std::span<const int> points) override {
-        stale_ = stale_ || !points.empty();
+        if (!points.empty()) state.memory[stale][0] = Real(1);
         for (int p = 0; p < state.layout.planes; ++p)
             for (int i : points) {
                 const auto at = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * state.layout.stride + i);
@@ -84,8 +85,6 @@ class VelocityVerlet final : public Method<Real> {
                 f(static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * layout.stride + i),
                   static_cast<std::size_t>(i));
     }
-
-    bool stale_ = false;
 };
 
 }  // namespace

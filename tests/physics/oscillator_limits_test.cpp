@@ -1,6 +1,7 @@
 // The largest stable step of each method on the damped oscillator: bounded just below, growing just above.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -84,8 +85,11 @@ TEST(LargestStep, IsTheLimitOfTheTheory) {
                 EXPECT_NEAR(largestStep(mode) / leapfrogLimit(zeta), 1.0, 1e-12) << name;
             EXPECT_NEAR(largestStep(byDrag) * omega, 2.0, 1e-12) << name;
         }
-        for (const ode::FastestMode& mode : {byTau, byRate, byBoth, byDrag})
-            EXPECT_NEAR(ode::findMethod("euler")->largestStep(mode), eulerLimit(zeta), 1e-12);
+        const auto largestStep = ode::findMethod("euler")->largestStep;
+        for (const ode::FastestMode& mode : {byTau, byDrag}) EXPECT_NEAR(largestStep(mode), eulerLimit(zeta), 1e-12);
+        // Wind and anchors may leave the fastest mode undamped, and Euler lives on damping.
+        EXPECT_EQ(largestStep(byRate), 0.0);
+        EXPECT_NEAR(largestStep(byBoth), std::min(eulerLimit(zeta / 2.0), eulerLimit(zeta)), 1e-12);
     }
 }
 

@@ -1,11 +1,14 @@
 list(APPEND TAUT_PHYSICS_TESTS
+  block_recovery_test.cpp
   contact_test.cpp
   free_motion_test.cpp
   frequency_bounds_test.cpp
   hanging_test.cpp
+  hard_cases_test.cpp
   linear_modes_test.cpp
   network_limits_test.cpp
   oscillator_damping_test.cpp
   oscillator_energy_test.cpp
-  oscillator_limits_test.cpp)
+  oscillator_limits_test.cpp
+  precision_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode)

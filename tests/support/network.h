@@ -67,7 +67,7 @@ class NetworkOf {
         return sum;
     }
     double potential() const {
-        double sum = gravity_->potentialEnergy(system_.motion(time(), run_->state.x.data(), run_->state.v.data()));
+        double sum = gravity_->potentialEnergy(motion());
         for (const mechanics::Spring& s : model_.springs) {
             const double stretch = glm::length(position(s.b) - position(s.a)) - s.restLength;
             sum += 0.5 * s.stiffness * stretch * stretch;
@@ -89,6 +89,10 @@ class NetworkOf {
             sum += model_.masses[i] * glm::cross(position(static_cast<int>(i)), v[i]);
         return sum;
     }
+    mechanics::Motion<Real> motion() const {
+        return system_.motion(time(), run_->state.x.data(), run_->state.v.data());
+    }
+
     // False once a number has left all bounds.
     bool isBounded(double limit) const {
         for (Real x : run_->state.x)

@@ -42,28 +42,23 @@ float sunlight(vec3 place, vec3 facing, bool casts) {
     // How far away are the things in between, on average?
     float radius = clamp(0.5 * lightWay.w * gap, least, widest);
     vec2 found = vec2(0.0);  // sum of distances, number
-    int searches = known ? 0 : 5;
+    int searches = known ? 0 : 8;
     for (int i = 0; i < searches; ++i) {
-        vec2 off = way * (radius * sqrt((float(i) + 0.5) * 0.2));
-        float rises = dot(rising, off);
-        vec2 between = vec2(ref + rises - textureLod(shadowDepth, at.xy + off * toUv, 0.0).r,
-                            ref - rises - textureLod(shadowDepth, at.xy - off * toUv, 0.0).r);
-        vec2 isBetween = step(0.0, between);
-        found += vec2(dot(between, isBetween), isBetween.x + isBetween.y);
+        vec2 off = way * (radius * sqrt((float(i) + 0.5) * 0.125));
+        float between = ref + dot(rising, off) - textureLod(shadowDepth, at.xy + off * toUv, 0.0).r;
+        found += between > 0.0 ? vec2(between, 1.0) : vec2(0.0);
         way = goldenTurn * way;
     }
     float away = found.x / max(found.y, 1.0) * mapSize.z;
     radius = alone ? least : clamp(0.5 * lightWay.w * away, least, widest);
 
-    int pairs = clear || dark ? 0 : (alone ? 2 : clamp(int(radius / texel), 3, 10));
-    float share = 1.0 / float(max(pairs, 1));
+    int taps = clear || dark ? 0 : (alone ? 3 : clamp(int(2.0 * radius / texel), 6, 20));
+    float share = 1.0 / float(max(taps, 1));
     float reached = 0.0;
-    for (int i = 0; i < pairs; ++i) {
+    for (int i = 0; i < taps; ++i) {
         vec2 off = way * (radius * sqrt((float(i) + 0.5) * share));
-        float rises = dot(rising, off);
-        reached += textureLod(shadowMap, vec3(at.xy + off * toUv, min(ref + rises, 1.0)), 0.0);
-        reached += textureLod(shadowMap, vec3(at.xy - off * toUv, min(ref - rises, 1.0)), 0.0);
+        reached += textureLod(shadowMap, vec3(at.xy + off * toUv, min(ref + dot(rising, off), 1.0)), 0.0);
         way = goldenTurn * way;
     }
-    return pairs == 0 ? (dark && !clear ? 0.0 : 1.0) : 0.5 * share * reached;
+    return taps == 0 ? (dark && !clear ? 0.0 : 1.0) : share * reached;
 }

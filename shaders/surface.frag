@@ -21,10 +21,10 @@ float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     vec2 middle = fract(cell) - 0.5;
     vec2 index = floor(cell);
     float warp = mod(index.x + index.y, 2.0);
-    vec2 strength = weave * clamp(1.6 - 2.7 * pixel / thread, 0.0, 1.0);
-    vec2 tilt = strength * middle * mix(vec2(0.8, 2.0), vec2(2.0, 0.8), warp);
+    vec2 fine = pixel / thread;  // threads a pixel; gaps are finer than threads and fade first, into their mean
+    vec2 tilt = weave * clamp(1.5 - 3.1 * fine, 0.0, 1.0) * middle * mix(vec2(0.8, 2.0), vec2(2.0, 0.8), warp);
     vec2 square = 4.0 * middle * middle;
-    vec2 depth = strength * square * square;
+    vec2 gap = mix(vec2(0.25), square * square, clamp(1.3 - 3.0 * fine, 0.0, 1.0));
 
     // Directions of the material on the surface, from how place and uv change over the screen.
     vec3 placeX = dFdx(place);
@@ -37,7 +37,7 @@ float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     across *= inversesqrt(max(dot(across, across), 1e-20));
     float turned = uvX.x * uvY.y - uvX.y * uvY.x < 0.0 ? -1.0 : 1.0;
     normal = normalize(normal + turned * (tilt.x * along + tilt.y * across));
-    return 1.0 - 0.55 * max(depth.x, depth.y) - 0.1 * (weave - 0.5 * (strength.x + strength.y));
+    return 1.0 - 0.55 * weave * max(gap.x, gap.y);
 }
 #endif
 
@@ -62,7 +62,10 @@ void main() {
     float lightSide = dot(smoothNormal, lightWay.xyz);
     float sun = sunlight(place, lightSide < 0.0 ? -smoothNormal : smoothNormal, true);
     float facing = dot(normal, lightWay.xyz);
-    float direct = max(facing, 0.0) * smoothstep(-0.02, 0.12, lightSide) * sun;
+    float direct = max(facing, 0.0) * sun;
+#ifdef WEAVE
+    direct *= smoothstep(-0.02, 0.12, lightSide);  // threads on the far side of the light stay dark
+#endif
 
     vec3 diffuse = lightColour.rgb * direct + hemisphere(normal) * open;
     vec3 light = albedo * open * diffuse;

@@ -60,7 +60,7 @@ class IslandOf final : public Island {
             if (!isBounded()) return giveUp(time.at(s + 1, choice_.substeps));
             if (collides) collide(moving, s);
         }
-        watchStretch(time.at(choice_.substeps, choice_.substeps));
+        watchVolumes(time.at(choice_.substeps, choice_.substeps));
         return std::nullopt;
     }
 
@@ -105,7 +105,8 @@ class IslandOf final : public Island {
     IslandInfo info() const override;
     std::vector<std::string> warnings() const override {
         std::vector<std::string> all = choice_.warnings;
-        if (!stretchWarning_.empty()) all.push_back(stretchWarning_);
+        for (const std::string& warning : {stretchWarning_, collapseWarning_})
+            if (!warning.empty()) all.push_back(warning);
         return all;
     }
     Divergence diagnose(const Fault& fault, const TickTime& time) const override;
@@ -197,16 +198,25 @@ class IslandOf final : public Island {
         if (!touched_.empty()) method_->touch(state_, touched_);
     }
 
-    // Beyond the working stretch the step may not hold: said once.
-    void watchStretch(double t) {
-        if (!stretchWarning_.empty()) return;
+    // Beyond the working stretch the step may not hold, and a collapsed cell may not come back: each said once.
+    void watchVolumes(double t) {
+        if (volumes_.empty() || (!stretchWarning_.empty() && !collapseWarning_.empty())) return;
+        char text[200];
         for (const auto* volume : volumes_) {
-            const mechanics::VolumeReport state = volume->inspect(motion(t));
-            if (state.overstretched == 0) continue;
-            char text[160];
-            std::snprintf(text, sizeof text, ": stretched beyond working_stretch at %.3f s; raise it if the block diverges", t);
-            stretchWarning_ = plan_.bodies.front()->fullName() + text;
-            return;
+            const mechanics::VolumeReport report = volume->inspect(motion(t));
+            const std::string name = plan_.bodies.front()->fullName();
+            if (report.overstretched > 0 && stretchWarning_.empty()) {
+                std::snprintf(text, sizeof text,
+                              ": stretched beyond working_stretch at %.3f s; raise it if the block diverges", t);
+                stretchWarning_ = name + text;
+            }
+            if (report.collapsed > 0 && collapseWarning_.empty()) {
+                std::snprintf(text, sizeof text,
+                              ": squashed to %.2g of its volume in a cell at %.3f s (%d cells below a tenth, %d turned "
+                              "inside out); raise bulk_Pa or young_Pa",
+                              report.smallestRatio, t, report.collapsed, report.inverted);
+                collapseWarning_ = name + text;
+            }
         }
     }
 
@@ -221,7 +231,7 @@ class IslandOf final : public Island {
     collision::Colliders colliders_;
     std::vector<collision::Contact> contacts_;       // of the last step
     std::vector<int> touched_;
-    std::string stretchWarning_;
+    std::string stretchWarning_, collapseWarning_;
 };
 
 template <class Real>

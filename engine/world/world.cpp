@@ -98,13 +98,11 @@ ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
 }
 
 void World::Impl::rebuildColliders() {
-    for (const auto& island : islands) {
-        collision::Colliders colliders;
-        registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
-            colliders.add(part.model->shape, part.model->material, placement.to);
-        });
-        island->setColliders(std::move(colliders));
-    }
+    collision::Colliders colliders;
+    registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        colliders.add(part.model->shape, part.model->material, placement.to);
+    });
+    for (const auto& island : islands) island->setColliders(colliders.clone());
 }
 
 ecs::Entity World::Impl::spawn(Body body) {

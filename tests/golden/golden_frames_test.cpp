@@ -91,7 +91,7 @@ TEST_P(GoldenFrame, IsWhatThisBuildDraws) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, GoldenFrame, testing::ValuesIn(goldens()),
-                         [](const auto& info) { return info.param.name(); });
+                         [](const auto& golden) { return golden.param.name(); });
 
 TEST(GoldenManifest, HasAFrameOfEveryShippedSceneAndAReasonForEach) {
     const std::vector<Golden> all = goldens();

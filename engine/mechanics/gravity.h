@@ -18,6 +18,7 @@ class Gravity final : public ForceGenerator<Real> {
     std::string_view name() const override { return "gravity"; }
     bool isLocal() const override { return true; }
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
+    const double* uniformAcceleration() const override { return &acceleration_.x; }
     double potentialEnergy(const Motion<Real>& motion) const override;  // -Σ m g·x
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
     void addStability(const Motion<Real>&, StabilityShare&) const override {}

@@ -19,29 +19,44 @@ MassSpringSystem<Real>::MassSpringSystem(std::span<const PointMass> points, std:
     mass_ = core::AlignedArray<Real>(stride);
     inverseMass_ = mass_;
     drag_ = mass_;
-    force_ = core::AlignedArray<Real>(layout_.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         TAUT_EXPECTS(points[i].mass > 0.0);
         mass_[i] = static_cast<Real>(points[i].mass);
         inverseMass_[i] = points[i].held ? Real(0) : static_cast<Real>(1.0 / points[i].mass);
         drag_[i] = static_cast<Real>(points[i].dragRate);
     }
+    layOutLanes();
+}
+
+// A window holds what a block and the reach of its springs need, and some more so that it need not slide each time.
+template <class Real>
+void MassSpringSystem<Real>::layOutLanes() {
+    constexpr int slack = 512;  // points
+    constexpr int lanes = static_cast<int>(core::cacheLine / sizeof(Real));
+    const auto window = [](int first, int room) {
+        room = (room + lanes - 1) / lanes * lanes + lanes;
+        return Window{first, room, core::AlignedArray<Real>(3 * static_cast<std::size_t>(room))};
+    };
     int incoming = 0;
     for (const SpringChunk& chunk : network_.chunks) {
-        int deferred = 0;
-        while (incoming > 0 && chunk.firstBlock + deferred < chunk.lastBlock &&
-               network_.blocks[static_cast<std::size_t>(chunk.firstBlock + deferred)].firstPoint <
-                   chunk.firstPoint + incoming)
-            ++deferred;
-        deferred_.push_back(deferred);
-        spill_.emplace_back(3 * static_cast<std::size_t>(chunk.spill));
-        scratch_.emplace_back(3 * static_cast<std::size_t>(chunk.longestRun));
+        int need = 0, reach = chunk.firstPoint, blocksWaiting = 0;
+        for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) {
+            const SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
+            reach = std::max(reach, block.reach);
+            need = std::max(need, reach - block.firstPoint);
+            if (block.firstPoint < chunk.firstPoint + incoming) ++blocksWaiting;
+        }
+        const SpringBlock& lastWaiting =
+            network_.blocks[static_cast<std::size_t>(chunk.firstBlock + std::max(0, blocksWaiting - 1))];
+        const int waiting = blocksWaiting > 0 ? lastWaiting.lastPoint - chunk.firstPoint : 0;
+        lanes_.push_back({window(chunk.firstPoint, need + slack), window(chunk.firstPoint, waiting), blocksWaiting});
         incoming = chunk.spill;
     }
 }
 
 template <class Real>
 void MassSpringSystem<Real>::add(std::unique_ptr<ForceGenerator<Real>> generator) {
+    if (generator->uniformAcceleration() == nullptr) external_ = core::AlignedArray<Real>(layout_.size());
     generators_.push_back(std::move(generator));
 }
 
@@ -55,98 +70,106 @@ Motion<Real> MassSpringSystem<Real>::motion(double t, const Real* x, const Real*
 template <class Real>
 void MassSpringSystem<Real>::accelerate(double t, const Real* x, const Real* v, ode::AccelerationSink<Real>& sink) {
     const Motion<Real> now = motion(t, x, v);
-    bool prefilled = false;
+    isExternalFilled_ = false;
+    double uniform[3] = {};
     for (const auto& generator : generators_) {
-        if (generator->isLocal()) continue;
-        if (!prefilled) std::fill(force_.begin(), force_.end(), Real(0));
-        prefilled = true;
-        generator->addForces(now, 0, now.count, force_.data());
+        if (const double* g = generator->uniformAcceleration()) {
+            for (int p = 0; p < 3; ++p) uniform[p] += g[p];
+        } else if (!generator->isLocal()) {
+            if (!isExternalFilled_) std::fill(external_.begin(), external_.end(), Real(0));
+            isExternalFilled_ = true;
+            generator->addForces(now, 0, now.count, external_.data());
+        }
     }
+    for (int p = 0; p < 3; ++p) uniform_[p] = static_cast<Real>(uniform[p]);
     const int chunks = static_cast<int>(network_.chunks.size());
-    core::parallelFor(chunks, [&](int c) { sweep(network_.chunks[static_cast<std::size_t>(c)], prefilled, now, sink); });
+    core::parallelFor(chunks, [&](int c) { sweep(static_cast<std::size_t>(c), now, sink); });
     if (chunks > 1)
         core::parallelFor(chunks - 1, [&](int c) { takeSpill(static_cast<std::size_t>(c) + 1, now, sink); });
 }
 
 template <class Real>
-void MassSpringSystem<Real>::sweep(const SpringChunk& chunk, bool prefilled, const Motion<Real>& now,
-                                   ode::AccelerationSink<Real>& sink) {
-    const auto c = static_cast<std::size_t>(&chunk - network_.chunks.data());
-    std::fill(spill_[c].begin(), spill_[c].end(), Real(0));
-    int cleared = prefilled ? chunk.lastPoint : chunk.firstPoint;
+void MassSpringSystem<Real>::sweep(std::size_t c, const Motion<Real>& now, ode::AccelerationSink<Real>& sink) {
+    const SpringChunk& chunk = network_.chunks[c];
+    Window& window = lanes_[c].window;
+    int reach = window.first = chunk.firstPoint;
     for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) {
         const SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
-        if (const int reach = std::min(block.reach, chunk.lastPoint); reach > cleared) {
-            for (int p = 0; p < 3; ++p) {
-                Real* plane = force_.data() + static_cast<std::ptrdiff_t>(p) * layout_.stride;
-                std::fill(plane + cleared, plane + reach, Real(0));
-            }
-            cleared = reach;
+        if (block.reach > reach) {
+            if (block.reach > window.first + window.room) window.slide(block.firstPoint, reach);
+            for (int p = 0; p < 3; ++p) std::fill(window.at(p, reach), window.at(p, block.reach), Real(0));
+            reach = block.reach;
         }
-        applySprings(chunk, block, now);
-        if (i - chunk.firstBlock >= deferred_[c]) finish(block, now, sink);
+        applySprings(block, now, window);
+        if (i - chunk.firstBlock >= lanes_[c].blocksWaiting)
+            finish(block, now, window, sink);
+        else
+            for (int p = 0; p < 3; ++p)
+                std::copy(window.at(p, block.firstPoint), window.at(p, block.lastPoint),
+                          lanes_[c].waiting.at(p, block.firstPoint));
     }
 }
 
 template <class Real>
-void MassSpringSystem<Real>::applySprings(const SpringChunk& chunk, const SpringBlock& block, const Motion<Real>& now) {
-    const auto c = static_cast<std::size_t>(&chunk - network_.chunks.data());
-    Real* spill = spill_[c].data();
+void MassSpringSystem<Real>::applySprings(const SpringBlock& block, const Motion<Real>& now, Window& window) {
     for (int r = block.firstRun; r < block.lastRun; ++r) {
         const SpringRun<Real>& run = network_.runs[static_cast<std::size_t>(r)];
-        const int b = run.a + run.offset;
-        Real* fb = run.crossing ? spill + (b - chunk.lastPoint) : force_.data() + b;
-        const bool overlapping = !run.crossing && run.offset < run.count;
-        kernels_.run({run.count, run.offset, now.stride, run.crossing ? chunk.spill : now.stride, now.x + run.a,
-                      now.v + run.a, force_.data() + run.a, fb, network_.stiffness.data() + run.table, run.restLength,
-                      run.tau, overlapping ? scratch_[c].data() : nullptr});
+        kernels_.run({run.count, run.offset, now.stride, window.room, now.x + run.a, now.v + run.a, window.at(0, run.a),
+                      network_.stiffness.data() + run.table, run.restLength, run.tau});
     }
+    if (block.firstSingle == block.lastSingle) return;
     const SpringSingles<Real>& s = network_.singles;
-    const auto list = [&](int first, int last, Real* fb, int strideB, int firstB) {
-        if (first == last) return;
-        kernels_.list({last - first, now.stride, strideB, now.x, now.v, force_.data(), fb, firstB, s.a.data() + first,
-                       s.b.data() + first, s.k.data() + first, s.restLength.data() + first, s.tau.data() + first});
-    };
-    list(block.firstSingle, block.lastSingle, force_.data(), now.stride, 0);
-    list(block.firstCrossing, block.lastCrossing, spill, chunk.spill, chunk.lastPoint);
+    const int at = block.firstSingle;
+    kernels_.list({block.lastSingle - at, now.stride, window.room, window.first, now.x, now.v, window.f.data(),
+                   s.a.data() + at, s.b.data() + at, s.k.data() + at, s.restLength.data() + at, s.tau.data() + at});
 }
 
 template <class Real>
 void MassSpringSystem<Real>::takeSpill(std::size_t c, const Motion<Real>& now, ode::AccelerationSink<Real>& sink) {
     const SpringChunk& chunk = network_.chunks[c];
-    const int spill = network_.chunks[c - 1].spill;
+    Window &spilt = lanes_[c - 1].window, &waiting = lanes_[c].waiting;
     for (int p = 0; p < 3; ++p) {
-        Real* plane = force_.data() + static_cast<std::ptrdiff_t>(p) * layout_.stride + chunk.firstPoint;
-        const Real* more = spill_[c - 1].data() + static_cast<std::ptrdiff_t>(p) * spill;
-        for (int i = 0; i < spill; ++i) plane[i] += more[i];
+        Real* f = waiting.at(p, chunk.firstPoint);
+        const Real* more = spilt.at(p, chunk.firstPoint);
+        for (int i = 0; i < network_.chunks[c - 1].spill; ++i) f[i] += more[i];
     }
-    for (int i = 0; i < deferred_[c]; ++i)
-        finish(network_.blocks[static_cast<std::size_t>(chunk.firstBlock + i)], now, sink);
+    for (int i = 0; i < lanes_[c].blocksWaiting; ++i)
+        finish(network_.blocks[static_cast<std::size_t>(chunk.firstBlock + i)], now, waiting, sink);
 }
 
 // From forces to accelerations, and away with them.
 template <class Real>
-void MassSpringSystem<Real>::finish(const SpringBlock& block, const Motion<Real>& now,
+void MassSpringSystem<Real>::finish(const SpringBlock& block, const Motion<Real>& now, Window& window,
                                     ode::AccelerationSink<Real>& sink) {
-    for (const auto& generator : generators_)
-        if (generator->isLocal()) generator->addForces(now, block.firstPoint, block.lastPoint, force_.data());
-    const Real* a[3];
-    for (int p = 0; p < 3; ++p) {
-        Real* f = force_.data() + static_cast<std::ptrdiff_t>(p) * layout_.stride + block.firstPoint;
-        kernels_.scale(block.lastPoint - block.firstPoint, inverseMass_.data() + block.firstPoint, f);
-        a[p] = f;
+    const int first = block.firstPoint, last = block.lastPoint;
+    if (!external_.empty()) {
+        if (!isExternalFilled_)
+            for (int p = 0; p < 3; ++p) {
+                Real* plane = external_.data() + static_cast<std::ptrdiff_t>(p) * layout_.stride;
+                std::fill(plane + first, plane + last, Real(0));
+            }
+        for (const auto& generator : generators_)
+            if (generator->isLocal() && generator->uniformAcceleration() == nullptr)
+                generator->addForces(now, first, last, external_.data());
     }
-    sink.take(block.firstPoint, block.lastPoint, a);
+    kernels_.accelerate({last - first,
+                         inverseMass_.data() + first,
+                         {uniform_[0], uniform_[1], uniform_[2]},
+                         external_.empty() ? nullptr : external_.data() + first,
+                         layout_.stride,
+                         window.at(0, first),
+                         window.room});
+    const Real* const a[3] = {window.at(0, first), window.at(1, first), window.at(2, first)};
+    sink.take(first, last, a);
 }
 
 template <class Real>
 std::uint64_t MassSpringSystem<Real>::bytes() const {
-    std::uint64_t reals = mass_.size() * 3 + force_.size() + network_.stiffness.size();
-    for (const auto& array : spill_) reals += array.size();
-    for (const auto& array : scratch_) reals += array.size();
+    std::uint64_t reals = mass_.size() * 3 + external_.size() + network_.stiffness.size();
+    for (const Lane& lane : lanes_) reals += lane.window.f.size() + lane.waiting.f.size();
     const std::uint64_t single = 2 * sizeof(int) + 3 * sizeof(Real);
-    return reals * sizeof(Real) + network_.runs.size() * sizeof(SpringRun<Real>) +
-           network_.singles.a.size() * single + network_.blocks.size() * sizeof(SpringBlock);
+    return reals * sizeof(Real) + network_.runs.size() * sizeof(SpringRun<Real>) + network_.singles.a.size() * single +
+           network_.blocks.size() * sizeof(SpringBlock);
 }
 
 template class MassSpringSystem<float>;

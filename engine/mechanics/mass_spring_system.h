@@ -1,6 +1,9 @@
 // The points and springs of one island with its force generators, as the second-order system that methods integrate.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -41,19 +44,41 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real> {
     std::uint64_t bytes() const;
 
   private:
-    void sweep(const SpringChunk& chunk, bool prefilled, const Motion<Real>& motion, ode::AccelerationSink<Real>& sink);
-    void applySprings(const SpringChunk& chunk, const SpringBlock& block, const Motion<Real>& motion);
-    void takeSpill(std::size_t chunk, const Motion<Real>& motion, ode::AccelerationSink<Real>& sink);
-    void finish(const SpringBlock& block, const Motion<Real>& motion, ode::AccelerationSink<Real>& sink);
+    // The forces of the points that a sweep is at: from the block in work to as far as springs reached.
+    struct Window {
+        int first = 0;               // point at its start
+        int room = 0;                // points
+        core::AlignedArray<Real> f;  // (3 · room) [N]
+        Real* at(int plane, int point) {
+            return f.data() + static_cast<std::ptrdiff_t>(plane) * room + (point - first);
+        }
+        // Keeps points begin … end - 1, moved to the start.
+        void slide(int begin, int end) {
+            for (int p = 0; p < 3; ++p) std::copy(at(p, begin), at(p, end), at(p, first));
+            first = begin;
+        }
+    };
+    // What a sweep of a chunk needs for itself.
+    struct Lane {
+        Window window;   // after the sweep: what the chunk spills into the next
+        Window waiting;  // forces of the first blocks, which wait for the spill of the chunk before
+        int blocksWaiting = 0;
+    };
+
+    void layOutLanes();
+    void sweep(std::size_t chunk, const Motion<Real>& now, ode::AccelerationSink<Real>& sink);
+    void applySprings(const SpringBlock& block, const Motion<Real>& now, Window& window);
+    void takeSpill(std::size_t chunk, const Motion<Real>& now, ode::AccelerationSink<Real>& sink);
+    void finish(const SpringBlock& block, const Motion<Real>& now, Window& window, ode::AccelerationSink<Real>& sink);
 
     ode::Layout layout_;
     core::AlignedArray<Real> mass_, inverseMass_, drag_;  // (stride)
-    core::AlignedArray<Real> force_;                      // (3 · stride)
+    core::AlignedArray<Real> external_;                   // (3 · stride) forces of generators; empty without any
     SpringNetwork<Real> network_;
-    std::vector<core::AlignedArray<Real>> spill_;    // (chunks) (3 · spill)
-    std::vector<core::AlignedArray<Real>> scratch_;  // (chunks) (3 · longest run)
-    std::vector<int> deferred_;                      // (chunks) blocks at its start that wait for the spill
+    std::vector<Lane> lanes_;  // (chunks)
     std::vector<std::unique_ptr<ForceGenerator<Real>>> generators_;
+    bool isExternalFilled_ = false;  // in this evaluation, by generators that need the whole island
+    Real uniform_[3] = {};           // acceleration of all free points in this evaluation [m/s²]
     SpringKernels<Real> kernels_;
 };
 

@@ -1,7 +1,7 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 //
 // Hooke's law with a dashpot along the spring, d = x_b - x_a, l = |d|, n = d/l:
-//   F_a = [k (l - L) + τ k (v_b - v_a)·n] n = k [1 - L/l + τ (v_b - v_a)·d/l²] d,   F_b = -F_a
+//   F_a = k [l - L + τ u·n] n = k [1 - (L - τ u·d/l)/l] d,   u = v_b - v_a,   F_b = -F_a
 // Each spring is evaluated once. At l = 0 the direction is undefined and the force zero; with L = 0 the force is
 // k d, linear through l = 0.
 #include "core/vectorise.h"
@@ -10,33 +10,41 @@
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-inline float root(float x) { return __builtin_sqrtf(x); }
-inline double root(double x) { return __builtin_sqrt(x); }
+inline float root(float x) {
+    return __builtin_sqrtf(x);
+}
+inline double root(double x) {
+    return __builtin_sqrt(x);
+}
 
-// The factor of d in F_a. In double the smallest length that counts is where its square leaves the range; the
-// product with a zero d makes what lies below harmless.
+// The factor of d in F_a, as 1 - (L - τ u·d/l)/l: finite however small l is.
 template <class Real, bool damped>
 inline Real factor(Real dx, Real dy, Real dz, Real ux, Real uy, Real uz, Real k, Real rest, Real tau) {
     const Real l = root(dx * dx + dy * dy + dz * dz);
     const Real inverse = l > Real(0) ? Real(1) / l : Real(0);
-    Real pull = Real(1) - rest * inverse;
-    if (damped) pull += tau * (ux * dx + uy * dy + uz * dz) * (inverse * inverse);
-    return k * pull;
+    Real length = rest;  // at which the spring would be free of force
+    if (damped) length -= tau * (ux * dx + uy * dy + uz * dz) * inverse;
+    return k * (Real(1) - length * inverse);
 }
 
-template <class Real, bool damped, bool overlapping>
-inline void run(const SpringRunArgs<Real>& s) {
-    const int n = s.n;
-    const long stride = s.stride, strideB = s.strideB;
-    const Real *xa = s.x, *ya = xa + stride, *za = ya + stride;
-    const Real *xb = xa + s.offset, *yb = ya + s.offset, *zb = za + s.offset;
-    const Real *ua = s.v, *va = ua + stride, *wa = va + stride;
-    const Real *ub = ua + s.offset, *vb = va + s.offset, *wb = wa + s.offset;
-    Real *fxa = s.fa, *fya = fxa + stride, *fza = fya + stride;
-    Real *fxb = s.fb, *fyb = fxb + strideB, *fzb = fyb + strideB;
-    Real *gx = s.scratch, *gy = gx + n, *gz = gy + n;
-    const Real* k = s.k;
+// Springs at once. A run is cut so that between its ends, unless they are close, nothing overlaps; and what lies in
+// between stays in the first-level cache.
+constexpr int slice = 128;
+
+// n <= slice springs of a run from the given one on. With both ends `apart` (offset >= n) forces go straight to
+// both; else the ends b have to wait until all ends a are done.
+template <class Real, bool damped, bool apart>
+inline void runSlice(const SpringRunArgs<Real>& s, int first, int n) {
+    const long stride = s.stride, windowStride = s.windowStride, offset = s.offset;
+    const Real *xa = s.x + first, *ya = xa + stride, *za = ya + stride;
+    const Real *xb = xa + offset, *yb = ya + offset, *zb = za + offset;
+    const Real *ua = s.v + first, *va = ua + stride, *wa = va + stride;
+    const Real *ub = ua + offset, *vb = va + offset, *wb = wa + offset;
+    Real *fxa = s.f + first, *fya = fxa + windowStride, *fza = fya + windowStride;
+    Real *fxb = fxa + offset, *fyb = fya + offset, *fzb = fza + offset;
+    const Real* k = s.k + first;
     const Real rest = s.restLength, tau = s.tau;
+    alignas(64) Real gx[slice], gy[slice], gz[slice];
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const Real dx = xb[i] - xa[i], dy = yb[i] - ya[i], dz = zb[i] - za[i];
@@ -51,17 +59,17 @@ inline void run(const SpringRunArgs<Real>& s) {
         fxa[i] += fx;
         fya[i] += fy;
         fza[i] += fz;
-        if (overlapping) {
-            gx[i] = fx;
-            gy[i] = fy;
-            gz[i] = fz;
-        } else {
+        if (apart) {
             fxb[i] -= fx;
             fyb[i] -= fy;
             fzb[i] -= fz;
+        } else {
+            gx[i] = fx;
+            gy[i] = fy;
+            gz[i] = fz;
         }
     }
-    if (!overlapping) return;
+    if (apart) return;
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         fxb[i] -= gx[i];
@@ -70,20 +78,23 @@ inline void run(const SpringRunArgs<Real>& s) {
     }
 }
 
+template <class Real, bool damped>
+inline void run(const SpringRunArgs<Real>& s) {
+    for (int first = 0; first < s.n; first += slice) {
+        const int n = s.n - first < slice ? s.n - first : slice;
+        if (s.offset >= n)
+            runSlice<Real, damped, true>(s, first, n);
+        else
+            runSlice<Real, damped, false>(s, first, n);
+    }
+}
+
 template <class Real>
 inline void runAny(const SpringRunArgs<Real>& s) {
-    const bool damped = s.tau != Real(0);
-    if (s.scratch != nullptr) {
-        if (damped)
-            run<Real, true, true>(s);
-        else
-            run<Real, false, true>(s);
-    } else {
-        if (damped)
-            run<Real, true, false>(s);
-        else
-            run<Real, false, false>(s);
-    }
+    if (s.tau != Real(0))
+        run<Real, true>(s);
+    else
+        run<Real, false>(s);
 }
 
 // Gathers a batch into planar buffers, computes it side by side, scatters it spring by spring in order.
@@ -104,35 +115,66 @@ inline void list(const SpringListArgs<Real>& s) {
         const Real *k = s.k + first, *rest = s.restLength + first, *tau = s.tau + first;
         TAUT_INDEPENDENT
         for (int i = 0; i < n; ++i) {
-            const Real pull = factor<Real, true>(d[0][i], d[1][i], d[2][i], u[0][i], u[1][i], u[2][i], k[i], rest[i],
-                                                 tau[i]);
+            const Real pull =
+                factor<Real, true>(d[0][i], d[1][i], d[2][i], u[0][i], u[1][i], u[2][i], k[i], rest[i], tau[i]);
             d[0][i] *= pull;
             d[1][i] *= pull;
             d[2][i] *= pull;
         }
         for (int p = 0; p < 3; ++p) {
-            Real *fa = s.fa + static_cast<long>(p) * s.stride, *fb = s.fb + static_cast<long>(p) * s.strideB;
+            Real* f = s.f + static_cast<long>(p) * s.windowStride;
             for (int i = 0; i < n; ++i) {
-                fa[a[i]] += d[p][i];
-                fb[b[i] - s.firstB] -= d[p][i];
+                f[a[i] - s.windowFirst] += d[p][i];
+                f[b[i] - s.windowFirst] -= d[p][i];
             }
         }
     }
 }
 
-template <class Real>
-inline void scale(int n, const Real* inverseMass, Real* f) {
+template <class Real, bool pushed>
+inline void accelerate(const AccelerationArgs<Real>& s) {
+    const long externalStride = pushed ? s.externalStride : 0;
+    const Real *ex = s.external, *ey = ex + externalStride, *ez = ey + externalStride;
+    Real *fx = s.f, *fy = fx + s.windowStride, *fz = fy + s.windowStride;
+    const Real* inverseMass = s.inverseMass;
+    const Real gx = s.uniform[0], gy = s.uniform[1], gz = s.uniform[2];
     TAUT_INDEPENDENT
-    for (int i = 0; i < n; ++i) f[i] *= inverseMass[i];
+    for (int i = 0; i < s.n; ++i) {
+        const Real w = inverseMass[i];
+        const Real free = w > Real(0) ? Real(1) : Real(0);
+        fx[i] = (pushed ? fx[i] + ex[i] : fx[i]) * w + free * gx;
+        fy[i] = (pushed ? fy[i] + ey[i] : fy[i]) * w + free * gy;
+        fz[i] = (pushed ? fz[i] + ez[i] : fz[i]) * w + free * gz;
+    }
+}
+
+template <class Real>
+inline void accelerateAny(const AccelerationArgs<Real>& s) {
+    if (s.external != nullptr)
+        accelerate<Real, true>(s);
+    else
+        accelerate<Real, false>(s);
 }
 
 }  // namespace
 
-void springRunFloat(const SpringRunArgs<float>& s) { runAny(s); }
-void springRunDouble(const SpringRunArgs<double>& s) { runAny(s); }
-void springListFloat(const SpringListArgs<float>& s) { list(s); }
-void springListDouble(const SpringListArgs<double>& s) { list(s); }
-void scaleFloat(int n, const float* inverseMass, float* f) { scale(n, inverseMass, f); }
-void scaleDouble(int n, const double* inverseMass, double* f) { scale(n, inverseMass, f); }
+void springRunFloat(const SpringRunArgs<float>& s) {
+    runAny(s);
+}
+void springRunDouble(const SpringRunArgs<double>& s) {
+    runAny(s);
+}
+void springListFloat(const SpringListArgs<float>& s) {
+    list(s);
+}
+void springListDouble(const SpringListArgs<double>& s) {
+    list(s);
+}
+void accelerateFloat(const AccelerationArgs<float>& s) {
+    accelerateAny(s);
+}
+void accelerateDouble(const AccelerationArgs<double>& s) {
+    accelerateAny(s);
+}
 
 }  // namespace taut::mechanics::TAUT_ISA

@@ -3,46 +3,57 @@
 
 namespace taut::mechanics {
 
+// Forces live in a window of three planes, points of the network in three planes of another stride.
+
 // n springs of one kind: spring i joins points i and i + offset of the planes.
 template <class Real>
 struct SpringRunArgs {
     int n;
-    int offset;       // > 0
-    int stride;       // of x, v and fa
-    int strideB;      // of fb
-    const Real* x;    // planes at the run's first point a [m]
-    const Real* v;    // likewise [m/s]
-    Real* fa;         // forces at the first point a [N]
-    Real* fb;         // forces at the first point b [N]
-    const Real* k;    // (n) stiffness [N/m]
-    Real restLength;  // [m]
-    Real tau;         // damping time [s]
-    Real* scratch;    // (3 n) when fa and fb overlap, else nullptr
+    int offset;        // > 0
+    int stride;        // of x and v
+    int windowStride;  // of f
+    const Real* x;     // planes at the run's first point a [m]
+    const Real* v;     // likewise [m/s]
+    Real* f;           // likewise, added to [N]
+    const Real* k;     // (n) stiffness [N/m]
+    Real restLength;   // [m]
+    Real tau;          // damping time [s]
 };
 
-// n springs between any points; fb is fa unless the b sides go elsewhere.
+// n springs between any points.
 template <class Real>
 struct SpringListArgs {
     int n;
     int stride;
-    int strideB;
-    const Real* x;
-    const Real* v;
-    Real* fa;              // forces, indexed by a
-    Real* fb;              // forces, indexed by b - firstB
-    int firstB;
-    const int* a;          // (n)
-    const int* b;          // (n)
-    const Real* k;         // (n) [N/m]
+    int windowStride;
+    int windowFirst;         // point at the window's start
+    const Real* x;           // planes from point 0
+    const Real* v;           // likewise
+    Real* f;                 // planes of the window
+    const int* a;            // (n)
+    const int* b;            // (n)
+    const Real* k;           // (n) [N/m]
     const Real* restLength;  // (n) [m]
-    const Real* tau;       // (n) [s]
+    const Real* tau;         // (n) [s]
+};
+
+// From forces to accelerations of n points: a = (f + external)/m + uniform for free points, 0 for held ones.
+template <class Real>
+struct AccelerationArgs {
+    int n;
+    const Real* inverseMass;  // (n) [1/kg], 0 if held
+    Real uniform[3];          // [m/s²]
+    const Real* external;     // planes [N], or nullptr
+    int externalStride;
+    Real* f;  // planes, from forces [N] to accelerations [m/s²]
+    int windowStride;
 };
 
 template <class Real>
 struct SpringKernels {
     void (*run)(const SpringRunArgs<Real>&);
     void (*list)(const SpringListArgs<Real>&);
-    void (*scale)(int n, const Real* inverseMass, Real* f);  // f[i] *= inverseMass[i]
+    void (*accelerate)(const AccelerationArgs<Real>&);
 };
 
 // For the instruction set in use.

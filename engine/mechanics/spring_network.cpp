@@ -33,7 +33,7 @@ class Builder {
         cutBlocks(bodies);
         shareOut(springs);
         cutChunks();
-        for (std::size_t c = 0; c < network_.chunks.size(); ++c) fillChunk(network_.chunks[c]);
+        for (std::size_t i = 0; i < network_.blocks.size(); ++i) fill(network_.blocks[i], sorted_[i]);
     }
 
   private:
@@ -92,34 +92,23 @@ class Builder {
         }
     }
 
-    void fillChunk(SpringChunk& chunk) {
-        for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) {
-            SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
-            block.firstRun = static_cast<int>(network_.runs.size());
-            inner_.clear();
-            crossing_.clear();
-            const std::vector<Sorted>& list = sorted_[static_cast<std::size_t>(i)];
-            for (std::size_t from = 0; from < list.size();) from = takeRun(list, from, chunk);
-            block.lastRun = static_cast<int>(network_.runs.size());
-            block.firstSingle = network_.singles.size();
-            for (const Sorted& s : inner_) addSingle(s);
-            block.lastSingle = block.firstCrossing = network_.singles.size();
-            for (const Sorted& s : crossing_) addSingle(s);
-            block.lastCrossing = network_.singles.size();
-        }
+    void fill(SpringBlock& block, const std::vector<Sorted>& list) {
+        block.firstRun = static_cast<int>(network_.runs.size());
+        block.firstSingle = network_.singles.size();
+        for (std::size_t from = 0; from < list.size();) from = takeRun(list, from);
+        block.lastRun = static_cast<int>(network_.runs.size());
+        block.lastSingle = network_.singles.size();
     }
 
     // Collects the longest run from `from` on; returns where the next begins.
-    std::size_t takeRun(const std::vector<Sorted>& list, std::size_t from, SpringChunk& chunk) {
+    std::size_t takeRun(const std::vector<Sorted>& list, std::size_t from) {
         const int offset = std::get<0>(list[from].key);
-        const bool crossing = list[from].a + offset >= chunk.lastPoint;
         std::size_t to = from + 1;
         while (to < list.size() && list[to].key == list[from].key && list[to].a > list[to - 1].a &&
-               list[to].a - list[to - 1].a - 1 <= longestBridge &&
-               (list[to].a + offset >= chunk.lastPoint) == crossing)
+               list[to].a - list[to - 1].a - 1 <= longestBridge)
             ++to;
         if (static_cast<int>(to - from) < shortestRun) {
-            for (std::size_t i = from; i < to; ++i) (crossing ? crossing_ : inner_).push_back(list[i]);
+            for (std::size_t i = from; i < to; ++i) addSingle(list[i]);
             return to;
         }
         SpringRun<Real> run{};
@@ -128,12 +117,10 @@ class Builder {
         run.count = list[to - 1].a - run.a + 1;
         run.restLength = static_cast<Real>(std::get<1>(list[from].key));
         run.tau = static_cast<Real>(std::get<2>(list[from].key));
-        run.crossing = crossing;
         std::vector<Real> table(static_cast<std::size_t>(run.count), Real(0));
         for (std::size_t i = from; i < to; ++i)
             table[static_cast<std::size_t>(list[i].a - run.a)] = static_cast<Real>(list[i].k);
         run.table = tableAt(table);
-        chunk.longestRun = std::max(chunk.longestRun, run.count);
         network_.runs.push_back(run);
         return to;
     }
@@ -156,7 +143,6 @@ class Builder {
     SpringNetwork<Real>& network_;
     int points_;
     std::vector<std::vector<Sorted>> sorted_;  // (blocks)
-    std::vector<Sorted> inner_, crossing_;
     std::map<std::vector<Real>, int> tables_;
 };
 

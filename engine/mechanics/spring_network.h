@@ -21,25 +21,22 @@ namespace taut::mechanics {
 struct SpringBlock {
     int firstPoint, lastPoint;
     int firstRun, lastRun;
-    int firstSingle, lastSingle;            // within the chunk
-    int firstCrossing, lastCrossing;        // singles whose b lies in the next chunk
-    int reach;                              // one past the highest point touched
+    int firstSingle, lastSingle;
+    int reach;  // one past the highest point touched
 };
 struct SpringChunk {
     int firstBlock, lastBlock;
     int firstPoint, lastPoint;
-    int spill;     // points after lastPoint that its springs touch
-    int longestRun;
+    int spill;  // points after lastPoint that its springs touch
 };
 
 template <class Real>
 struct SpringRun {
-    int a;         // first point
-    int offset;    // b - a
+    int a;       // first point
+    int offset;  // b - a
     int count;
-    int table;     // where its stiffnesses begin in `stiffness`
+    int table;  // where its stiffnesses begin in `stiffness`
     Real restLength, tau;
-    bool crossing;  // all its b lie in the next chunk
 };
 
 template <class Real>

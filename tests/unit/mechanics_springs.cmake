@@ -1,0 +1,5 @@
+list(APPEND TAUT_UNIT_TESTS
+  mechanics_mass_spring_system_test.cpp
+  mechanics_spring_kernel_test.cpp
+  mechanics_spring_network_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::mechanics taut::ode)

@@ -38,9 +38,8 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
         program.set("sheen", finish.sheen);
         program.set("mark", itemMark(i));
         if (finish.pattern == view::Pattern::image) {
-            const GLuint texture = textures_.texture(finish.texture);
-            gl_->ActiveTexture(GL_TEXTURE0 + pictureUnit);
-            gl_->BindTexture(GL_TEXTURE_2D, texture);
+            gl_->ActiveTexture(GL_TEXTURE0 + pictureUnit);  // reading a picture binds it too
+            gl_->BindTexture(GL_TEXTURE_2D, textures_.texture(finish.texture));
         }
         if (surface.twoSided) {
             gl_->Disable(GL_CULL_FACE);

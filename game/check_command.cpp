@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "game/commands.h"
+#include "game/messages.h"
 #include "game/scene_file.h"
 #include "world/world.h"
 
@@ -28,7 +29,7 @@ int check(const CheckFlags& flags) {
             printWarnings(built.warnings());
             fmt::print("{}: ok\n", spec.file);
         } catch (const core::Error& error) {
-            fmt::print(stderr, "{}\n", error.what());
+            printError(error);
             if (code == core::ExitCode::ok) code = error.code();
         }
     }

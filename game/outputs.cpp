@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <iostream>
+#include <system_error>
 
 #include "core/error.h"
 #include "image/frame_sequence.h"
@@ -15,10 +16,11 @@ namespace {
 
 // The first file that would be overwritten; empty when there is none.
 std::filesystem::path firstExisting(const std::filesystem::path& output, std::int64_t first, std::int64_t last) {
-    if (image::isVideoPath(output)) return std::filesystem::exists(output) ? output : std::filesystem::path();
+    std::error_code ignored;  // a folder that may not be looked into is reported when it is written to
+    if (image::isVideoPath(output)) return std::filesystem::exists(output, ignored) ? output : std::filesystem::path();
     const image::FramePattern pattern(output);
     for (std::int64_t frame = first; frame <= last; ++frame)
-        if (std::filesystem::exists(pattern.pathOf(frame))) return pattern.pathOf(frame);
+        if (std::filesystem::exists(pattern.pathOf(frame), ignored)) return pattern.pathOf(frame);
     return {};
 }
 

@@ -8,11 +8,13 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "core/error.h"
 #include "game/commands.h"
 #include "game/folders.h"
+#include "game/messages.h"
 #include "game/suggestion.h"
 
 namespace taut::game {
@@ -83,10 +85,11 @@ int runAction(const Action& action) {
             throw core::Error(core::ExitCode::inputOutput, "cannot write to standard output");
         return code;
     } catch (const core::Error& error) {
-        // Faults of a file come as FILE:LINE:COLUMN, which editors understand at the start of a line only.
-        const char* prefix = error.code() == core::ExitCode::badContent ? "" : "taut: ";
-        fmt::print(stderr, "{}{}\n", prefix, error.what());
+        printError(error);
         return codeOf(error.code());
+    } catch (const std::system_error& error) {  // of files and threads
+        fmt::print(stderr, "taut: {}\n", error.what());
+        return codeOf(core::ExitCode::inputOutput);
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "taut: there is not enough memory for this\n");
         return codeOf(core::ExitCode::badContent);

@@ -15,6 +15,7 @@
 #include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
+#include "game/messages.h"
 #include "game/outputs.h"
 #include "game/progress.h"
 #include "game/scene_file.h"

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <system_error>
 
 #include "core/error.h"
 #include "game/folders.h"
+#include "game/messages.h"
 #include "game/suggestion.h"
 #include "scene/load.h"
 
@@ -13,15 +14,18 @@ namespace taut::game {
 
 std::filesystem::path sceneFile(const std::string& argument) {
     const std::filesystem::path given(argument);
-    if (std::filesystem::is_regular_file(given)) return given;
-    if (std::filesystem::is_directory(given) && argument.find('/') != std::string::npos)
-        throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: this is a folder, not a scene file", argument));
-    if (argument.find('/') != std::string::npos)
-        throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: there is no such scene file", argument));
-
+    std::error_code ignored;  // a file that may not be looked at is reported when it is read
+    if (std::filesystem::is_regular_file(given, ignored)) return given;
+    const bool hasFolder = argument.find('/') != std::string::npos;
     const std::string name = given.extension() == ".toml" ? given.stem().string() : argument;
     const std::filesystem::path shipped = assetFolder() / "scenes" / (name + ".toml");
-    if (!name.empty() && std::filesystem::is_regular_file(shipped)) return shipped;
+    if (!hasFolder && !name.empty() && std::filesystem::is_regular_file(shipped, ignored)) return shipped;
+
+    if (std::filesystem::is_directory(given, ignored))
+        throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: this is a folder, not a scene file", argument));
+    if (std::filesystem::exists(given, ignored) || ignored == std::errc::permission_denied) return given;
+    if (hasFolder)
+        throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: there is no such scene file", argument));
     const std::vector<std::string> scenes = shippedScenes();
     const std::string hint = didYouMean(name, scenes);
     throw core::Error(core::ExitCode::inputOutput,
@@ -38,12 +42,6 @@ world::SceneSpec readScene(const std::string& argument, const std::vector<std::s
     scene::Loaded loaded = scene::loadScene(sceneFile(argument), options);
     printWarnings(loaded.warnings);
     return std::move(loaded.spec);
-}
-
-void printWarnings(const std::vector<std::string>& warnings) {
-    // Those about a place in a file name it first and say themselves what they are.
-    for (const std::string& warning : warnings)
-        fmt::print(stderr, "{}{}\n", warning.find("warning: ") == std::string::npos ? "taut: warning: " : "", warning);
 }
 
 }  // namespace taut::game

@@ -17,6 +17,4 @@ std::filesystem::path sceneFile(const std::string& argument);
 // a scene that needs more memory than the machine can give.
 world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides);
 
-void printWarnings(const std::vector<std::string>& warnings);
-
 }  // namespace taut::game

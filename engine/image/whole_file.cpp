@@ -27,12 +27,13 @@ void prepareFolderOf(const std::filesystem::path& path) {
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error && !std::filesystem::is_directory(folder)) failOn(folder, "cannot make the folder", error.value());
+    if (std::error_code other; error && !std::filesystem::is_directory(folder, other))
+        failOn(folder, "cannot make the folder", error.value());
     const WholeFile probe(path);
 }
 
 WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)), temporary_(temporaryName(path_)) {
-    if (std::filesystem::is_directory(path_)) failOn(path_, "cannot write", EISDIR);
+    if (std::error_code error; std::filesystem::is_directory(path_, error)) failOn(path_, "cannot write", EISDIR);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0) failOn(path_, "cannot write", errno);
 }

@@ -1,0 +1,100 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "image/read.h"
+#include "image_support.h"
+
+namespace taut::game {
+namespace {
+
+using test::TemporaryFolder;
+
+// Starts the program with its results and its messages in a file.
+pid_t started(std::vector<std::string> arguments, const std::filesystem::path& messages) {
+    arguments.insert(arguments.begin(), TAUT_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0600);
+    posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+    pid_t process = -1;
+    EXPECT_EQ(posix_spawn(&process, argv[0], &files, nullptr, argv.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&files);
+    return process;
+}
+
+// Looks now and then; gives up after a time that no working program comes near.
+bool comesTrue(const std::function<bool()>& condition) {
+    for (int i = 0; i < 6000; ++i) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+int exitCodeOf(pid_t process) {
+    int status = 0;
+    ::waitpid(process, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+// A million pictures of a spring: it ends because it is asked to.
+std::filesystem::path endlessScene(const TemporaryFolder& folder) {
+    const auto path = folder / "endless.toml";
+    test::writeText(path, R"(schema = 1
+[run]
+fps = 60
+seconds = 10000
+[picture]
+size = [64, 48]
+[net.spring]
+points = [ { name = "nail", position = [0, 2, 0], hold = true }, { name = "bob", position = [0, 1, 0] } ]
+springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]
+)");
+    return path;
+}
+
+TEST(Interrupted, ProgramLeavesWholeFramesAndTheirRecord) {
+    const TemporaryFolder folder;
+    const pid_t process =
+        started({"render", endlessScene(folder).string(), "-o", (folder / "out").string()}, folder / "messages");
+    EXPECT_TRUE(comesTrue([&] { return std::filesystem::exists(folder / "out/frame_000003.png"); }));
+    ::kill(process, SIGINT);
+    EXPECT_EQ(exitCodeOf(process), 130) << test::contentOf(folder / "messages");
+    std::size_t pictures = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+        EXPECT_NE(entry.path().extension(), ".part");
+        if (entry.path().extension() != ".png") continue;
+        EXPECT_EQ(image::readImage(entry.path()).width, 64);
+        ++pictures;
+    }
+    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
+    EXPECT_EQ(json["ended"], "interrupted");
+    EXPECT_EQ(json["state_hash"].size(), pictures);
+}
+
+TEST(Interrupted, ProgramLeavesAWholeVideoWhenTerminated) {
+    const TemporaryFolder folder;
+    const pid_t process =
+        started({"render", endlessScene(folder).string(), "-o", (folder / "a.mp4").string(), "--hash", "--quiet"},
+                folder / "messages");
+    // The first hashes come out once pictures are on their way to the encoder.
+    EXPECT_TRUE(comesTrue([&] { return !test::contentOf(folder / "messages").empty(); }));
+    ::kill(process, SIGTERM);
+    EXPECT_EQ(exitCodeOf(process), 143) << test::contentOf(folder / "messages");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4.part"));
+    EXPECT_NE(test::contentOf(folder / "a.mp4").find("moov"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace taut::game

@@ -37,10 +37,7 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
         program.set("roughness", finish.roughness);
         program.set("sheen", finish.sheen);
         program.set("mark", itemMark(i));
-        if (finish.pattern == view::Pattern::image) {
-            gl_->ActiveTexture(GL_TEXTURE0 + pictureUnit);  // reading a picture binds it too
-            gl_->BindTexture(GL_TEXTURE_2D, textures_.texture(finish.texture));
-        }
+        if (finish.pattern == view::Pattern::image) textures_.bind(finish.texture);
         if (surface.twoSided) {
             gl_->Disable(GL_CULL_FACE);
         } else {

@@ -1,12 +1,17 @@
 #include "render/texture_cache.h"
 
 #include "image/read.h"
+#include "render/program.h"
 
 namespace taut::render {
 
-GLuint TextureCache::texture(const std::string& path) {
+void TextureCache::bind(const std::string& path) {
+    gl_->ActiveTexture(GL_TEXTURE0 + pictureUnit);
     const auto known = textures_.find(path);
-    if (known != textures_.end()) return known->second.id();
+    if (known != textures_.end()) {
+        gl_->BindTexture(GL_TEXTURE_2D, known->second.id());
+        return;
+    }
 
     const image::Image picture = image::readImage(path);
     GlObject texture(*gl_, GlKind::texture);
@@ -19,7 +24,7 @@ GLuint TextureCache::texture(const std::string& path) {
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
-    return textures_.emplace(path, std::move(texture)).first->second.id();
+    textures_.emplace(path, std::move(texture));
 }
 
 }  // namespace taut::render

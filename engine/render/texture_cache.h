@@ -12,9 +12,10 @@ class TextureCache {
   public:
     explicit TextureCache(const Gl& gl) : gl_(&gl) {}
 
-    // A repeating, mip-mapped sRGB texture from a PNG or JPEG file. Throws what image::readImage throws:
-    // Error(inputOutput) for a file that cannot be read, Error(badContent) for one that is no picture.
-    GLuint texture(const std::string& path);
+    // Binds a repeating, mip-mapped sRGB texture from a PNG or JPEG file to the unit of pictures. Throws what
+    // image::readImage throws: Error(inputOutput) for a file that cannot be read, Error(badContent) for one that is no
+    // picture.
+    void bind(const std::string& path);
 
   private:
     const Gl* gl_;

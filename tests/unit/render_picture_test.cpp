@@ -181,32 +181,43 @@ TEST(RenderPicture, EdgesAreAveragedAsLight) {
     }
 }
 
-TEST(RenderPicture, ImagePatternShowsThePicture) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "render_texture.png";
+// A board upright before the camera, with a texture half red, half blue.
+view::FrameView texturedView(const std::filesystem::path& file) {
     image::writePng(file, {2, 1, {255, 0, 0, 0, 0, 255}});
-    view::FrameView view;
-    view.camera.eye = {0.0F, 1.0F, 3.0F};
-    view.light.direction = {0.0F, 0.0F, -1.0F};
-    view::Surface board = surface(view::quadMesh({0.0F, 0.0F, 1.0F}, 0.5F), {0.0F, 1.0F, 0.0F}, glm::vec3(0.8F));
+    view::FrameView view = floorView();
+    view.light.direction = {0.0F, -0.5F, -1.0F};
+    view::Surface board = surface(view::quadMesh({0.0F, 0.0F, 1.0F}, 0.5F), {0.0F, 0.5F, 0.0F}, glm::vec3(0.8F));
     view::Finish finish = *board.finish;
     finish.pattern = view::Pattern::image;
     finish.repeat = 0.5F;
     finish.texture = file;
     board.finish = std::make_shared<const view::Finish>(finish);
     view.surfaces.push_back(board);
-    view.ground = view::Ground{};
-    Renderer renderer(smallOptions());
-    const image::Image picture = renderer.draw(view);
-    EXPECT_EQ(renderer.draw(view).rgb, picture.rgb);  // the file was read during the first
+    return view;
+}
+
+TEST(RenderPicture, ImagePatternShowsThePicture) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "render_texture.png";
+    const view::FrameView view = texturedView(file);
+    const image::Image picture = pictureOf(view);
     int red = 0;
     int blue = 0;
-    for (int x = 130; x < 190; ++x) {
-        const Pixel pixel = pixelAt(picture, x, 90);
+    for (float x = -0.45F; x < 0.46F; x += 0.03F) {
+        const Pixel pixel = pixelOf(picture, view.camera, {x, 0.5F, 0.0F});
         if (pixel[0] > pixel[2] + 100) ++red;
         if (pixel[2] > pixel[0] + 100) ++blue;
     }
     EXPECT_GT(red, 5);
     EXPECT_GT(blue, 5);
+    std::filesystem::remove(file);
+}
+
+TEST(RenderPicture, ReadingATextureChangesNothingElse) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "render_texture_twice.png";
+    const view::FrameView view = texturedView(file);
+    Renderer renderer(smallOptions());
+    const image::Image first = renderer.draw(view);
+    EXPECT_EQ(renderer.draw(view).rgb, first.rgb);
     std::filesystem::remove(file);
 }
 

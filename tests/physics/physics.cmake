@@ -6,7 +6,9 @@ list(APPEND TAUT_PHYSICS_TESTS
   hanging_test.cpp
   hard_cases_test.cpp
   linear_modes_test.cpp
+  network_energy_test.cpp
   network_limits_test.cpp
+  network_order_test.cpp
   oscillator_damping_test.cpp
   oscillator_energy_test.cpp
   oscillator_limits_test.cpp

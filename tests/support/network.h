@@ -55,6 +55,7 @@ class NetworkOf {
     void step(std::int64_t steps = 1) { run_->step(steps); }
     double time() const { return run_->time(); }
     Integration<Real>& run() { return *run_; }
+    ode::SecondOrderSystem<Real>& system() { return system_; }
 
     dvec3 position(int point) const { return at(run_->state.x.data(), point); }
     std::vector<dvec3> positions() const { return all(run_->state.x.data()); }

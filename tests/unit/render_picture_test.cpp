@@ -204,8 +204,8 @@ TEST(RenderPicture, ImagePatternShowsThePicture) {
     int blue = 0;
     for (float x = -0.45F; x < 0.46F; x += 0.03F) {
         const Pixel pixel = pixelOf(picture, view.camera, {x, 0.5F, 0.0F});
-        if (pixel[0] > pixel[2] + 100) ++red;
-        if (pixel[2] > pixel[0] + 100) ++blue;
+        if (pixel[0] > pixel[2] + 60) ++red;
+        if (pixel[2] > pixel[0] + 60) ++blue;
     }
     EXPECT_GT(red, 5);
     EXPECT_GT(blue, 5);

@@ -15,7 +15,7 @@ float sunlight(vec3 place, vec3 facing, bool casts) {
     const float blocks = 128.0;
     float texel = mapSize.w;
     vec3 n = mat3(toLight) * facing;
-    vec3 at = (toMap * vec4(place + facing * (casts ? texel : 0.0), 1.0)).xyz;
+    vec3 at = (toMap * vec4(place + facing * texel, 1.0)).xyz;
     vec2 bounds = textureLod(shadowBounds, at.xy, 0.0).rg;
     float depth = min(at.z, 1.0);
 
@@ -29,7 +29,7 @@ float sunlight(vec3 place, vec3 facing, bool casts) {
     bool known = clear || dark || alone;
 
     float angle = 6.2831853 * pixelNoise();
-    vec2 way = vec2(cos(angle), sin(angle));
+    vec2 way = alone ? vec2(0.8, 0.6) : vec2(cos(angle), sin(angle));  // few taps are better off without noise
     vec2 toUv = 1.0 / mapSize.xy;
     vec2 rising = slope / mapSize.z;
     float ref = at.z - 0.5 * texel / mapSize.z;

@@ -163,8 +163,8 @@ def project(distance, p):
 
 def make_dummy():
     # The grid is symmetric about x = 0 and its lines meet no flat part of the shape.
-    cell = 0.0225
-    vertices, triangles = surface_net(dummy_distance, (-20.5 * cell, 0.731, -7.5 * cell), (42, 50, 17), cell)
+    cell = 0.032
+    vertices, triangles = surface_net(dummy_distance, (-14.5 * cell, 0.727, -5.5 * cell), (30, 36, 12), cell)
     assert_watertight(vertices, triangles)
     write_obj("dummy.obj", "A tailor's dummy: torso, arms to the elbow, head. Watertight.", vertices, triangles)
     return len(vertices)
@@ -174,7 +174,7 @@ def make_dummy():
 
 
 def make_poncho():
-    hole, rim, spacing = 0.125, 0.66, 0.027
+    hole, rim, spacing = 0.125, 0.66, 0.03
     rings = round((rim - hole) / (spacing * math.sqrt(3) / 2))
     vertices, uv, triangles, first = [], [], [], []
     for r in range(rings + 1):

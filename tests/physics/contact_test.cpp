@@ -1,6 +1,7 @@
 // Points against a plane through the world: bounces, slopes, and contact that is much stiffer than what holds it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/scenes.h"

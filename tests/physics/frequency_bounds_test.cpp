@@ -1,6 +1,7 @@
 // Bounds and estimates of the fastest motion of a network, against the eigenvalues of the whole matrix.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 

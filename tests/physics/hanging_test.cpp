@@ -1,6 +1,7 @@
 // What hangs at rest: statics against theory, and the same shape at every resolution.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mechanics/builders.h"

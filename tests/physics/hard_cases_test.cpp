@@ -1,6 +1,7 @@
 // Networks at the edge of what is defined: no length, no room, no freedom, no balance of masses, not a number.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,7 @@
 // Energy of whole networks: kept without damping, lost with it, and counted right by the world.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/network.h"

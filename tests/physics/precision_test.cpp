@@ -1,6 +1,7 @@
 // Single against double precision: the same scene stays together for as long as rounding allows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/scenes.h"

@@ -1,6 +1,7 @@
 // The fastest motion of a small network from the whole stiffness matrix: what bounds and estimates are held against.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <span>

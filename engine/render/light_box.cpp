@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+#include "render/camera_axes.h"
+
 namespace taut::render {
 
 namespace {
@@ -10,16 +13,15 @@ namespace {
 // What the camera sees up to where the ground has faded away.
 Bounds seenPart(const view::FrameView& view, const glm::mat3& toLight, float aspect) {
     const view::Camera& camera = view.camera;
-    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    const glm::vec3 up = glm::cross(right, forward);
+    const CameraAxes axes = axesOf(camera);
     const float tangent = std::tan(0.5F * camera.fieldOfView);
     const float far = std::min(camera.farPlane, glm::distance(camera.eye, camera.target) + view.background.fadeEnd);
     Bounds seen;
     seen.include(toLight * camera.eye);
     for (const float x : {-1.0F, 1.0F}) {
         for (const float y : {-1.0F, 1.0F}) {
-            seen.include(toLight * (camera.eye + far * (forward + tangent * (aspect * x * right + y * up))));
+            seen.include(toLight *
+                         (camera.eye + far * (axes.forward + tangent * (aspect * x * axes.right + y * axes.up))));
         }
     }
     return seen;
@@ -54,6 +56,7 @@ Bounds Bounds::transformed(const glm::mat4& transform) const {
 }
 
 LightBox lightBox(const view::FrameView& view, std::span<const Bounds> casters, float aspect, int texels) {
+    TAUT_EXPECTS(glm::length(view.light.direction) > 0.0F);
     const glm::vec3 towards = -glm::normalize(view.light.direction);
     const glm::vec3 helper = std::abs(towards.y) < 0.99F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(0.0F, 0.0F, 1.0F);
     const glm::vec3 right = glm::normalize(glm::cross(helper, towards));

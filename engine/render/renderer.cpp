@@ -1,10 +1,10 @@
 #include "render/renderer.h"
 
-#include <glm/ext/matrix_clip_space.hpp>
-#include <glm/ext/matrix_transform.hpp>
+#include <algorithm>
 #include <numbers>
 #include <optional>
 
+#include "render/camera_axes.h"
 #include "render/context.h"
 #include "render/edge_pass.h"
 #include "render/frame_block.h"
@@ -52,9 +52,13 @@ struct Parts {
     GlObject empty;
 };
 
-glm::mat4 projectionOf(const view::Camera& camera, float aspect) {
-    return glm::perspective(camera.fieldOfView, aspect, camera.nearPlane, camera.farPlane) *
-           glm::lookAt(camera.eye, camera.target, camera.up);
+// Near things first: what they hide need not be shaded.
+void sortByDistance(std::vector<DrawItem>& items, glm::vec3 eye) {
+    const auto distance = [&](const DrawItem& item) {
+        return glm::distance(eye, glm::clamp(eye, item.bounds.low, item.bounds.high));
+    };
+    std::stable_sort(items.begin(), items.end(),
+                     [&](const DrawItem& a, const DrawItem& b) { return distance(a) < distance(b); });
 }
 
 FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, const LightBox& box, int texels,
@@ -108,7 +112,8 @@ image::Image Renderer::draw(const view::FrameView& view) {
     Parts& parts = *impl_->parts;
     const RendererOptions& options = impl_->options;
 
-    const std::vector<DrawItem> items = parts.meshes.items(view.surfaces);
+    std::vector<DrawItem> items = parts.meshes.items(view.surfaces);
+    sortByDistance(items, view.camera.eye);
     std::vector<Bounds> casters;
     for (const DrawItem& item : items) casters.push_back(item.bounds);
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
@@ -120,7 +125,7 @@ image::Image Renderer::draw(const view::FrameView& view) {
     parts.shadow.draw(items, parts.meshes, box);
     if (occlusion) parts.occlusion.draw(items, parts.meshes, *occlusion, view.ground->height);
 
-    // The picture, roughly from front to back: what is hidden need not be shaded.
+    // The picture; ground and sky last, for what is hidden need not be shaded.
     const glm::mat4 projection = projectionOf(view.camera, aspect);
     const FrameBlock block = blockOf(view, projection, box, options.shadowSize, occlusion);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts.frameBlock.id());

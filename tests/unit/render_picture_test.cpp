@@ -55,6 +55,16 @@ TEST(RenderPicture, FloorInKnownLightHasTheValueOfTheToneCurve) {
     EXPECT_NEAR(pixel[1], srgb(filmic(0.4F * (0.8F + 0.1F))), ditherStep + 0.5);
 }
 
+TEST(RenderPicture, CameraMayLookStraightDown) {
+    view::FrameView view = floorView();
+    view.light.colour = glm::vec3(0.8F * pi);
+    view.light.sky = glm::vec3(0.1F);
+    view.ground->colour = glm::vec3(0.4F);
+    view.camera.eye = {0.0F, 3.0F, 0.0F};
+    const Pixel pixel = pixelAt(pictureOf(view), 200, 120);
+    EXPECT_NEAR(pixel[1], srgb(filmic(0.4F * (0.8F + 0.1F))), ditherStep + 0.5);
+}
+
 TEST(RenderPicture, ShadowLiesWhereTheLightSaysItDoes) {
     view::FrameView view = floorView();
     view.light.direction = {1.0F, -1.0F, 0.0F};  // a metre high is a metre to the right

@@ -1,0 +1,19 @@
+// The directions of a camera, also of one that looks along its own up direction. Pure geometry.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "view/frame_view.h"
+
+namespace taut::render {
+
+struct CameraAxes {
+    glm::vec3 right, up, forward;  // unit, at right angles
+};
+
+CameraAxes axesOf(const view::Camera& camera);
+
+// World to clip coordinates. `aspect` is width / height of the picture.
+glm::mat4 projectionOf(const view::Camera& camera, float aspect);
+
+}  // namespace taut::render

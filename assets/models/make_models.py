@@ -80,7 +80,7 @@ def dummy_distance(p):
             ellipsoid(p, (0.0, 1.10, 0.0), (0.126, 0.16, 0.095)),  # waist
             ellipsoid(p, (0.0, 1.27, 0.004), (0.165, 0.17, 0.115)),  # chest
             capsule(p, (0.0, 1.405, -0.004), (0.165, 1.385, -0.004), 0.058, 0.055),  # shoulders
-            capsule(p, (0.185, 1.375, -0.002), (0.36, 1.10, 0.01), 0.05, 0.036),  # arm down to the elbow
+            capsule(p, (0.185, 1.375, -0.002), (0.36, 1.10, 0.01), 0.056, 0.046),  # arm down to the elbow
             capsule(p, (0.0, 1.40, -0.008), (0.0, 1.58, 0.004), 0.056, 0.05),  # neck
         ],
         0.07,
@@ -163,8 +163,8 @@ def project(distance, p):
 
 def make_dummy():
     # The grid is symmetric about x = 0 and its lines meet no flat part of the shape.
-    cell = 0.032
-    vertices, triangles = surface_net(dummy_distance, (-14.5 * cell, 0.727, -5.5 * cell), (30, 36, 12), cell)
+    cell = 0.029
+    vertices, triangles = surface_net(dummy_distance, (-16.5 * cell, 0.727, -5.5 * cell), (34, 38, 12), cell)
     assert_watertight(vertices, triangles)
     write_obj("dummy.obj", "A tailor's dummy: torso, arms to the elbow, head. Watertight.", vertices, triangles)
     return len(vertices)
@@ -174,7 +174,7 @@ def make_dummy():
 
 
 def make_poncho():
-    hole, rim, spacing = 0.125, 0.66, 0.03
+    hole, rim, spacing = 0.125, 0.66, 0.033
     rings = round((rim - hole) / (spacing * math.sqrt(3) / 2))
     vertices, uv, triangles, first = [], [], [], []
     for r in range(rings + 1):

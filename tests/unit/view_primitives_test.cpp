@@ -20,8 +20,8 @@ void expectSolid(const Mesh& mesh, float expectedVolume, float relativeTolerance
     ASSERT_EQ(mesh.geometry->positions.size(), mesh.topology->uv.size());
     EXPECT_EQ(openEdges(*mesh.topology, *mesh.geometry), 0);
     EXPECT_LT(normalLengthError(*mesh.geometry), unitTolerance);
-    // A facet leans from the surface by at most half a step: 64 steps a turn, 16 a turn on a box's edges (its
-    // corners' facets lean a little more); 0.9 is the cosine of 26 degrees.
+    // A facet leans from the surface by at most half a step: 20 to 64 steps a turn, 16 a turn on a box's
+    // edges (its corners' facets lean a little more); 0.9 is the cosine of 26 degrees.
     EXPECT_GT(leastAgreement(*mesh.topology, *mesh.geometry), 0.9F);
     EXPECT_NEAR(volume(*mesh.topology, *mesh.geometry), expectedVolume, relativeTolerance * expectedVolume);
 }
@@ -50,31 +50,40 @@ TEST(ViewPrimitives, SphereIsClosedAndFacesOutwards) {
     }
 }
 
+TEST(ViewPrimitives, SmallSpheresHaveFewerTriangles) {
+    const Mesh large = sphereMesh(0.5F);
+    const Mesh small = sphereMesh(0.05F);
+    EXPECT_LT(small.topology->triangles.size(), large.topology->triangles.size() / 5);
+    // Twenty corners a turn: 1.6 % less area than the circle, the meridian as much less again.
+    expectSolid(small, 4.0F / 3.0F * pi * 0.000125F, 0.04F);
+    expectExtent(small, glm::vec3(0.05F));
+}
+
 TEST(ViewPrimitives, CylinderIsClosedAndFacesOutwards) {
-    const Mesh mesh = cylinderMesh(0.3F, 1.0F);
+    const Mesh mesh = cylinderMesh(0.6F, 1.0F);
     // The rounded rim takes away less than 0.1 %.
-    expectSolid(mesh, pi * 0.09F, 0.004F);
-    expectExtent(mesh, {0.3F, 0.5F, 0.3F});
+    expectSolid(mesh, pi * 0.36F, 0.004F);
+    expectExtent(mesh, {0.6F, 0.5F, 0.6F});
 }
 
 TEST(ViewPrimitives, ConeStandsOnItsBaseWithTheTipUp) {
-    const Mesh mesh = coneMesh(0.4F, 0.8F);
+    const Mesh mesh = coneMesh(0.6F, 0.8F);
     // The rounded rim takes away under 1 % of the volume.
-    expectSolid(mesh, pi * 0.16F * 0.8F / 3.0F, 0.015F);
+    expectSolid(mesh, pi * 0.36F * 0.8F / 3.0F, 0.015F);
     EXPECT_EQ(mesh.geometry->positions.back(), glm::vec3(0.0F, 0.4F, 0.0F));
     EXPECT_EQ(mesh.geometry->positions.front(), glm::vec3(0.0F, -0.4F, 0.0F));
 }
 
 TEST(ViewPrimitives, CapsuleIsTwoHalfSpheresAndACylinder) {
-    const Mesh mesh = capsuleMesh(0.2F, 0.6F);
-    expectSolid(mesh, pi * 0.04F * 0.6F + 4.0F / 3.0F * pi * 0.008F, 0.005F);
-    expectExtent(mesh, {0.2F, 0.5F, 0.2F});
+    const Mesh mesh = capsuleMesh(0.5F, 0.6F);
+    expectSolid(mesh, pi * 0.25F * 0.6F + 4.0F / 3.0F * pi * 0.125F, 0.005F);
+    expectExtent(mesh, {0.5F, 0.8F, 0.5F});
 }
 
 TEST(ViewPrimitives, CapsuleWithoutHeightIsASphere) {
-    const Mesh mesh = capsuleMesh(0.2F, 0.0F);
-    expectSolid(mesh, 4.0F / 3.0F * pi * 0.008F, 0.005F);
-    expectExtent(mesh, glm::vec3(0.2F));
+    const Mesh mesh = capsuleMesh(0.5F, 0.0F);
+    expectSolid(mesh, 4.0F / 3.0F * pi * 0.125F, 0.005F);
+    expectExtent(mesh, glm::vec3(0.5F));
 }
 
 TEST(ViewPrimitives, BoxWithSharpEdgesHasTwelveTriangles) {

@@ -13,9 +13,15 @@ namespace taut::view {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr int turnSteps = 64;   // corners of a circle: at a radius of 300 px the polygon stays within 0.4 px
 constexpr int roundSteps = 4;   // steps of a rounded edge's quarter turn
 constexpr float bevel = 0.03F;  // rounding of the rims of cylinders and cones, as a part of the smaller size
+
+// Corners of a circle, a multiple of four: as far as a shape is seen from its own size away or more, a polygon of these
+// many corners stays within half a pixel. Small things are many; their triangles would cost more than their pixels.
+int turnSteps(float radius) {
+    const float wanted = 64.0F * std::sqrt(radius / 0.5F);
+    return 4 * static_cast<int>(std::ceil(std::clamp(wanted, 20.0F, 64.0F) / 4.0F));
+}
 
 // One corner of the outline that a surface of revolution is made of, seen in the half plane (distance, height).
 struct ProfilePoint {
@@ -50,13 +56,14 @@ Mesh revolved(const std::vector<ProfilePoint>& profile) {
     float along = 0.0F;
     float widest = 0.0F;
     for (const ProfilePoint& point : profile) widest = std::max(widest, point.at.x);
+    const int steps = turnSteps(widest);
     for (std::size_t row = 0; row < profile.size(); ++row) {
         const auto& [at, normal] = profile[row];
         if (row > 0) along += glm::distance(at, profile[row - 1].at);
         const float distance = at.x > 1e-6F * widest ? at.x : 0.0F;
-        for (int i = 0; i <= turnSteps; ++i) {
-            const float part = static_cast<float>(i) / static_cast<float>(turnSteps);
-            const float angle = 2.0F * pi * static_cast<float>(i % turnSteps) / static_cast<float>(turnSteps);
+        for (int i = 0; i <= steps; ++i) {
+            const float part = static_cast<float>(i) / static_cast<float>(steps);
+            const float angle = 2.0F * pi * static_cast<float>(i % steps) / static_cast<float>(steps);
             const float x = std::cos(angle);
             const float z = -std::sin(angle);
             geometry.positions.emplace_back(distance * x, at.y, distance * z);
@@ -64,9 +71,9 @@ Mesh revolved(const std::vector<ProfilePoint>& profile) {
             topology.uv.emplace_back(2.0F * pi * widest * part, along);
         }
     }
-    const auto stride = static_cast<std::uint32_t>(turnSteps + 1);
+    const auto stride = static_cast<std::uint32_t>(steps + 1);
     for (std::uint32_t row = 0; row + 1 < profile.size(); ++row) {
-        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(turnSteps); ++i) {
+        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(steps); ++i) {
             const std::uint32_t a = row * stride + i;
             appendTriangle(topology, geometry, a, a + 1, a + stride + 1);
             appendTriangle(topology, geometry, a, a + stride + 1, a + stride);
@@ -133,7 +140,7 @@ void appendBoxSide(Topology& topology, Geometry& geometry, glm::vec3 halfSize, f
 Mesh sphereMesh(float radius) {
     TAUT_EXPECTS(radius > 0.0F);
     std::vector<ProfilePoint> profile;
-    appendArc(profile, {0.0F, 0.0F}, radius, -0.5F * pi, 0.5F * pi, turnSteps / 2);
+    appendArc(profile, {0.0F, 0.0F}, radius, -0.5F * pi, 0.5F * pi, turnSteps(radius) / 2);
     return revolved(profile);
 }
 
@@ -184,9 +191,9 @@ Mesh capsuleMesh(float radius, float height) {
     TAUT_EXPECTS(radius > 0.0F && height >= 0.0F);
     const float half = 0.5F * height;
     std::vector<ProfilePoint> profile;
-    appendArc(profile, {0.0F, -half}, radius, -0.5F * pi, 0.0F, turnSteps / 4);
+    appendArc(profile, {0.0F, -half}, radius, -0.5F * pi, 0.0F, turnSteps(radius) / 4);
     if (height == 0.0F) profile.pop_back();
-    appendArc(profile, {0.0F, half}, radius, 0.0F, 0.5F * pi, turnSteps / 4);
+    appendArc(profile, {0.0F, half}, radius, 0.0F, 0.5F * pi, turnSteps(radius) / 4);
     return revolved(profile);
 }
 

@@ -2,29 +2,15 @@
 
 #include <algorithm>
 
-namespace taut::game {
+#include "core/edit_distance.h"
 
-int editDistance(const std::string& a, const std::string& b) {
-    // cost[i][j]: from the first i letters of a to the first j of b.
-    std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = static_cast<int>(i);
-    for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = static_cast<int>(j);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const int replace = cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            cost[i][j] = std::min({replace, cost[i - 1][j] + 1, cost[i][j - 1] + 1});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
-        }
-    }
-    return cost[a.size()][b.size()];
-}
+namespace taut::game {
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates) {
     const std::string* best = nullptr;
     int least = 1 + std::max(1, static_cast<int>(word.size()) / 3);
     for (const std::string& candidate : candidates) {
-        const int distance = editDistance(word, candidate);
+        const int distance = core::editDistance(word, candidate);
         if (distance < least) {
             least = distance;
             best = &candidate;

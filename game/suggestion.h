@@ -6,9 +6,6 @@
 
 namespace taut::game {
 
-// How many letters must be inserted, removed, replaced or swapped with their neighbour to turn one word into the other.
-int editDistance(const std::string& a, const std::string& b);
-
 // "; did you mean X?" with the nearest candidate, or nothing when none is near: at most one change in three letters.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
 

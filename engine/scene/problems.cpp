@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/edit_distance.h"
+
 namespace taut::scene {
 
 namespace {
@@ -48,23 +50,6 @@ std::string printable(std::string text) {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
     }
     return text;
-}
-
-// Number of insertions, deletions, replacements and swaps of neighbours from one word to the other.
-int editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = static_cast<int>(i);
-    for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = static_cast<int>(j);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const int replace = cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, replace});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-                cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
-            }
-        }
-    }
-    return cost[a.size()][b.size()];
 }
 
 std::string lowerCase(std::string_view word) {
@@ -136,7 +121,7 @@ std::string likelyWord(std::string_view word, const std::vector<std::string>& ca
         if (candidate.size() > 60) continue;
         const bool isStem = word.size() >= 2 && candidate.starts_with(lower + "_");
         const bool isStart = word.size() >= 3 && candidate.starts_with(lower);
-        const int distance = isStem ? 1 : std::min(editDistance(lower, lowerCase(candidate)), isStart ? 2 : 60);
+        const int distance = isStem ? 1 : std::min(core::editDistance(lower, lowerCase(candidate)), isStart ? 2 : 60);
         if (distance < bestDistance && distance < static_cast<int>(std::max(word.size(), candidate.size()))) {
             best = candidate;
             bestDistance = distance;

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <utility>
 
+#include "core/edit_distance.h"
 #include "core/error.h"
 #include "game/interruption.h"
 #include "game/progress.h"
@@ -41,12 +42,12 @@ TEST(Flags, SizeIsWidthAndHeight) {
 }
 
 TEST(Suggestion, DistanceCountsInsertionsRemovalsReplacementsAndSwaps) {
-    EXPECT_EQ(editDistance("flag", "flag"), 0);
-    EXPECT_EQ(editDistance("flag", "flags"), 1);
-    EXPECT_EQ(editDistance("flag", "fag"), 1);
-    EXPECT_EQ(editDistance("flag", "flog"), 1);
-    EXPECT_EQ(editDistance("flag", "falg"), 1);
-    EXPECT_EQ(editDistance("", "abc"), 3);
+    EXPECT_EQ(core::editDistance("flag", "flag"), 0);
+    EXPECT_EQ(core::editDistance("flag", "flags"), 1);
+    EXPECT_EQ(core::editDistance("flag", "fag"), 1);
+    EXPECT_EQ(core::editDistance("flag", "flog"), 1);
+    EXPECT_EQ(core::editDistance("flag", "falg"), 1);
+    EXPECT_EQ(core::editDistance("", "abc"), 3);
 }
 
 TEST(Suggestion, NearestIsOfferedAndFarOnesAreNot) {

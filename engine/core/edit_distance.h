@@ -1,0 +1,11 @@
+// How far apart two words are: what a "did you mean" is found by.
+#pragma once
+
+#include <string_view>
+
+namespace taut::core {
+
+// How many letters must be inserted, removed, replaced or swapped with their neighbour to turn one word into the other.
+int editDistance(std::string_view a, std::string_view b);
+
+}  // namespace taut::core

@@ -155,7 +155,8 @@ int render(const RenderFlags& flags) {
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, options, spec.run.fps);
     const core::ThreadLimit threads(flags.threads);
     world::World world(spec, {.threads = flags.threads});
-    printWarnings(world.warnings());
+    const std::vector<std::string> foreseen = world.warnings();
+    printWarnings(foreseen);
 
     pipeline::Draw draw;
     std::unique_ptr<render::Renderer> renderer;
@@ -175,6 +176,9 @@ int render(const RenderFlags& flags) {
         const auto info = renderer ? std::optional(renderer->info()) : std::nullopt;
         writeRecords(*sink, flags, pipeline::runJson(spec, world, request, pipeline::machine(), info, result), result);
     }
+    std::vector<std::string> met = world.warnings();  // such as a block squashed flat on the way
+    std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
+    printWarnings(met);
     if (!flags.quiet) printSummary(flags, result);
     if (result.divergence) throw core::Error(core::ExitCode::diverged, result.divergence->message);
     return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));

@@ -50,14 +50,21 @@ void ShadowPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, 
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
     gl_->DepthMask(GL_TRUE);
-    gl_->Disable(GL_CULL_FACE);
     gl_->ClearDepth(1.0);
     gl_->Clear(GL_DEPTH_BUFFER_BIT);
     depth_.use();
     for (const DrawItem& item : items) {
+        // Of closed things the sides towards the light are enough.
+        if (item.surface->twoSided) {
+            gl_->Disable(GL_CULL_FACE);
+        } else {
+            gl_->Enable(GL_CULL_FACE);
+        }
         depth_.set("toMap", box.toMap * item.surface->transform);
         meshes.drawShape(item);
     }
+
+    gl_->Disable(GL_CULL_FACE);
 
     // Least and largest depth: of each block, then of its neighbourhood.
     gl_->Disable(GL_DEPTH_TEST);

@@ -73,7 +73,7 @@ void MarksPass::appendQuad(const Corner& a, const Corner& b, const Corner& c, co
     triangles_.insert(triangles_.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
 }
 
-void MarksPass::draw(const view::FrameView& view, const glm::mat4& viewProjection, int width, int height) {
+void MarksPass::collect(const view::FrameView& view, const glm::mat4& viewProjection, int width, int height) {
     quads_.clear();
     triangles_.clear();
     const float pixel = static_cast<float>(height) / 720.0F;
@@ -113,8 +113,11 @@ void MarksPass::draw(const view::FrameView& view, const glm::mat4& viewProjectio
         };
         appendQuad(corner(-1.0F, -1.0F), corner(1.0F, -1.0F), corner(1.0F, 1.0F), corner(-1.0F, 1.0F));
     }
-    if (quads_.empty()) return;
+}
 
+void MarksPass::draw(const view::FrameView& view, const glm::mat4& viewProjection, int width, int height) {
+    collect(view, viewProjection, width, height);
+    if (quads_.empty()) return;
     gl_->BindVertexArray(layout_.id());
     gl_->BindBuffer(GL_ARRAY_BUFFER, corners_.id());
     gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(quads_.size() * sizeof(Corner)), quads_.data(),

@@ -22,6 +22,7 @@ class MarksPass {
         glm::vec3 colour;
         glm::vec3 shape;
     };
+    void collect(const view::FrameView& view, const glm::mat4& viewProjection, int width, int height);
     void appendQuad(const Corner& a, const Corner& b, const Corner& c, const Corner& d);
 
     const Gl* gl_;

@@ -47,7 +47,7 @@ struct Surface {
     std::shared_ptr<const Geometry> geometry;
     std::shared_ptr<const Finish> finish;
     glm::mat4 transform{1.0F};
-    bool twoSided = false;
+    bool twoSided = false;  // a cloth; anything else is closed, or is seen and lit from its front only
 };
 
 struct Camera {

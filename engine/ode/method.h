@@ -58,6 +58,7 @@ struct MethodInfo {
     int storedArrays;         // of the size of x, besides x and v
     bool symplectic;
     bool reversible;
+    std::string_view caution;  // what its limit does not promise; empty when it does
     // Largest stable h [s]; 0 when every h is unstable, infinite when none is.
     double (*largestStep)(const FastestMode& mode);
 };

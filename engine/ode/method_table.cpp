@@ -8,9 +8,10 @@ namespace taut::ode {
 namespace {
 
 constexpr std::array table{
-    MethodInfo{"euler", "explicit Euler", 1, 1, 2, false, false, explicitEulerLargestStep},
-    MethodInfo{"leapfrog", "leap-frog", 2, 1, 1, true, true, leapfrogLargestStep},
-    MethodInfo{"velocity-verlet", "velocity Verlet", 2, 1, 3, true, true, leapfrogLargestStep},
+    MethodInfo{"euler", "explicit Euler", 1, 1, 2, false, false,
+               "motion that no dashpot damps, such as swinging, grows at every step", explicitEulerLargestStep},
+    MethodInfo{"leapfrog", "leap-frog", 2, 1, 1, true, true, "", leapfrogLargestStep},
+    MethodInfo{"velocity-verlet", "velocity Verlet", 2, 1, 3, true, true, "", leapfrogLargestStep},
 };
 
 template <class Real>

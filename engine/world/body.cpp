@@ -212,6 +212,11 @@ Body buildBody(const NetSpec& spec) {
     return body;
 }
 
+void startBody(Body& body) {
+    holdPoints(body);
+    setInMotion(body);
+}
+
 std::vector<Body*> pointersTo(std::vector<Body>& bodies) {
     std::vector<Body*> pointers;
     for (Body& body : bodies) pointers.push_back(&body);
@@ -235,10 +240,7 @@ std::vector<Body> buildBodies(const SceneSpec& spec) {
     for (const NetSpec& s : spec.nets) addArray(bodies, s, [](const NetSpec& n) { return buildBody(n); });
     std::sort(bodies.begin(), bodies.end(), sortsBefore);
     addMasses(bodies, spec);
-    for (Body& body : bodies) {
-        holdPoints(body);
-        setInMotion(body);
-    }
+    for (Body& body : bodies) startBody(body);
     return bodies;
 }
 

@@ -39,11 +39,15 @@ std::vector<Body> buildBodies(const SceneSpec& spec);
 // The order of the state hash: by kind and name, row.2 before row.10.
 bool sortsBefore(const Body& a, const Body& b);
 
-// One body of each kind, for spawning: the spec as written, arrays not expanded.
+// One body of each kind, for spawning: at rest and free, arrays not expanded; startBody does the rest.
 Body buildBody(const ClothSpec& spec, const std::map<std::string, MaterialSpec>& materials);
 Body buildBody(const RopeSpec& spec);
 Body buildBody(const BlockSpec& spec);
 Body buildBody(const NetSpec& spec);
+
+// Holds the points that its spec names and gives the others their starting velocity and jitter. Throws
+// core::Error(badContent) where `hold` names nothing.
+void startBody(Body& body);
 
 // "file:line:column: error: " of a source, or less when it has none.
 std::string at(const Source& source);

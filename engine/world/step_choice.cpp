@@ -88,6 +88,9 @@ StepChoice chooseStep(const IslandPlan& plan, const mechanics::StabilityShare& s
                                               choice.limitingSpring + "; soften it, give its points more mass, or use fewer cells");
     choice.substeps = std::max(1, static_cast<int>(substeps));
     choice.step = tickSeconds / choice.substeps;
+    if (!method->caution.empty())
+        choice.warnings.push_back(body.fullName() + ": " + std::string(method->title) + ": " +
+                                  std::string(method->caution));
     warnOverLimit(plan, *method, choice, limitHere);
     return choice;
 }

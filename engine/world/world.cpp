@@ -106,6 +106,7 @@ void World::Impl::rebuildColliders() {
 }
 
 ecs::Entity World::Impl::spawn(Body body) {
+    startBody(body);
     const ecs::Entity entity = addBody(std::make_unique<Body>(std::move(body)));
     Body* added = registry.find<BodyPart>(entity)->body.get();
     SceneSpec alone;  // the joints of the scene do not concern it

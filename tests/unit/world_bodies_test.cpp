@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "support/scenes.h"
+#include "support/small_scenes.h"
 
 namespace taut::world {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "support/scenes.h"
+#include "support/small_scenes.h"
 #include "world/island_plan.h"
 #include "world/world.h"
 

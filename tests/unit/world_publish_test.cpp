@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "support/scenes.h"
+#include "support/small_scenes.h"
 #include "world/drawing.h"
 #include "world/world.h"
 

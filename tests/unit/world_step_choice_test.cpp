@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "support/scenes.h"
+#include "support/small_scenes.h"
 #include "world/world.h"
 
 namespace taut::world {

@@ -1,0 +1,42 @@
+// Small scenes built in code, for tests of the world.
+#pragma once
+
+#include <string>
+
+#include "world/spec.h"
+
+namespace taut::support {
+
+inline world::ClothSpec cloth(const std::string& name, int cells = 8) {
+    world::ClothSpec spec;
+    spec.name = name;
+    spec.cells = {cells, cells};
+    spec.origin = {0.0, 2.0, 0.0};
+    return spec;
+}
+
+inline world::RopeSpec rope(const std::string& name, world::dvec3 start, world::dvec3 end, int segments = 10) {
+    world::RopeSpec spec;
+    spec.name = name;
+    spec.start = start;
+    spec.end = end;
+    spec.segments = segments;
+    return spec;
+}
+
+inline world::ColliderSpec ball(const std::string& name, world::dvec3 position, double radius) {
+    world::ColliderSpec spec;
+    spec.name = name;
+    spec.position = position;
+    spec.radius = radius;
+    return spec;
+}
+
+inline world::ColliderSpec ground() {
+    world::ColliderSpec spec;
+    spec.name = "ground";
+    spec.shape = "plane";
+    return spec;
+}
+
+}  // namespace taut::support

@@ -9,8 +9,8 @@
 namespace taut::world {
 namespace {
 
-constexpr int tubeSides = 12;
-constexpr int tubeSubdivisions = 3;
+constexpr int tubeSides = 10;
+constexpr int tubeSubdivisions = 2;
 
 float linear(double c) { return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4)); }
 

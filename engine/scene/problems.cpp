@@ -25,6 +25,13 @@ std::string_view lineOf(std::string_view text, int line) {
     return text.substr(0, text.find('\n'));
 }
 
+// Whether the first byte of a character announces as many bytes as there are.
+bool isWholeCharacter(const std::string& bytes) {
+    const auto lead = static_cast<unsigned char>(bytes[0]);
+    const std::size_t length = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+    return bytes.size() == length;
+}
+
 // The source line fit to print, and the caret's indent in characters.
 std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
     // Split into characters; a byte that continues one belongs to the character before.
@@ -37,6 +44,8 @@ std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
             characters.emplace_back(1, c == '\t' ? ' ' : byte < 0x20 || byte == 0x7F ? '?' : c);
         }
     }
+    for (std::string& character : characters)
+        if (!isWholeCharacter(character)) character = "?";
     const std::size_t caret = column > 0 ? static_cast<std::size_t>(column) - 1 : 0;
     const std::size_t first = caret > maxWidth - 20 ? caret - maxWidth / 2 : 0;
     std::string shown;

@@ -297,11 +297,7 @@ def poncho_colour(u, v):
 
 
 def flag_colour(u, v):
-    """Blue between red: a coil spring carries a golden weight. The flag shows two thirds of the square.
-
-    A grid of cloth counts v from its top, pictures are laid with v upwards: hence the turned v.
-    """
-    v = 1.0 - v
+    """Blue between red: a coil spring carries a golden weight. The flag shows the upper two thirds of the square."""
     blue, white, gold, red = map(hex_colour, ("#163a6b", "#f3efe4", "#e6a823", "#c8372d"))
     middle, top, bottom, turns, half = 0.5, 0.12, 0.38, 5, 0.085
 

@@ -41,12 +41,35 @@ class RopeDrawing final : public BodyDrawing {
     std::shared_ptr<const view::Topology> topology_;
 };
 
+// The block's own axes, so that a pattern lies along its edges however it starts.
+struct BlockAxes {
+    BlockAxes() = default;
+    explicit BlockAxes(const mechanics::Model& model) {
+        const auto centre = [&](const char* group) {
+            glm::dvec3 sum(0.0);
+            for (int i : model.groups.at(group)) sum += model.positions[static_cast<std::size_t>(i)];
+            return sum / static_cast<double>(model.groups.at(group).size());
+        };
+        static constexpr const char* ends[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
+        for (int a = 0; a < 3; ++a) axes[a] = glm::normalize(centre(ends[a][1]) - centre(ends[a][0]));
+    }
+    // The two coordinates along a side, from the positions before anything moves [m].
+    glm::vec2 across(const mechanics::Model& model, int point, int side) const {
+        const glm::dvec3 x = transpose(axes) * model.positions[static_cast<std::size_t>(point)];
+        if (side < 2) return {x.z, x.y};
+        if (side < 4) return {x.x, x.z};
+        return {x.x, x.y};
+    }
+    glm::dmat3 axes{1.0};  // columns
+};
+
 // Cloth, and the skin of a block. A block's faces get vertices of their own, so that its edges stay edges.
 class SkinDrawing final : public BodyDrawing {
   public:
     explicit SkinDrawing(const Body& body)
         : name_(body.fullName()), twoSided_(body.kind == Body::Kind::cloth), finish_(finishOf(body.common.finish)) {
         auto topology = std::make_shared<view::Topology>();
+        const BlockAxes axes = twoSided_ ? BlockAxes{} : BlockAxes(body.model);
         std::map<std::pair<int, int>, std::uint32_t> vertexOf;  // (point, side of the block)
         for (const std::array<int, 3>& triangle : body.model.triangles) {
             const int side = twoSided_ ? 0 : sideOf(body.model, triangle);
@@ -55,8 +78,7 @@ class SkinDrawing final : public BodyDrawing {
                     vertexOf.try_emplace({point, side}, static_cast<std::uint32_t>(points_.size()));
                 if (isNew) {
                     points_.push_back(point);
-                    topology->uv.push_back(twoSided_ ? glm::vec2(body.model.uv[static_cast<std::size_t>(point)])
-                                                     : across(body.model, point, side));
+                    topology->uv.push_back(twoSided_ ? along(body.model, point) : axes.across(body.model, point, side));
                 }
                 topology->triangles.push_back(entry->second);
             }
@@ -90,12 +112,10 @@ class SkinDrawing final : public BodyDrawing {
         }
         return 0;
     }
-    // The two coordinates along a side, from the positions before anything moves [m].
-    static glm::vec2 across(const mechanics::Model& model, int point, int side) {
-        const glm::dvec3 x = model.positions[static_cast<std::size_t>(point)];
-        if (side < 2) return {x.z, x.y};
-        if (side < 4) return {x.x, x.z};
-        return {x.x, x.y};
+    // Pictures are laid with v upwards; a grid counts it downwards from its top.
+    static glm::vec2 along(const mechanics::Model& model, int point) {
+        const glm::vec2 uv(model.uv[static_cast<std::size_t>(point)]);
+        return model.grid[0] > 0 ? glm::vec2(uv.x, -uv.y) : uv;
     }
 
     std::string name_;

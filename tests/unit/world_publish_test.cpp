@@ -77,6 +77,36 @@ TEST(Publish, ColoursBecomeLinear) {
     EXPECT_EQ(linearColour({0.5, 0.04045, 1.0}).z, 1.0F);
 }
 
+TEST(Publish, APatternLiesAlongTheEdgesOfATurnedBlock) {
+    const auto spread = [](dvec3 rotation) {
+        SceneSpec scene;
+        BlockSpec spec;
+        spec.name = "b";
+        spec.size = {0.4, 0.4, 0.4};
+        spec.rotation = rotation;
+        scene.blocks = {spec};
+        const view::FrameView view = World(scene).view(false);
+        glm::vec2 low(1e9F), high(-1e9F);
+        for (const glm::vec2& uv : surface(view, "block.b")->topology->uv) {
+            low = glm::min(low, uv);
+            high = glm::max(high, uv);
+        }
+        return high - low;
+    };
+    EXPECT_NEAR(spread({0.0, 0.0, 0.0}).x, 0.4F, 1e-6F);
+    EXPECT_NEAR(spread({0.5, 0.6, 0.7}).x, 0.4F, 1e-6F);
+    EXPECT_NEAR(spread({0.5, 0.6, 0.7}).y, 0.4F, 1e-6F);
+}
+
+TEST(Publish, APictureStandsUprightOnAGridOfCloth) {
+    SceneSpec scene;
+    scene.cloths = {support::cloth("a", 4)};
+    const view::FrameView view = World(scene).view(false);
+    const view::Surface& cloth = *surface(view, "cloth.a");
+    for (std::size_t i = 0; i < cloth.geometry->positions.size(); ++i)  // v grows upwards, as positions do
+        EXPECT_NEAR(cloth.topology->uv[i].y, cloth.geometry->positions[i].y - 2.0F, 1e-6F);
+}
+
 TEST(Publish, ABlockShowsSixSidesWithEdges) {
     SceneSpec scene;
     BlockSpec spec;

@@ -8,7 +8,7 @@
 namespace taut::world {
 namespace {
 
-constexpr double fullStrain = 0.05;  // strain that the debug view draws in full colour
+constexpr double fullStrain = 0.02;  // strain that the debug view draws in full colour
 
 // Blue when compressed, grey at rest, red when stretched.
 glm::vec3 strainColour(double strain) {
@@ -25,11 +25,15 @@ void addMarks(const Island& island, view::Marks& marks) {
         const double l = std::sqrt(glm::dot(b - a, b - a));
         marks.lines.push_back({glm::vec3(a), glm::vec3(b), strainColour(s.restLength > 0 ? l / s.restLength - 1.0 : 0.0)});
     }
-    for (std::size_t i = 0; i < plan.points.size(); ++i)
-        marks.dots.push_back({glm::vec3(island.position(static_cast<int>(i))),
-                              plan.points[i].held ? glm::vec3(0.95F, 0.75F, 0.05F) : glm::vec3(0.02F), 2.0F});
+    for (std::size_t i = 0; i < plan.points.size(); ++i) {
+        const glm::vec3 at(island.position(static_cast<int>(i)));
+        if (plan.points[i].held)
+            marks.dots.push_back({at, glm::vec3(0.95F, 0.75F, 0.05F), 3.0F});
+        else
+            marks.dots.push_back({at, glm::vec3(0.02F), 0.8F});
+    }
     for (const collision::Contact& contact : island.contacts())
-        marks.dots.push_back({glm::vec3(contact.position), glm::vec3(0.1F, 0.85F, 0.2F), 4.0F});
+        marks.dots.push_back({glm::vec3(contact.position), glm::vec3(0.1F, 0.85F, 0.2F), 2.5F});
 }
 
 view::Light lightOf(const LightSpec& spec) {

@@ -21,7 +21,6 @@ struct World::Impl {
     int ticksPerFrame = 1;
     std::int64_t tick = 0;
     std::uint64_t hash = 0;
-    std::vector<std::string> warnings;
 
     Impl(const SceneSpec& scene, const Options& options);
 

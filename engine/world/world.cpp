@@ -85,7 +85,6 @@ IslandForces World::Impl::forces() {
 void World::Impl::addIsland(IslandPlan plan) {
     plan.solver.precision = spec.solver.precision;
     islands.push_back(makeIsland(std::move(plan), forces(), ticksPerSecond, seconds()));
-    for (const std::string& warning : islands.back()->warnings()) warnings.push_back(warning);
 }
 
 ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {

@@ -30,6 +30,8 @@ struct Golden {
     std::string name() const { return scene + (debug ? "_debug_" : "_") + std::to_string(frame); }
 };
 
+void PrintTo(const Golden& golden, std::ostream* out) { *out << golden.name(); }
+
 nlohmann::json manifest() {
     std::ifstream file(folder / "manifest.json");
     return nlohmann::json::parse(file);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,6 +59,10 @@ void checkFlags(const RenderFlags& flags) {
     if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
     if (!flags.video.empty() && !image::isVideoPath(flags.video))
         fail("--video: the name must end in .mp4, .mov or .mkv");
+    std::error_code ignored;
+    if (!flags.video.empty() && std::filesystem::weakly_canonical(flags.video, ignored) ==
+                                    std::filesystem::weakly_canonical(flags.output, ignored))
+        fail("-o and --video name the same file");
     if (flags.output.empty() && !flags.noPictures)
         fail("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
     if (flags.output.empty() && flags.metrics) fail("--metrics writes a file beside the output: add -o");
@@ -103,7 +108,13 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pi
         sinks.push_back(makeSink(output, fps));
     }
     if (sinks.empty()) return nullptr;
-    return std::make_unique<image::SeveralSinks>(std::move(sinks));
+    auto sink = std::make_unique<image::SeveralSinks>(std::move(sinks));
+    if (overwrite == Overwrite::no)  // the records belong to the run: asked for or not, they are not replaced
+        for (const char* record : {"run.json", "metrics.csv"})
+            if (std::filesystem::exists(sink->companion(record)) && (flags.metrics || record == std::string("run.json")))
+                throw core::Error(core::ExitCode::inputOutput,
+                                  fmt::format("{} exists already", sink->companion(record).string()));
+    return sink;
 }
 
 ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps) {

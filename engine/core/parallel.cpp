@@ -29,4 +29,11 @@ struct ThreadLimit::Impl {
 ThreadLimit::ThreadLimit(int threads) : impl_(threads > 0 ? std::make_unique<Impl>(threads) : nullptr) {}
 ThreadLimit::~ThreadLimit() = default;
 
+void ThreadLimit::run(const std::function<void()>& task) {
+    if (impl_)
+        impl_->arena.execute(task);
+    else
+        task();
+}
+
 }  // namespace taut::core

@@ -9,11 +9,16 @@ namespace taut::core {
 // Calls task(0) … task(count - 1), each once, in any order and on any thread; returns when all are done.
 void parallelFor(int count, const std::function<void(int)>& task);
 
-// Limits how many threads parallelFor uses in the whole process while it lives; 0 leaves it to the machine.
+// How many threads parallelFor uses: at most that many in the whole process while a limit lives, and that many, even
+// if the machine has fewer processors, within its run(). 0 leaves it to the machine.
 class ThreadLimit {
   public:
     explicit ThreadLimit(int threads);
     ~ThreadLimit();
+
+    // Calls the task with that many threads at its disposal, and returns when it is done.
+    void run(const std::function<void()>& task);
+
     ThreadLimit(const ThreadLimit&) = delete;
     ThreadLimit& operator=(const ThreadLimit&) = delete;
 

@@ -36,6 +36,7 @@ struct World::Impl {
     ecs::Entity spawn(Body body);
     void placeColliders();
     std::vector<ColliderMotion> movingColliders();
+    void undoTick();
     void updateHash();
     Island& islandOf(const Body& body) const;
 };

@@ -59,10 +59,13 @@ class IslandOf final : public Island {
             method_->step(system_, time.at(s, choice_.substeps), choice_.step, state_);
             if (!isBounded()) return giveUp(time.at(s + 1, choice_.substeps));
             if (collides) collide(moving, s);
+            if (!contacts_.empty() && !isBounded()) return giveUp(time.at(s + 1, choice_.substeps));
         }
         watchVolumes(time.at(choice_.substeps, choice_.substeps));
         return std::nullopt;
     }
+
+    void undoTick() override { copyState(good_, state_); }
 
     const IslandPlan& plan() const override { return plan_; }
     double step() const override { return choice_.step; }
@@ -153,7 +156,7 @@ class IslandOf final : public Island {
         return bad == 0;
     }
 
-    Fault giveUp(double t) {
+    Fault giveUp(double t) const {
         Fault fault;
         fault.time = t;
         double fastest = -1;
@@ -170,7 +173,6 @@ class IslandOf final : public Island {
                 fault.point = i;
             }
         }
-        copyState(good_, state_);
         return fault;
     }
 

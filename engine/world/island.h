@@ -66,9 +66,11 @@ class Island {
     // Each island has colliders of its own: with other substeps they are elsewhere.
     virtual void setColliders(collision::Colliders colliders) = 0;
 
-    // substeps steps of leap-frog or whichever method; contacts of the last step are kept. On a fault the state of
-    // the tick before is put back.
+    // substeps steps of leap-frog or whichever method; contacts of the last step are kept. Ends early on a fault.
     virtual std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving) = 0;
+
+    // Puts the state back that the last tick began with.
+    virtual void undoTick() = 0;
 
     virtual const IslandPlan& plan() const = 0;
     virtual double step() const = 0;  // [s]

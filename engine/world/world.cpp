@@ -75,7 +75,7 @@ IslandForces World::Impl::forces() {
             any = any || !on.points.empty();
             if (!on.points.empty()) forces.anchors.push_back(std::move(on));
         }
-        if (!any)
+        if (!any && tick == 0)  // later it may have gone with its body
             throw core::Error(core::ExitCode::badContent,
                               at(anchor.source) + "target = \"" + anchor.target + "\" names no point");
     });
@@ -143,6 +143,12 @@ std::vector<ColliderMotion> World::Impl::movingColliders() {
     return moving;
 }
 
+// Everything as it was when the tick began.
+void World::Impl::undoTick() {
+    for (const auto& island : islands) island->undoTick();
+    registry.each<Placement>([](ecs::Entity, Placement& placement) { placement.to = placement.from; });
+}
+
 void World::Impl::updateHash() {
     core::Hash next;
     next.add(hash);
@@ -181,12 +187,17 @@ std::optional<Divergence> World::advance() {
         system(*this, static_cast<double>(w.tick + 1) / w.ticksPerSecond, tickSeconds());
     const std::vector<ColliderMotion> moving = w.movingColliders();
     std::vector<std::optional<Fault>> faults(w.islands.size());
-    core::parallelFor(static_cast<int>(w.islands.size()), [&](int i) {
-        const auto k = static_cast<std::size_t>(i);
-        faults[k] = w.islands[k]->tick(now, moving);
+    w.threads.run([&] {
+        core::parallelFor(static_cast<int>(w.islands.size()), [&](int i) {
+            const auto k = static_cast<std::size_t>(i);
+            faults[k] = w.islands[k]->tick(now, moving);
+        });
     });
     for (std::size_t i = 0; i < faults.size(); ++i)
-        if (faults[i]) return w.islands[i]->diagnose(*faults[i], now);
+        if (faults[i]) {
+            w.undoTick();
+            return w.islands[i]->diagnose(*faults[i], now);
+        }
     ++w.tick;
     w.updateHash();
     return std::nullopt;

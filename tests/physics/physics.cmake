@@ -14,3 +14,5 @@ list(APPEND TAUT_PHYSICS_TESTS
   oscillator_limits_test.cpp
   precision_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode)
+list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp)
+list(APPEND TAUT_PHYSICS_LINKS taut::scene)

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -26,6 +29,26 @@ TEST(ParallelFor, NestsAndTakesNothing) {
 
 TEST(ParallelFor, HandsOnAnException) {
     EXPECT_THROW(parallelFor(16, [](int i) { if (i == 7) throw std::runtime_error("seven"); }), std::runtime_error);
+}
+
+TEST(ThreadLimit, SevenThreadsAreMoreThanTheMachineMayHave) {
+    ThreadLimit limit(7);
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    limit.run([&] {
+        // Each task waits for a third thread to come, long enough for one to be started on a busy machine.
+        parallelFor(7, [&](int) {
+            for (int waited = 0; waited < 2000; ++waited) {
+                {
+                    const std::lock_guard lock(mutex);
+                    seen.insert(std::this_thread::get_id());
+                    if (seen.size() >= 3) return;
+                }
+                std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            }
+        });
+    });
+    EXPECT_GE(seen.size(), 3U);
 }
 
 TEST(ThreadLimit, OneThreadRunsEverythingOnTheCaller) {

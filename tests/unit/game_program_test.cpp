@@ -1,7 +1,10 @@
 #include "game/program.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -75,6 +78,45 @@ TEST(Program, UnknownWordsAreUsageErrorsWithASuggestion) {
     EXPECT_EQ(run({"render", "flag", "--threads", "0", "-o", "x.mp4"}).code, 2);
     EXPECT_TRUE(has(run({"render", "flag"}).err, "-o out/frame_######.png"));
     EXPECT_TRUE(has(run({"render", "flag", "-o", "a.png"}).err, "a_######.png"));
+}
+
+TEST(Program, OutputsThatCannotBeMeantAreUsageErrors) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string(), video = (folder / "a.mp4").string();
+    const Outcome twice = run({"render", scene, "-o", video, "--video", video});
+    EXPECT_EQ(twice.code, 2);
+    EXPECT_TRUE(has(twice.err, "name the same file")) << twice.err;
+    const Outcome gif = run({"render", scene, "-o", (folder / "a.gif").string()});
+    EXPECT_EQ(gif.code, 2);
+    EXPECT_TRUE(has(gif.err, ".mp4, .mov or .mkv")) << gif.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.gif"));
+}
+
+TEST(Program, NeverOverwritingSparesTheRecordOfTheRunToo) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string(), frames = (folder / "f_######.png").string();
+    EXPECT_EQ(run({"render", scene, "-o", frames, "--frames", "0-1", "--quiet"}).code, 0);
+    const Outcome again = run({"render", scene, "-o", frames, "--frames", "2-3", "-n"});
+    EXPECT_EQ(again.code, 6);
+    EXPECT_TRUE(has(again.err, "run.json exists already")) << again.err;
+}
+
+TEST(Program, WithoutAGlContextItIsExitCodeSevenAndTellsWhatWasTried) {
+    const TemporaryFolder folder;
+    // A vendor folder that is empty leaves EGL without any implementation.
+    const std::string command = "__EGL_VENDOR_LIBRARY_DIRS=" + folder.path().string() + " " TAUT_PROGRAM " render " +
+                                springScene(folder).string() + " -o " + (folder / "f_######.png").string() +
+                                " --gl egl 2>" + (folder / "said").string();
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 7);
+    EXPECT_TRUE(has(test::contentOf(folder / "said"), "egl")) << test::contentOf(folder / "said");
+}
+
+TEST(Program, DoctorTellsOfEverythingTheProgramNeeds) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"doctor"});
+    for (const char* word : {"ffmpeg", "osmesa", "egl", "avx2", "shaders"})
+        EXPECT_TRUE(has(outcome.out, word)) << word << " in " << outcome.out;
+    EXPECT_EQ(outcome.code, 0);
 }
 
 TEST(Program, MissingSceneIsExitCodeSix) {

@@ -1,5 +1,6 @@
 list(APPEND TAUT_UNIT_TESTS
   pipeline_queue_test.cpp
   pipeline_run_test.cpp
+  pipeline_self_test_test.cpp
   pipeline_stages_test.cpp)
-list(APPEND TAUT_UNIT_LINKS taut::pipeline)
+list(APPEND TAUT_UNIT_LINKS taut::pipeline taut::render)

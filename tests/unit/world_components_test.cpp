@@ -123,6 +123,22 @@ TEST(Components, ASpawnedBodyIsHeldAndMovesAsItsSpecSays) {
     EXPECT_NEAR(world.positions(rope)[10].z, 0.3, 0.03);  // a tenth of a second at 3 m/s, before the rope turns it much
 }
 
+TEST(Components, AnAnchorMayLoseItsBody) {
+    SceneSpec scene;
+    scene.ropes = {support::rope("a", {0, 3, 0}, {1, 3, 0})};
+    AnchorSpec anchor;
+    anchor.name = "hand";
+    anchor.target = "rope.a@start";
+    anchor.at = {0, 3, 0};
+    scene.anchors = {anchor};
+    World world(scene);
+    run(world, 3);
+    world.destroy(named(world, "rope.a"));
+    const ecs::Entity late = world.spawn(support::rope("b", {0, 3, 0}, {1, 3, 0}));
+    run(world, 3);
+    EXPECT_LT(world.positions(late)[0].y, 3.0);
+}
+
 TEST(Components, SpawningIsTheSameInEveryRun) {
     const auto hash = [](int threads) {
         SceneSpec scene;

@@ -32,6 +32,23 @@ TEST(Divergence, StopsTheRunAndKeepsTheLastGoodState) {
     });
 }
 
+TEST(Divergence, PutsEveryIslandBackToTheSameTick) {
+    SceneSpec scene = tooLongAStep();
+    scene.ropes = {support::rope("calm", {5, 3, 0}, {6, 3, 0}, 4)};
+    scene.ropes[0].solver.dt = 1e-4;
+    World world(scene);
+    const auto heightOfRope = [&] {
+        double y = 0;
+        world.registry().each<Identity, BodyPart>([&](ecs::Entity entity, const Identity& identity, const BodyPart&) {
+            if (identity.kind == "rope") y = world.positions(entity)[0].y;
+        });
+        return y;
+    };
+    double before = heightOfRope();
+    while (!world.advance()) before = heightOfRope();
+    EXPECT_EQ(heightOfRope(), before);
+}
+
 TEST(Divergence, SaysWhatWhereAndWhatWouldHold) {
     World world(tooLongAStep());
     std::optional<Divergence> divergence;

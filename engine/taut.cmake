@@ -3,6 +3,8 @@
 add_library(taut_options INTERFACE)
 target_compile_options(taut_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror>
+  # With sanitizers g++ 12 takes variables of the standard library for uninitialised.
+  $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<CONFIG:Asan>>:-Wno-maybe-uninitialized>
   # Same bits everywhere: no fused multiply-add unless the source says so, never fast-math.
   # The two others change no value; without them loops with a square root do not vectorise.
   -ffp-contract=off -fno-math-errno -fno-trapping-math)

@@ -20,15 +20,21 @@ class Leapfrog final : public Method<Real> {
   public:
     void start(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
         prepare(system, h, state.layout);
+        system.prescribe(t, state.x.data(), state.v.data());
         state.memory.assign(1, state.v);
         HalfStepBack back(*this, static_cast<Real>(h), system.dragRates(), state);
         system.accelerate(t, state.x.data(), state.memory[0].data(), back);
+        system.prescribe(t - 0.5 * h, nullptr, state.v.data());
+        ++this->work_.evaluations;
     }
 
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
         if (h != h_) prepare(system, h, state.layout);
         Update update(*this, static_cast<Real>(h), state);
         system.accelerate(t, state.x.data(), state.memory[0].data(), update);
+        system.prescribe(t + h, state.x.data(), state.memory[0].data());
+        system.prescribe(t + 0.5 * h, nullptr, state.v.data());
+        ++this->work_.evaluations;
     }
 
     // v_n = ½(v⁻ + v⁺): the v⁺ that the next step will find.
@@ -36,6 +42,8 @@ class Leapfrog final : public Method<Real> {
         if (h != h_) prepare(system, h, state.layout);
         Centre centre(*this, state, v);
         system.accelerate(t, state.x.data(), state.memory[0].data(), centre);
+        system.prescribe(t, nullptr, v);
+        ++this->work_.evaluations;
     }
 
     // After a contact nothing is known of the velocity half a step ahead: the new one stands for it.

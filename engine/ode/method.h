@@ -1,6 +1,7 @@
 // A method that takes a second-order system from t to t + h. It knows no physics: only flat arrays.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -22,6 +23,20 @@ struct State {
     std::vector<core::AlignedArray<Real>> memory;  // what else the method keeps, sized by start()
 };
 
+// What a run has cost so far.
+struct Work {
+    std::int64_t evaluations = 0;  // of the acceleration, those to start and to synchronise included
+    std::int64_t iterations = 0;   // of a solver: one product with the stiffness each
+    std::int64_t unconverged = 0;  // solves that did not reach their tolerance
+};
+
+// How methods that solve equations go about it; the others have no use for it.
+struct MethodOptions {
+    int newtonSteps = 1;       // >= 1 linear solves a step; the first alone is Baraff and Witkin's method
+    double tolerance = 1e-5;   // of a solve, residual over right-hand side; single precision stops at 1e-6
+    int maxIterations = 1000;  // of a solve
+};
+
 template <class Real>
 class Method {
   public:
@@ -39,28 +54,39 @@ class Method {
 
     // Tells that the x and v of these points were changed after the step, by a contact.
     virtual void touch(State<Real>& state, std::span<const int> points) = 0;
+
+    virtual Work work() const { return work_; }
+
+  protected:
+    Work work_;
 };
 
 // The fastest motion of a system, as a bound: what limits the step.
 struct FastestMode {
-    double omega = 0;  // ω [1/s], stiffness over mass
-    double tau = 0;    // [s] dashpots c = τ k
-    double rate = 0;   // [1/s] other explicit damping: wind, anchors
-    double drag = 0;   // [1/s] smallest drag rate γ of a free point
+    double omega = 0;        // ω [1/s], stiffness over mass
+    double tau = 0;          // [s] dashpots c = τ k
+    double rate = 0;         // [1/s] other explicit damping: wind, anchors
+    double drag = 0;         // [1/s] smallest drag rate γ of a free point
+    double largestDrag = 0;  // [1/s] largest of them
 };
 
 // What a person should know of a method before choosing it.
 struct MethodInfo {
-    std::string_view name;    // as scenes write it
-    std::string_view title;   // as texts write it
-    int order;                // of convergence
-    int evaluations;          // of the acceleration, a step
-    int storedArrays;         // of the size of x, besides x and v
+    std::string_view name;   // as scenes write it
+    std::string_view title;  // as texts write it
+    int order;               // of convergence
+    int evaluations;         // of the acceleration, a step
+    int storedArrays;        // of the size of x, besides x and v
     bool symplectic;
     bool reversible;
+    bool isFirstOrder;         // integrates any y' = f(t, y); else it needs x'' = a
+    std::string_view limit;    // largest stable z = ω h in words, for a damping ratio ζ
     std::string_view caution;  // what its limit does not promise; empty when it does
     // Largest stable h [s]; 0 when every h is unstable, infinite when none is.
     double (*largestStep)(const FastestMode& mode);
+    // h [s] that may be taken without asking: the largest stable one or, of methods that let undamped motion grow at
+    // every step, one at which it grows slowly.
+    double (*automaticStep)(const FastestMode& mode);
 };
 
 }  // namespace taut::ode

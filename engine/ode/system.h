@@ -13,6 +13,8 @@ class System {
     virtual std::size_t size() const = 0;
     // dydt (size) from t and y (size).
     virtual void derivative(double t, const Real* y, Real* dydt) = 0;
+    // Overwrites what is given at t instead of integrated.
+    virtual void prescribe(double, Real*) {}
 };
 
 // The layout of second-order unknowns: `planes` coordinates, each an array of `stride` numbers of which the first
@@ -43,6 +45,9 @@ class SecondOrderSystem {
     // Evaluates a_el at (t, x, v) and hands it to the sink range by range, each point once, perhaps from several
     // threads. When a range is handed over nothing reads its x and v any more: the sink may overwrite them.
     virtual void accelerate(double t, const Real* x, const Real* v, AccelerationSink<Real>& sink) = 0;
+    // Overwrites positions and velocities of points that are moved by hand with those of t; either may be null. Such
+    // points have no acceleration. Methods call it for every time at which they ask for accelerations.
+    virtual void prescribe(double, Real*, Real*) {}
 };
 
 // Shows a second-order system as a first-order one: y = (x planes, v planes), y' = (v, a_el - γ v).
@@ -58,6 +63,7 @@ class FirstOrderView final : public System<Real> {
         Store store(layout, system_.dragRates(), y + half, dydt + half);
         system_.accelerate(t, y, y + half, store);
     }
+    void prescribe(double t, Real* y) override { system_.prescribe(t, y, y + system_.layout().size()); }
 
   private:
     class Store final : public AccelerationSink<Real> {
@@ -67,8 +73,7 @@ class FirstOrderView final : public System<Real> {
         void take(int first, int last, const Real* const* a) override {
             for (int p = 0; p < layout_.planes; ++p) {
                 const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(p) * layout_.stride;
-                for (int i = first; i < last; ++i)
-                    out_[plane + i] = a[p][i - first] - drag_[i] * v_[plane + i];
+                for (int i = first; i < last; ++i) out_[plane + i] = a[p][i - first] - drag_[i] * v_[plane + i];
             }
         }
 

@@ -18,8 +18,7 @@ inline void leapfrog(int n, const Real* a, const Real* keep, const Real* gain, R
 
 }  // namespace
 
-void leapfrogFloat(int n, const float* a, const float* keep, const float* gain, float h, float* x, float* v,
-                   float* w) {
+void leapfrogFloat(int n, const float* a, const float* keep, const float* gain, float h, float* x, float* v, float* w) {
     leapfrog(n, a, keep, gain, h, x, v, w);
 }
 void leapfrogDouble(int n, const double* a, const double* keep, const double* gain, double h, double* x, double* v,

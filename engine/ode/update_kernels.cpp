@@ -4,10 +4,10 @@
 
 namespace taut::ode {
 
-#define TAUT_DECLARE(isa)                                                                                         \
-    namespace isa {                                                                                               \
-    void leapfrogFloat(int, const float*, const float*, const float*, float, float*, float*, float*);             \
-    void leapfrogDouble(int, const double*, const double*, const double*, double, double*, double*, double*);     \
+#define TAUT_DECLARE(isa)                                                                                     \
+    namespace isa {                                                                                           \
+    void leapfrogFloat(int, const float*, const float*, const float*, float, float*, float*, float*);         \
+    void leapfrogDouble(int, const double*, const double*, const double*, double, double*, double*, double*); \
     }
 TAUT_DECLARE(sse2)
 TAUT_DECLARE(avx2)
@@ -17,9 +17,12 @@ TAUT_DECLARE(avx512)
 template <>
 UpdateKernels<float> updateKernels() {
     switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return {avx512::leapfrogFloat};
-        case core::InstructionSet::avx2: return {avx2::leapfrogFloat};
-        case core::InstructionSet::sse2: break;
+        case core::InstructionSet::avx512:
+            return {avx512::leapfrogFloat};
+        case core::InstructionSet::avx2:
+            return {avx2::leapfrogFloat};
+        case core::InstructionSet::sse2:
+            break;
     }
     return {sse2::leapfrogFloat};
 }
@@ -27,9 +30,12 @@ UpdateKernels<float> updateKernels() {
 template <>
 UpdateKernels<double> updateKernels() {
     switch (core::instructionSet()) {
-        case core::InstructionSet::avx512: return {avx512::leapfrogDouble};
-        case core::InstructionSet::avx2: return {avx2::leapfrogDouble};
-        case core::InstructionSet::sse2: break;
+        case core::InstructionSet::avx512:
+            return {avx512::leapfrogDouble};
+        case core::InstructionSet::avx2:
+            return {avx2::leapfrogDouble};
+        case core::InstructionSet::sse2:
+            break;
     }
     return {sse2::leapfrogDouble};
 }

@@ -3,8 +3,8 @@
 //   v½ = v + (h/2)(a_el - γ v),  x' = x + h v½,  v' = (v½ + (h/2) a_el')/(1+b),  b = γ h/2
 //
 // a_el is kept from the step before. a_el' sees the velocity extrapolated from half steps, w = 1.5 v½ - 0.5 v½(before),
-// as leap-frog does; at the start and after a contact a_el is evaluated anew, from v. That a contact has been is part of
-// the state, so that a copy of it goes on in the same way.
+// as leap-frog does; at the start and after a contact a_el is evaluated anew, from v. That a contact has been is part
+// of the state, so that a copy of it goes on in the same way.
 #include "ode/method_table.h"
 
 namespace taut::ode {
@@ -18,12 +18,14 @@ class VelocityVerlet final : public Method<Real> {
     void start(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
         state.memory.assign(count, core::AlignedArray<Real>(state.layout.size()));
         state.memory[stale] = core::AlignedArray<Real>(1);
+        system.prescribe(t, state.x.data(), state.v.data());
         evaluate(system, t, state, state.v.data());
         // The half step before the first: v(-h/2) = v0 - (h/2) a(x0, v0).
         forEach(state.layout, [&](std::size_t at, std::size_t i) {
             const Real total = state.memory[acceleration][at] - system.dragRates()[i] * state.v[at];
             state.memory[halfVelocity][at] = state.v[at] - static_cast<Real>(0.5 * h) * total;
         });
+        system.prescribe(t - 0.5 * h, nullptr, state.memory[halfVelocity].data());
     }
 
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
@@ -38,11 +40,14 @@ class VelocityVerlet final : public Method<Real> {
             before = now;
             state.x[at] += static_cast<Real>(h) * now;
         });
+        system.prescribe(t + 0.5 * h, nullptr, state.memory[halfVelocity].data());
+        system.prescribe(t + h, state.x.data(), state.memory[extrapolated].data());
         evaluate(system, t + h, state, state.memory[extrapolated].data());
         forEach(state.layout, [&](std::size_t at, std::size_t i) {
-            state.v[at] = (state.memory[halfVelocity][at] + half * state.memory[acceleration][at]) /
-                          (Real(1) + half * drag[i]);
+            state.v[at] =
+                (state.memory[halfVelocity][at] + half * state.memory[acceleration][at]) / (Real(1) + half * drag[i]);
         });
+        system.prescribe(t + h, nullptr, state.v.data());
     }
 
     void synchronise(SecondOrderSystem<Real>&, double, double, const State<Real>& state, Real* v) override {
@@ -73,7 +78,8 @@ class VelocityVerlet final : public Method<Real> {
         Real* out_;
     };
 
-    static void evaluate(SecondOrderSystem<Real>& system, double t, State<Real>& state, const Real* v) {
+    void evaluate(SecondOrderSystem<Real>& system, double t, State<Real>& state, const Real* v) {
+        ++this->work_.evaluations;
         Store store(state.layout, state.memory[acceleration].data());
         system.accelerate(t, state.x.data(), v, store);
     }

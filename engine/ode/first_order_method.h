@@ -1,0 +1,20 @@
+// A method that takes y' = f(t, y) from t to t + h, whatever y stands for.
+#pragma once
+
+#include "ode/system.h"
+
+namespace taut::ode {
+
+template <class Real>
+class FirstOrderMethod {
+  public:
+    virtual ~FirstOrderMethod() = default;
+
+    // y (system.size()) from t to t + h [s]. Allocates when the size is a new one.
+    virtual void step(System<Real>& system, double t, double h, Real* y) = 0;
+
+    // Of the derivative, a step.
+    virtual int evaluations() const = 0;
+};
+
+}  // namespace taut::ode

@@ -1,0 +1,24 @@
+// Explicit Runge-Kutta methods as tableaus, for one loop that knows none of them by name.
+#pragma once
+
+#include <memory>
+
+#include "ode/first_order_method.h"
+
+namespace taut::ode {
+
+// Methods whose every stage starts from the slope of the stage before:
+//   k_s = f(t + c_s h, y + c_s h k_{s-1}),  y' = y + (h / divisor) Σ w_s k_s
+// Weights are whole numbers, so that both precisions hold them exactly. If the last is the only one, it is the divisor.
+struct Tableau {
+    static constexpr int most = 4;
+    int stages;
+    double c[most];
+    int w[most];
+    int divisor;
+};
+
+template <class Real>
+std::unique_ptr<FirstOrderMethod<Real>> makeRungeKutta(const Tableau& tableau);
+
+}  // namespace taut::ode

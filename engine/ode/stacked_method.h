@@ -1,0 +1,14 @@
+// Lets a method for y' = f(t, y) integrate second-order systems: it sees positions and velocities as one array.
+#pragma once
+
+#include <memory>
+
+#include "ode/first_order_method.h"
+#include "ode/method.h"
+
+namespace taut::ode {
+
+template <class Real>
+std::unique_ptr<Method<Real>> makeStacked(std::unique_ptr<FirstOrderMethod<Real>> method);
+
+}  // namespace taut::ode

@@ -1,0 +1,34 @@
+// What the limits of the methods share: a mode's damping ratio, and roots found with + - * / alone.
+#pragma once
+
+#include <functional>
+
+#include "ode/method.h"
+
+namespace taut::ode {
+
+// For methods that see all damping explicitly. z(ζ) is the largest stable ω h of a mode of damping ratio ζ; rate the
+// largest h times a rate of a point that no spring holds. With dashpots and drag ζ = (τ ω + γ/ω)/2. Wind and anchors
+// damp some modes and not others, drag may differ from point to point: the smallest of the limits counts.
+double explicitLimit(const FastestMode& mode, double rate, double (*z)(double zeta));
+
+// ζ of a mode of rate ω when other things damp it at `rate`.
+inline double dampingRatio(const FastestMode& mode, double rate) {
+    return 0.5 * (mode.tau * mode.omega + rate / mode.omega);
+}
+
+// ω h at which a mode of ζ >= 1 has h λ = `real` for the larger of its two rates λ.
+double overdampedLimit(double zeta, double real);
+
+// The place between low and high where `isBelow` turns from true to false, to the last bit but a few.
+double bisect(double low, double high, const std::function<bool(double)>& isBelow);
+
+// Cube root of x >= 0; the C library's may differ from processor to processor.
+double cubeRoot(double x);
+
+// Heun and midpoint let undamped motion grow by 1 + z⁴/8 a step (numerics: section 2), so no step is stable for ever,
+// but a short one is good for long: the step at which motion of that frequency grows e-fold in `patience` seconds.
+inline constexpr double patience = 10.0;  // [s]
+double slowGrowthStep(double omega, double drag);
+
+}  // namespace taut::ode

@@ -24,6 +24,7 @@ ode::FastestMode fastestMode(const IslandPlan& plan, const mechanics::StabilityS
     for (const auto& point : plan.points) {
         if (point.held) continue;
         mode.drag = first ? point.dragRate : std::min(mode.drag, point.dragRate);
+        mode.largestDrag = std::max(mode.largestDrag, point.dragRate);
         first = false;
     }
     return mode;
@@ -71,8 +72,8 @@ StepChoice chooseStep(const IslandPlan& plan, const mechanics::StabilityShare& s
     else if (choice.anywhere.spring >= 0)
         choice.limitingSpring = describeSpring(plan, choice.anywhere.spring);
     choice.mode = fastestMode(plan, share, choice.anywhere.omega);
-    choice.limit = method->largestStep(choice.mode);
-    const double limitHere = method->largestStep(fastestMode(plan, share, choice.here.omega));
+    choice.limit = method->automaticStep(choice.mode);
+    const double limitHere = method->automaticStep(fastestMode(plan, share, choice.here.omega));
 
     const double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
     if (!(wanted > 0))

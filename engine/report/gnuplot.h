@@ -1,0 +1,26 @@
+// Draws charts with the program gnuplot. It knows nothing of what they show.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "report/chart.h"
+
+namespace taut::report {
+
+enum class Format { svg, png };
+
+// The script that makes gnuplot draw the chart into `output`, data included.
+std::string gnuplotScript(const Chart& chart, Format format, const std::filesystem::path& output);
+
+// Writes stem.svg and stem.png, each whole or not at all. Throws core::Error(inputOutput): gnuplot is not installed
+// (with the name of the package), failed (with what it said), or the files cannot be written.
+void writeChart(const Chart& chart, const std::filesystem::path& stem);
+
+// "gnuplot 5.4 patchlevel 4"; empty when it does not run.
+std::string gnuplotVersion();
+
+// What a person reads when gnuplot is missing.
+std::string gnuplotMissing();
+
+}  // namespace taut::report

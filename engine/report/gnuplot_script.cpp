@@ -1,0 +1,342 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "report/gnuplot.h"
+#include "report/layout.h"
+
+namespace taut::report {
+namespace {
+
+// Within single quotes gnuplot expands nothing; only the quote itself needs care.
+std::string quoted(const std::string& text) {
+    std::string out = "'";
+    for (const char c : text) {
+        if (c == '\'') out += '\'';
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+    return out + "'";
+}
+
+std::string number(double value) {
+    return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN";
+}
+
+int dashType(Dash dash) {
+    return 1 + static_cast<int>(dash);
+}
+
+// gnuplot's number of a mark, and whether it comes open and filled.
+int pointType(Mark mark, bool isFilled) {
+    const int fill = isFilled ? 1 : 0;
+    switch (mark) {
+        case Mark::none:
+            return 0;
+        case Mark::circle:
+            return 6 + fill;
+        case Mark::square:
+            return 4 + fill;
+        case Mark::triangle:
+            return 8 + fill;
+        case Mark::down:
+            return 10 + fill;
+        case Mark::diamond:
+            return 12 + fill;
+        case Mark::pentagon:
+            return 14 + fill;
+        case Mark::cross:
+            return 2;
+        case Mark::plus:
+            return 1;
+        case Mark::star:
+            return 3;
+    }
+    return 0;
+}
+
+class Script {
+  public:
+    Script(const Chart& chart, Format format, const std::filesystem::path& output)
+        : chart_(chart), layout_(layoutOf(chart)) {
+        const double scale = format == Format::png ? chart.pngScale : 1.0;
+        const char* fonts = "DejaVu Sans,Verdana,Arial,sans-serif";
+        if (format == Format::png)
+            add("set terminal pngcairo size {:.0f},{:.0f} enhanced font 'DejaVu Sans,9.2' fontscale {} linewidth {} "
+                "pointscale {} background '#ffffff'\n",
+                layout_.width * scale, layout_.height * scale, scale, scale, scale);
+        else
+            add("set terminal svg size {:.0f},{:.0f} enhanced standalone font '{}' fontscale 1 background '#ffffff'\n"
+                "set termoption font '{},12'\n",
+                layout_.width, layout_.height, fonts, fonts);
+        isPng_ = format == Format::png;
+        add("set output {}\nset encoding utf8\nset multiplot\n", quoted(output.string()));
+        for (std::size_t i = 0; i < chart.panels.size(); ++i) addPanel(chart.panels[i], layout_.panels[i]);
+        addFrame();
+        add("unset multiplot\nset output\n");
+    }
+
+    std::string text;
+
+  private:
+    template <class... Parts>
+    void add(fmt::format_string<Parts...> format, Parts&&... parts) {
+        fmt::format_to(std::back_inserter(text), format, std::forward<Parts>(parts)...);
+    }
+
+    // A size in pixels as the terminal counts: cairo counts points of 1/72 inch at 96 pixels an inch.
+    std::string font(double pixels) const { return fmt::format("',{:.2f}'", isPng_ ? pixels * 0.7667 : pixels); }
+    double markSize(const Style& style) const { return (isPng_ ? 0.85 : 0.62) * style.size; }
+
+    void begin(const Box& box) {
+        add("reset\nset encoding utf8\nset lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
+            "set tmargin at screen {}\nunset key\nset style textbox opaque noborder fillcolor rgb '#ffffff' margins "
+            "0.4,0.3\n",
+            number(box.left / layout_.width), number(box.right / layout_.width), number(box.bottom / layout_.height),
+            number(box.top / layout_.height));
+        elements_.clear();
+    }
+
+    // Data under a name of its own, for one element of the next plot command.
+    std::string data(const std::string& rows) {
+        const std::string name = fmt::format("$d{}", data_++);
+        add("{} << TAUT_END\n{}TAUT_END\n", name, rows);
+        return name;
+    }
+
+    void plot() {
+        if (elements_.empty()) elements_.push_back("NaN");
+        add("plot {}\n", fmt::join(elements_, ", \\\n  "));
+    }
+
+    void addAxis(char name, const Axis& axis);
+    void addTicks(char name, const std::vector<Tick>& ticks);
+    void addPanel(const Panel& panel, const Box& box);
+    void addRegion(const Region& region);
+    void addGuide(const Panel& panel, const Guide& guide);
+    void addLabel(const Label& label);
+    void addMap(const HeatMap& map);
+    void addArrows(const Arrows& arrows);
+    void addCurve(const Curve& curve);
+    void addStrip(const EdgeStrip& strip, const Box& box);
+    void addFrame();
+    void addText(double x, double y, const std::string& words, double size, const char* colour);
+
+    const Chart& chart_;
+    Layout layout_;
+    bool isPng_ = false;
+    bool hasColourBox_ = false;
+    int data_ = 0;
+    std::vector<std::string> elements_;
+};
+
+void Script::addTicks(char name, const std::vector<Tick>& ticks) {
+    std::string list;
+    for (const Tick& tick : ticks)
+        list += fmt::format("{}{} {} {}", list.empty() ? "" : ", ", tick.isMinor ? "''" : quoted(tick.text),
+                            number(tick.at), tick.isMinor ? 1 : 0);
+    if (name == 'c')
+        add("set cbtics ({})\n", list);
+    else
+        add("set {}tics ({})\n", name, list);
+}
+
+void Script::addAxis(char name, const Axis& axis) {
+    if (axis.scale == Scale::log) add("set logscale {0} 10\nset format {0} '10^{{%L}}'\nset m{0}tics 10\n", name);
+    add("set {}range [{}:{}] {}\n", name, axis.least ? number(*axis.least) : "*", axis.most ? number(*axis.most) : "*",
+        axis.isReversed ? "reverse" : "noreverse");
+    add("set {}tics nomirror scale 0.6,0.3 textcolor rgb '#303030'\n", name);
+    if (!axis.ticks.empty()) addTicks(name, axis.ticks);
+    if (!axis.hasNumbers) add("set format {} ''\n", name);
+    if (!axis.ticks.empty() && !axis.hasNumbers) {
+        std::vector<Tick> bare = axis.ticks;
+        for (Tick& tick : bare) tick.text.clear();
+        addTicks(name, bare);
+    }
+    if (!axis.label.empty())
+        add("set {}label {} noenhanced textcolor rgb '#202020' offset {}\n", name, quoted(axis.label),
+            name == 'x'       ? "0,0.2"
+            : axis.hasNumbers ? "0.6,0"
+                              : "2.5,0");
+}
+
+void Script::addPanel(const Panel& panel, const Box& box) {
+    begin(box);
+    add("set border 3 lc rgb '#606060' lw 0.8\nset grid back lt 1 lc rgb '#e4e4e4' lw 0.6\n");
+    addAxis('x', panel.x);
+    addAxis('y', panel.y);
+    if (!panel.title.empty())
+        add("set label {} noenhanced at graph 0, graph 1 offset screen 0, screen {} left font {} textcolor rgb "
+            "'#202020'\n",
+            quoted(panel.title), number(14 / layout_.height), font(13));
+    for (const Region& region : panel.regions) addRegion(region);
+    if (panel.map) addMap(*panel.map);
+    for (const Guide& guide : panel.guides) addGuide(panel, guide);
+    for (const Arrows& arrows : panel.arrows) addArrows(arrows);
+    for (const Curve& curve : panel.curves) addCurve(curve);
+    if (panel.strip.rows > 0) addStrip(panel.strip, box);
+    for (const Label& label : panel.labels) addLabel(label);
+    if (panel.map) add("set grid noxtics noytics\nset border 15\n");
+    plot();
+}
+
+void Script::addRegion(const Region& region) {
+    const auto end = [](const std::optional<double>& at, const char* edge) {
+        return at ? "first " + number(*at) : std::string(edge);
+    };
+    add("set object rectangle from {}, {} to {}, {} behind fillcolor rgb '{}' fillstyle transparent solid {} "
+        "noborder\n",
+        end(region.x0, "graph 0"), end(region.y0, "graph 0"), end(region.x1, "graph 1"), end(region.y1, "graph 1"),
+        region.colour, number(region.opacity));
+}
+
+void Script::addGuide(const Panel& panel, const Guide& guide) {
+    const bool isUpright = guide.x.has_value();
+    const double at = isUpright ? *guide.x : guide.y.value_or(0);
+    const Axis& axis = isUpright ? panel.x : panel.y;
+    if ((axis.least && at < *axis.least) || (axis.most && at > *axis.most)) return;
+    const auto place = [&](double along) {
+        return isUpright ? fmt::format("first {}, graph {}", number(at), number(along))
+                         : fmt::format("graph {}, first {}", number(along), number(at));
+    };
+    add("set arrow from {} to {} nohead back lc rgb '{}' lw {} dt {}\n", place(0), place(1), guide.style.colour,
+        number(guide.style.width), dashType(guide.style.dash));
+    if (!guide.label.empty())
+        add("set label {} noenhanced at {} left {} offset screen {}, screen {} font {} textcolor rgb '{}'\n",
+            quoted(guide.label), place(guide.labelAt), isUpright ? "rotate by 90" : "",
+            number(isUpright ? -7 / layout_.width : 0), number(isUpright ? 0 : 8 / layout_.height), font(10.5),
+            guide.style.colour);
+}
+
+void Script::addLabel(const Label& label) {
+    const char* align = label.align == Align::left ? "left" : label.align == Align::centre ? "center" : "right";
+    const char* axes = label.isOnPanel ? "graph" : "first";
+    add("set label {} noenhanced at {} {}, {} {} {} rotate by {} {} offset screen {}, screen {} font {} textcolor rgb "
+        "'{}' front\n",
+        quoted(label.text), axes, number(label.x), axes, number(label.y), align, number(label.angle),
+        label.isBoxed ? "boxed" : "", number(label.dx / layout_.width), number(label.dy / layout_.height),
+        font(label.size), label.colour);
+}
+
+void Script::addMap(const HeatMap& map) {
+    std::string rows;
+    for (int r = 0; r < map.rows; ++r)
+        for (int c = 0; c < map.columns; ++c) {
+            const double x = map.x0 + (map.columns > 1 ? (map.x1 - map.x0) * c / (map.columns - 1) : 0);
+            const double y = map.y0 + (map.rows > 1 ? (map.y1 - map.y0) * r / (map.rows - 1) : 0);
+            const double value = map.values[static_cast<std::size_t>(r * map.columns + c)];
+            rows +=
+                fmt::format("{:.7g} {:.7g} {}\n", x, y, std::isfinite(value) ? fmt::format("{:.5g}", value) : "NaN");
+        }
+    if (chart_.colours) {
+        const ColourScale& scale = *chart_.colours;
+        std::string stops;
+        for (const ColourStop& stop : scale.stops)
+            stops += fmt::format("{}{} '{}'", stops.empty() ? "" : ", ", number(stop.at), stop.colour);
+        add("set palette defined ({})\nset cbrange [{}:{}]\n", stops, number(scale.stops.front().at),
+            number(scale.stops.back().at));
+        if (!scale.ticks.empty()) addTicks('c', scale.ticks);
+        const Box& box = layout_.colours;
+        if (hasColourBox_)
+            add("unset colorbox\n");
+        else
+            add("set colorbox user origin screen {}, screen {} size screen {}, screen {} noborder\nset cbtics scale "
+                "0.5\nset cblabel {} noenhanced\n",
+                number(box.left / layout_.width), number(box.bottom / layout_.height),
+                number((box.right - box.left) / layout_.width), number((box.top - box.bottom) / layout_.height),
+                quoted(scale.label));
+        hasColourBox_ = true;
+    }
+    elements_.push_back(data(rows) + " using 1:2:3 with image notitle");
+}
+
+void Script::addArrows(const Arrows& arrows) {
+    std::string rows;
+    for (const Arrow& a : arrows.arrows)
+        rows += fmt::format("{} {} {} {}\n", number(a.x), number(a.y), number(a.dx), number(a.dy));
+    if (rows.empty()) return;
+    elements_.push_back(
+        fmt::format("{} using 1:2:3:4 with vectors head filled size screen {}, 22 lc rgb '{}' lw {} "
+                    "notitle",
+                    data(rows), number(5 / layout_.width), arrows.colour, number(arrows.width)));
+}
+
+void Script::addCurve(const Curve& curve) {
+    std::string rows, bars;
+    for (const ChartPoint& p : curve.points) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+            rows += "\n";  // interrupts the line
+            continue;
+        }
+        rows += fmt::format("{} {}\n", number(p.x), number(p.y));
+        const auto end = [](double at, double instead) { return number(std::isfinite(at) ? at : instead); };
+        if (std::isfinite(p.xLow) || std::isfinite(p.xHigh) || std::isfinite(p.yLow) || std::isfinite(p.yHigh))
+            bars += fmt::format("{} {} {} {} {} {}\n", number(p.x), number(p.y), end(p.xLow, p.x), end(p.xHigh, p.x),
+                                end(p.yLow, p.y), end(p.yHigh, p.y));
+    }
+    if (rows.find_first_not_of('\n') == std::string::npos) return;
+    const Style& style = curve.style;
+    const std::string name = data(rows);
+    if (!bars.empty())
+        elements_.push_back(fmt::format("{} using 1:2:3:4:5:6 with xyerrorbars pt -1 lc rgb '{}' lw 1 notitle",
+                                        data(bars), style.colour));
+    if (style.width > 0)
+        elements_.push_back(fmt::format("{} using 1:2 with lines lc rgb '{}' lw {} dt {} notitle", name, style.colour,
+                                        number(style.width), dashType(style.dash)));
+    if (style.mark == Mark::none) return;
+    const auto marks = [&](bool isFilled, const std::string& colour) {
+        elements_.push_back(fmt::format("{} using 1:2 with points pt {} ps {} lc rgb '{}' lw 1.2 notitle", name,
+                                        pointType(style.mark, isFilled), number(markSize(style)), colour));
+    };
+    if (!style.isFilled) marks(true, "#ffffff");
+    marks(style.isFilled, style.colour);
+}
+
+void Script::addStrip(const EdgeStrip& strip, const Box& box) {
+    constexpr double rowHeight = 11;  // [px]
+    const double height = box.top - box.bottom;
+    const double foot = 1.0 - (strip.rows * rowHeight + 6) / height;
+    add("set object rectangle from graph 0, graph {} to graph 1, graph 1 back fillcolor rgb '#f2e9e4' fillstyle solid "
+        "noborder\n",
+        number(foot));
+    add("set label {} noenhanced at graph 1, graph {} right offset screen {}, screen {} font {} textcolor rgb "
+        "'#7a5548'\n",
+        quoted(strip.label), number(foot), number(-5 / layout_.width), number(9 / layout_.height), font(10.5));
+    for (const EdgeMark& mark : strip.marks)
+        add("set label '' at first {}, graph {} point pt {} ps {} lc rgb '{}' lw 1.2 front\n", number(mark.x),
+            number(1.0 - (mark.row * rowHeight + 9) / height), pointType(mark.style.mark, mark.style.isFilled),
+            number(markSize(mark.style)), mark.style.colour);
+}
+
+void Script::addText(double x, double y, const std::string& words, double size, const char* colour) {
+    add("set label {} noenhanced at first {}, first {} left font {} textcolor rgb '{}'\n", quoted(words), number(x),
+        number(y), font(size), colour);
+}
+
+// Title, legend and notes: a last plot over the whole picture whose axes count pixels.
+void Script::addFrame() {
+    begin({0, layout_.width, 0, layout_.height});
+    add("unset border\nunset xtics\nunset ytics\nset xrange [0:{}]\nset yrange [0:{}]\n", number(layout_.width),
+        number(layout_.height));
+    if (!chart_.title.empty()) addText(layout_.left, layout_.title, chart_.title, 16, "#101010");
+    if (!chart_.subtitle.empty()) addText(layout_.left, layout_.subtitle, chart_.subtitle, 12, "#505050");
+    for (std::size_t i = 0; i < chart_.notes.size(); ++i)
+        addText(layout_.left, layout_.notes[i], chart_.notes[i], 10, "#707070");
+    for (const LegendEntry& entry : layout_.legend) {
+        Style line = entry.style, mark = entry.style;
+        line.mark = Mark::none;
+        mark.width = 0;
+        addCurve({"", line, {{entry.x, entry.y}, {entry.x + sampleLength, entry.y}}});
+        if (mark.mark != Mark::none) addCurve({"", mark, {{entry.x + sampleLength / 2, entry.y}}});
+        addText(entry.x + sampleLength + 7, entry.y, entry.title, 12, "#303030");
+    }
+    plot();
+}
+
+}  // namespace
+
+std::string gnuplotScript(const Chart& chart, Format format, const std::filesystem::path& output) {
+    return Script(chart, format, output).text;
+}
+
+}  // namespace taut::report

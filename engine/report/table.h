@@ -1,0 +1,25 @@
+// Tables as text: CSV for programs and columns for people. It knows nothing of what is in them.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace taut::report {
+
+// A text, a number (written with as many digits as it takes to read the same number again; not a number: empty), or a
+// whole number.
+using Cell = std::variant<std::string, double, long long>;
+
+struct Table {
+    std::vector<std::string> columns;
+    std::vector<std::vector<Cell>> rows;  // each as long as columns
+};
+
+// Comma-separated values after RFC 4180: a text with comma, quote or line break is quoted.
+std::string csv(const Table& table);
+
+// Columns padded with spaces, numbers with four digits and to the right.
+std::string aligned(const Table& table);
+
+}  // namespace taut::report

@@ -71,6 +71,23 @@ void Anchor<Real>::addStiffnessProduct(const Motion<Real>& motion, const Real* u
 }
 
 template <class Real>
+void Anchor<Real>::linearise(const Motion<Real>&, double stiffness, double damping) {
+    weight_ = static_cast<Real>(stiffness * stiffness_ + damping * damping_);
+}
+
+template <class Real>
+void Anchor<Real>::addProduct(int stride, const Real* u, Real* out) const {
+    for (int point : points_)
+        for (int axis = 0; axis < 3; ++axis) out[axis * stride + point] += weight_ * u[axis * stride + point];
+}
+
+template <class Real>
+void Anchor<Real>::addDiagonal(int stride, Real* out) const {
+    for (int point : points_)
+        for (int axis = 0; axis < 3; ++axis) out[axis * stride + point] += weight_;
+}
+
+template <class Real>
 void Anchor<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
     for (int point : points_) {
         const auto i = static_cast<std::size_t>(point);

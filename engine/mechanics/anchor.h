@@ -31,6 +31,9 @@ class Anchor final : public ForceGenerator<Real> {
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
     double potentialEnergy(const Motion<Real>& motion) const override;
     void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
+    void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
+    void addProduct(int stride, const Real* u, Real* out) const override;
+    void addDiagonal(int stride, Real* out) const override;
     // k, and c/m of each point; both hold anywhere.
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
@@ -39,6 +42,7 @@ class Anchor final : public ForceGenerator<Real> {
     std::vector<glm::dvec3> offsets_;  // (points) [m]
     LinearPath place_;
     double stiffness_, damping_;
+    Real weight_ = 0;  // s k + c times the damping: of each point, in the products
 };
 
 extern template class Anchor<float>;

@@ -51,6 +51,13 @@ class ForceGenerator {
     // Adds K u to out (3 · stride), K = -∂f/∂x [N/m], u a displacement (3 · stride) [m]. Nothing when K = 0.
     virtual void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const = 0;
 
+    // For implicit methods: fixes W = stiffness K + damping C at the motion, C = -∂f/∂v [kg/s], both without what is not
+    // positive or not symmetric in them; then products W u, and the diagonal of W, added to out. A force that depends on
+    // neither position nor velocity has nothing to do.
+    virtual void linearise(const Motion<Real>&, double /*stiffness*/, double /*damping*/) {}
+    virtual void addProduct(int /*stride*/, const Real* /*u*/, Real* /*out*/) const {}
+    virtual void addDiagonal(int /*stride*/, Real* /*out*/) const {}
+
     // Adds its share of the bound at the given motion; adds nothing when it has none.
     virtual void addStability(const Motion<Real>& motion, StabilityShare& share) const = 0;
 };

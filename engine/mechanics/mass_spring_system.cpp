@@ -164,12 +164,30 @@ void MassSpringSystem<Real>::finish(const SpringBlock& block, const Motion<Real>
 }
 
 template <class Real>
+void MassSpringSystem<Real>::linearise(double t, const Real* x, const Real* v, double stiffness, double damping) {
+    products_.linearise(network_, layout_.stride, x, stiffness, damping);
+    for (const auto& generator : generators_) generator->linearise(motion(t, x, v), stiffness, damping);
+}
+
+template <class Real>
+void MassSpringSystem<Real>::addProduct(const Real* u, Real* out) const {
+    products_.addProduct(network_, layout_.stride, u, out);
+    for (const auto& generator : generators_) generator->addProduct(layout_.stride, u, out);
+}
+
+template <class Real>
+void MassSpringSystem<Real>::addDiagonal(Real* out) const {
+    products_.addDiagonal(network_, layout_.stride, out);
+    for (const auto& generator : generators_) generator->addDiagonal(layout_.stride, out);
+}
+
+template <class Real>
 std::uint64_t MassSpringSystem<Real>::bytes() const {
     std::uint64_t reals = mass_.size() * 3 + external_.size() + network_.stiffness.size();
     for (const Lane& lane : lanes_) reals += lane.window.f.size() + lane.waiting.f.size();
     const std::uint64_t single = 2 * sizeof(int) + 3 * sizeof(Real);
     return reals * sizeof(Real) + network_.runs.size() * sizeof(SpringRun<Real>) + network_.singles.a.size() * single +
-           network_.blocks.size() * sizeof(SpringBlock);
+           network_.blocks.size() * sizeof(SpringBlock) + products_.bytes();
 }
 
 template class MassSpringSystem<float>;

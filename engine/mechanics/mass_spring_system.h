@@ -12,12 +12,13 @@
 #include "mechanics/force_generator.h"
 #include "mechanics/spring_kernels.h"
 #include "mechanics/spring_network.h"
+#include "mechanics/spring_products.h"
 #include "ode/system.h"
 
 namespace taut::mechanics {
 
 template <class Real>
-class MassSpringSystem final : public ode::SecondOrderSystem<Real> {
+class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::ImplicitSystem<Real> {
   public:
     struct PointMass {
         double mass;      // [kg] > 0
@@ -37,9 +38,15 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real> {
     const Real* dragRates() const override { return drag_.data(); }
     void accelerate(double t, const Real* x, const Real* v, ode::AccelerationSink<Real>& sink) override;
 
+    // Forces of the springs, less what compression makes indefinite, and of the generators as they document.
+    ode::ImplicitSystem<Real>* implicitPart() override { return this; }
+    void linearise(double t, const Real* x, const Real* v, double stiffness, double damping) override;
+    void addProduct(const Real* u, Real* out) const override;
+    void addDiagonal(Real* out) const override;
+
     Motion<Real> motion(double t, const Real* x, const Real* v) const;
-    const Real* masses() const { return mass_.data(); }
-    const Real* inverseMasses() const { return inverseMass_.data(); }
+    const Real* masses() const override { return mass_.data(); }
+    const Real* inverseMasses() const override { return inverseMass_.data(); }
     const SpringNetwork<Real>& network() const { return network_; }
     std::uint64_t bytes() const;
 
@@ -80,6 +87,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real> {
     bool isExternalFilled_ = false;  // in this evaluation, by generators that need the whole island
     Real uniform_[3] = {};           // acceleration of all free points in this evaluation [m/s²]
     SpringKernels<Real> kernels_;
+    SpringProducts<Real> products_;
 };
 
 }  // namespace taut::mechanics

@@ -198,6 +198,42 @@ void VolumePreservation<Real>::addStiffnessProduct(const Motion<Real>& motion, c
 }
 
 template <class Real>
+void VolumePreservation<Real>::linearise(const Motion<Real>& motion, double stiffness, double) {
+    slopes_.resize(cells_.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const Corners g = gradientsOf(cornersOf(cells_[c], motion.x, motion.stride));
+        const double root = std::sqrt(stiffness * cells_[c].bulkModulus / cells_[c].restVolume);
+        for (std::size_t i = 0; i < 4; ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                slopes_[c][3 * i + static_cast<std::size_t>(axis)] = static_cast<Real>(root * g[i][axis]);
+    }
+}
+
+template <class Real>
+void VolumePreservation<Real>::addProduct(int stride, const Real* u, Real* out) const {
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const std::array<Real, 12>& slope = slopes_[c];
+        Real along = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                along += slope[3 * i + static_cast<std::size_t>(axis)] * u[axis * stride + cells_[c].points[i]];
+        for (std::size_t i = 0; i < 4; ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                out[axis * stride + cells_[c].points[i]] += along * slope[3 * i + static_cast<std::size_t>(axis)];
+    }
+}
+
+template <class Real>
+void VolumePreservation<Real>::addDiagonal(int stride, Real* out) const {
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        for (std::size_t i = 0; i < 4; ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                const Real slope = slopes_[c][3 * i + static_cast<std::size_t>(axis)];
+                out[axis * stride + cells_[c].points[i]] += slope * slope;
+            }
+}
+
+template <class Real>
 void VolumePreservation<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
     if (cells_.empty()) return;
     const auto count = static_cast<std::size_t>(motion.count);

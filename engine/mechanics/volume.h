@@ -44,6 +44,10 @@ class VolumePreservation final : public ForceGenerator<Real> {
     double potentialEnergy(const Motion<Real>& motion) const override;
     // The exact product; indefinite where a cell is compressed.
     void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
+    // (K/V0) g gᵀ of each cell, g = ∂V/∂p: the part that is never negative.
+    void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
+    void addProduct(int stride, const Real* u, Real* out) const override;
+    void addDiagonal(int stride, Real* out) const override;
 
     // A bound λ of ω² that holds in the whole working range, given to every point that it acts on as λ/w.
     //
@@ -69,6 +73,7 @@ class VolumePreservation final : public ForceGenerator<Real> {
     IndexRuns<4> runs_;
     core::AlignedArray<Real> sixthOfBulk_, inverseRestSixth_;  // (lanes)
     void (*addBatch_)(const VolumeBatch<Real>&);
+    std::vector<std::array<Real, 12>> slopes_;  // (cells) √(s K/V0) g, corner by corner
 };
 
 extern template class VolumePreservation<float>;

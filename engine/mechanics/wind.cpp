@@ -72,6 +72,54 @@ void Wind<Real>::addForces(const Motion<Real>& motion, int first, int last, Real
 }
 
 template <class Real>
+void Wind<Real>::linearise(const Motion<Real>& motion, double, double damping) {
+    resistances_.resize(triangles_.size());
+    const std::ptrdiff_t stride = motion.stride;
+    const glm::dvec3 flow = velocity_.at(motion.t);
+    const auto vectorAt = [&](const Real* planes, int i) {
+        return glm::dvec3(planes[i], planes[i + stride], planes[i + 2 * stride]);
+    };
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        const auto& [a, b, c] = triangles_[t];
+        const glm::dvec3 xa = vectorAt(motion.x, a), xb = vectorAt(motion.x, b), xc = vectorAt(motion.x, c);
+        const glm::dvec3 cross = glm::cross(xb - xa, xc - xa);
+        const double size = std::sqrt(glm::dot(cross, cross));  // 2 A
+        const glm::dvec3 normal = size > 0.0 ? cross / size : glm::dvec3(0.0);
+        const glm::dvec3 mean = (vectorAt(motion.v, a) + vectorAt(motion.v, b) + vectorAt(motion.v, c)) / 3.0;
+        const glm::dvec3 air = flow - mean;
+        const double pressure = 0.25 * settings_.airDensity * size * settings_.drag * std::abs(glm::dot(air, normal));
+        for (int axis = 0; axis < 3; ++axis) resistances_[t].normal[axis] = static_cast<Real>(normal[axis]);
+        resistances_[t].each = static_cast<Real>(damping * std::max(0.0, pressure) / 9.0);
+    }
+}
+
+template <class Real>
+void Wind<Real>::addProduct(int stride, const Real* u, Real* out) const {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        const auto& [a, b, c] = triangles_[t];
+        const Resistance& r = resistances_[t];
+        Real sum[3], along = 0;
+        for (int p = 0; p < 3; ++p) {
+            sum[p] = u[p * stride + a] + u[p * stride + b] + u[p * stride + c];
+            along += r.normal[p] * sum[p];
+        }
+        for (int p = 0; p < 3; ++p) {
+            const Real product = r.each * (sum[p] + along * r.normal[p]);
+            for (int i : {a, b, c}) out[p * stride + i] += product;
+        }
+    }
+}
+
+template <class Real>
+void Wind<Real>::addDiagonal(int stride, Real* out) const {
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+        for (int p = 0; p < 3; ++p) {
+            const Real normal = resistances_[t].normal[p];
+            for (int i : triangles_[t]) out[p * stride + i] += resistances_[t].each * (Real(1) + normal * normal);
+        }
+}
+
+template <class Real>
 void Wind<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
     const double speed = workingSpeed();
     const double slope = 2.0 * std::abs(settings_.drag) + 1.5 * std::abs(settings_.lift);

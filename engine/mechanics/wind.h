@@ -57,6 +57,12 @@ class Wind final : public ForceGenerator<Real> {
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
     double potentialEnergy(const Motion<Real>&) const override { return 0.0; }
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
+    // Its K is left out. Of C the drag's share, ½ρA C_D (|u·n| I + u nᵀ), with u replaced by its part along n in the
+    // second term: ½ρA C_D |u·n| (I + nnᵀ), symmetric and positive, in the steady flow; a ninth for each
+    // pair of corners.
+    void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
+    void addProduct(int stride, const Real* u, Real* out) const override;
+    void addDiagonal(int stride, Real* out) const override;
     // dampingRate at the working speed U, for the areas at the motion's positions. |∂F/∂u| <= ½ρA U (2 C_D + 3/2 C_L):
     // drag has at most 2 (broadside), lift in polar terms of u √(sin² 2α + cos² 2α) in the plane of u and n, and
     // sin² α across it. Each corner has a third of the force and of the mean velocity: its row sums to 1/3 of that.
@@ -69,6 +75,11 @@ class Wind final : public ForceGenerator<Real> {
     LinearPath velocity_;
     WindSettings settings_;
     void (*addBatch_)(const WindBatch<Real>&);
+    struct Resistance {
+        Real normal[3];  // n
+        Real each;       // of a pair of corners
+    };
+    std::vector<Resistance> resistances_;  // (triangles)
 };
 
 extern template class Wind<float>;

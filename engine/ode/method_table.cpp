@@ -97,6 +97,18 @@ constexpr MethodInfo table[] = {
      .caution = "",
      .largestStep = leapfrogLargestStep,
      .automaticStep = leapfrogLargestStep},
+    {.name = "implicit-euler",
+     .title = "implicit Euler",
+     .order = 1,
+     .evaluations = 1,
+     .storedArrays = 12,
+     .symplectic = false,
+     .reversible = false,
+     .isFirstOrder = false,
+     .limit = "none on linear problems; solves by conjugate gradients, and damps by ζ = z/2",
+     .caution = "",
+     .largestStep = implicitEulerLargestStep,
+     .automaticStep = implicitEulerLargestStep},
 };
 
 template <class Real>
@@ -109,10 +121,11 @@ std::unique_ptr<FirstOrderMethod<Real>> firstOrderOrNone(std::string_view name) 
 }
 
 template <class Real>
-std::unique_ptr<Method<Real>> secondOrderOrNone(std::string_view name, const MethodOptions&) {
+std::unique_ptr<Method<Real>> secondOrderOrNone(std::string_view name, const MethodOptions& options) {
     if (name == "symplectic-euler") return makeSymplecticEuler<Real>();
     if (name == "velocity-verlet") return makeVelocityVerlet<Real>();
     if (name == "leapfrog") return makeLeapfrog<Real>();
+    if (name == "implicit-euler") return makeImplicitEuler<Real>(options);
     return nullptr;
 }
 

@@ -38,6 +38,8 @@ template <class Real>
 std::unique_ptr<Method<Real>> makeVelocityVerlet();
 template <class Real>
 std::unique_ptr<Method<Real>> makeLeapfrog();
+template <class Real>
+std::unique_ptr<Method<Real>> makeImplicitEuler(const MethodOptions& options);
 
 double explicitEulerLargestStep(const FastestMode& mode);
 double heunLargestStep(const FastestMode& mode);  // of the midpoint method too: on linear problems they are the same
@@ -45,5 +47,6 @@ double heunAutomaticStep(const FastestMode& mode);
 double rk4LargestStep(const FastestMode& mode);
 double symplecticEulerLargestStep(const FastestMode& mode);
 double leapfrogLargestStep(const FastestMode& mode);
+double implicitEulerLargestStep(const FastestMode& mode);
 
 }  // namespace taut::ode

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "ode/implicit_system.h"
+
 namespace taut::ode {
 
 // y' = f(t, y).
@@ -48,6 +50,8 @@ class SecondOrderSystem {
     // Overwrites positions and velocities of points that are moved by hand with those of t; either may be null. Such
     // points have no acceleration. Methods call it for every time at which they ask for accelerations.
     virtual void prescribe(double, Real*, Real*) {}
+    // What implicit methods need besides, of the same system; nullptr when it has none.
+    virtual ImplicitSystem<Real>* implicitPart() { return nullptr; }
 };
 
 // Shows a second-order system as a first-order one: y = (x planes, v planes), y' = (v, a_el - γ v).

@@ -11,7 +11,7 @@ namespace taut::test {
 
 // x'' = -ω² x - hardening x³ + drive cos t - c x' - γ x'. A method is given c as a force that depends on the velocity
 // (a dashpot) and γ as a drag rate.
-class Oscillator final : public ode::SecondOrderSystem<double> {
+class Oscillator final : public ode::SecondOrderSystem<double>, public ode::ImplicitSystem<double> {
   public:
     struct Values {
         double omega = 1.0;      // [1/s]
@@ -33,8 +33,20 @@ class Oscillator final : public ode::SecondOrderSystem<double> {
     }
     int evaluations = 0;
 
+    // Of mass 1.
+    ode::ImplicitSystem<double>* implicitPart() override { return this; }
+    const double* masses() const override { return &one_; }
+    const double* inverseMasses() const override { return &one_; }
+    void linearise(double, const double* x, const double*, double stiffness, double damping) override {
+        slope_ = stiffness * (values_.omega * values_.omega + 3.0 * values_.hardening * x[0] * x[0]) +
+                 damping * values_.dashpot;
+    }
+    void addProduct(const double* u, double* out) const override { out[0] += slope_ * u[0]; }
+    void addDiagonal(double* out) const override { out[0] += slope_; }
+
   private:
     Values values_;
+    double one_ = 1.0, slope_ = 0.0;
 };
 
 struct Phase {

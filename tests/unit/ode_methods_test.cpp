@@ -101,7 +101,7 @@ TEST(EveryMethod, GoesOnWithTheVelocityThatATouchGaveIt) {
 }
 
 // Three points in two planes with gaps behind, handed over in two ranges, the later one first.
-class Scattered final : public ode::SecondOrderSystem<double> {
+class Scattered final : public ode::SecondOrderSystem<double>, public ode::ImplicitSystem<double> {
   public:
     static constexpr int points = 3, stride = 5, planes = 2;
     ode::Layout layout() const override { return {points, stride, planes}; }
@@ -116,8 +116,24 @@ class Scattered final : public ode::SecondOrderSystem<double> {
         sink.take(0, 1, early);
     }
 
+    ode::ImplicitSystem<double>* implicitPart() override { return this; }
+    const double* masses() const override { return mass_; }
+    const double* inverseMasses() const override { return mass_; }
+    void linearise(double, const double*, const double*, double stiffness, double damping) override {
+        for (int p = 0; p < planes; ++p)
+            for (int i = 0; i < points; ++i) slope_[p * stride + i] = stiffness * (1.0 + i + 3 * p) + damping * 0.1;
+    }
+    void addProduct(const double* u, double* out) const override {
+        for (int i = 0; i < planes * stride; ++i) out[i] += slope_[i] * u[i];
+    }
+    void addDiagonal(double* out) const override {
+        for (int i = 0; i < planes * stride; ++i) out[i] += slope_[i];
+    }
+
   private:
     double drag_[stride] = {0.0, 0.2, 0.4, 0.0, 0.0};
+    double mass_[stride] = {1.0, 1.0, 1.0, 0.0, 0.0};
+    double slope_[planes * stride] = {};
 };
 
 TEST(EveryMethod, TreatsPlanesAndRangesLikeSeparateOscillatorsAndLeavesTheGaps) {

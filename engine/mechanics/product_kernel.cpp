@@ -1,0 +1,68 @@
+// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+#include "mechanics/product_kernel.h"
+
+#include "core/vectorise.h"
+
+namespace taut::mechanics::TAUT_ISA {
+namespace {
+
+constexpr int slice = 128;  // springs at once: between their ends nothing overlaps, unless these are close
+
+template <class Real, bool apart>
+inline void addSlice(const ProductRun<Real>& s, int first, int n) {
+    const long stride = s.stride, offset = s.offset;
+    const Real *xa = s.u + first, *ya = xa + stride, *za = ya + stride;
+    const Real *xb = xa + offset, *yb = ya + offset, *zb = za + offset;
+    Real *oxa = s.out + first, *oya = oxa + stride, *oza = oya + stride;
+    Real *oxb = oxa + offset, *oyb = oya + offset, *ozb = oza + offset;
+    const Real *qx = s.q[0] + first, *qy = s.q[1] + first, *qz = s.q[2] + first, *beta = s.beta + first;
+    alignas(64) Real gx[slice], gy[slice], gz[slice];
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const Real dx = xb[i] - xa[i], dy = yb[i] - ya[i], dz = zb[i] - za[i];
+        const Real along = qx[i] * dx + qy[i] * dy + qz[i] * dz;
+        const Real px = beta[i] * dx + along * qx[i], py = beta[i] * dy + along * qy[i],
+                   pz = beta[i] * dz + along * qz[i];
+        oxa[i] -= px;
+        oya[i] -= py;
+        oza[i] -= pz;
+        if (apart) {
+            oxb[i] += px;
+            oyb[i] += py;
+            ozb[i] += pz;
+        } else {
+            gx[i] = px;
+            gy[i] = py;
+            gz[i] = pz;
+        }
+    }
+    if (apart) return;
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        oxb[i] += gx[i];
+        oyb[i] += gy[i];
+        ozb[i] += gz[i];
+    }
+}
+
+template <class Real>
+inline void add(const ProductRun<Real>& s) {
+    for (int first = 0; first < s.n; first += slice) {
+        const int n = s.n - first < slice ? s.n - first : slice;
+        if (s.offset >= n)
+            addSlice<Real, true>(s, first, n);
+        else
+            addSlice<Real, false>(s, first, n);
+    }
+}
+
+}  // namespace
+
+void addProducts(const ProductRun<float>& run) {
+    add(run);
+}
+void addProducts(const ProductRun<double>& run) {
+    add(run);
+}
+
+}  // namespace taut::mechanics::TAUT_ISA

@@ -1,0 +1,32 @@
+// Products of the springs' linearised forces with a displacement, in runs. Knows no method; one copy for each
+// instruction set.
+#pragma once
+
+namespace taut::mechanics {
+
+// n springs, spring i joining points i and i + offset: ±(β d + q (q·d)), d = u_b - u_a, is added to `out` of its ends.
+template <class Real>
+struct ProductRun {
+    int n;
+    int offset;        // > 0
+    int stride;        // of u and out
+    const Real* q[3];  // (n)
+    const Real* beta;  // (n)
+    const Real* u;     // planes at the run's first point a
+    Real* out;         // likewise
+};
+
+namespace sse2 {
+void addProducts(const ProductRun<float>& run);
+void addProducts(const ProductRun<double>& run);
+}  // namespace sse2
+namespace avx2 {
+void addProducts(const ProductRun<float>& run);
+void addProducts(const ProductRun<double>& run);
+}  // namespace avx2
+namespace avx512 {
+void addProducts(const ProductRun<float>& run);
+void addProducts(const ProductRun<double>& run);
+}  // namespace avx512
+
+}  // namespace taut::mechanics

@@ -1,0 +1,42 @@
+// Conjugate gradients for A x = b with a diagonal preconditioner: A is known by its products only. Sums have one order
+// whatever the processor and the number of threads, and are kept in double.
+#pragma once
+
+#include <functional>
+
+#include "core/aligned_array.h"
+
+namespace taut::ode {
+
+struct Solution {
+    int products = 0;        // with A
+    bool converged = false;  // the preconditioned residual fell below tolerance times that of x = 0
+};
+
+template <class Real>
+class ConjugateGradient {
+  public:
+    using Product = std::function<void(const Real* u, Real* out)>;  // out = A u
+
+    explicit ConjugateGradient(std::size_t size) : size_(size), r_(size), p_(size), q_(size) {}
+
+    // `inverse` (size) holds 1/A_ii; 0 where x stays as given, which the other equations then see. The other x are the
+    // first guess. A must be symmetric and positive definite.
+    Solution solve(const Product& multiply, const Real* inverse, const Real* b, double tolerance, int maxIterations,
+                   Real* x);
+
+  private:
+    double residual(const Product& multiply, const Real* inverse, const Real* b, const Real* x);
+
+    std::size_t size_;
+    core::AlignedArray<Real> r_, p_, q_;
+};
+
+// Σ w a b in double, in an order that depends on the size alone.
+template <class Real>
+double weightedSum(std::size_t size, const Real* w, const Real* a, const Real* b);
+
+extern template class ConjugateGradient<float>;
+extern template class ConjugateGradient<double>;
+
+}  // namespace taut::ode

@@ -1,61 +1,23 @@
 #include "game/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <string_view>
 
 namespace taut::game {
-namespace {
-
-constexpr std::chrono::milliseconds liveInterval(100);
-constexpr std::chrono::seconds plainInterval(5);
-
-bool isLiveTerminal() {
-    const char* kind = std::getenv("TERM");
-    return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
-}
-
-// A line longer than the terminal would scroll instead of being overwritten.
-std::string cutToTerminal(const std::string& text) {
-    winsize window{};
-    if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return text;
-    return text.substr(0, window.ws_col - 1U);
-}
-
-}  // namespace
-
 std::string clockText(double seconds) {
     const long all = std::lround(seconds);
     if (all >= 3600) return fmt::format("{}:{:02}:{:02}", all / 3600, all / 60 % 60, all % 60);
     return fmt::format("{}:{:02}", all / 60, all % 60);
 }
 
-Progress::Progress(const ProgressFacts& facts, bool quiet) : facts_(facts), quiet_(quiet), live_(isLiveTerminal()) {}
-
-Progress::~Progress() {
-    if (lineOpen_) fmt::print(stderr, "\n");
-}
+Progress::Progress(const ProgressFacts& facts, bool quiet) : facts_(facts), line_(quiet) {}
 
 void Progress::frameDone(const pipeline::FrameRecord& record) {
-    if (quiet_) return;
     const auto now = Clock::now();
     const double left = secondsLeft(record, now);
-    const bool last = record.frame + 1 == facts_.frames;
-    if (!last && now - lastShown_ < (live_ ? std::chrono::nanoseconds(liveInterval) : plainInterval)) return;
-    lastShown_ = now;
-    const std::string text = line(record, std::chrono::duration<double>(now - start_).count(), left);
-    if (live_) {
-        fmt::print(stderr, "\r{}\x1b[K", cutToTerminal(text));
-        std::fflush(stderr);
-        lineOpen_ = true;
-    } else {
-        fmt::print(stderr, "{}\n", text);
-    }
+    if (line_.isDue(record.frame + 1 == facts_.frames))
+        line_.show(line(record, std::chrono::duration<double>(now - start_).count(), left));
 }
 
 double Progress::secondsLeft(const pipeline::FrameRecord& record, Clock::time_point now) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "game/live_line.h"
 #include "pipeline/run.h"
 
 namespace taut::game {
@@ -23,9 +24,6 @@ struct ProgressFacts {
 class Progress {
   public:
     Progress(const ProgressFacts& facts, bool quiet);
-    ~Progress();  // ends the live line
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
 
     void frameDone(const pipeline::FrameRecord& record);
 
@@ -38,11 +36,8 @@ class Progress {
     double secondsLeft(const pipeline::FrameRecord& record, Clock::time_point now);
 
     ProgressFacts facts_;
-    bool quiet_;
-    bool live_;
-    bool lineOpen_ = false;
+    LiveLine line_;
     Clock::time_point start_ = Clock::now();
-    Clock::time_point lastShown_ = start_;
     // Where the pace is measured from: the start, or the first picture, because frames without one pass faster.
     Clock::time_point paceStart_ = start_;
     std::int64_t paceFrame_ = -1;

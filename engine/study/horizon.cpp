@@ -1,0 +1,40 @@
+#include "study/horizon.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "ode/method_table.h"
+#include "study/errors.h"
+
+namespace taut::study {
+
+Horizon findHorizon(const Subject& subject, double duration) {
+    RunPlan plan;
+    plan.method = "rk4";
+    plan.grid = subject.grid(duration, duration / 12);  // some 120 looks
+    const double limit = subject.stepLimit(*ode::findMethod("rk4"));
+    plan.stepsPerSample = stepsPerSample(subject, plan.grid, std::min(limit / 4, duration / 500));
+
+    const std::unique_ptr<Trial> plain = subject.begin(plan);
+    plan.perturbation = perturbation;
+    const std::unique_ptr<Trial> moved = subject.begin(plan);
+    Horizon horizon{plan.grid.duration(), false, 1.0};
+    const double start = rmsDifference(plain->observe().values, moved->observe().values, subject.dimensions());
+    for (int sample = 1; sample <= plan.grid.samples; ++sample) {
+        bool runs[2] = {true, true};
+        core::parallelFor(2, [&](int i) { runs[i] = (i == 0 ? plain : moved)->advance(); });
+        const double growth =
+            runs[0] && runs[1]
+                ? rmsDifference(plain->observe().values, moved->observe().values, subject.dimensions()) / start
+                : HUGE_VAL;
+        horizon.growth = std::max(horizon.growth, growth);
+        if (growth < horizonGrowth) continue;
+        horizon.seconds = plan.grid.spacing * (sample - 1);
+        horizon.isReached = true;
+        break;
+    }
+    return horizon;
+}
+
+}  // namespace taut::study

@@ -1,0 +1,22 @@
+// How long a motion can be predicted at all: two runs that start a little apart, and how they part.
+#pragma once
+
+#include "study/subject.h"
+
+namespace taut::study {
+
+// Every coordinate of the start is moved by up to this. [m]
+inline constexpr double perturbation = 1e-9;
+// The horizon is where the difference has grown by this factor: a micrometre has become a millimetre.
+inline constexpr double horizonGrowth = 1000;
+
+struct Horizon {
+    double seconds = 0;      // until the growth is reached; the whole duration when it is not
+    bool isReached = false;  // within the duration
+    double growth = 0;       // largest that was seen, of the RMS difference
+};
+
+// Integrates by RK4 in double precision at a quarter of its stability limit.
+Horizon findHorizon(const Subject& subject, double duration);
+
+}  // namespace taut::study

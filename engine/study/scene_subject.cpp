@@ -1,0 +1,121 @@
+#include "study/scene_subject.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ode/method_table.h"
+#include "world/components.h"
+#include "world/world.h"
+
+namespace taut::study {
+namespace {
+
+constexpr double longest = 2.0;  // [s] studied of a scene unless asked for more
+
+template <class Action>
+void forEachBody(world::SceneSpec& spec, const Action& action) {
+    for (auto& body : spec.cloths) action(body);
+    for (auto& body : spec.ropes) action(body);
+    for (auto& body : spec.blocks) action(body);
+    for (auto& body : spec.nets) action(body);
+}
+
+world::SceneSpec overridden(const world::SceneSpec& spec, const std::string& method, Precision precision, double step,
+                            double perturbation) {
+    world::SceneSpec scene = spec;
+    scene.solver.integrator = method;
+    scene.solver.precision = precision;
+    scene.solver.dt = step * (1 + 1e-9);  // a maximum: rounding may not cost a substep
+    scene.solver.onDivergence = world::OnDivergence::stop;
+    forEachBody(scene, [&](world::BodySpec& body) {
+        body.solver = {};
+        body.jitter += perturbation;  // moves points by perturbation times a number between -1 and 1
+    });
+    return scene;
+}
+
+class SceneTrial final : public Trial {
+  public:
+    SceneTrial(const world::SceneSpec& scene, long long ticksPerSample)
+        : world_(scene, {.threads = 1}), ticksPerSample_(ticksPerSample) {}
+
+    bool advance() override {
+        for (long long i = 0; i < ticksPerSample_; ++i)
+            if (world_.advance()) return false;
+        return true;
+    }
+
+    Observation observe() override {
+        Observation seen;
+        world_.registry().each<world::BodyPart>([&](ecs::Entity entity, const world::BodyPart& part) {
+            const std::vector<glm::dvec3> positions = world_.positions(entity);
+            for (std::size_t i = 0; i < positions.size(); ++i)
+                for (int p = 0; p < 3 && !part.body->model.held[i]; ++p) seen.values.push_back(positions[i][p]);
+        });
+        const world::Metrics metrics = world_.metrics();
+        seen.kinetic = metrics.kinetic;
+        seen.energy = metrics.kinetic + metrics.elastic + metrics.gravitational;
+        seen.contacts = metrics.contacts;
+        return seen;
+    }
+
+    ode::Work work() const override { return world_.work(); }
+
+  private:
+    world::World world_;
+    long long ticksPerSample_;
+};
+
+class SceneSubject final : public Subject {
+  public:
+    SceneSubject(const world::SceneSpec& spec, std::string name)
+        : spec_(spec), name_(std::move(name)), title_(spec.title.empty() ? name_ : spec.title) {
+        const world::World world(overridden(spec, "leapfrog", Precision::double_, 1.0, 0.0), {.threads = 1});
+        tick_ = world.tickSeconds();
+    }
+
+    const std::string& name() const override { return name_; }
+    const std::string& title() const override { return title_; }
+    int dimensions() const override { return 3; }
+    std::string unit() const override { return "m"; }
+    bool hasEnergy() const override { return true; }
+    double duration() const override { return std::min(spec_.run.seconds, longest); }
+    bool accepts(const ode::MethodInfo&) const override { return true; }
+
+    Grid grid(double duration, double window) const override {
+        const auto ticks = std::max(10LL, std::llround(duration / tick_));
+        const auto each = std::max(1LL, static_cast<long long>(std::min(window, duration) / tick_ / 10 + 1e-6));
+        return {tick_ * static_cast<double>(each), static_cast<int>(ticks / each)};
+    }
+    long long quantum(const Grid& grid) const override { return std::llround(grid.spacing / tick_); }
+
+    std::unique_ptr<Trial> begin(const RunPlan& plan) const override {
+        return std::make_unique<SceneTrial>(
+            overridden(spec_, plan.method, plan.precision, plan.step(), plan.perturbation), quantum(plan.grid));
+    }
+
+    double stepLimit(const ode::MethodInfo& method) const override {
+        const world::World world(overridden(spec_, std::string(method.name), Precision::double_, tick_, 0.0),
+                                 {.threads = 1});
+        double limit = HUGE_VAL;
+        for (const world::IslandInfo& island : world.islands()) limit = std::min(limit, island.stepLimit);
+        return limit;
+    }
+
+    std::string caution() const override {
+        return spec_.colliders.empty() ? "" : "Contacts are of order 1 in the step, whatever the method.";
+    }
+
+  private:
+    world::SceneSpec spec_;
+    std::string name_, title_;
+    double tick_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Subject> makeSceneSubject(const world::SceneSpec& spec, const std::string& name) {
+    return std::make_unique<SceneSubject>(spec, name);
+}
+
+}  // namespace taut::study

@@ -1,0 +1,302 @@
+#include "study/work_precision.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "ode/method_table.h"
+#include "study/errors.h"
+
+namespace taut::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The errors of a run, gathered sample by sample.
+class Gathering {
+  public:
+    Gathering(const WorkPrecision& study) : study_(study) {}
+
+    void add(int sample, const Observation& seen) {
+        const Observation& wanted = study_.reference.at[static_cast<std::size_t>(sample)];
+        energy_ = std::max(energy_, std::abs(seen.energy - wanted.energy));
+        if (sample < study_.window) {
+            const double rms = rmsDifference(seen.values, wanted.values, study_.dimensions);
+            square_ += rms * rms;
+            final_ = rms;
+            most_ = std::max(most_, maxDifference(seen.values, wanted.values, study_.dimensions));
+            return;
+        }
+        const Shape is = shapeOf(seen, study_.dimensions), was = shapeOf(wanted, study_.dimensions);
+        ++beyond_;
+        meanEnergy_ += seen.energy - wanted.energy;
+        extent_ += is.extent - was.extent;
+        height_ += is.height - was.height;
+    }
+
+    void finish(RunPoint& point) const {
+        const Reference& reference = study_.reference;
+        point.rmsError = std::sqrt(square_ / study_.window);
+        point.finalError = final_;
+        point.maxError = most_;
+        point.isAtFloor = point.rmsError < reference.floor;
+        if (study_.hasEnergy && reference.kinetic > 0) {
+            point.energyError = energy_ / reference.kinetic;
+            point.isEnergyAtFloor = energy_ < reference.energyFloor;
+        }
+        if (!(point.rmsError <= reference.extent)) point.status = RunStatus::lost;
+        if (beyond_ == 0) return;
+        if (reference.kinetic > 0) point.meanEnergyError = std::abs(meanEnergy_) / beyond_ / reference.kinetic;
+        point.extentError = std::abs(extent_) / beyond_;
+        point.heightError = std::abs(height_) / beyond_;
+    }
+
+  private:
+    const WorkPrecision& study_;
+    double square_ = 0, final_ = 0, most_ = 0, energy_ = 0, meanEnergy_ = 0, extent_ = 0, height_ = 0;
+    int beyond_ = 0;
+};
+
+class Sweep {
+  public:
+    Sweep(const Subject& subject, const StudySettings& settings, WorkPrecision& study, double secondsPerCurve)
+        : subject_(subject), settings_(settings), study_(study), secondsPerCurve_(secondsPerCurve) {}
+
+    void curve(const MethodFacts& method, Precision precision);
+    bool isStopped() const { return settings_.stop != nullptr && settings_.stop->load(); }
+    std::function<void(double)> report;  // of 0 … 1 of the curve
+
+  private:
+    double firstStep(const MethodFacts& method) const;
+    RunPoint run(const RunPlan& plan, double& seconds);
+    void time(const RunPlan& plan, double estimate, RunPoint& point);
+    // Whether smaller steps tell nothing new: twice no better than before.
+    bool hasLevelled(std::size_t first) const;
+
+    const Subject& subject_;
+    const StudySettings& settings_;
+    WorkPrecision& study_;
+    double secondsPerCurve_;
+};
+
+// Two to four times what the method stands; where no step is stable, what leap-frog would not stand either.
+double Sweep::firstStep(const MethodFacts& method) const {
+    double limit = method.stepLimit;
+    for (const MethodFacts& other : study_.methods)
+        if (limit == 0 && other.name == "leapfrog") limit = other.stepLimit;
+    if (limit == 0) limit = subject_.stepLimit(*ode::findMethod("leapfrog"));
+    return std::min(study_.grid.spacing, 4 * limit);
+}
+
+RunPoint Sweep::run(const RunPlan& plan, double& seconds) {
+    RunPoint point;
+    point.method = plan.method;
+    point.precision = plan.precision;
+    point.step = plan.step();
+    point.steps = plan.steps();
+    const std::unique_ptr<Trial> trial = subject_.begin(plan);
+    Gathering gathering(study_);
+    ode::Work work = trial->work();
+    double spent = 0;
+    int sample = 0;
+    for (; sample < plan.grid.samples; ++sample) {
+        const ode::Work before = trial->work();
+        const auto start = Clock::now();
+        const bool goesOn = trial->advance();
+        spent += secondsSince(start);
+        const ode::Work after = trial->work();
+        work.evaluations += after.evaluations - before.evaluations;
+        work.iterations += after.iterations - before.iterations;
+        work.unconverged += after.unconverged - before.unconverged;
+        if (!goesOn) break;
+        const Observation seen = trial->observe();
+        study_.hasContacts |= seen.contacts > 0;
+        gathering.add(sample, seen);
+    }
+    point.evaluations = work.evaluations;
+    point.iterations = work.iterations;
+    point.unconverged = work.unconverged;
+    seconds = spent;
+    if (sample < plan.grid.samples)
+        point.status = RunStatus::diverged;
+    else
+        gathering.finish(point);
+    return point;
+}
+
+// Whole runs without a look at them, each from a fresh start.
+void Sweep::time(const RunPlan& plan, double estimate, RunPoint& point) {
+    const int repeats = estimate < 1e-3 ? 15 : estimate < 0.03 ? 7 : estimate < 0.1 ? 5 : 3;
+    std::vector<double> times;
+    for (int i = 0; i < repeats; ++i) {
+        const std::unique_ptr<Trial> trial = subject_.begin(plan);
+        const auto start = Clock::now();
+        for (int sample = 0; sample < plan.grid.samples; ++sample)
+            if (!trial->advance()) break;
+        times.push_back(secondsSince(start));
+    }
+    std::sort(times.begin(), times.end());
+    const auto at = [&](double part) { return times[static_cast<std::size_t>(part * (repeats - 1) + 0.5)]; };
+    point.fastSeconds = at(0.25);
+    point.seconds = at(0.5);
+    point.slowSeconds = at(0.75);
+    point.repeats = repeats;
+}
+
+bool Sweep::hasLevelled(std::size_t first) const {
+    double best = HUGE_VAL;
+    int worse = 0;
+    for (std::size_t i = first; i < study_.points.size(); ++i) {
+        const RunPoint& point = study_.points[i];
+        if (point.status != RunStatus::ok || point.rmsError > 1e-3 * study_.reference.extent) continue;
+        worse = point.isAtFloor || point.rmsError > 0.8 * best ? worse + 1 : 0;
+        best = std::min(best, point.rmsError);
+    }
+    return worse >= 2;
+}
+
+void Sweep::curve(const MethodFacts& method, Precision precision) {
+    const double longestRun = secondsPerCurve_ / 8;  // with its repeats and all the longer steps together eight times
+    const std::size_t first = study_.points.size();
+    RunPlan plan;
+    plan.method = method.name;
+    plan.precision = precision;
+    plan.grid = study_.grid;
+    plan.stepsPerSample = stepsPerSample(subject_, study_.grid, firstStep(method));
+    double spent = 0, lastRun = 0;
+    int good = 0;
+    for (int halvings = 0; halvings < 24 && !isStopped(); ++halvings, plan.stepsPerSample *= 2) {
+        const double expected = 2 * lastRun;
+        // A curve needs a slope: three points, unless they are out of all proportion.
+        if (expected > longestRun * (good < 3 ? 8 : 1)) break;
+        const auto start = Clock::now();
+        double seconds = 0;
+        RunPoint point = run(plan, seconds);
+        lastRun = point.status == RunStatus::diverged ? std::max(lastRun, seconds) : seconds;
+        if (point.status == RunStatus::ok) {
+            ++good;
+            time(plan, seconds, point);
+        }
+        study_.points.push_back(point);
+        spent += secondsSince(start);
+        if (report) report(std::min(0.95, spent / secondsPerCurve_));
+        if (hasLevelled(first)) break;
+    }
+}
+
+std::vector<MethodFacts> chosenMethods(const Subject& subject, const StudySettings& settings) {
+    const auto fail = [](const std::string& what) { throw core::Error(core::ExitCode::usage, what); };
+    for (const std::string& name : settings.methods) {
+        const ode::MethodInfo* info = ode::findMethod(name);
+        if (info == nullptr)
+            fail("there is no method '" + name + "'");
+        else if (!subject.accepts(*info))
+            fail(std::string(info->title) + " needs x'' = a(t, x, v); " + subject.name() + " is of first order");
+    }
+    std::vector<MethodFacts> chosen;
+    for (const ode::MethodInfo& info : ode::methods()) {
+        const bool isWanted = settings.methods.empty() || std::find(settings.methods.begin(), settings.methods.end(),
+                                                                    info.name) != settings.methods.end();
+        if (isWanted && subject.accepts(info))
+            chosen.push_back({std::string(info.name), std::string(info.title), info.order, subject.stepLimit(info)});
+    }
+    return chosen;
+}
+
+void addRemarks(const Subject& subject, WorkPrecision& study) {
+    const auto number = [](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.2g", value);
+        return std::string(text);
+    };
+    const double duration = study.grid.duration();
+    if (study.horizon.isReached)
+        study.remarks.push_back("Chaotic: a shift of 1e-9 m grows a thousandfold within " +
+                                number(study.horizon.seconds) + " s. Errors of positions are taken over the first " +
+                                number(study.grid.spacing * study.window) + " s only; from there to " +
+                                number(duration) + " s only energy, extent and mean height are compared.");
+    if (study.window < 10)
+        study.remarks.push_back("Only " + std::to_string(study.window) + " sample times lie within the horizon.");
+    const bool anyAtFloor =
+        std::any_of(study.points.begin(), study.points.end(), [](const RunPoint& point) { return point.isAtFloor; });
+    if (anyAtFloor)
+        study.remarks.push_back("The reference, RK4 at two steps, agrees with itself to " +
+                                number(study.reference.difference) + " only; errors below " +
+                                number(study.reference.floor) + " are marked, they are not resolved.");
+    if (study.hasContacts) study.remarks.push_back("There are contacts. " + subject.caution());
+    if (study.isInterrupted) study.remarks.push_back("Interrupted: curves are missing.");
+}
+
+}  // namespace
+
+std::string_view nameOf(RunStatus status) {
+    return status == RunStatus::ok ? "ok" : status == RunStatus::diverged ? "diverged" : "lost";
+}
+
+WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& settings) {
+    const auto tell = [&](const std::string& doing, double done) {
+        if (settings.progress) settings.progress({doing, done});
+    };
+    WorkPrecision study;
+    study.name = subject.name();
+    study.title = subject.title();
+    study.unit = subject.unit();
+    study.dimensions = subject.dimensions();
+    study.hasEnergy = subject.hasEnergy();
+    study.methods = chosenMethods(subject, settings);
+    const double duration = settings.seconds > 0 ? settings.seconds : subject.duration();
+
+    tell("horizon", 0.0);
+    study.horizon = subject.exact(0.0) ? Horizon{duration, false, 1.0} : findHorizon(subject, duration);
+    study.grid = subject.grid(duration, study.horizon.seconds);
+    study.window =
+        std::clamp(static_cast<int>(study.horizon.seconds / study.grid.spacing + 1e-6), 1, study.grid.samples);
+    tell("reference", 0.02);
+    study.reference = makeReference(subject, study.grid, study.window, 0.08 * settings.budget);
+
+    const double before = 0.12;  // of the budget
+    const auto curves = static_cast<double>(study.methods.size() * settings.precisions.size());
+    Sweep sweep(subject, settings, study, (1 - before) * settings.budget / std::max(curves, 1.0));
+    const core::ThreadLimit oneThread(1);  // curves are timed
+    double done = 0;
+    for (const MethodFacts& method : study.methods)
+        for (const Precision precision : settings.precisions) {
+            const std::string doing = method.name + ", " + std::string(nameOf(precision));
+            sweep.report = [&](double part) { tell(doing, before + (1 - before) * (done + part) / curves); };
+            sweep.report(0);
+            if (!sweep.isStopped()) sweep.curve(method, precision);
+            done += 1;
+        }
+    study.isInterrupted = sweep.isStopped();
+    addRemarks(subject, study);
+    tell("done", 1.0);
+    return study;
+}
+
+double measuredOrder(const WorkPrecision& study, std::string_view method, Precision precision) {
+    std::vector<const RunPoint*> curve;  // by falling step
+    for (const RunPoint& p : study.points)
+        if (p.method == method && p.precision == precision && p.status == RunStatus::ok) curve.push_back(&p);
+    double least = HUGE_VAL;
+    for (const RunPoint* p : curve) least = std::min(least, p->rmsError);
+    // A curve that has come down to rounding or to the reference's own error says nothing near that.
+    const bool hasLevelled = curve.size() > 1 && (curve.back()->isAtFloor ||
+                                                  curve.back()->rmsError > 0.8 * curve[curve.size() - 2]->rmsError);
+    const double low = hasLevelled ? 30 * least : 0, high = 1e-2 * study.reference.extent;
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (const RunPoint* p : curve) {
+        if (p->isAtFloor || p->rmsError < low || p->rmsError > high) continue;
+        const double x = std::log(p->step), y = std::log(p->rmsError);
+        ++n, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    return n < 3 ? RunPoint::unset : (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+}  // namespace taut::study

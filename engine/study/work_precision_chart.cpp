@@ -1,0 +1,309 @@
+#include "study/work_precision_chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "report/palette.h"
+
+namespace taut::study {
+namespace {
+
+using report::Axis;
+using report::Chart;
+using report::Panel;
+using report::Scale;
+
+constexpr double frame = 1.0 / 60;  // [s]
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+// What a chart puts on its axes.
+struct Quantities {
+    std::function<double(const RunPoint&)> x, y;
+    std::string xLabel, yLabel;
+    bool hasTimes = false;  // x is a wall time: with spread, and the frame budget drawn
+    bool hasSteps = false;  // x is the step: large steps first, limits drawn
+    std::function<bool(const RunPoint&)> isAtFloor;
+};
+
+std::vector<Precision> precisionsOf(const WorkPrecision& study) {
+    std::vector<Precision> found;
+    for (const Precision precision : {Precision::single_, Precision::double_})
+        if (std::any_of(study.points.begin(), study.points.end(),
+                        [&](const RunPoint& p) { return p.precision == precision; }))
+            found.push_back(precision);
+    return found;
+}
+
+double workOf(const RunPoint& point) {
+    return static_cast<double>(point.evaluations + point.iterations);
+}
+
+// Runs that failed were not timed, and ended early: their cost is that of their steps at the pace of the next shorter
+// step that went well, or of any other curve.
+double secondsOf(const WorkPrecision& study, const RunPoint& failed) {
+    const RunPoint* pace = nullptr;
+    for (const RunPoint& p : study.points) {
+        if (p.status != RunStatus::ok || p.precision != failed.precision) continue;
+        const bool isOwn = p.method == failed.method;
+        if (pace == nullptr || (isOwn && (pace->method != failed.method || p.step > pace->step))) pace = &p;
+    }
+    return pace == nullptr ? RunPoint::unset
+                           : pace->seconds * static_cast<double>(failed.steps) / static_cast<double>(pace->steps);
+}
+
+double fullWorkOf(const WorkPrecision& study, const RunPoint& failed) {
+    const RunPoint* pace = nullptr;
+    for (const RunPoint& p : study.points)
+        if (p.status == RunStatus::ok && p.method == failed.method && (pace == nullptr || p.step > pace->step))
+            pace = &p;
+    if (pace != nullptr) return workOf(*pace) * static_cast<double>(failed.steps) / static_cast<double>(pace->steps);
+    return std::max(workOf(failed), static_cast<double>(failed.steps));
+}
+
+struct Range {
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    void add(double value) {
+        if (!(value > 0) || !std::isfinite(value)) return;
+        least = std::min(least, value);
+        most = std::max(most, value);
+    }
+    bool isEmpty() const { return least > most; }
+};
+
+class Drawing {
+  public:
+    Drawing(const WorkPrecision& study, const Quantities& quantities) : study_(study), q_(quantities) {
+        for (const RunPoint& p : study.points) {
+            x_.add(q_.x(p));
+            if (p.status == RunStatus::ok) y_.add(q_.y(p));
+        }
+        if (q_.hasTimes && x_.most > 0.02) x_.add(1.0);  // so that the frame budget lies within
+        if (x_.isEmpty()) x_ = {1e-3, 1};
+        if (y_.isEmpty()) y_ = {1e-3, 1};
+        x_.least /= 1.4, x_.most *= 1.4, y_.least /= 2, y_.most *= 2;
+        // Room for the strip of failed runs above the curves.
+        rows_ = static_cast<int>(study.methods.size());
+        const double strip = (rows_ * 11 + 12) / height;
+        y_.most *= std::pow(y_.most / y_.least, strip / (1 - strip));
+    }
+
+    static constexpr double height = 430;  // [px] of a panel
+
+    Panel panel(Precision precision, bool isFirst) const {
+        Panel panel;
+        panel.title = std::string(nameOf(precision)) + " precision";
+        panel.x = {q_.xLabel, Scale::log, x_.least, x_.most, {}, true, q_.hasSteps};
+        panel.y = {isFirst ? q_.yLabel : "", Scale::log, y_.least, y_.most, {}, isFirst, false};
+        panel.strip.label = "diverged, or lost";
+        panel.strip.rows = rows_;
+        int row = 0;
+        for (const MethodFacts& method : study_.methods) addCurve(panel, method, precision, row++);
+        if (q_.hasTimes) addBudget(panel);
+        if (q_.hasSteps) addLimits(panel);
+        return panel;
+    }
+
+  private:
+    void addCurve(Panel& panel, const MethodFacts& method, Precision precision, int row) const {
+        report::Curve curve, limit, floor;
+        curve.title = method.title;
+        curve.style = report::styleOf(method.name);
+        limit.style = {curve.style.colour, report::Mark::circle, false, report::Dash::solid, 0, 1.9};
+        floor.style = {"#ffffff", curve.style.mark, true, report::Dash::solid, 0, 0.55};
+        for (const RunPoint& p : study_.points) {
+            if (p.method != method.name || p.precision != precision) continue;
+            if (p.status != RunStatus::ok) {
+                panel.strip.marks.push_back({q_.x(p), row, curve.style});
+                continue;
+            }
+            report::ChartPoint at{q_.x(p), q_.y(p)};
+            if (!(at.y > 0)) continue;
+            const bool isLimited = std::isfinite(method.stepLimit) && method.stepLimit > 0;
+            if (isLimited && limit.points.empty() && p.step <= method.stepLimit) limit.points.push_back(at);
+            if (q_.isAtFloor(p)) floor.points.push_back(at);
+            if (q_.hasTimes) {
+                const double simulated = study_.grid.duration();
+                at.xLow = p.fastSeconds / simulated;
+                at.xHigh = p.slowSeconds / simulated;
+            }
+            curve.points.push_back(at);
+        }
+        if (!limit.points.empty() && !q_.hasSteps) panel.curves.push_back(limit);
+        panel.curves.push_back(curve);
+        if (!floor.points.empty()) panel.curves.push_back(floor);
+    }
+
+    // Slower than real time: a second of motion takes more than a second.
+    void addBudget(Panel& panel) const {
+        if (x_.most < 1) {
+            panel.labels.push_back({0.99, 0.03, "real time: far to the right, at 1 s  →", "#707070",
+                                    report::Align::right, 0, 0, 10.5, false, true});
+            return;
+        }
+        report::Region slow;
+        slow.x0 = 1;
+        slow.opacity = 0.06;
+        panel.regions.push_back(slow);
+        report::Guide guide;
+        guide.x = 1;
+        guide.label = "real time: 16.7 ms a frame";
+        panel.guides.push_back(guide);
+    }
+
+    // One line for all methods that share a limit.
+    void addLimits(Panel& panel) const {
+        std::vector<std::pair<double, std::string>> limits;
+        for (const MethodFacts& method : study_.methods) {
+            if (!(method.stepLimit > x_.least) || method.stepLimit > x_.most) continue;
+            const auto same = std::find_if(limits.begin(), limits.end(), [&](const auto& limit) {
+                return std::abs(limit.first / method.stepLimit - 1) < 0.02;
+            });
+            if (same == limits.end())
+                limits.emplace_back(method.stepLimit, method.title);
+            else
+                same->second += ", " + method.title;
+        }
+        for (const auto& [step, names] : limits) {
+            report::Guide guide;
+            guide.x = step;
+            guide.label = "limit: " + names;
+            panel.guides.push_back(guide);
+        }
+        if (frame <= x_.most && frame >= x_.least) {
+            report::Guide guide;
+            guide.x = frame;
+            guide.label = "a frame, 1/60 s";
+            guide.style.dash = report::Dash::dotted;
+            panel.guides.push_back(guide);
+        }
+    }
+
+    const WorkPrecision& study_;
+    const Quantities& q_;
+    Range x_, y_;
+    int rows_ = 0;
+};
+
+std::string spanText(const WorkPrecision& study) {
+    const std::string unit = study.unit.empty() ? "" : " s";
+    const double window = study.grid.spacing * study.window;
+    return number(study.window) + " times within " + number(window) + unit;
+}
+
+// Long remarks in lines that fit the picture.
+void addLines(std::vector<std::string>& notes, const std::string& text, std::size_t width) {
+    std::string line;
+    std::size_t at = 0;
+    while (at < text.size()) {
+        std::size_t end = std::min(text.find(' ', at), text.size());
+        if (!line.empty() && line.size() + 1 + end - at > width) {
+            notes.push_back(line);
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + text.substr(at, end - at);
+        at = end + 1;
+    }
+    if (!line.empty()) notes.push_back(line);
+}
+
+Chart chartOf(const WorkPrecision& study, const Quantities& quantities, const std::string& subtitle,
+              const std::vector<std::string>& legend, const std::vector<std::string>& machine) {
+    Chart chart;
+    chart.title = study.title;
+    chart.subtitle = subtitle;
+    chart.panelHeight = static_cast<int>(Drawing::height);
+    const std::vector<Precision> precisions = precisionsOf(study);
+    chart.panelWidth = precisions.size() > 1 ? 460 : 640;
+    const Drawing drawing(study, quantities);
+    for (const Precision precision : precisions)
+        chart.panels.push_back(drawing.panel(precision, precision == precisions.front()));
+    const std::size_t width = precisions.size() > 1 ? 165 : 115;
+    for (const std::string& line : legend) addLines(chart.notes, line, width);
+    for (const std::string& remark : study.remarks) addLines(chart.notes, remark, width);
+    for (const std::string& line : machine) addLines(chart.notes, line, width);
+    return chart;
+}
+
+}  // namespace
+
+std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const std::vector<std::string>& notes) {
+    std::vector<NamedChart> charts;
+    const double simulated = study.grid.duration();
+    const std::string unit = study.unit.empty() ? "" : " [" + study.unit + "]";
+    const std::string what = study.unit.empty() ? "y" : "positions";
+    const std::string failures = "Top strip: runs that diverged, or whose error exceeds the whole motion.";
+    const std::string floors = " White dot: not told apart from the reference's own error.";
+    const std::string ring = " Ring: the largest step within the method's stability bound.";
+    const bool hasFloor =
+        std::any_of(study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.isAtFloor; });
+    const bool hasLimit = std::any_of(study.methods.begin(), study.methods.end(), [](const MethodFacts& m) {
+        return m.stepLimit > 0 && std::isfinite(m.stepLimit);
+    });
+    const std::string marks = failures + (hasLimit ? ring : "") + (hasFloor ? floors : "");
+
+    Quantities time;
+    time.x = [&](const RunPoint& p) {
+        return (p.status == RunStatus::ok ? p.seconds : secondsOf(study, p)) / simulated;
+    };
+    time.y = [](const RunPoint& p) { return p.rmsError; };
+    time.isAtFloor = [](const RunPoint& p) { return p.isAtFloor; };
+    time.xLabel = study.unit.empty() ? "wall time for a unit of t [s]" : "wall time for a second of motion [s]";
+    time.yLabel = "RMS error of " + what + unit;
+    time.hasTimes = true;
+    const std::string error = "RMS error of " + what + " at " + spanText(study) + ", ";
+    charts.push_back({"time", chartOf(study, time, error + "against wall time",
+                                      {marks + " Times: median, bars over the middle half of the repeats."}, notes)});
+
+    Quantities evaluations = time;
+    evaluations.x = [&](const RunPoint& p) {
+        return (p.status == RunStatus::ok ? workOf(p) : fullWorkOf(study, p)) / simulated;
+    };
+    const bool hasSolver =
+        std::any_of(study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.iterations > 0; });
+    evaluations.xLabel = study.unit.empty() ? "evaluations of y' for a unit of t" : "force evaluations for a second";
+    evaluations.hasTimes = false;
+    std::string counted = marks;
+    if (hasSolver) counted += " Each product with the stiffness in a solver counts as an evaluation.";
+    charts.push_back(
+        {"evaluations",
+         chartOf(study, evaluations, error + (study.unit.empty() ? "against evaluations" : "against force evaluations"),
+                 {counted}, notes)});
+
+    if (study.hasEnergy) {
+        Quantities energy = time;
+        energy.x = [](const RunPoint& p) { return p.step; };
+        energy.y = [](const RunPoint& p) { return p.energyError; };
+        energy.isAtFloor = [](const RunPoint& p) { return p.isEnergyAtFloor; };
+        energy.xLabel = "step h [s]";
+        energy.yLabel = "energy drift / largest kinetic energy";
+        energy.hasTimes = false;
+        energy.hasSteps = true;
+        charts.push_back({"energy", chartOf(study, energy,
+                                            "Largest difference of the energy from the reference's within " +
+                                                number(simulated) + " s, against the step",
+                                            {failures + (hasFloor ? floors : "") +
+                                             " Dashed: stability limits by the methods' bounds."},
+                                            notes)});
+    }
+    if (study.window < study.grid.samples) {
+        Quantities beyond = evaluations;
+        beyond.y = [](const RunPoint& p) { return p.heightError; };
+        beyond.isAtFloor = [](const RunPoint&) { return false; };
+        beyond.yLabel = "error of the mean height [m]";
+        charts.push_back(
+            {"statistics", chartOf(study, beyond,
+                                   "Beyond the horizon: the mean height, averaged from " +
+                                       number(study.grid.spacing * study.window) + " s to " + number(simulated) + " s",
+                                   {counted}, notes)});
+    }
+    return charts;
+}
+
+}  // namespace taut::study

@@ -1,0 +1,29 @@
+// A work-precision study as text: CSV and JSON for programs, a table for people.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "study/growth_table.h"
+#include "study/work_precision.h"
+
+namespace taut::study {
+
+// What the study ran on: names and values, such as {"processor", "…"}.
+using MachineFacts = std::vector<std::pair<std::string, std::string>>;
+
+// A row a run, failed ones included; units stand in the names of the columns.
+std::string workPrecisionCsv(const WorkPrecision& study);
+
+// Everything but the observations, with the machine. `growth` may be empty.
+std::string workPrecisionJson(const WorkPrecision& study, const std::vector<GrowthRow>& growth,
+                              const MachineFacts& machine);
+
+// A line a method and precision: limit, measured order, what its best run and the cheapest within 1 % and 0.1 % of the
+// motion cost.
+std::string workPrecisionSummary(const WorkPrecision& study);
+
+std::string growthSummary(const std::vector<GrowthRow>& rows);
+
+}  // namespace taut::study

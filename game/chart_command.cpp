@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commit.h"
+#include "core/error.h"
+#include "game/commands.h"
+#include "game/folders.h"
+#include "game/interruption.h"
+#include "game/live_line.h"
+#include "game/messages.h"
+#include "game/progress.h"
+#include "game/scene_file.h"
+#include "game/suggestion.h"
+#include "image/whole_file.h"
+#include "ode/method_table.h"
+#include "pipeline/machine.h"
+#include "report/gnuplot.h"
+#include "study/growth_table.h"
+#include "study/problems.h"
+#include "study/scene_subject.h"
+#include "study/work_precision.h"
+#include "study/work_precision_chart.h"
+#include "study/work_precision_text.h"
+
+namespace taut::game {
+namespace {
+
+struct ChartFlags {
+    std::string subject;
+    std::string output;
+    std::vector<std::string> methods;
+    std::string precision = "both";
+    double seconds = 0.0, budget = 40.0;
+    std::vector<std::string> overrides;
+    bool list = false, quiet = false;
+};
+
+void printProblems() {
+    fmt::print("taut chart PROBLEM or taut chart SCENE draws error against cost for every method. The problems:\n\n");
+    for (const study::ProblemInfo& problem : study::problems())
+        fmt::print("  {:<14} {}\n", problem.name, problem.about);
+    fmt::print("\nThe methods:");
+    for (const ode::MethodInfo& method : ode::methods()) fmt::print(" {}", method.name);
+    fmt::print("\nA SCENE is a file, or the name of a shipped one: {}\n", fmt::join(shippedScenes(), ", "));
+}
+
+// A problem by name, or a scene.
+std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
+    if (const study::ProblemInfo* problem = study::findProblem(flags.subject)) {
+        if (!flags.overrides.empty())
+            throw core::Error(core::ExitCode::usage,
+                              "--set changes fields of scenes; " + flags.subject + " is a built-in problem");
+        return problem->make();
+    }
+    std::vector<std::string> names = shippedScenes();
+    const bool isBare = flags.subject.find('/') == std::string::npos && !flags.subject.ends_with(".toml") &&
+                        std::find(names.begin(), names.end(), flags.subject) == names.end() &&
+                        !std::filesystem::exists(flags.subject);
+    if (isBare) {
+        for (const study::ProblemInfo& problem : study::problems()) names.emplace_back(problem.name);
+        const std::string hint = didYouMean(flags.subject, names);
+        throw core::Error(core::ExitCode::usage,
+                          fmt::format("there is no problem or scene '{}'{}", flags.subject,
+                                      hint.empty() ? "; taut chart --list names the problems" : hint));
+    }
+    const std::filesystem::path file = sceneFile(flags.subject);
+    return study::makeSceneSubject(readScene(flags.subject, flags.overrides), file.stem().string());
+}
+
+void checkMethods(const std::vector<std::string>& wanted) {
+    std::vector<std::string> names;
+    for (const ode::MethodInfo& method : ode::methods()) names.emplace_back(method.name);
+    for (const std::string& name : wanted)
+        if (ode::findMethod(name) == nullptr) {
+            const std::string hint = didYouMean(name, names);
+            throw core::Error(core::ExitCode::usage,
+                              fmt::format("there is no method '{}'{}", name,
+                                          hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
+        }
+}
+
+std::string programText(const pipeline::Machine& machine) {
+    return fmt::format("{}, commit {}", machine.program, TAUT_COMMIT);
+}
+
+study::MachineFacts machineFacts(const pipeline::Machine& machine) {
+    return {{"processor", machine.processor}, {"compiler", machine.compiler}, {"flags", TAUT_FLAGS},
+            {"simd", machine.simd},           {"program", machine.program},   {"commit", TAUT_COMMIT},
+            {"system", machine.system}};
+}
+
+study::StudySettings studySettings(const ChartFlags& flags) {
+    study::StudySettings settings;
+    settings.methods = flags.methods;
+    settings.seconds = flags.seconds;
+    settings.budget = flags.budget;
+    if (flags.precision == "single") settings.precisions = {study::Precision::single_};
+    if (flags.precision == "double") settings.precisions = {study::Precision::double_};
+    return settings;
+}
+
+study::WorkPrecision play(const study::Subject& subject, study::StudySettings settings, bool isQuiet,
+                          const std::atomic<bool>& stop) {
+    LiveLine line(isQuiet);
+    const auto start = std::chrono::steady_clock::now();
+    settings.stop = &stop;
+    settings.progress = [&](const study::Progress& progress) {
+        if (!line.isDue(progress.done >= 1.0)) return;
+        const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double left = progress.done > 0.01 ? spent * (1.0 / progress.done - 1.0) : settings.budget;
+        line.show(fmt::format("{} {:3.0f} %  {} left  {}", subject.name(), 100 * progress.done, clockText(left),
+                              progress.doing));
+    };
+    return studyWorkPrecision(subject, settings);
+}
+
+void printResults(const study::WorkPrecision& result, const std::vector<study::GrowthRow>& growth) {
+    fmt::print("{}\n\n{}", result.title, study::workPrecisionSummary(result));
+    if (!growth.empty())
+        fmt::print("\nSteps until the error at t = 1 is below 1e-6, and what four evaluations buy\n\n{}",
+                   study::growthSummary(growth));
+    for (const std::string& remark : result.remarks) fmt::print("\n{}\n", remark);
+}
+
+int chart(const ChartFlags& flags) {
+    if (flags.list || flags.subject.empty()) {
+        printProblems();
+        return static_cast<int>(core::ExitCode::ok);
+    }
+    checkMethods(flags.methods);
+    const std::unique_ptr<study::Subject> subject = chosenSubject(flags);
+    const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / subject->name()
+                                                              : std::filesystem::path(flags.output);
+    const auto file = [&](const std::string& ending) { return folder / (subject->name() + ending); };
+    image::prepareFolderOf(file(".csv"));
+    const bool draws = !report::gnuplotVersion().empty();
+    if (!draws) printWarnings({report::gnuplotMissing() + "; only CSV and JSON will be written"});
+
+    const Interruption interruption;
+    const study::WorkPrecision result = play(*subject, studySettings(flags), flags.quiet, interruption.flag());
+    std::vector<study::GrowthRow> growth;
+    if (subject->name() == "growth" && !result.isInterrupted) growth = study::growthTable();
+    const pipeline::Machine machine = pipeline::machine();
+    image::writeWholeFile(file(".csv"), study::workPrecisionCsv(result));
+    image::writeWholeFile(file(".json"), study::workPrecisionJson(result, growth, machineFacts(machine)));
+    printResults(result, growth);
+    if (draws)
+        for (const study::NamedChart& drawn :
+             study::workPrecisionCharts(result, {fmt::format("{}, {}, {}; {}", machine.processor, machine.compiler,
+                                                             machine.simd, programText(machine))}))
+            report::writeChart(drawn.chart, file("-" + drawn.name));
+    if (!flags.quiet) fmt::print(stderr, "in {}\n", folder.string());
+    if (!draws) throw core::Error(core::ExitCode::inputOutput, "no pictures: " + report::gnuplotMissing());
+    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+}
+
+}  // namespace
+
+void addChart(CLI::App& app, Action& chosen) {
+    const auto flags = std::make_shared<ChartFlags>();
+    CLI::App* command = app.add_subcommand("chart", "Chart error against cost for every method and step");
+    command->add_option("PROBLEM", flags->subject, "A built-in problem, a scene file, or a shipped scene");
+    command->add_flag("--list", flags->list, "List the built-in problems");
+    command->add_option("-o,--output", flags->output, "The folder for CSV, JSON, SVG and PNG; else out/charts/NAME")
+        ->type_name("FOLDER");
+    command->add_option("--methods", flags->methods, "Only these, separated by commas")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("A,B");
+    command->add_option("--precision", flags->precision, "single, double or both")
+        ->check(CLI::IsMember({"single", "double", "both"}));
+    command->add_option("--seconds", flags->seconds, "Length of motion to study")->check(CLI::PositiveNumber);
+    command->add_option("--budget", flags->budget, "Wall time to aim at, in seconds")->check(CLI::Range(0.5, 86400.0));
+    command->add_option("--set", flags->overrides, "Override a field of a scene; repeatable")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command->add_flag("--quiet", flags->quiet, "No progress");
+    command->footer(
+        "Examples:\n"
+        "  taut chart cloth-corners\n"
+        "  taut chart growth --methods euler,rk4 -o out/growth\n"
+        "  taut chart flag --seconds 0.5 --precision double");
+    command->callback([&chosen, flags] { chosen = [flags] { return chart(*flags); }; });
+}
+
+}  // namespace taut::game

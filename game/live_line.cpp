@@ -1,0 +1,55 @@
+#include "game/live_line.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace taut::game {
+namespace {
+
+constexpr std::chrono::milliseconds liveInterval(100);
+constexpr std::chrono::seconds plainInterval(5);
+
+bool isLiveTerminal() {
+    const char* kind = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
+}
+
+// A line longer than the terminal would scroll instead of being overwritten.
+std::string cutToTerminal(const std::string& text) {
+    winsize window{};
+    if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return text;
+    return text.substr(0, window.ws_col - 1U);
+}
+
+}  // namespace
+
+LiveLine::LiveLine(bool quiet) : quiet_(quiet), live_(isLiveTerminal()) {}
+
+LiveLine::~LiveLine() {
+    if (open_) fmt::print(stderr, "\n");
+}
+
+bool LiveLine::isDue(bool last) {
+    if (quiet_) return false;
+    const auto now = std::chrono::steady_clock::now();
+    if (!last && now - shown_ < (live_ ? std::chrono::nanoseconds(liveInterval) : plainInterval)) return false;
+    shown_ = now;
+    return true;
+}
+
+void LiveLine::show(const std::string& text) {
+    if (live_) {
+        fmt::print(stderr, "\r{}\x1b[K", cutToTerminal(text));
+        std::fflush(stderr);
+        open_ = true;
+    } else {
+        fmt::print(stderr, "{}\n", text);
+    }
+}
+
+}  // namespace taut::game

@@ -12,6 +12,7 @@ namespace taut::game {
 
 using Action = std::function<int()>;  // returns the exit code
 
+void addChart(CLI::App& app, Action& chosen);
 void addCheck(CLI::App& app, Action& chosen);
 void addDoctor(CLI::App& app, Action& chosen);
 void addInfo(CLI::App& app, Action& chosen);

@@ -7,7 +7,8 @@ uniform float weave;
 uniform float thread;  // [m]
 uniform float roughness;
 uniform float sheen;
-uniform float mark;  // which surface, 1/255 … 1
+uniform float dulled;  // 0 … 1
+uniform float mark;    // which surface, 1/255 … 1
 in vec3 place;
 in vec3 upright;
 in vec2 material;
@@ -53,6 +54,7 @@ void main() {
     vec3 through = gl_FrontFacing ? backColour : albedo;
     if (!gl_FrontFacing) albedo = mix(backColour, albedo, 0.12);
 #endif
+    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * dot(albedo, vec3(0.3, 0.6, 0.1)), dulled);
     vec3 smoothNormal = normal;
     float open = 1.0;
 #ifdef WEAVE

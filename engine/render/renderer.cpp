@@ -9,6 +9,7 @@
 #include "render/edge_pass.h"
 #include "render/frame_block.h"
 #include "render/ground_pass.h"
+#include "render/label_pass.h"
 #include "render/light_box.h"
 #include "render/marks_pass.h"
 #include "render/mesh_cache.h"
@@ -34,6 +35,7 @@ struct Parts {
           ground(gl, shaders),
           edges(gl, shaders),
           marks(gl, shaders),
+          labels(options.font),
           background(shaders.program("background.vert", "background.frag")),
           frameBlock(gl, GlKind::buffer),
           empty(gl, GlKind::vertexArray) {}
@@ -47,6 +49,7 @@ struct Parts {
     GroundPass ground;
     EdgePass edges;
     MarksPass marks;
+    LabelPass labels;
     Program background;
     GlObject frameBlock;
     GlObject empty;
@@ -151,7 +154,9 @@ image::Image Renderer::draw(const view::FrameView& view) {
     }
     parts.targets.bindShading();
     if (view.showMarks) parts.marks.draw(view, projection, options.width, options.height);
-    return parts.targets.read();
+    image::Image picture = parts.targets.read();
+    parts.labels.draw(view, projection, picture);
+    return picture;
 }
 
 }  // namespace taut::render

@@ -19,6 +19,7 @@ struct RendererOptions {
     int shadowSize = 2048;  // [texels] edge of the shadow map; a multiple of 128
     Backend backend = Backend::osmesa;
     std::filesystem::path shaders;  // folder of the shader files
+    std::filesystem::path font;     // TrueType file for labels; empty: the one that Debian installs
 };
 
 // What draws, in the words of the GL library.
@@ -40,7 +41,8 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    // Throws Error(inputOutput) for a texture that cannot be read, Error(badContent) for one that is no picture.
+    // Throws Error(inputOutput) for a texture, or a font that a label needs, that cannot be read, Error(badContent) for
+    // one that is no picture or no font.
     image::Image draw(const view::FrameView& view);
 
     RendererInfo info() const;

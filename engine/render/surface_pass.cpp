@@ -36,6 +36,7 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
         program.set("thread", std::max(finish.thread, 1e-5F));
         program.set("roughness", finish.roughness);
         program.set("sheen", finish.sheen);
+        program.set("dulled", surface.dulled);
         program.set("mark", itemMark(i));
         if (finish.pattern == view::Pattern::image) textures_.bind(finish.texture);
         if (surface.twoSided) {

@@ -48,6 +48,7 @@ struct Surface {
     std::shared_ptr<const Finish> finish;
     glm::mat4 transform{1.0F};
     bool twoSided = false;  // a cloth; anything else is closed, or is seen and lit from its front only
+    float dulled = 0.0F;    // 0 … 1: how far its colours give way to a dull red, for what has stopped
 };
 
 struct Camera {
@@ -94,6 +95,20 @@ struct Marks {
     std::vector<Dot> dots;
 };
 
+enum class Align { left, centre, right };
+
+// A line of text over the picture, at a place of the world or of the screen.
+struct Label {
+    std::string text;              // UTF-8
+    std::optional<glm::vec3> at;   // [m] seen through the camera; none: `screen` counts
+    glm::vec2 screen{0.5F, 0.5F};  // from the top left, as shares of width and height
+    glm::vec2 shift{0.0F};         // [picture heights] from there to the right and down
+    Align align = Align::centre;   // what of the text's base line stands there
+    float size = 0.035F;           // [picture heights] of the type
+    glm::vec3 colour{1.0F};        // of the letters; they have a dark rim
+    float plate = 0.0F;            // darkness of a plate behind the text, 0 (none) … 1
+};
+
 struct FrameView {
     std::int64_t frame = 0;
     double time = 0.0;  // [s]
@@ -103,6 +118,7 @@ struct FrameView {
     std::optional<Ground> ground;
     std::vector<Surface> surfaces;
     Marks marks;
+    std::vector<Label> labels;
     bool showMarks = false;  // debug view: marks drawn, surfaces faded
 };
 

@@ -64,6 +64,23 @@ Json divergenceJson(const world::Divergence& d) {
             {"limit", d.limit}, {"safe_step_s", d.safeStep}, {"message", d.message}};
 }
 
+Json frozenJson(const world::World& world) {
+    Json all = Json::array();
+    for (const world::FrozenIsland& island : world.frozen())
+        all.push_back({{"name", island.name},
+                       {"bodies", island.bodies},
+                       {"kept_time_s", island.time},
+                       {"divergence", divergenceJson(island.divergence)}});
+    return all;
+}
+
+// Of the methods: force evaluations, and what the solver of an implicit one did.
+Json workJson(const ode::Work& work) {
+    return {{"evaluations", work.evaluations},
+            {"solver_iterations", work.iterations},
+            {"unconverged_solves", work.unconverged}};
+}
+
 Json timesJson(const RunResult& result) {
     double simulating = 0.0, drawing = 0.0, encoding = 0.0;
     for (const FrameRecord& frame : result.frames) {
@@ -97,7 +114,9 @@ std::string runJson(const world::SceneSpec& spec, const world::World& world, con
     json["frames"] = {{"first", request.options.firstFrame}, {"last", request.options.lastFrame}};
     json["seeds"] = seedsJson(spec);
     json["islands"] = islandsJson(world);
+    json["frozen"] = frozenJson(world);
     json["warnings"] = world.warnings();
+    json["work"] = workJson(world.work());
     json["seconds"] = timesJson(result);
     Json hashes = Json::array();
     for (const FrameRecord& frame : result.frames) hashes.push_back(hex(frame.hash));
@@ -109,14 +128,15 @@ std::string metricsCsv(const RunResult& result) {
     std::string text =
         "frame,time_s,kinetic_J,elastic_J,gravitational_J,total_J,momentum_x_kg_m_per_s,momentum_y_kg_m_per_s,"
         "momentum_z_kg_m_per_s,angular_x_kg_m2_per_s,angular_y_kg_m2_per_s,angular_z_kg_m2_per_s,max_strain,contacts,"
-        "inverted_cells,min_volume_ratio\n";
+        "inverted_cells,min_volume_ratio,evaluations,solver_iterations,unconverged_solves\n";
     for (const FrameRecord& frame : result.frames) {
         if (!frame.metrics) continue;
         const world::Metrics& m = *frame.metrics;
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame.frame,
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame.frame,
                        frame.time, m.kinetic, m.elastic, m.gravitational, m.kinetic + m.elastic + m.gravitational,
                        m.momentum.x, m.momentum.y, m.momentum.z, m.angularMomentum.x, m.angularMomentum.y,
-                       m.angularMomentum.z, m.maxStrain, m.contacts, m.invertedCells, m.minVolumeRatio);
+                       m.angularMomentum.z, m.maxStrain, m.contacts, m.invertedCells, m.minVolumeRatio,
+                       m.work.evaluations, m.work.iterations, m.work.unconverged);
     }
     return text;
 }

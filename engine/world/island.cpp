@@ -9,22 +9,13 @@
 #include "mechanics/volume.h"
 #include "ode/method_table.h"
 #include "world/divergence.h"
-#include "world/rotation.h"
+#include "world/motion.h"
 
 namespace taut::world {
 namespace {
 
 // Faster than this nothing in a scene moves: a point that does has left its stable step behind. [m/s]
 constexpr double speedLimit = 3000.0;
-
-// Part of the way from one pose to another, 0 … 1; the rotation the short way round.
-collision::Pose between(const collision::Pose& from, const collision::Pose& to, double part) {
-    if (part <= 0) return from;
-    if (part >= 1) return to;
-    const double sign = glm::dot(from.rotation, to.rotation) < 0 ? -1.0 : 1.0;
-    return {from.position + part * (to.position - from.position),
-            glm::normalize(from.rotation * (1.0 - part) + to.rotation * (sign * part))};
-}
 
 template <class Real>
 class IslandOf final : public Island {
@@ -41,7 +32,9 @@ class IslandOf final : public Island {
                                         std::vector<double>(plan_.points.size(), 0.0)};
         for (const auto& generator : system_.generators()) generator->addStability(motion(t), share);
         choice_ = chooseStep(plan_, share, 1.0 / ticksPerSecond);
-        method_ = ode::makeMethod<Real>(plan_.solver.integrator);
+        const SolverSpec& solver = plan_.solver;
+        method_ = ode::makeMethod<Real>(solver.integrator,
+                                        {solver.newtonSteps, solver.cgTolerance, solver.cgIterations});
         method_->start(system_, t, choice_.step, state_);
         before_ = core::AlignedArray<Real>(system_.layout().size());
         velocity_ = before_;
@@ -51,21 +44,38 @@ class IslandOf final : public Island {
     void setColliders(collision::Colliders colliders) override { colliders_ = std::move(colliders); }
 
     std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving) override {
+        if (frozen_) return std::nullopt;
         copyState(state_, good_);
+        const bool mayFreeze = plan_.solver.onDivergence == OnDivergence::freeze;
         const bool collides = colliders_.size() > 0 && std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
                                                                    [](const Body* b) { return b->common.collide; });
         for (int s = 0; s < choice_.substeps; ++s) {
+            if (mayFreeze) copyState(state_, good_);
             if (collides) std::copy(state_.x.begin(), state_.x.end(), before_.begin());
             method_->step(system_, time.at(s, choice_.substeps), choice_.step, state_);
             if (!isBounded()) return giveUp(time.at(s + 1, choice_.substeps));
             if (collides) collide(moving, s);
             if (!contacts_.empty() && !isBounded()) return giveUp(time.at(s + 1, choice_.substeps));
+            if (!mayFreeze) continue;
+            if (const auto fault = overstrained(time.at(s + 1, choice_.substeps))) return fault;
         }
         watchVolumes(time.at(choice_.substeps, choice_.substeps));
         return std::nullopt;
     }
 
     void undoTick() override { copyState(good_, state_); }
+
+    void freeze(const Fault& fault, const TickTime& time) override {
+        copyState(good_, state_);
+        contacts_.clear();
+        FrozenIsland frozen;
+        frozen.name = plan_.bodies.front()->fullName();
+        for (const Body* body : plan_.bodies) frozen.bodies.push_back(body->fullName());
+        frozen.time = fault.time - choice_.step;
+        frozen.divergence = diagnose(fault, time);
+        frozen_ = std::move(frozen);
+    }
+    const FrozenIsland* frozen() const override { return frozen_ ? &*frozen_ : nullptr; }
 
     const IslandPlan& plan() const override { return plan_; }
     double step() const override { return choice_.step; }
@@ -79,6 +89,7 @@ class IslandOf final : public Island {
     }
 
     void addMetrics(const TickTime& time, Metrics& metrics) override {
+        if (frozen_) return;
         const double t = time.at(0, 1);
         method_->synchronise(system_, t, choice_.step, state_, velocity_.data());
         for (int i = 0; i < system_.layout().count; ++i) {
@@ -103,13 +114,17 @@ class IslandOf final : public Island {
             metrics.invertedCells += state.inverted;
         }
         metrics.contacts += static_cast<int>(contacts_.size());
+        metrics.work += work();
     }
 
+    ode::Work work() const override { return method_->work(); }
     IslandInfo info() const override;
     std::vector<std::string> warnings() const override {
         std::vector<std::string> all = choice_.warnings;
         for (const std::string& warning : {stretchWarning_, collapseWarning_})
             if (!warning.empty()) all.push_back(warning);
+        if (work().unconverged > 0) all.push_back(unconvergedWarning(work(), plan_));
+        if (frozen_) all.push_back(explainFreeze(*frozen_, choice_, methodTitle()));
         return all;
     }
     Divergence diagnose(const Fault& fault, const TickTime& time) const override;
@@ -176,6 +191,25 @@ class IslandOf final : public Island {
         return fault;
     }
 
+    // The spring furthest from its rest length, if that is further than freezing allows. Springs of bending span two
+    // cells and tell nothing that the others do not.
+    std::optional<Fault> overstrained(double t) const {
+        Fault fault;
+        for (const mechanics::Spring& s : plan_.springs) {
+            if (s.kind == mechanics::SpringKind::bend || !(s.restLength > 0)) continue;
+            const dvec3 d = at(state_.x, s.b) - at(state_.x, s.a);
+            const double strain = std::abs(std::sqrt(glm::dot(d, d)) - s.restLength) / s.restLength;
+            if (strain <= std::max(fault.strain, plan_.solver.freezeStrain)) continue;
+            fault.strain = strain;
+            fault.point = plan_.points[static_cast<std::size_t>(s.a)].held ? s.b : s.a;
+        }
+        if (fault.point < 0) return std::nullopt;
+        fault.time = t;
+        return fault;
+    }
+
+    std::string_view methodTitle() const { return ode::findMethod(plan_.solver.integrator)->title; }
+
     void collide(std::span<const ColliderMotion> moving, int substep) {
         contacts_.clear();
         const double n = choice_.substeps;
@@ -228,12 +262,13 @@ class IslandOf final : public Island {
     std::vector<const mechanics::VolumePreservation<Real>*> volumes_;
     StepChoice choice_;
     std::unique_ptr<ode::Method<Real>> method_;
-    ode::State<Real> state_, good_;                  // good: as the tick began
+    ode::State<Real> state_, good_;                  // good: as the tick began, or the step where it may freeze
     core::AlignedArray<Real> before_, velocity_;     // (3 · stride) scratch
     collision::Colliders colliders_;
     std::vector<collision::Contact> contacts_;       // of the last step
     std::vector<int> touched_;
     std::string stretchWarning_, collapseWarning_;
+    std::optional<FrozenIsland> frozen_;
 };
 
 template <class Real>

@@ -27,11 +27,12 @@ struct TickTime {
     }
 };
 
-// Why an island stopped: the point whose velocity left all bounds, and when.
+// Why an island stopped: the point whose velocity, or a spring of which, left all bounds, and when.
 struct Fault {
-    int point = -1;  // in the island
-    double time = 0;
+    int point = -1;        // in the island
+    double time = 0;       // [s]
     bool isNumber = true;  // false: NaN or infinite
+    double strain = 0;     // above 0: of a spring at the point, over the one at which to freeze
 };
 
 // What acts on the bodies of the scene besides their springs.
@@ -72,6 +73,11 @@ class Island {
     // Puts the state back that the last tick began with.
     virtual void undoTick() = 0;
 
+    // After a fault: back to the state before the step that failed, where it stays; its ticks do nothing any more.
+    virtual void freeze(const Fault& fault, const TickTime& time) = 0;
+    // What became of it, or null while it moves.
+    virtual const FrozenIsland* frozen() const = 0;
+
     virtual const IslandPlan& plan() const = 0;
     virtual double step() const = 0;  // [s]
     virtual dvec3 position(int point) const = 0;
@@ -81,6 +87,8 @@ class Island {
     virtual void addToHash(const Body& body, core::Hash& hash) const = 0;
     // Adds this island's share at the time of the tick; velocities synchronised.
     virtual void addMetrics(const TickTime& time, Metrics& metrics) = 0;
+    // Since the start.
+    virtual ode::Work work() const = 0;
     virtual IslandInfo info() const = 0;
     // What to say before the first tick, and what has changed since (a working stretch left).
     virtual std::vector<std::string> warnings() const = 0;

@@ -71,4 +71,12 @@ view::Camera cameraAt(const CameraSpec& spec, double t) {
     return camera;
 }
 
+collision::Pose between(const collision::Pose& from, const collision::Pose& to, double part) {
+    if (part <= 0) return from;
+    if (part >= 1) return to;
+    const double sign = glm::dot(from.rotation, to.rotation) < 0 ? -1.0 : 1.0;
+    return {from.position + part * (to.position - from.position),
+            glm::normalize(from.rotation * (1.0 - part) + to.rotation * (sign * part))};
+}
+
 }  // namespace taut::world

@@ -17,4 +17,7 @@ collision::Pose poseAt(const ColliderSpec& spec, double t);
 
 view::Camera cameraAt(const CameraSpec& spec, double t);
 
+// Part of the way from one pose to another, 0 … 1; the rotation the short way round.
+collision::Pose between(const collision::Pose& from, const collision::Pose& to, double part);
+
 }  // namespace taut::world

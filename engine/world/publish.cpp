@@ -3,11 +3,13 @@
 #include <cmath>
 
 #include "world/impl.h"
+#include "world/labels.h"
 #include "world/motion.h"
 
 namespace taut::world {
 namespace {
 
+constexpr float frozenDullness = 0.93F;
 constexpr double fullStrain = 0.02;  // strain that the debug view draws in full colour
 
 // Blue when compressed, grey at rest, red when stretched.
@@ -72,13 +74,23 @@ view::FrameView World::view(bool debug) const {
             view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
                                      matrixOf(placement.to) * piece.transform, part.spec.shape == "plane"});
     });
+    std::vector<Body*> bodies;
     for (ecs::Entity entity : w.bodies) {
         const BodyPart& part = *w.registry.find<BodyPart>(entity);
         const Island& island = w.islandOf(*part.body);
+        bodies.push_back(part.body.get());
         std::vector<glm::vec3> positions;
         positions.reserve(part.body->pointOf.size());
         for (int i : part.body->pointOf) positions.emplace_back(island.position(i));
+        const std::size_t first = view.surfaces.size();
         part.drawing->addSurfaces(positions, view.surfaces);
+        if (island.frozen() == nullptr) continue;
+        for (std::size_t i = first; i < view.surfaces.size(); ++i) view.surfaces[i].dulled = frozenDullness;
+    }
+    for (const LabelSpec& label : w.spec.labels) {
+        std::vector<LabelSubject> subjects;
+        for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &w.islandOf(*body)});
+        addLabels(label, subjects, view.labels);
     }
     view.showMarks = debug;
     if (debug)

@@ -26,6 +26,8 @@ struct Source {
 };
 
 enum class Precision { single_, double_ };
+enum class OnDivergence { stop, freeze };
+enum class Align { left, centre, right };
 enum class Ease { linear, smooth, in, out, hold };
 
 struct SolverSpec {
@@ -33,6 +35,11 @@ struct SolverSpec {
     std::optional<double> dt;  // [s] largest step; none: found from the stability bound ("auto")
     double safety = 0.9;       // share of the stability limit that "auto" uses
     Precision precision = Precision::single_;
+    int newtonSteps = 1;        // of implicit Euler: linear solves a step, at most
+    double cgTolerance = 1e-5;  // of implicit Euler: residual over right-hand side at which a solve ends
+    int cgIterations = 1000;    // of implicit Euler: at most, a solve
+    OnDivergence onDivergence = OnDivergence::stop;
+    double freezeStrain = 1.0;  // |l - L|/L of a spring (but those of bending) at which freezing takes a body to diverge
 };
 
 // A body may override these parts of [solver].
@@ -40,6 +47,10 @@ struct SolverOverride {
     std::optional<std::string> integrator;
     std::optional<double> dt;
     std::optional<double> safety;
+    std::optional<int> newtonSteps;
+    std::optional<double> cgTolerance;
+    std::optional<int> cgIterations;
+    bool operator==(const SolverOverride&) const = default;
 };
 
 struct WorldSpec {
@@ -278,6 +289,21 @@ struct BackgroundSpec {
     double fadeEnd = 30.0;   // [m]
 };
 
+// A line of text in the picture. A body's name hangs above it unless a place is given; once the body is frozen, a
+// second line says so.
+struct LabelSpec {
+    std::string name;
+    Source source;
+    std::optional<std::string> text;  // none: the method of the body
+    std::optional<dvec3> at;          // [m] a place of the world
+    std::optional<dvec2> screen;      // a place of the picture from its top left, as shares of width and height
+    std::string of;                   // bodies, e.g. "cloth.*"; empty: none
+    double size = 0.035;              // [picture heights]
+    dvec3 colour{1.0, 1.0, 1.0};
+    Align align = Align::centre;
+    double plate = 0.0;               // darkness behind the text, 0 … 1
+};
+
 struct PictureSpec {
     ivec2 size{1280, 720};    // [px]
     std::string camera;       // name; empty: the first by name
@@ -307,6 +333,7 @@ struct SceneSpec {
     std::vector<ColliderSpec> colliders;
     std::vector<WindSpec> winds;
     std::vector<CameraSpec> cameras;
+    std::vector<LabelSpec> labels;
 };
 
 }  // namespace taut::world

@@ -195,6 +195,10 @@ std::optional<Divergence> World::advance() {
     });
     for (std::size_t i = 0; i < faults.size(); ++i)
         if (faults[i]) {
+            if (w.islands[i]->plan().solver.onDivergence == OnDivergence::freeze) {
+                w.islands[i]->freeze(*faults[i], now);
+                continue;
+            }
             w.undoTick();
             return w.islands[i]->diagnose(*faults[i], now);
         }
@@ -215,6 +219,19 @@ Metrics World::metrics() const {
 std::vector<IslandInfo> World::islands() const {
     std::vector<IslandInfo> all;
     for (const auto& island : impl_->islands) all.push_back(island->info());
+    return all;
+}
+
+ode::Work World::work() const {
+    ode::Work work;
+    for (const auto& island : impl_->islands) work += island->work();
+    return work;
+}
+
+std::vector<FrozenIsland> World::frozen() const {
+    std::vector<FrozenIsland> all;
+    for (const auto& island : impl_->islands)
+        if (const FrozenIsland* frozen = island->frozen()) all.push_back(*frozen);
     return all;
 }
 

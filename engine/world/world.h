@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ecs/registry.h"
+#include "ode/method.h"
 #include "view/frame_view.h"
 #include "world/spec.h"
 
@@ -29,7 +30,15 @@ struct Divergence {
     std::string message;      // the whole diagnosis, several lines
 };
 
-struct Metrics {  // at a published tick, velocities synchronised
+// An island that diverged while others went on: [solver] on_divergence = "freeze".
+struct FrozenIsland {
+    std::string name;                 // of its first body
+    std::vector<std::string> bodies;  // "cloth.flag", …
+    double time = 0;                  // [s] of the state that is kept
+    Divergence divergence;
+};
+
+struct Metrics {  // at a published tick, velocities synchronised; frozen islands left out
     double time = 0;                // [s]
     double kinetic = 0;             // [J]
     double elastic = 0;             // [J]
@@ -40,6 +49,7 @@ struct Metrics {  // at a published tick, velocities synchronised
     int contacts = 0;
     int invertedCells = 0;          // V/V0 <= 0
     double minVolumeRatio = 1;      // smallest V/V0
+    ode::Work work{};               // of the methods since the start
 };
 
 struct IslandInfo {
@@ -77,6 +87,8 @@ class World {
 
     // One tick: forces, integration, collision, substeps times for every island, side by side. On divergence the
     // state of the tick before is kept and the diagnosis returned; nothing else may be called then but the views.
+    // Where the scene asks for freezing, an island that diverges keeps its last good state from then on, the others go
+    // on, and nothing is returned.
     std::optional<Divergence> advance();
 
     // The picture of this moment; size in pixels sets the scale of the debug marks only.
@@ -85,7 +97,9 @@ class World {
     std::uint64_t stateHash() const;  // chained over ticks
     Metrics metrics() const;
     std::vector<IslandInfo> islands() const;
-    std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, …
+    ode::Work work() const;                     // of all methods since the start
+    std::vector<FrozenIsland> frozen() const;   // in the order of islands()
+    std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, frozen, …
 
     // Entities with their components (components.h), open to new kinds of both: a component added here together with
     // a system below needs no change in this class.

@@ -2,6 +2,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_bodies_test.cpp
   world_components_test.cpp
   world_divergence_test.cpp
+  world_freeze_test.cpp
   world_islands_test.cpp
   world_motion_test.cpp
   world_publish_test.cpp

@@ -164,12 +164,14 @@ std::optional<TargetFault> BodyIndex::pointsFault(const std::string& target) con
     return std::nullopt;
 }
 
+std::optional<TargetFault> BodyIndex::bodyFault(const std::string& target) const {
+    if (target.find('@') == std::string::npos) return bodiesFault(target);
+    return TargetFault{fmt::format("\"{}\" names points, not a body", target),
+                       fmt::format("write {}", withoutSelector(target))};
+}
+
 std::optional<TargetFault> BodyIndex::surfaceFault(const std::string& target) const {
-    if (target.find('@') != std::string::npos) {
-        return TargetFault{fmt::format("\"{}\" names points, not a body", target),
-                           fmt::format("write {}", withoutSelector(target))};
-    }
-    if (auto fault = bodiesFault(target)) return fault;
+    if (auto fault = bodyFault(target)) return fault;
     const std::string kind(kindOf(target));
     if (std::find(surfaceKinds.begin(), surfaceKinds.end(), kind) != surfaceKinds.end()) return std::nullopt;
     return TargetFault{fmt::format("a {} has no surface", kind),

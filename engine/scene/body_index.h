@@ -38,6 +38,9 @@ class BodyIndex {
     // KIND.NAME@SELECTOR; NAME may hold the wildcard *, and ends in .0, .1, … for one copy of an array.
     std::optional<TargetFault> pointsFault(const std::string& target) const;
 
+    // KIND.NAME, with the same wildcard.
+    std::optional<TargetFault> bodyFault(const std::string& target) const;
+
     // KIND.NAME of bodies with a surface.
     std::optional<TargetFault> surfaceFault(const std::string& target) const;
 

@@ -10,10 +10,10 @@
 namespace taut::scene {
 
 std::vector<Section> sceneSections() {
-    return {fileSection(),    needSection(),     solverSection(), worldSection(),     runSection(),
-            pictureSection(), materialSection(), clothSection(),  ropeSection(),      blockSection(),
-            netSection(),     jointSection(),    massSection(),   anchorSection(),    colliderSection(),
-            windSection(),    cameraSection(),   lightSection(),  backgroundSection()};
+    return {fileSection(),    needSection(),     solverSection(), worldSection(),      runSection(),
+            pictureSection(), materialSection(), clothSection(),  ropeSection(),       blockSection(),
+            netSection(),     jointSection(),    massSection(),   anchorSection(),     colliderSection(),
+            windSection(),    cameraSection(),   lightSection(),  backgroundSection(), labelSection()};
 }
 
 Place CheckInput::at(const std::string& key) const {

@@ -52,12 +52,22 @@ class FieldList {
     FieldList& degrees(const char* key, Number Base::*member, Range range, const char* help) {
         return number(key, member, "degrees", range, help, core::radians(1.0));
     }
-    template <class Whole, class Base>  // int or std::int64_t
+    template <class Whole, class Base>  // int or std::int64_t, or std::optional<int>
     FieldList& whole(const char* key, Whole Base::*member, const char* unit, Range range, const char* help) {
         return add(
             key, FieldKind::whole, unit, range, help,
-            [=](Spec& s, const Value& value) { s.*member = static_cast<Whole>(std::get<std::int64_t>(value)); },
-            [=](const Spec& s) -> Value { return static_cast<std::int64_t>(s.*member); });
+            [=](Spec& s, const Value& value) {
+                if constexpr (std::is_integral_v<Whole>)
+                    s.*member = static_cast<Whole>(std::get<std::int64_t>(value));
+                else
+                    s.*member = static_cast<int>(std::get<std::int64_t>(value));
+            },
+            [=](const Spec& s) -> Value {
+                if constexpr (std::is_integral_v<Whole>)
+                    return static_cast<std::int64_t>(s.*member);
+                else
+                    return s.*member ? Value(static_cast<std::int64_t>(*(s.*member))) : Value();
+            });
     }
     FieldList& flag(const char* key, bool Spec::*member, const char* help) {
         return add(
@@ -130,6 +140,18 @@ class FieldList {
                 for (double& number : numbers) number /= factor;
                 return numbers;
             });
+        last().components = N;
+        return *this;
+    }
+    // A vector that may be left out.
+    template <int N, class Base>
+    FieldList& vector(const char* key, std::optional<glm::vec<N, double, glm::defaultp>> Base::*member,
+                      const char* unit, Range range, const char* help) {
+        using Vector = glm::vec<N, double, glm::defaultp>;
+        add(
+            key, FieldKind::vector, unit, range, help,
+            [=](Spec& s, const Value& value) { s.*member = vectorOf<Vector>(std::get<std::vector<double>>(value)); },
+            [=](const Spec& s) -> Value { return s.*member ? Value(numbersOf(*(s.*member))) : Value(); });
         last().components = N;
         return *this;
     }

@@ -29,6 +29,7 @@ Section anchorSection();
 Section colliderSection();
 Section windSection();
 Section cameraSection();
+Section labelSection();
 
 // Parts of several sections.
 Section finishSection();

@@ -68,6 +68,7 @@ void sortByName(world::SceneSpec& spec) {
     sortByName(spec.colliders);
     sortByName(spec.winds);
     sortByName(spec.cameras);
+    sortByName(spec.labels);
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ const char* difference(const world::SolverOverride& a, const world::SolverOverri
     return a.integrator != b.integrator ? "integrator"
            : a.dt != b.dt               ? "dt"
            : a.safety != b.safety       ? "safety"
-                                        : nullptr;
+           : a == b                     ? nullptr
+                                        : "newton_steps, cg_tolerance or cg_iterations";
 }
 
 // A joint makes one island of its bodies, and an island has one method and one step.
@@ -67,6 +68,9 @@ void checkReferences(const ReadScene& scene, Problems& problems) {
                 break;
             case Role::bodies:
                 report(reference, bodies.surfaceFault(reference.text), problems);
+                break;
+            case Role::anyBodies:
+                report(reference, bodies.bodyFault(reference.text), problems);
                 break;
             case Role::selector:
                 report(reference, bodies.selectorFault(reference.owner, reference.text), problems);

@@ -3,6 +3,7 @@ list(APPEND TAUT_UNIT_TESTS
   scene_field_table_test.cpp
   scene_fields_test.cpp
   scene_files_test.cpp
+  scene_label_test.cpp
   scene_obj_test.cpp
   scene_overrides_test.cpp
   scene_reference_errors_test.cpp

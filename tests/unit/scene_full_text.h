@@ -16,6 +16,8 @@ integrator = "velocity-verlet"
 dt = 1e-3
 safety = 0.8
 precision = "double"
+on_divergence = "freeze"
+freeze_strain = 0.5
 [world]
 gravity = [0.5, -1.62, 0.25]
 air_density_kg_per_m3 = 0.02
@@ -163,6 +165,18 @@ keys = [{ t = 0, eye = [1, 2, 3], target = [4, 5, 6], fov_deg = 30, ease = "hold
 eye = [3, 2, 1]
 target = [0, 1, 0.5]
 orbit_period_s = 20
+[label.name]
+of = "rope.rail"
+size = 0.05
+colour = "#ff0000"
+align = "right"
+plate = 0.4
+[label.place]
+text = "here"
+at = [1, 2, 3]
+[label.title]
+text = "title"
+screen = [0.1, 0.2]
 )toml";
 
 }  // namespace taut::scene

@@ -1,0 +1,69 @@
+// The field table, part four: text in the picture.
+#include <fmt/format.h>
+
+#include "scene/field_list.h"
+#include "scene/fields_of.h"
+#include "scene/problems.h"
+
+namespace taut::scene {
+
+using namespace world;
+
+namespace {
+
+constexpr const char* inWorld = "a label in the world";
+constexpr const char* onScreen = "a label on the screen";
+constexpr const char* ofBodies = "a label of bodies";
+
+void checkLabel(const CheckInput& input, const LabelSpec& label) {
+    const auto has = [&](const char* key) { return input.table.find(key) != nullptr; };
+    if (input.variant.empty()) {
+        input.problems.addError(input.place, fmt::format("{} has no place", input.where),
+                                "give at = [x, y, z], screen = [x, y], or of = \"KIND.NAME\"");
+    } else if (!has("of") && !has("text")) {
+        input.problems.addError(input.place, fmt::format("{} needs text", input.where),
+                                "only a label of bodies has a text of its own: their method");
+    } else if (label.text && label.text->empty()) {
+        input.problems.addError(input.at("text"), "text must not be empty");
+    }
+}
+
+}  // namespace
+
+Section labelSection() {
+    Section section;
+    section.name = "label";
+    section.layout = Layout::named;
+    section.help = "A line of text in the picture, with a font of Debian's package fonts-dejavu-core.";
+    section.enter = enterNamed(&SceneSpec::labels);
+    section.variant = [](const Node& table) -> std::string {
+        return table.find("of") != nullptr       ? ofBodies
+               : table.find("at") != nullptr     ? inWorld
+               : table.find("screen") != nullptr ? onScreen
+                                                 : "";
+    };
+    section.fields =
+        FieldList<LabelSpec>()
+            .text("text", &LabelSpec::text, Role::none,
+                  "What it says; of bodies the name of their method if not given.")
+            .vector("at", &LabelSpec::at, "m", Range{-1e6, 1e6}, "The place that it stands on.")
+            .only({inWorld})
+            .vector("screen", &LabelSpec::screen, "", Range{-1.0, 2.0},
+                    "Where its base line is, from the top left, as shares of the picture's width and height.")
+            .only({onScreen})
+            .text("of", &LabelSpec::of, Role::anyBodies,
+                  "The bodies that it hangs above, e.g. \"cloth.*\"; a second line says when one has diverged.")
+            .only({ofBodies})
+            .number("size", &LabelSpec::size, "", Range{0.005, 0.5},
+                    "Size of the type as a share of the picture's height.")
+            .colour("colour", &LabelSpec::colour, "Of the letters; they have a dark rim.")
+            .choice("align", &LabelSpec::align, {"left", "centre", "right"}, "What of the text is at its place.")
+            .number("plate", &LabelSpec::plate, "", share, "Darkness of a plate behind the text.")
+            .take();
+    section.check = [](const CheckInput& input, void* target) {
+        checkLabel(input, *static_cast<const LabelSpec*>(target));
+    };
+    return section;
+}
+
+}  // namespace taut::scene

@@ -13,6 +13,7 @@
 #include "image/whole_file.h"
 #include "pipeline/machine.h"
 #include "pipeline/self_test.h"
+#include "render/font.h"
 
 namespace taut::game {
 namespace {
@@ -37,6 +38,17 @@ void printMachine() {
 bool printFolder(const std::string& name, const std::filesystem::path& folder, const char* variable) {
     printFact(name, folder.empty() ? fmt::format("MISSING; {} may name the folder", variable) : folder.string());
     return !folder.empty();
+}
+
+// Only scenes with labels need it, so nothing fails without it.
+void printFont() {
+    const std::filesystem::path file = fontFile();
+    try {
+        const render::Font font(file);
+        printFact("font", file.string());
+    } catch (const core::Error& error) {
+        printFact("font", fmt::format("MISSING: {}", error.what()));
+    }
 }
 
 // Each backend draws a small test picture; true when at least one does.
@@ -83,6 +95,7 @@ int doctor(const std::string& folder) {
     printFact("ffmpeg", ffmpeg.empty() ? "MISSING: videos need the package ffmpeg, picture files do not" : ffmpeg);
     bool files = printFolder("shaders", shaderFolder(), "TAUT_SHADERS");
     files = printFolder("assets", assetFolder(), "TAUT_ASSETS") && files;
+    printFont();
     printFact("scenes", fmt::format("{}", fmt::join(shippedScenes(), " ")));
     const bool draws = printRenderers();
     files = printWriteTest(folder) && files;

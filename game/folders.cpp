@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "render/font.h"
 
 namespace taut::game {
 namespace {
@@ -31,6 +32,11 @@ std::filesystem::path assetFolder() {
 }
 std::filesystem::path shaderFolder() {
     return found("TAUT_SHADERS", "shaders");
+}
+
+std::filesystem::path fontFile() {
+    const char* wish = std::getenv("TAUT_FONT");
+    return wish != nullptr && *wish != '\0' ? std::filesystem::path(wish) : render::defaultFont();
 }
 
 std::vector<std::string> shippedScenes() {

@@ -13,6 +13,9 @@ namespace taut::game {
 std::filesystem::path assetFolder();
 std::filesystem::path shaderFolder();
 
+// The font for labels: $TAUT_FONT, or the one that Debian installs; empty when there is none.
+std::filesystem::path fontFile();
+
 // Names of the scenes in the asset folder, without ".toml", sorted.
 std::vector<std::string> shippedScenes();
 

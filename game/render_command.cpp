@@ -94,6 +94,7 @@ std::unique_ptr<render::Renderer> makeRenderer(const RenderFlags& flags, const w
     options.samples = picture.samples;
     options.shadowSize = picture.shadowSize;
     options.shaders = shaderFolder();
+    options.font = fontFile();
     return pipeline::workingRenderer(options, backends);
 }
 

@@ -114,7 +114,7 @@ TEST(Program, WithoutAGlContextItIsExitCodeSevenAndTellsWhatWasTried) {
 TEST(Program, DoctorTellsOfEverythingTheProgramNeeds) {
     const TemporaryFolder folder;
     const Outcome outcome = run({"doctor"});
-    for (const char* word : {"ffmpeg", "osmesa", "egl", "avx2", "shaders"})
+    for (const char* word : {"ffmpeg", "osmesa", "egl", "avx2", "shaders", "font "})
         EXPECT_TRUE(has(outcome.out, word)) << word << " in " << outcome.out;
     EXPECT_EQ(outcome.code, 0);
 }
@@ -207,6 +207,34 @@ TEST(Program, DivergenceIsExitCodeFourAndKeepsFramesAndDiagnosis) {
     const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
     EXPECT_EQ(json["ended"], "diverged");
     EXPECT_EQ(json["divergence"]["body"], "net.spring");
+}
+
+TEST(Program, ADivergenceThatIsFrozenIsAWarningAndInTheRecord) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run(
+        {"render", springScene(folder).string(), "-o", (folder / "out").string(), "--seconds", "20", "--set",
+         "net.spring.springs=[{a='nail',b='bob',stiffness_N_per_m=1e6,rest_length_m=0.9}]", "--set", "solver.dt=0.02",
+         "--set", "solver.on_divergence=\"freeze\"", "--frames", "399"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "warning: net.spring diverged at t = ")) << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_000399.png"));
+    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
+    EXPECT_EQ(json["ended"], "complete");
+    ASSERT_EQ(json["frozen"].size(), 1U);
+    EXPECT_EQ(json["frozen"][0]["name"], "net.spring");
+    EXPECT_GT(json["frozen"][0]["divergence"]["time_s"], json["frozen"][0]["kept_time_s"]);
+}
+
+TEST(Program, AFontThatIsMissingIsSaidOnlyWhereTextIsDrawn) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    const std::string start = "TAUT_FONT=/nowhere.ttf " TAUT_PROGRAM " render " + scene + " --frames 0 -o " +
+                              (folder / "out").string() + " -y --quiet ";
+    const std::string said = (folder / "said").string();
+    EXPECT_EQ(WEXITSTATUS(std::system((start + "2>" + said).c_str())), 0) << test::contentOf(said);
+    test::writeText(scene, test::contentOf(scene) + "[label.a]\ntext = \"x\"\nscreen = [0.5, 0.5]\nsize = 0.3\n");
+    EXPECT_EQ(WEXITSTATUS(std::system((start + "2>" + said).c_str())), 6) << test::contentOf(said);
+    EXPECT_TRUE(has(test::contentOf(said), "fonts-dejavu-core")) << test::contentOf(said);
 }
 
 TEST(Program, SchemaIsJson) {

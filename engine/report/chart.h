@@ -10,7 +10,7 @@
 namespace taut::report {
 
 enum class Scale { linear, log };
-enum class Mark { none, circle, square, triangle, down, diamond, pentagon, cross, plus, star };
+enum class Mark { none, circle, square, triangle, down, diamond, pentagon, cross, plus, star, bar };
 enum class Dash { solid, dashed, dotted, dashDotted };
 enum class Align { left, centre, right };
 
@@ -85,7 +85,7 @@ struct Label {
 struct EdgeMark {
     double x = 0;
     int row = 0;  // from the top; each series has its own row
-    Style style;
+    Style style;  // Mark::bar: an upright line, for a limit
 };
 struct EdgeStrip {
     std::string label;  // "diverged"

@@ -51,6 +51,8 @@ int pointType(Mark mark, bool isFilled) {
             return 1;
         case Mark::star:
             return 3;
+        case Mark::bar:
+            return 1;
     }
     return 0;
 }
@@ -143,8 +145,10 @@ void Script::addTicks(char name, const std::vector<Tick>& ticks) {
 
 void Script::addAxis(char name, const Axis& axis) {
     if (axis.scale == Scale::log) add("set logscale {0} 10\nset format {0} '10^{{%L}}'\nset m{0}tics 10\n", name);
-    add("set {}range [{}:{}] {}\n", name, axis.least ? number(*axis.least) : "*", axis.most ? number(*axis.most) : "*",
-        axis.isReversed ? "reverse" : "noreverse");
+    std::string first = axis.least ? number(*axis.least) : "*", last = axis.most ? number(*axis.most) : "*";
+    const bool isFixed = axis.least && axis.most;  // then the order of the ends is what turns the axis round
+    if (axis.isReversed && isFixed) std::swap(first, last);
+    add("set {}range [{}:{}] {}\n", name, first, last, axis.isReversed && !isFixed ? "reverse" : "noreverse");
     add("set {}tics nomirror scale 0.6,0.3 textcolor rgb '#303030'\n", name);
     if (!axis.ticks.empty()) addTicks(name, axis.ticks);
     if (!axis.hasNumbers) add("set format {} ''\n", name);
@@ -302,10 +306,17 @@ void Script::addStrip(const EdgeStrip& strip, const Box& box) {
     add("set label {} noenhanced at graph 1, graph {} right offset screen {}, screen {} font {} textcolor rgb "
         "'#7a5548'\n",
         quoted(strip.label), number(foot), number(-5 / layout_.width), number(9 / layout_.height), font(10.5));
-    for (const EdgeMark& mark : strip.marks)
+    for (const EdgeMark& mark : strip.marks) {
+        const double y = 1.0 - (mark.row * rowHeight + 9) / height, half = 0.5 * rowHeight / height;
+        if (mark.style.mark == Mark::bar) {
+            add("set arrow from first {0}, graph {1} to first {0}, graph {2} nohead front lc rgb '{3}' lw 2\n",
+                number(mark.x), number(y - half), number(y + half), mark.style.colour);
+            continue;
+        }
         add("set label '' at first {}, graph {} point pt {} ps {} lc rgb '{}' lw 1.2 front\n", number(mark.x),
-            number(1.0 - (mark.row * rowHeight + 9) / height), pointType(mark.style.mark, mark.style.isFilled),
-            number(markSize(mark.style)), mark.style.colour);
+            number(y), pointType(mark.style.mark, mark.style.isFilled), number(markSize(mark.style)),
+            mark.style.colour);
+    }
 }
 
 void Script::addText(double x, double y, const std::string& words, double size, const char* colour) {
@@ -323,10 +334,12 @@ void Script::addFrame() {
     for (std::size_t i = 0; i < chart_.notes.size(); ++i)
         addText(layout_.left, layout_.notes[i], chart_.notes[i], 10, "#707070");
     for (const LegendEntry& entry : layout_.legend) {
-        Style line = entry.style, mark = entry.style;
-        line.mark = Mark::none;
+        Style mark = entry.style;
+        if (mark.width > 0)
+            add("set arrow from first {}, first {} to first {}, first {} nohead back lc rgb '{}' lw {} dt {}\n",
+                number(entry.x), number(entry.y), number(entry.x + sampleLength), number(entry.y), mark.colour,
+                number(mark.width), dashType(mark.dash));
         mark.width = 0;
-        addCurve({"", line, {{entry.x, entry.y}, {entry.x + sampleLength, entry.y}}});
         if (mark.mark != Mark::none) addCurve({"", mark, {{entry.x + sampleLength / 2, entry.y}}});
         addText(entry.x + sampleLength + 7, entry.y, entry.title, 12, "#303030");
     }

@@ -39,9 +39,9 @@ void oscillation(double omega, double zeta, double d, double t, double& x, doubl
     }
 }
 
-// A spring of zero rest length is exactly linear; 1 kg, ω = 2π: a second a swing.
+// A spring of zero rest length is exactly linear; 1 kg, ω = 6/s, so that no sample time falls on a turning point.
 std::unique_ptr<Subject> oscillator(const char* name, const char* title, double zeta) {
-    constexpr double omega = 6.283185307179586;
+    constexpr double omega = 6.0;
     const dvec3 start(1.0, 0.5, -0.25);
     MechanicalProblem problem;
     problem.name = name;
@@ -81,16 +81,16 @@ std::unique_ptr<Subject> makeProjectile() {
 }
 
 std::unique_ptr<Subject> makeUndamped() {
-    return oscillator("oscillator", "Oscillator without damping, five periods", 0.0);
+    return oscillator("oscillator", "Oscillator without damping, 5 s at 6 rad/s", 0.0);
 }
 std::unique_ptr<Subject> makeUnderdamped() {
-    return oscillator("underdamped", "Oscillator, damping ratio 0.1, five periods", 0.1);
+    return oscillator("underdamped", "Oscillator, damping ratio 0.1, 5 s at 6 rad/s", 0.1);
 }
 std::unique_ptr<Subject> makeCritical() {
-    return oscillator("critical", "Oscillator, critically damped, five periods", 1.0);
+    return oscillator("critical", "Oscillator, critically damped, 5 s at 6 rad/s", 1.0);
 }
 std::unique_ptr<Subject> makeOverdamped() {
-    return oscillator("overdamped", "Oscillator, damping ratio 2, five periods", 2.0);
+    return oscillator("overdamped", "Oscillator, damping ratio 2, 5 s at 6 rad/s", 2.0);
 }
 
 // 1 kg on a string of 1 m and 40 N/m: ω_z = √(k/m) is about twice ω_x = √(g/l0), so that swinging and bouncing trade

@@ -289,10 +289,12 @@ double measuredOrder(const WorkPrecision& study, std::string_view method, Precis
     // A curve that has come down to rounding or to the reference's own error says nothing near that.
     const bool hasLevelled = curve.size() > 1 && (curve.back()->isAtFloor ||
                                                   curve.back()->rmsError > 0.8 * curve[curve.size() - 2]->rmsError);
-    const double low = hasLevelled ? 30 * least : 0, high = 1e-2 * study.reference.extent;
+    const double rounding = (precision == Precision::single_ ? 1e-5 : 1e-9) * study.reference.extent;
+    const double low = std::max(rounding, hasLevelled ? 30 * least : 0), high = 1e-2 * study.reference.extent;
+    std::erase_if(curve, [&](const RunPoint* p) { return p->isAtFloor || p->rmsError < low || p->rmsError > high; });
+    if (curve.size() > 5) curve.erase(curve.begin(), curve.end() - 5);
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (const RunPoint* p : curve) {
-        if (p->isAtFloor || p->rmsError < low || p->rmsError > high) continue;
         const double x = std::log(p->step), y = std::log(p->rmsError);
         ++n, sx += x, sy += y, sxx += x * x, sxy += x * y;
     }

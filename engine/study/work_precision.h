@@ -84,8 +84,9 @@ struct StudySettings {
 // Throws core::Error(usage) for a method that is not there or does not fit the subject.
 WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& settings);
 
-// The slope of log error over log step of a method's curve where it falls steadily: between an error of a hundredth of
-// the motion's size and thirty times where it levels off. NaN with fewer than three such points.
+// The slope of log error over log step of a method's curve, over its last five points before rounding or the
+// reference's own error are felt: thirty times above where it levels off, and in any case above 1e-9 of the motion's
+// size (single precision: 1e-5). NaN with fewer than three such points below a hundredth of that size.
 double measuredOrder(const WorkPrecision& study, std::string_view method, Precision precision);
 
 }  // namespace taut::study

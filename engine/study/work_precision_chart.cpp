@@ -67,6 +67,10 @@ double fullWorkOf(const WorkPrecision& study, const RunPoint& failed) {
     return std::max(workOf(failed), static_cast<double>(failed.steps));
 }
 
+bool isFailed(const RunPoint& point) {
+    return point.status != RunStatus::ok;
+}
+
 struct Range {
     double least = HUGE_VAL, most = -HUGE_VAL;
     void add(double value) {
@@ -89,8 +93,9 @@ class Drawing {
         if (y_.isEmpty()) y_ = {1e-3, 1};
         x_.least /= 1.4, x_.most *= 1.4, y_.least /= 2, y_.most *= 2;
         // Room for the strip of failed runs above the curves.
-        rows_ = static_cast<int>(study.methods.size());
-        const double strip = (rows_ * 11 + 12) / height;
+        if (std::any_of(study.points.begin(), study.points.end(), isFailed))
+            rows_ = static_cast<int>(study.methods.size());
+        const double strip = rows_ > 0 ? (rows_ * 11 + 12) / height : 0;
         y_.most *= std::pow(y_.most / y_.least, strip / (1 - strip));
     }
 
@@ -99,7 +104,7 @@ class Drawing {
     Panel panel(Precision precision, bool isFirst) const {
         Panel panel;
         panel.title = std::string(nameOf(precision)) + " precision";
-        panel.x = {q_.xLabel, Scale::log, x_.least, x_.most, {}, true, q_.hasSteps};
+        panel.x = {q_.xLabel, Scale::log, x_.least, x_.most, {}, true, false};
         panel.y = {isFirst ? q_.yLabel : "", Scale::log, y_.least, y_.most, {}, isFirst, false};
         panel.strip.label = "diverged, or lost";
         panel.strip.rows = rows_;
@@ -157,23 +162,22 @@ class Drawing {
         panel.guides.push_back(guide);
     }
 
-    // One line for all methods that share a limit.
+    // Each method's limit as a bar in its row of the strip; that of leap-frog, the default, over the whole panel.
     void addLimits(Panel& panel) const {
-        std::vector<std::pair<double, std::string>> limits;
+        int row = 0;
         for (const MethodFacts& method : study_.methods) {
-            if (!(method.stepLimit > x_.least) || method.stepLimit > x_.most) continue;
-            const auto same = std::find_if(limits.begin(), limits.end(), [&](const auto& limit) {
-                return std::abs(limit.first / method.stepLimit - 1) < 0.02;
-            });
-            if (same == limits.end())
-                limits.emplace_back(method.stepLimit, method.title);
-            else
-                same->second += ", " + method.title;
-        }
-        for (const auto& [step, names] : limits) {
+            const double limit = method.stepLimit;
+            const int at = row++;
+            if (!(limit > x_.least) || limit > x_.most) continue;
+            if (rows_ > 0) {
+                report::Style style = report::styleOf(method.name);
+                style.mark = report::Mark::bar;
+                panel.strip.marks.push_back({limit, at, style});
+            }
+            if (method.name != "leapfrog" && rows_ > 0) continue;
             report::Guide guide;
-            guide.x = step;
-            guide.label = "limit: " + names;
+            guide.x = limit;
+            guide.label = "limit of " + method.title;
             panel.guides.push_back(guide);
         }
         if (frame <= x_.most && frame >= x_.least) {
@@ -238,7 +242,9 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
     const double simulated = study.grid.duration();
     const std::string unit = study.unit.empty() ? "" : " [" + study.unit + "]";
     const std::string what = study.unit.empty() ? "y" : "positions";
-    const std::string failures = "Top strip: runs that diverged, or whose error exceeds the whole motion.";
+    const bool hasFailed = std::any_of(study.points.begin(), study.points.end(), isFailed);
+    const std::string failures =
+        hasFailed ? "Top strip: runs that diverged, or whose error exceeds the whole motion." : "";
     const std::string floors = " White dot: not told apart from the reference's own error.";
     const std::string ring = " Ring: the largest step within the method's stability bound.";
     const bool hasFloor =
@@ -285,12 +291,13 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
         energy.yLabel = "energy drift / largest kinetic energy";
         energy.hasTimes = false;
         energy.hasSteps = true;
-        charts.push_back({"energy", chartOf(study, energy,
-                                            "Largest difference of the energy from the reference's within " +
-                                                number(simulated) + " s, against the step",
-                                            {failures + (hasFloor ? floors : "") +
-                                             " Dashed: stability limits by the methods' bounds."},
-                                            notes)});
+        charts.push_back(
+            {"energy", chartOf(study, energy,
+                               "Largest difference of the energy from the reference's within " + number(simulated) +
+                                   " s, against the step",
+                               {failures + (hasFloor ? floors : "") +
+                                (hasLimit && hasFailed ? " Bars there: the methods' stability bounds." : "")},
+                               notes)});
     }
     if (study.window < study.grid.samples) {
         Quantities beyond = evaluations;

@@ -28,6 +28,8 @@ const std::map<std::string, Folders> allowed = {
     {"world", {"core", "ode", "ecs", "view", "mechanics", "collision"}},
     {"scene", {"core", "ode", "ecs", "view", "mechanics", "collision", "world"}},
     {"pipeline", {"core", "view", "image", "world", "scene", "render"}},
+    {"report", {"core", "image"}},
+    {"study", {"core", "ode", "ecs", "view", "mechanics", "collision", "world", "scene", "report"}},
 };
 
 struct Include {

@@ -1,0 +1,5 @@
+list(APPEND TAUT_UNIT_TESTS
+  report_gnuplot_test.cpp
+  report_layout_test.cpp
+  report_table_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::report taut::image)

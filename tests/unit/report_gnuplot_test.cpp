@@ -1,0 +1,152 @@
+#include "report/gnuplot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "core/error.h"
+#include "image/read.h"
+#include "image_support.h"
+#include "report/layout.h"
+#include "report/palette.h"
+
+namespace taut::report {
+namespace {
+
+using test::TemporaryFolder;
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+// Something of everything that a chart can hold.
+Chart fullChart() {
+    Chart chart;
+    chart.title = "It's `date` \"all\" $HOME @x {y}_z^2 \\ \n over";
+    chart.pngScale = 1.0;
+    chart.panelWidth = 220;
+    chart.panelHeight = 160;
+    chart.colours = divergingScale(0.0, 1.0, 2.0);
+    Panel curves;
+    curves.x = {"h [s]", Scale::log, 1e-3, 1.0};
+    curves.y = {"error", Scale::log, 1e-6, 1.0};
+    curves.curves.push_back(
+        {"leapfrog", styleOf("leapfrog"), {{1e-2, 1e-4, 9e-3, 2e-2}, {1e-1, 1e-2, nothing, nothing, 1e-3, 2e-2}}});
+    curves.curves.push_back({"midpoint", styleOf("midpoint"), {{1e-2, 1e-3}, {std::nan(""), 1.0}, {1e-1, 1e-1}}});
+    curves.strip = {"failed", 2, {{0.5, 0, styleOf("leapfrog")}, {0.3, 1, {"#ff0000", Mark::bar}}}};
+    curves.regions.push_back({0.2, {}, {}, 0.1});
+    Guide guide;
+    guide.x = 0.2;
+    guide.label = "limit";
+    curves.guides.push_back(guide);
+    curves.labels.push_back({0.01, 0.01, "here", "#303030", Align::centre, 2, 3, 11, true});
+    Panel map;
+    map.x = {"a", Scale::linear, 0.0, 1.0};
+    map.y = {"b", Scale::linear, 0.0, 1.0};
+    map.map = HeatMap{2, 2, 0.25, 0.75, 0.25, 0.75, {0.1, 0.9, 1.8, std::nan("")}};
+    map.arrows.push_back({{{0.2, 0.2, 0.1, 0.1}}});
+    chart.panels = {curves, map};
+    return chart;
+}
+
+TEST(ReportGnuplot, DrawsEverythingAChartCanHold) {
+    const TemporaryFolder folder;
+    const Chart chart = fullChart();
+    writeChart(chart, folder / "chart");
+    const image::Image picture = image::readImage(folder / "chart.png");
+    const Layout layout = layoutOf(chart);
+    EXPECT_EQ(picture.width, std::lround(layout.width));
+    EXPECT_EQ(picture.height, std::lround(layout.height));
+    const std::string svg = test::contentOf(folder / "chart.svg");
+    EXPECT_TRUE(has(svg, "<svg"));
+    EXPECT_TRUE(svg.ends_with("</svg>\n") || has(svg.substr(svg.size() - 20), "</svg>"));
+    // Whole or not at all: nothing is left of the names they had while being written.
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
+// The colour of a heat map's cell stands where the layout says: the first row at the foot.
+TEST(ReportGnuplot, AMapLiesWhereItsAxesSay) {
+    const TemporaryFolder folder;
+    const Chart chart = fullChart();
+    writeChart(chart, folder / "chart");
+    const image::Image picture = image::readImage(folder / "chart.png");
+    const Box box = layoutOf(chart).panels[1];
+    const auto redMinusBlue = [&](double u, double v) {
+        const auto x = static_cast<std::size_t>(box.left + u * (box.right - box.left));
+        const auto y = static_cast<std::size_t>(picture.height - (box.bottom + v * (box.top - box.bottom)));
+        const std::size_t at = 3 * (y * static_cast<std::size_t>(picture.width) + x);
+        return static_cast<int>(picture.rgb[at]) - static_cast<int>(picture.rgb[at + 2]);
+    };
+    // The scale's ends differ by more than 90 of 255 between red and blue; 40 is half of that.
+    EXPECT_LT(redMinusBlue(0.1, 0.1), -40);           // 0.1: cool
+    EXPECT_GT(redMinusBlue(0.1, 0.9), 40);            // 1.8: warm
+    EXPECT_LT(std::abs(redMinusBlue(0.9, 0.9)), 10);  // not a number: white
+}
+
+TEST(ReportGnuplot, WordsOfAChartAreNeverCommands) {
+    const TemporaryFolder folder;
+    Chart chart = fullChart();
+    chart.title = "`touch " + (folder / "touched").string() + "`";
+    chart.notes = {"'; system('touch " + (folder / "touched").string() + "'); '"};
+    writeChart(chart, folder / "chart");
+    EXPECT_FALSE(std::filesystem::exists(folder / "touched"));
+}
+
+TEST(ReportGnuplot, WithoutItTheErrorNamesThePackage) {
+    const TemporaryFolder folder;
+    const char* path = std::getenv("PATH");
+    const std::string before = path == nullptr ? "" : path;
+    ::setenv("PATH", folder.path().c_str(), 1);
+    const std::string version = gnuplotVersion();
+    std::string said;
+    auto code = core::ExitCode::ok;
+    try {
+        writeChart(fullChart(), folder / "chart");
+    } catch (const core::Error& error) {
+        said = error.what();
+        code = error.code();
+    }
+    ::setenv("PATH", before.c_str(), 1);
+    EXPECT_EQ(version, "");
+    EXPECT_EQ(code, core::ExitCode::inputOutput);
+    EXPECT_TRUE(has(said, "gnuplot-nox")) << said;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_TRUE(gnuplotVersion().starts_with("gnuplot "));
+}
+
+TEST(ReportGnuplot, AScriptThatFailsTellsWhatGnuplotSaid) {
+    const TemporaryFolder folder;
+    Chart chart = fullChart();
+    chart.panels[0].x.least = -1.0;  // no logarithm
+    std::string said;
+    try {
+        writeChart(chart, folder / "chart");
+    } catch (const core::Error& error) {
+        said = error.what();
+    }
+    EXPECT_TRUE(has(said, "gnuplot failed")) << said;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(ReportPalette, MethodsAreToldApartByMoreThanColour) {
+    std::set<std::string> colours, looks;
+    const char* names[] = {"euler", "symplectic-euler", "heun",     "midpoint",
+                           "rk4",   "velocity-verlet",  "leapfrog", "implicit-euler"};
+    for (const char* name : names) {
+        const Style style = styleOf(name);
+        colours.insert(style.colour);
+        looks.insert(std::to_string(static_cast<int>(style.mark)) + (style.isFilled ? "f" : "o"));
+    }
+    EXPECT_EQ(colours.size(), 8U);
+    EXPECT_EQ(looks.size(), 8U);
+    EXPECT_EQ(styleOf("a new one").colour, styleOf("a new one").colour);
+    EXPECT_FALSE(colours.contains(styleOf("a new one").colour));
+    for (int i = 0; i < 8; ++i) EXPECT_TRUE(colours.contains(seriesStyle(i).colour)) << i;
+}
+
+}  // namespace
+}  // namespace taut::report

@@ -1,0 +1,35 @@
+#include "report/table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace taut::report {
+namespace {
+
+TEST(ReportTable, CsvQuotesWhatWouldBreakARow) {
+    const Table table{{"name", "what, else"}, {{std::string("say \"no\""), 1LL}, {std::string("two\nlines"), 2LL}}};
+    EXPECT_EQ(csv(table), "name,\"what, else\"\n\"say \"\"no\"\"\",1\n\"two\nlines\",2\n");
+}
+
+TEST(ReportTable, NumbersOfCsvReadBackAsTheyWere) {
+    for (const double value : {0.1, 1.0 / 3.0, 6.02214076e23, 5e-324, -std::numeric_limits<double>::max()}) {
+        const std::string text = csv({{"x"}, {{value}}});
+        EXPECT_EQ(std::strtod(text.c_str() + 2, nullptr), value) << text;
+    }
+}
+
+TEST(ReportTable, WhatIsNoNumberIsEmpty) {
+    EXPECT_EQ(csv({{"x", "y"}, {{std::nan(""), 2.5}}}), "x,y\n,2.5\n");
+    EXPECT_EQ(aligned({{"x", "y"}, {{std::nan(""), 2.5}}}), "x    y\n   2.5\n");
+}
+
+TEST(ReportTable, ColumnsAlignByLettersNotBytes) {
+    EXPECT_EQ(aligned({{"ω", "n"}, {{std::string("größer"), 7LL}, {std::string("x"), 12LL}}}),
+              "ω        n\ngrößer   7\nx       12\n");
+}
+
+}  // namespace
+}  // namespace taut::report

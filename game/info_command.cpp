@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,6 +13,7 @@
 #include "game/commands.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
+#include "ode/method_table.h"
 #include "pipeline/run.h"
 #include "world/world.h"
 
@@ -24,6 +26,7 @@ struct InfoFlags {
     std::string scene;
     std::vector<std::string> overrides;
     bool json = false;
+    bool methods = false;
 };
 
 // Plays the first ticks and looks at the clock; 0 when the state diverges at once.
@@ -113,8 +116,11 @@ void printIsland(const world::IslandInfo& i) {
                i.cells > 0 ? fmt::format(", {} volume cells", i.cells) : "");
     fmt::print("  omega       {:.4g} /s bound of any state, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
                i.omegaBound, i.omegaNow, i.omegaEstimate);
-    fmt::print("  step limit  {:.4g} ms by {}\n", 1e3 * i.stepLimit,
-               i.limitingSpring.empty() ? "nothing" : i.limitingSpring);
+    if (std::isfinite(i.stepLimit))
+        fmt::print("  step limit  {:.4g} ms by {}\n", 1e3 * i.stepLimit,
+                   i.limitingSpring.empty() ? "nothing" : i.limitingSpring);
+    else
+        fmt::print("  step limit  none\n");
     fmt::print("  step        {:.4g} ms = tick / {}, {}\n", 1e3 * i.step, i.substeps, i.method);
     fmt::print("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
 }
@@ -149,7 +155,54 @@ void printTable(const Facts& facts) {
     for (const std::string& warning : facts.warnings) fmt::print("warning: {}\n", warning);
 }
 
+Json methodsJson() {
+    Json all = Json::array();
+    for (const ode::MethodInfo& m : ode::methods())
+        all.push_back({{"name", m.name},
+                       {"title", m.title},
+                       {"order", m.order},
+                       {"evaluations_per_step", m.evaluations},
+                       {"stored_arrays", m.storedArrays},
+                       {"symplectic", m.symplectic},
+                       {"reversible", m.reversible},
+                       {"any_first_order_system", m.isFirstOrder},
+                       {"omega_h_undamped", m.largestStep({.omega = 1.0})},  // null: none
+                       {"stability_limit", m.limit},
+                       {"caution", m.caution}});
+    return all;
+}
+
+// ω h that undamped motion stands.
+std::string undampedLimit(const ode::MethodInfo& method) {
+    const double limit = method.largestStep({.omega = 1.0});
+    return std::isfinite(limit) ? fmt::format("{:.4g}", limit) : "none";
+}
+
+void printMethods() {
+    fmt::print("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", "name", "method", "order", "evals",
+               "arrays", "symplectic", "reversible", "y'=f", "limit", "largest stable ωh at damping ratio ζ");
+    const auto yes = [](bool is) { return is ? "yes" : "-"; };
+    for (const ode::MethodInfo& m : ode::methods())
+        fmt::print("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", m.name, m.title, m.order,
+                   m.evaluations, m.storedArrays, yes(m.symplectic), yes(m.reversible), yes(m.isFirstOrder),
+                   undampedLimit(m), m.limit);
+    fmt::print(
+        "\nevals: force evaluations a step, besides the solve of implicit Euler. arrays: kept besides positions and "
+        "velocities, of their size. y'=f: takes "
+        "any\nfirst-order system, not x'' = a alone. limit: of ωh without damping; 0 is unstable at every step.\n");
+}
+
 int info(const InfoFlags& flags) {
+    if (flags.methods && !flags.scene.empty())
+        throw core::Error(core::ExitCode::usage, "--methods tells of no scene: give one or the other");
+    if (flags.methods) {
+        if (flags.json)
+            fmt::print("{}\n", methodsJson().dump(2));
+        else
+            printMethods();
+        return static_cast<int>(core::ExitCode::ok);
+    }
+    if (flags.scene.empty()) throw core::Error(core::ExitCode::usage, "info: give a scene, or --methods");
     const Facts facts = gatherFacts(flags);
     if (flags.json)
         printJson(facts);
@@ -163,10 +216,11 @@ int info(const InfoFlags& flags) {
 void addInfo(CLI::App& app, Action& chosen) {
     const auto flags = std::make_shared<InfoFlags>();
     CLI::App* command = app.add_subcommand("info", "Tell what a scene builds, its time step, memory and cost");
-    command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene")->required();
+    command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene");
     command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    command->add_flag("--methods", flags->methods, "List the methods of integration instead");
     command->add_flag("--json", flags->json, "Print it as JSON");
     command->callback([&chosen, flags] { chosen = [flags] { return info(*flags); }; });
 }

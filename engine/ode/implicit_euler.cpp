@@ -170,10 +170,10 @@ class ImplicitEuler final : public Method<Real> {
         return scale;
     }
 
-    // Newton steps on from u_ until the residual is small against the scale.
+    // Newton steps on from u_ until the residual is small against the scale, or what the first step has left.
     void refine(const Step& now, double scale) {
-        const double target = newtonTolerance_ * scale;
         double norm = residual(now, u_.data());
+        const double target = newtonTolerance_ * std::max(scale, norm);
         for (int n = 1; n < options_.newtonSteps && norm > target; ++n) {
             std::fill(change_.begin(), change_.end(), Real(0));
             solve(now, place_.data(), u_.data());

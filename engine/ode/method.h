@@ -28,6 +28,13 @@ struct Work {
     std::int64_t evaluations = 0;  // of the acceleration, those to start and to synchronise included
     std::int64_t iterations = 0;   // of a solver: one product with the stiffness each
     std::int64_t unconverged = 0;  // solves that did not reach their tolerance
+
+    Work& operator+=(const Work& other) {
+        evaluations += other.evaluations;
+        iterations += other.iterations;
+        unconverged += other.unconverged;
+        return *this;
+    }
 };
 
 // How methods that solve equations go about it; the others have no use for it.

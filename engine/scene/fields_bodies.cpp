@@ -59,6 +59,9 @@ Section overrideSection() {
                          .choice("integrator", &SolverOverride::integrator, methodNames(), "As in [solver].")
                          .number("dt", &SolverOverride::dt, "s", Range{1e-9, 1.0}, "As in [solver].")
                          .number("safety", &SolverOverride::safety, "", Range{0.01, 1.0}, "As in [solver].")
+                         .whole("newton_steps", &SolverOverride::newtonSteps, "", Range{1, 100}, "As in [solver].")
+                         .number("cg_tolerance", &SolverOverride::cgTolerance, "", Range{1e-12, 0.1}, "As in [solver].")
+                         .whole("cg_iterations", &SolverOverride::cgIterations, "", Range{1, 1e6}, "As in [solver].")
                          .take();
     return section;
 }

@@ -229,8 +229,7 @@ class Planner {
     SolverSpec solverOf(const IslandPlan& plan) const {
         SolverSpec solver = spec_.solver;
         const auto same = [&](const Body& a, const Body& b) {
-            return a.common.solver.integrator == b.common.solver.integrator && a.common.solver.dt == b.common.solver.dt &&
-                   a.common.solver.safety == b.common.solver.safety;
+            return a.common.solver == b.common.solver;
         };
         const Body& first = *plan.bodies.front();
         for (const Body* other : plan.bodies)
@@ -240,6 +239,9 @@ class Planner {
         solver.integrator = first.common.solver.integrator.value_or(solver.integrator);
         solver.safety = first.common.solver.safety.value_or(solver.safety);
         if (first.common.solver.dt) solver.dt = first.common.solver.dt;
+        solver.newtonSteps = first.common.solver.newtonSteps.value_or(solver.newtonSteps);
+        solver.cgTolerance = first.common.solver.cgTolerance.value_or(solver.cgTolerance);
+        solver.cgIterations = first.common.solver.cgIterations.value_or(solver.cgIterations);
         return solver;
     }
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/instruction_set.h"
+#include "ode/method_table.h"
 #include "scene/load.h"
 #include "world/world.h"
 
@@ -18,7 +19,10 @@ namespace {
 
 const std::filesystem::path source = TAUT_SOURCE_DIR;
 
+// A scene's name may be followed by ":" and the method that takes the place of its own.
 std::filesystem::path pathOf(const std::string& scene) {
+    if (const std::size_t colon = scene.find(':'); colon != std::string::npos) return pathOf(scene.substr(0, colon));
+    if (scene == "methods") return source / "tests/determinism/methods.toml";
     if (scene == "everything") return source / "tests/determinism/everything.toml";
     return source / "assets/scenes" / (scene + ".toml");
 }
@@ -30,6 +34,8 @@ std::vector<std::uint64_t> hashes(const std::string& scene, const std::string& p
     scene::LoadOptions options;
     options.overrides = {"solver.precision=\"" + precision + "\""};
     options.assetFolders = {source / "assets"};
+    if (const std::size_t colon = scene.find(':'); colon != std::string::npos)
+        options.overrides.push_back("solver.integrator=\"" + scene.substr(colon + 1) + "\"");
     world::World world(scene::loadScene(pathOf(scene), options).spec, {.threads = threads});
     std::vector<std::uint64_t> chain{world.stateHash()};
     for (int i = 0; i < ticks; ++i) {
@@ -64,6 +70,20 @@ TEST_P(EveryPrecision, HashesChangeWhenAnythingDoes) {
     world::World world(scene::loadScene(pathOf("everything"), options).spec, {.threads = 2});
     for (int i = 0; i < 3; ++i) EXPECT_FALSE(world.advance());
     EXPECT_NE(world.stateHash(), hashes("everything", GetParam(), 3, 2, core::instructionSet()).back());
+}
+
+// All kinds of springs and forces, a contact, a joint: every method, whatever computes it, and each its own motion.
+TEST_P(EveryPrecision, HashesOfEveryMethodAreTheSameForThreadsAndInstructionSets) {
+    std::map<std::uint64_t, std::string_view> seen;
+    for (const ode::MethodInfo& method : ode::methods()) {
+        SCOPED_TRACE(method.name);
+        const std::string scene = "methods:" + std::string(method.name);
+        const auto one = hashes(scene, GetParam(), 12, 1, core::instructionSet());
+        EXPECT_EQ(one, hashes(scene, GetParam(), 12, 2, core::instructionSet()));
+        EXPECT_EQ(one, hashes(scene, GetParam(), 12, 7, core::instructionSet()));
+        EXPECT_EQ(one, hashes(scene, GetParam(), 12, 2, core::InstructionSet::sse2));
+        EXPECT_TRUE(seen.emplace(one.back(), method.name).second) << "the same as " << seen[one.back()];
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(StateHash, EveryPrecision, testing::Values("single", "double"));

@@ -71,13 +71,15 @@ std::pair<double, double> errorOf(const Model& model, bool windy, std::string_vi
     return {std::sqrt(x2 / model.pointCount()), std::sqrt(v2 / model.pointCount())};
 }
 
-// h halves from 1/3 ms: ω h = 0.06 for the fastest motion and less, so that the exponent is true to some hundredths.
+// h halves from 1/3 ms (order 4: from 4/3 ms, clear of rounding): ω h = 0.06 (0.24) for the fastest motion and less, so
+// that the exponent is true to some hundredths.
 TEST(ClothOrder, IsThatOfTheMethodWithDashpotsDragAndWind) {
     struct Case {
         double tau, drag;
         bool windy;
     };
-    for (const Case& c : {Case{0, 0, false}, Case{5e-3, 0, false}, Case{0, 2.0, false}, Case{5e-3, 2.0, true}}) {
+    for (const Case& c : {Case{0, 0, false}, Case{5e-3, 0, false}, Case{0, 2.0, false}, Case{5e-3, 2.0, false},
+                          Case{5e-3, 2.0, true}}) {
         const Model model = clothIn(c.tau, c.drag);
         Network fine(model, "velocity-verlet", 1e-4, gravity);
         if (c.windy) fine.add(windOn(model), "velocity-verlet", 1e-4);
@@ -85,9 +87,11 @@ TEST(ClothOrder, IsThatOfTheMethodWithDashpotsDragAndWind) {
         y.insert(y.end(), fine.run().state.v.begin(), fine.run().state.v.end());
         const std::vector<double> ought = reference(fine.system(), y, horizon, 4000);
         for (const ode::MethodInfo& method : ode::methods()) {
+            // The wind's force has kinks (edge-on, and where the waves of gusts join) that lower order 4.
+            if (c.windy && method.order == 4) continue;
             SCOPED_TRACE(std::string(method.name) + ", τ = " + std::to_string(c.tau) + ", drag " +
                          std::to_string(c.drag) + (c.windy ? ", wind" : ""));
-            const int steps = method.order == 1 ? 4800 : 600;
+            const int steps = method.order == 1 ? 4800 : method.order == 2 ? 600 : 150;
             const auto [x1, v1] = errorOf(model, c.windy, method.name, steps, ought);
             const auto [x2, v2] = errorOf(model, c.windy, method.name, 2 * steps, ought);
             EXPECT_NEAR(std::log2(x1 / x2), method.order, 0.1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <string>
 
 #include "support/oscillator.h"
@@ -37,6 +38,31 @@ void expectLimit(std::string_view method, const Oscillator::Values& values, doub
 double leapfrogLimit(double zetaOfDashpot) {
     return 2.0 * (std::sqrt(1.0 + 4.0 * zetaOfDashpot * zetaOfDashpot) - 2.0 * zetaOfDashpot) / omega;
 }
+// Explicit damping, numerics: section 2.
+double symplecticEulerLimit(double zetaOfDrag, double zetaOfDashpot) {
+    const double zeta = zetaOfDashpot - zetaOfDrag;
+    return 2.0 * (std::sqrt(1.0 + zeta * zeta) - zeta) / omega;
+}
+double heunLimit(double zeta) {
+    if (zeta >= 1.0) return 2.0 * (zeta - std::sqrt(zeta * zeta - 1.0)) / omega;
+    double low = 0.0, high = 3.0;  // z³/4 - ζz² + 2ζ²z - 2ζ rises through its root
+    for (int i = 0; i < 100; ++i) {
+        const double z = 0.5 * (low + high);
+        (z * z * z / 4 - zeta * z * z + 2 * zeta * zeta * z - 2 * zeta < 0.0 ? low : high) = z;
+    }
+    return low / omega;
+}
+// Where the complex R(w) = 1 + w + w²/2 + w³/6 + w⁴/24 leaves the unit circle, found by small steps.
+double rk4Limit(double zeta) {
+    if (zeta >= 1.0) return 2.785294 * (zeta - std::sqrt(zeta * zeta - 1.0)) / omega;
+    const std::complex<double> direction(-zeta, std::sqrt(1.0 - zeta * zeta));
+    double z = 2.0;
+    for (; z < 4.0; z += 1e-5) {
+        const std::complex<double> w = z * direction;
+        if (std::abs(1.0 + w * (1.0 + w / 2.0 * (1.0 + w / 3.0 * (1.0 + w / 4.0)))) > 1.0) break;
+    }
+    return z / omega;
+}
 double eulerLimit(double zeta) {
     return (zeta < 1.0 ? 2.0 * zeta : 2.0 * (zeta - std::sqrt(zeta * zeta - 1.0))) / omega;
 }
@@ -67,10 +93,59 @@ TEST(ExplicitEulerLimit, GrowsWithDampingUpToOneAndFallsBeyond) {
         }
 }
 
+TEST(SymplecticEulerLimit, FallsWithDashpotsAndRisesWithDrag) {
+    for (double drag : zetas)
+        for (double dashpot : zetas) {
+            SCOPED_TRACE("drag ζ = " + std::to_string(drag) + ", dashpot ζ = " + std::to_string(dashpot));
+            expectLimit("symplectic-euler", damped(drag, dashpot), symplecticEulerLimit(drag, dashpot));
+        }
+}
+
+// Undamped they have none: at z = 0.1 they grow by 1 + z⁴/8 a step, e^2.5 in 2e5 steps; at half of that by e^0.16.
+TEST(HeunLimit, AndThatOfTheMidpointMethodIsTheRootOfTheCubic) {
+    for (const char* method : {"heun", "midpoint"})
+        for (double zeta : zetas)
+            for (double share : {0.0, 0.5, 1.0}) {
+                SCOPED_TRACE(std::string(method) + ", ζ = " + std::to_string(zeta) + ", share " +
+                             std::to_string(share));
+                if (zeta > 0.0) {
+                    expectLimit(method, damped(zeta * (1.0 - share), zeta * share), heunLimit(zeta));
+                    continue;
+                }
+                // From x = 1 and v = ω: an amplitude of √2. The growth to a few per cent of the exponent: z⁶ terms.
+                for (double z : {0.05, 0.1}) {
+                    const double grown = largestAmplitude(method, damped(0.0, 0.0), z / omega) / std::sqrt(2.0);
+                    EXPECT_NEAR(std::log(grown) / (manySteps * z * z * z * z / 8.0), 1.0, 0.03);
+                }
+            }
+}
+
+TEST(RungeKutta4Limit, IsTheEdgeOfItsStabilityRegion) {
+    for (double zeta : zetas)
+        for (double share : {0.0, 0.5, 1.0}) {
+            SCOPED_TRACE("ζ = " + std::to_string(zeta) + ", dashpot share " + std::to_string(share));
+            expectLimit("rk4", damped(zeta * (1.0 - share), zeta * share), rk4Limit(zeta));
+        }
+    EXPECT_NEAR(rk4Limit(0.0) * omega, 2.0 * std::sqrt(2.0), 2e-5);  // the step of the search
+}
+
+TEST(ImplicitEulerLimit, IsNone) {
+    for (double zeta : zetas)
+        for (double z : {0.1, 2.0, 100.0, 1e6}) {
+            // The amplitude falls by 1/√(1 + z²) a step at least; the start may be enlarged once.
+            EXPECT_LT(largestAmplitude("implicit-euler", damped(0.0, zeta), z / omega), 2.0) << zeta << ", " << z;
+            EXPECT_TRUE(std::isinf(ode::findMethod("implicit-euler")->largestStep({omega, 2.0 * zeta / omega})));
+        }
+}
+
 TEST(DashpotAtFiveTimesCritical, IsStableWithinTheLimitOnly) {
     for (const char* method : {"leapfrog", "velocity-verlet"})
         expectLimit(method, damped(0.0, 5.0), leapfrogLimit(5.0));
+    expectLimit("symplectic-euler", damped(0.0, 5.0), symplecticEulerLimit(0.0, 5.0));
     expectLimit("euler", damped(0.0, 5.0), eulerLimit(5.0));
+    for (const char* method : {"heun", "midpoint"}) expectLimit(method, damped(0.0, 5.0), heunLimit(5.0));
+    expectLimit("rk4", damped(0.0, 5.0), rk4Limit(5.0));
+    EXPECT_LT(largestAmplitude("implicit-euler", damped(0.0, 5.0), 1e3 / omega), 2.0);
 }
 
 // Formulas on both sides: 1e-12 is rounding.
@@ -85,12 +160,45 @@ TEST(LargestStep, IsTheLimitOfTheTheory) {
                 EXPECT_NEAR(largestStep(mode) / leapfrogLimit(zeta), 1.0, 1e-12) << name;
             EXPECT_NEAR(largestStep(byDrag) * omega, 2.0, 1e-12) << name;
         }
+        for (const ode::FastestMode& mode : {byTau, byDrag}) {
+            EXPECT_NEAR(ode::findMethod("heun")->largestStep(mode), heunLimit(zeta), 1e-12);
+            EXPECT_NEAR(ode::findMethod("midpoint")->largestStep(mode), heunLimit(zeta), 1e-12);
+            EXPECT_NEAR(ode::findMethod("rk4")->largestStep(mode), rk4Limit(zeta), 2e-5);  // the step of the search
+        }
+        for (const ode::FastestMode& mode : {byTau, byRate, byBoth})
+            EXPECT_NEAR(ode::findMethod("symplectic-euler")->largestStep(mode), symplecticEulerLimit(0.0, zeta), 1e-12);
+        EXPECT_NEAR(ode::findMethod("symplectic-euler")->largestStep(byDrag), symplecticEulerLimit(zeta, 0.0), 1e-12);
         const auto largestStep = ode::findMethod("euler")->largestStep;
         for (const ode::FastestMode& mode : {byTau, byDrag}) EXPECT_NEAR(largestStep(mode), eulerLimit(zeta), 1e-12);
         // Wind and anchors may leave the fastest mode undamped, and Euler lives on damping.
         EXPECT_EQ(largestStep(byRate), 0.0);
         EXPECT_NEAR(largestStep(byBoth), std::min(eulerLimit(zeta / 2.0), eulerLimit(zeta)), 1e-12);
     }
+}
+
+// Without damping no step of Heun's is stable for ever: the automatic one lets motion grow e-fold in 10 s, no faster,
+// and is a share of the stable one as soon as dashpots allow.
+TEST(AutomaticStep, OfHeunLetsUndampedMotionGrowSlowly) {
+    for (const char* name : {"heun", "midpoint"})
+        for (double frequency : {50.0, 3000.0}) {
+            const ode::MethodInfo& method = *ode::findMethod(name);
+            const double h = method.automaticStep({frequency});
+            Oscillator oscillator({frequency});
+            Integration<double> run = integrate(oscillator, name, h, {1.0, 0.0});
+            double late = 0.0;
+            const auto steps = static_cast<std::int64_t>(10.0 / h);
+            for (std::int64_t i = 0; i < steps; ++i) {
+                run.step();
+                if (i > steps - 200) late = std::max(late, std::abs(run.state.x[0]));
+            }
+            EXPECT_NEAR(std::log(late), 1.0, 0.1) << name;  // z⁶ terms, and the peak within 200 samples
+            // Dashpots: never over their limit, never below the step without them.
+            for (double tau : {1e-7, 1e-5, 1e-3, 0.1}) {
+                const ode::FastestMode mode{frequency, tau};
+                EXPECT_LE(method.automaticStep(mode), std::max(method.largestStep(mode), h)) << name << ", τ " << tau;
+                EXPECT_GE(method.automaticStep(mode), std::min(method.largestStep(mode), h)) << name << ", τ " << tau;
+            }
+        }
 }
 
 TEST(LargestStep, OfAFreePointIsSetByItsDampingAlone) {
@@ -100,6 +208,13 @@ TEST(LargestStep, OfAFreePointIsSetByItsDampingAlone) {
         EXPECT_TRUE(std::isinf(method.largestStep(nothing)));
         // v' = -c v: the position drifts by v0/c; growth beyond the limit is by 1.01 a step at least.
         const double limit = method.largestStep(damper);
+        if (method.name == "symplectic-euler") {
+            EXPECT_DOUBLE_EQ(limit, 0.25);
+        }
+        if (method.name == "implicit-euler") {
+            EXPECT_TRUE(std::isinf(limit));
+            continue;
+        }
         const Oscillator::Values values{0.0, 8.0, 0.0, 0.0, 0.0};
         Oscillator below(values), above(values);
         Integration<double> calm = integrate(below, method.name, 0.99 * limit, {0.0, 1.0});

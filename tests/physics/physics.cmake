@@ -1,3 +1,4 @@
+find_package(Boost REQUIRED)  # headers of odeint; imported, so the compiler takes them for the system's
 list(APPEND TAUT_PHYSICS_TESTS
   block_recovery_test.cpp
   contact_test.cpp
@@ -5,14 +6,18 @@ list(APPEND TAUT_PHYSICS_TESTS
   frequency_bounds_test.cpp
   hanging_test.cpp
   hard_cases_test.cpp
+  implicit_euler_test.cpp
   linear_modes_test.cpp
   network_energy_test.cpp
   network_limits_test.cpp
   network_order_test.cpp
+  odeint_witness_test.cpp
   oscillator_damping_test.cpp
   oscillator_energy_test.cpp
   oscillator_limits_test.cpp
   precision_test.cpp)
-list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode)
+list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode Boost::headers)
 list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::scene)
+list(APPEND TAUT_PHYSICS_TESTS study_reference_test.cpp)
+list(APPEND TAUT_PHYSICS_LINKS taut::study)

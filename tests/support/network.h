@@ -38,8 +38,9 @@ inline void hold(mechanics::Model& model, std::string_view group) {
 template <class Real>
 class NetworkOf {
   public:
-    NetworkOf(const mechanics::Model& model, std::string_view method, double h, dvec3 gravity = dvec3(0.0))
-        : model_(model), system_(pointsOf(model), rowsOf(model), model.springs) {
+    NetworkOf(const mechanics::Model& model, std::string_view method, double h, dvec3 gravity = dvec3(0.0),
+              const ode::MethodOptions& options = exactSolves)
+        : model_(model), system_(pointsOf(model), rowsOf(model), model.springs), options_(options) {
         auto field = std::make_unique<mechanics::Gravity<Real>>(gravity);
         gravity_ = field.get();
         system_.add(std::move(field));
@@ -122,7 +123,7 @@ class NetworkOf {
                 x[to] = static_cast<Real>(model_.positions[i][p]);
                 v[to] = static_cast<Real>(model_.velocities[i][p]);
             }
-        run_ = std::make_unique<Integration<Real>>(system_, method, h, x, v);
+        run_ = std::make_unique<Integration<Real>>(system_, method, h, x, v, options_);
     }
     dvec3 at(const Real* planes, int point) const {
         const std::ptrdiff_t stride = system_.layout().stride;
@@ -137,6 +138,7 @@ class NetworkOf {
 
     mechanics::Model model_;
     System system_;
+    ode::MethodOptions options_;
     const mechanics::Gravity<Real>* gravity_ = nullptr;
     std::unique_ptr<Integration<Real>> run_;
 };

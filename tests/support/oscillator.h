@@ -53,8 +53,9 @@ struct Phase {
     double x = 0.0, v = 0.0;
 };
 
-inline Integration<double> integrate(Oscillator& oscillator, std::string_view method, double h, Phase start) {
-    return {oscillator, method, h, std::span<const double>(&start.x, 1), std::span<const double>(&start.v, 1)};
+inline Integration<double> integrate(Oscillator& oscillator, std::string_view method, double h, Phase start,
+                                     const ode::MethodOptions& options = exactSolves) {
+    return {oscillator, method, h, std::span<const double>(&start.x, 1), std::span<const double>(&start.v, 1), options};
 }
 
 inline Phase phaseOf(Integration<double>& run) {

@@ -22,7 +22,7 @@ const std::filesystem::path source = TAUT_SOURCE_DIR;
 // A scene's name may be followed by ":" and the method that takes the place of its own.
 std::filesystem::path pathOf(const std::string& scene) {
     if (const std::size_t colon = scene.find(':'); colon != std::string::npos) return pathOf(scene.substr(0, colon));
-    if (scene == "methods") return source / "tests/determinism/methods.toml";
+    if (scene == "every_method") return source / "tests/determinism/every_method.toml";
     if (scene == "everything") return source / "tests/determinism/everything.toml";
     return source / "assets/scenes" / (scene + ".toml");
 }
@@ -77,7 +77,7 @@ TEST_P(EveryPrecision, HashesOfEveryMethodAreTheSameForThreadsAndInstructionSets
     std::map<std::uint64_t, std::string_view> seen;
     for (const ode::MethodInfo& method : ode::methods()) {
         SCOPED_TRACE(method.name);
-        const std::string scene = "methods:" + std::string(method.name);
+        const std::string scene = "every_method:" + std::string(method.name);
         const auto one = hashes(scene, GetParam(), 12, 1, core::instructionSet());
         EXPECT_EQ(one, hashes(scene, GetParam(), 12, 2, core::instructionSet()));
         EXPECT_EQ(one, hashes(scene, GetParam(), 12, 7, core::instructionSet()));

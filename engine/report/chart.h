@@ -16,17 +16,17 @@ enum class Align { left, centre, right };
 
 struct Tick {
     double at = 0;
-    std::string text;      // empty with isMinor
+    std::string text{};    // empty with isMinor
     bool isMinor = false;  // short and without grid line
 };
 
 struct Axis {
-    std::string label;  // with its unit
+    std::string label{};  // with its unit
     Scale scale = Scale::linear;
-    std::optional<double> least, most;  // none: from the data
-    std::vector<Tick> ticks;            // none: chosen; on a log axis powers of ten
-    bool hasNumbers = true;             // false in a panel that shares the axis with its neighbour
-    bool isReversed = false;            // large values first
+    std::optional<double> least{}, most{};  // none: from the data
+    std::vector<Tick> ticks{};              // none: chosen; on a log axis powers of ten
+    bool hasNumbers = true;                 // false in a panel that shares the axis with its neighbour
+    bool isReversed = false;                // large values first
 };
 
 struct Style {
@@ -49,29 +49,29 @@ struct ChartPoint {
 
 // Points joined in the order given; a NaN interrupts the line.
 struct Curve {
-    std::string title;  // in the legend; curves of one title share one entry; empty: none
-    Style style;
-    std::vector<ChartPoint> points;
+    std::string title{};  // in the legend; curves of one title share one entry; empty: none
+    Style style{};
+    std::vector<ChartPoint> points{};
 };
 
 // A straight line over the whole panel at x or at y; exactly one of the two is given.
 struct Guide {
-    std::optional<double> x, y;
-    std::string label;  // written along it
+    std::optional<double> x{}, y{};
+    std::string label{};  // written along it
     Style style{"#707070", Mark::none, true, Dash::dashed, 1.2, 1.0};
     double labelAt = 0.03;  // where along it the label begins, 0 … 1 of the panel
 };
 
 // A shaded rectangle behind the curves; an end that is not given is the panel's edge.
 struct Region {
-    std::optional<double> x0, x1, y0, y1;
+    std::optional<double> x0{}, x1{}, y0{}, y1{};
     std::string colour = "#000000";
     double opacity = 0.07;  // 0 … 1
 };
 
 struct Label {
     double x = 0, y = 0;
-    std::string text;
+    std::string text{};
     std::string colour = "#303030";
     Align align = Align::left;
     double dx = 0, dy = 0;   // [px] moved right and up
@@ -84,31 +84,31 @@ struct Label {
 // A mark in a strip along the upper edge for what has no place on the axes, such as a run that failed.
 struct EdgeMark {
     double x = 0;
-    int row = 0;  // from the top; each series has its own row
-    Style style;  // Mark::bar: an upright line, for a limit
+    int row = 0;    // from the top; each series has its own row
+    Style style{};  // Mark::bar: an upright line, for a limit
 };
 struct EdgeStrip {
-    std::string label;  // "diverged"
-    int rows = 0;       // 0: no strip
-    std::vector<EdgeMark> marks;
+    std::string label{};  // "diverged"
+    int rows = 0;         // 0: no strip
+    std::vector<EdgeMark> marks{};
 };
 
 // Colours by value at the centres of a regular grid.
 struct HeatMap {
     int columns = 0, rows = 0;
-    double x0 = 0, x1 = 1;       // centres of the first and the last column
-    double y0 = 0, y1 = 1;       // centres of the first and the last row
-    std::vector<double> values;  // (rows × columns), the first row at y0; NaN: left white
+    double x0 = 0, x1 = 1;         // centres of the first and the last column
+    double y0 = 0, y1 = 1;         // centres of the first and the last row
+    std::vector<double> values{};  // (rows × columns), the first row at y0; NaN: left white
 };
 
 struct ColourStop {
     double at = 0;  // a value, ascending
-    std::string colour;
+    std::string colour{};
 };
 struct ColourScale {
-    std::string label;
-    std::vector<ColourStop> stops;  // at least two; values beyond the ends take the end's colour
-    std::vector<Tick> ticks;        // none: chosen
+    std::string label{};
+    std::vector<ColourStop> stops{};  // at least two; values beyond the ends take the end's colour
+    std::vector<Tick> ticks{};        // none: chosen
 };
 
 // A field of arrows, each from (x, y) by (dx, dy), all lengths in axis values.
@@ -116,7 +116,7 @@ struct Arrow {
     double x = 0, y = 0, dx = 0, dy = 0;
 };
 struct Arrows {
-    std::vector<Arrow> arrows;
+    std::vector<Arrow> arrows{};
     std::string colour = "#9a9a9a";
     double width = 1.0;  // [px]
 };

@@ -9,14 +9,18 @@
 namespace taut::report {
 namespace {
 
-// Within single quotes gnuplot expands nothing; only the quote itself needs care.
+// Within double quotes gnuplot takes a backtick for a command to run, and a backslash for an escape.
 std::string quoted(const std::string& text) {
-    std::string out = "'";
+    std::string out = "\"";
     for (const char c : text) {
-        if (c == '\'') out += '\'';
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        if (c == '`')
+            out += "\\140";
+        else if (c == '"' || c == '\\')
+            out += std::string("\\") + c;
+        else
+            out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
-    return out + "'";
+    return out + "\"";
 }
 
 std::string number(double value) {

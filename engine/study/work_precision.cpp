@@ -172,22 +172,24 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
     plan.stepsPerSample = stepsPerSample(subject_, study_.grid, firstStep(method));
     double spent = 0, lastRun = 0;
     int good = 0;
-    for (int halvings = 0; halvings < 24 && !isStopped(); ++halvings, plan.stepsPerSample *= 2) {
+    const bool isFixed = settings_.halvings > 0;
+    const int most = isFixed ? settings_.halvings : 24;
+    for (int halvings = 0; halvings <= most && !isStopped(); ++halvings, plan.stepsPerSample *= 2) {
         const double expected = 2 * lastRun;
         // A curve needs a slope: three points, unless they are out of all proportion.
-        if (expected > longestRun * (good < 3 ? 8 : 1)) break;
+        if (!isFixed && expected > longestRun * (good < 3 ? 8 : 1)) break;
         const auto start = Clock::now();
         double seconds = 0;
         RunPoint point = run(plan, seconds);
         lastRun = point.status == RunStatus::diverged ? std::max(lastRun, seconds) : seconds;
         if (point.status == RunStatus::ok) {
             ++good;
-            time(plan, seconds, point);
+            if (!isFixed) time(plan, seconds, point);
         }
         study_.points.push_back(point);
         spent += secondsSince(start);
         if (report) report(std::min(0.95, spent / secondsPerCurve_));
-        if (hasLevelled(first)) break;
+        if (!isFixed && hasLevelled(first)) break;
     }
 }
 
@@ -289,10 +291,13 @@ double measuredOrder(const WorkPrecision& study, std::string_view method, Precis
     // A curve that has come down to rounding or to the reference's own error says nothing near that.
     const bool hasLevelled = curve.size() > 1 && (curve.back()->isAtFloor ||
                                                   curve.back()->rmsError > 0.8 * curve[curve.size() - 2]->rmsError);
-    const double rounding = (precision == Precision::single_ ? 1e-5 : 1e-9) * study.reference.extent;
-    const double low = std::max(rounding, hasLevelled ? 30 * least : 0), high = 1e-2 * study.reference.extent;
-    std::erase_if(curve, [&](const RunPoint* p) { return p->isAtFloor || p->rmsError < low || p->rmsError > high; });
-    if (curve.size() > 5) curve.erase(curve.begin(), curve.end() - 5);
+    const double low = hasLevelled ? 30 * least : 0, extent = study.reference.extent;
+    const double unit = precision == Precision::single_ ? 1.2e-7 : 2.2e-16;  // of rounding, each step may add one
+    std::erase_if(curve, [&](const RunPoint* p) {
+        return p->isAtFloor || p->rmsError < low || p->rmsError < unit * static_cast<double>(p->steps) * extent ||
+               p->rmsError > 3e-2 * extent;
+    });
+    if (curve.size() > 3) curve.erase(curve.begin(), curve.end() - 3);
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (const RunPoint* p : curve) {
         const double x = std::log(p->step), y = std::log(p->rmsError);

@@ -77,6 +77,7 @@ struct StudySettings {
     std::vector<Precision> precisions = {Precision::single_, Precision::double_};
     double seconds = 0;  // [s] of motion; 0: as the subject says
     double budget = 40;  // [s] of wall time to aim at
+    int halvings = 0;    // of the step, exactly so many for every curve and untimed; 0: as many as the budget allows
     std::function<void(const Progress&)> progress;
     const std::atomic<bool>* stop = nullptr;
 };
@@ -84,9 +85,9 @@ struct StudySettings {
 // Throws core::Error(usage) for a method that is not there or does not fit the subject.
 WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& settings);
 
-// The slope of log error over log step of a method's curve, over its last five points before rounding or the
-// reference's own error are felt: thirty times above where it levels off, and in any case above 1e-9 of the motion's
-// size (single precision: 1e-5). NaN with fewer than three such points below a hundredth of that size.
+// The slope of log error over log step of a method's curve, over its last three points before rounding (a unit a step)
+// or the reference's own error are felt, and thirty times above where the curve levels off. NaN with fewer than three
+// such points below 3 % of the motion's size.
 double measuredOrder(const WorkPrecision& study, std::string_view method, Precision precision);
 
 }  // namespace taut::study

@@ -92,7 +92,7 @@ class Orders : public testing::TestWithParam<const char*> {};
 TEST_P(Orders, ComeOutOfTheStudy) {
     const std::unique_ptr<Subject> problem = findProblem(GetParam())->make();
     StudySettings settings;
-    settings.halvings = 11;
+    settings.halvings = 13;
     settings.precisions = {Precision::double_};
     const WorkPrecision study = studyWorkPrecision(*problem, settings);
     for (const MethodFacts& method : study.methods)

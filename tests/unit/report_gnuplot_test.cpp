@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <set>
 
 #include "core/error.h"
@@ -91,44 +92,47 @@ TEST(ReportGnuplot, WordsOfAChartAreNeverCommands) {
     const TemporaryFolder folder;
     Chart chart = fullChart();
     chart.title = "`touch " + (folder / "touched").string() + "`";
-    chart.notes = {"'; system('touch " + (folder / "touched").string() + "'); '"};
+    chart.notes = {"\"; system('touch " + (folder / "touched").string() + "'); \"",
+                   "'; system('touch " + (folder / "touched").string() + "'); '"};
     writeChart(chart, folder / "chart");
     EXPECT_FALSE(std::filesystem::exists(folder / "touched"));
 }
 
-TEST(ReportGnuplot, WithoutItTheErrorNamesThePackage) {
-    const TemporaryFolder folder;
+// What an error says that comes with another PATH; empty without one.
+std::string withPath(const std::filesystem::path& folder, const std::function<void()>& action) {
     const char* path = std::getenv("PATH");
     const std::string before = path == nullptr ? "" : path;
-    ::setenv("PATH", folder.path().c_str(), 1);
-    const std::string version = gnuplotVersion();
+    ::setenv("PATH", folder.c_str(), 1);
     std::string said;
-    auto code = core::ExitCode::ok;
     try {
-        writeChart(fullChart(), folder / "chart");
+        action();
     } catch (const core::Error& error) {
+        EXPECT_EQ(error.code(), core::ExitCode::inputOutput);
         said = error.what();
-        code = error.code();
     }
     ::setenv("PATH", before.c_str(), 1);
+    return said;
+}
+
+TEST(ReportGnuplot, WithoutItTheErrorNamesThePackage) {
+    const TemporaryFolder folder;
+    std::string version = "?";
+    const std::string said = withPath(folder.path(), [&] {
+        version = gnuplotVersion();
+        writeChart(fullChart(), folder / "chart");
+    });
     EXPECT_EQ(version, "");
-    EXPECT_EQ(code, core::ExitCode::inputOutput);
     EXPECT_TRUE(has(said, "gnuplot-nox")) << said;
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
     EXPECT_TRUE(gnuplotVersion().starts_with("gnuplot "));
 }
 
-TEST(ReportGnuplot, AScriptThatFailsTellsWhatGnuplotSaid) {
-    const TemporaryFolder folder;
-    Chart chart = fullChart();
-    chart.panels[0].x.least = -1.0;  // no logarithm
-    std::string said;
-    try {
-        writeChart(chart, folder / "chart");
-    } catch (const core::Error& error) {
-        said = error.what();
-    }
-    EXPECT_TRUE(has(said, "gnuplot failed")) << said;
+TEST(ReportGnuplot, WhenItFailsTheErrorTellsWhatItSaid) {
+    const TemporaryFolder folder, programs;
+    test::writeText(programs / "gnuplot", "#!/bin/sh\necho it is broken >&2\nexit 3\n");
+    std::filesystem::permissions(programs / "gnuplot", std::filesystem::perms::owner_all);
+    const std::string said = withPath(programs.path(), [&] { writeChart(fullChart(), folder / "chart"); });
+    EXPECT_TRUE(has(said, "gnuplot failed with exit code 3:\nit is broken")) << said;
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

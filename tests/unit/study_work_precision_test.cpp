@@ -1,0 +1,145 @@
+#include "study/work_precision.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/error.h"
+#include "ode/method_table.h"
+#include "study/problems.h"
+#include "study/work_precision_chart.h"
+#include "study/work_precision_text.h"
+
+namespace taut::study {
+namespace {
+
+StudySettings fixed(int halvings, std::vector<Precision> precisions = {Precision::double_}) {
+    StudySettings settings;
+    settings.halvings = halvings;
+    settings.precisions = std::move(precisions);
+    return settings;
+}
+
+const WorkPrecision& oscillatorStudy() {
+    static const WorkPrecision study = studyWorkPrecision(*makeUndamped(), fixed(5));
+    return study;
+}
+
+TEST(StudyWorkPrecision, EveryMethodOfTheTableAppears) {
+    const WorkPrecision& study = oscillatorStudy();
+    ASSERT_EQ(study.methods.size(), ode::methods().size());
+    for (const ode::MethodInfo& method : ode::methods())
+        EXPECT_EQ(std::count_if(study.points.begin(), study.points.end(),
+                                [&](const RunPoint& point) { return point.method == method.name; }),
+                  6)
+            << method.name;
+}
+
+TEST(StudyWorkPrecision, AnEquationOfFirstOrderTakesTheMethodsThatCan) {
+    const WorkPrecision study = studyWorkPrecision(*makeGrowth(), fixed(2));
+    for (const MethodFacts& method : study.methods) EXPECT_TRUE(ode::findMethod(method.name)->isFirstOrder);
+    EXPECT_GE(study.methods.size(), 1U);
+    StudySettings settings = fixed(2);
+    settings.methods = {"leapfrog"};
+    EXPECT_THROW(studyWorkPrecision(*makeGrowth(), settings), core::Error);
+    settings.methods = {"no such"};
+    EXPECT_THROW(studyWorkPrecision(*makeGrowth(), settings), core::Error);
+}
+
+// Heun and RK4 integrate y' + y/x = -4 from y = 3/x - 2x exactly (numerics, section 4), Euler does not.
+TEST(StudyWorkPrecision, HeunAndRungeKuttaSolveTheQuotientToRounding) {
+    const WorkPrecision study = studyWorkPrecision(*makeQuotient(), fixed(3));
+    for (const RunPoint& point : study.points) {
+        if (point.method == "heun" || point.method == "rk4") {
+            EXPECT_LT(point.rmsError, 1e-14) << point.method;  // some 80 roundings of numbers below 4
+        }
+        if (point.method == "euler") {
+            EXPECT_GT(point.rmsError, 1e-4);
+        }
+    }
+}
+
+// Steps over the limit diverge, and steps within it do not; a run within a tenth of the limit is left out, because the
+// ten samples of five seconds do not see slow growth.
+TEST(StudyWorkPrecision, RunsFailBeyondTheLimitAndStayInTheTable) {
+    const WorkPrecision& study = oscillatorStudy();
+    int failed = 0;
+    for (const RunPoint& point : study.points) {
+        const auto method = std::find_if(study.methods.begin(), study.methods.end(),
+                                         [&](const MethodFacts& facts) { return facts.name == point.method; });
+        if (method->stepLimit == 0) continue;
+        if (point.step < 0.9 * method->stepLimit) {
+            EXPECT_EQ(point.status, RunStatus::ok) << point.method << " at " << point.step;
+        }
+        if (point.step > 1.1 * method->stepLimit) {
+            EXPECT_NE(point.status, RunStatus::ok) << point.method << " at " << point.step;
+            ++failed;
+        }
+    }
+    EXPECT_GE(failed, 3);
+    const std::string csv = workPrecisionCsv(study);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<std::ptrdiff_t>(study.points.size()) + 1);
+    std::istringstream lines(csv);
+    int rows = 0;
+    for (std::string line; std::getline(lines, line);)
+        rows += line.find(",diverged,") != std::string::npos || line.find(",lost,") != std::string::npos ? 1 : 0;
+    EXPECT_GE(rows, failed);
+}
+
+TEST(StudyWorkPrecision, CountsWhatAMethodEvaluates) {
+    for (const RunPoint& point : oscillatorStudy().points) {
+        const ode::MethodInfo& method = *ode::findMethod(point.method);
+        if (point.status != RunStatus::ok || point.iterations > 0 || method.evaluations == 0) continue;
+        const long long perStep = method.evaluations;
+        // One more to start, at most.
+        EXPECT_GE(point.evaluations, perStep * point.steps) << point.method;
+        EXPECT_LE(point.evaluations, perStep * point.steps + 1) << point.method;
+    }
+}
+
+TEST(StudyWorkPrecision, FailedRunsAreMarkedInEveryChart) {
+    const WorkPrecision& study = oscillatorStudy();
+    const auto failed = static_cast<std::size_t>(std::count_if(
+        study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.status != RunStatus::ok; }));
+    const std::vector<NamedChart> charts = workPrecisionCharts(study, {"machine"});
+    ASSERT_EQ(charts.size(), 3U);
+    EXPECT_EQ(charts[0].name, "time");
+    EXPECT_EQ(charts[1].name, "evaluations");
+    EXPECT_EQ(charts[2].name, "energy");
+    for (const NamedChart& drawn : charts) {
+        ASSERT_EQ(drawn.chart.panels.size(), 1U);  // one precision
+        const auto& marks = drawn.chart.panels[0].strip.marks;
+        const auto shown = static_cast<std::size_t>(std::count_if(
+            marks.begin(), marks.end(), [](const auto& mark) { return mark.style.mark != report::Mark::bar; }));
+        EXPECT_EQ(shown, failed) << drawn.name;
+        EXPECT_EQ(drawn.chart.notes.back(), "machine");
+    }
+}
+
+TEST(StudyWorkPrecision, JsonHoldsTheMachineAndEveryRun) {
+    const WorkPrecision& study = oscillatorStudy();
+    const auto json =
+        nlohmann::json::parse(workPrecisionJson(study, growthTable(1e-2), {{"processor", "a \"fast\" one"}}));
+    EXPECT_EQ(json["machine"]["processor"], "a \"fast\" one");
+    EXPECT_EQ(json["runs"].size(), study.points.size());
+    EXPECT_EQ(json["reference"]["kind"], "exact");
+    EXPECT_EQ(json["growth_table"].size(), 4U);
+    EXPECT_TRUE(json["methods"].back().contains("measured_order_double"));
+}
+
+TEST(StudyWorkPrecision, StopsWhenAsked) {
+    const std::atomic<bool> stop(true);
+    StudySettings settings = fixed(3);
+    settings.stop = &stop;
+    const WorkPrecision study = studyWorkPrecision(*makeGrowth(), settings);
+    EXPECT_TRUE(study.isInterrupted);
+    EXPECT_TRUE(study.points.empty());
+    EXPECT_FALSE(study.remarks.empty());
+    EXPECT_EQ(workPrecisionCharts(study, {}).size(), 2U);  // nothing to draw is no reason to fail
+}
+
+}  // namespace
+}  // namespace taut::study

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -13,8 +12,10 @@ namespace taut::core {
 inline constexpr std::size_t cacheLine = 64;  // [bytes]
 
 // Memory that begins on a cache line; large arrays on a large page, which spares the processor look-ups of addresses.
-// To be given back with std::free; throws std::bad_alloc.
+// Throws std::bad_alloc.
 void* allocateAligned(std::size_t bytes);
+// Takes the bytes that were asked for.
+void freeAligned(void* data, std::size_t bytes);
 
 template <class T>
 class AlignedArray {
@@ -35,7 +36,9 @@ class AlignedArray {
         std::swap(size_, other.size_);
         return *this;
     }
-    ~AlignedArray() { std::free(data_); }
+    ~AlignedArray() {
+        if (data_ != nullptr) freeAligned(data_, size_ * sizeof(T));
+    }
 
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }

@@ -10,7 +10,8 @@ namespace taut::mechanics {
 namespace {
 
 constexpr int blockPoints = 256;   // a block's springs and points fit the first-level cache
-constexpr int chunkPoints = 8192;  // enough work for a thread
+constexpr int chunkPoints = 8192;  // at least: enough work for a thread
+constexpr int mostChunks = 8;       // each has a window of its own, which costs memory traffic
 constexpr int shortestRun = 8;     // below that, single springs are as fast
 constexpr int longestBridge = 3;   // missing springs that a run steps over with stiffness zero
 
@@ -71,6 +72,7 @@ class Builder {
 
     // A chunk takes blocks until it is large enough and holds all that the chunk before spills.
     void cutChunks() {
+        const int enough = std::max(chunkPoints, points_ / mostChunks);
         int incoming = 0;  // one past the last point that an earlier chunk touches
         SpringChunk chunk{};
         int reach = 0;
@@ -79,7 +81,7 @@ class Builder {
             const SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
             if (i == chunk.firstBlock) chunk.firstPoint = block.firstPoint;
             reach = std::max(reach, block.reach);
-            const bool full = block.lastPoint - chunk.firstPoint >= chunkPoints && block.lastPoint >= incoming;
+            const bool full = block.lastPoint - chunk.firstPoint >= enough && block.lastPoint >= incoming;
             if (!full && i + 1 < count) continue;
             chunk.lastBlock = i + 1;
             chunk.lastPoint = block.lastPoint;

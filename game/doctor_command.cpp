@@ -14,6 +14,7 @@
 #include "pipeline/machine.h"
 #include "pipeline/self_test.h"
 #include "render/font.h"
+#include "report/gnuplot.h"
 
 namespace taut::game {
 namespace {
@@ -93,6 +94,8 @@ int doctor(const std::string& folder) {
     printMachine();
     const std::string ffmpeg = image::ffmpegVersion();
     printFact("ffmpeg", ffmpeg.empty() ? "MISSING: videos need the package ffmpeg, picture files do not" : ffmpeg);
+    const std::string gnuplot = report::gnuplotVersion();
+    printFact("gnuplot", gnuplot.empty() ? "MISSING: charts need the package gnuplot-nox, their CSV does not" : gnuplot);
     bool files = printFolder("shaders", shaderFolder(), "TAUT_SHADERS");
     files = printFolder("assets", assetFolder(), "TAUT_ASSETS") && files;
     printFont();

@@ -32,6 +32,7 @@ void printShortHelp() {
         "  taut render flag -o flag.mp4                 a video of a shipped scene\n"
         "  taut render my.toml -o out/frame_######.png  a picture file a frame\n"
         "  taut info flag                               what a scene builds, its time step and its cost\n"
+        "  taut chart cloth-corners                     error against cost of every method, as pictures and CSV\n"
         "  taut check my.toml                           whether a scene file is right\n"
         "  taut doctor                                  whether everything needed is installed\n"
         "  taut schema > taut.schema.json               the scene format, for editors\n\n"

@@ -21,7 +21,9 @@ class Led final : public ode::SecondOrderSystem<double>, public ode::ImplicitSys
     ode::Layout layout() const override { return {2, 2, 1}; }
     const double* dragRates() const override { return drag_; }
     void accelerate(double t, const double* x, const double* v, ode::AccelerationSink<double>& sink) override {
-        EXPECT_EQ(x[0], place(t));
+        if (isLedAtItsTime) {
+            EXPECT_NEAR(x[0], place(t), 1e-14);  // the end of a step and the start of the next: a rounding of t
+        }
         const double a[] = {0.0, -omega2 * (x[1] - x[0]) - c * (v[1] - v[0])};
         const double* planes[] = {a};
         sink.take(0, 2, planes);
@@ -44,6 +46,9 @@ class Led final : public ode::SecondOrderSystem<double>, public ode::ImplicitSys
         out[0] += w_;
         out[1] += w_;
     }
+
+    // Implicit Euler asks for the forces of the end of the step where the step begins, and adds the rest by products.
+    bool isLedAtItsTime = true;
 
   private:
     double drag_[2] = {0.7, 0.2}, mass_[2] = {1.0, 1.0}, inverseMass_[2] = {0.0, 1.0}, w_ = 0.0;
@@ -75,6 +80,7 @@ TEST(PrescribedPoint, IsWhereItIsLedAndPullsTheRestAtTheOrderOfTheMethod) {
         double error[2];
         for (int i = 0; i < 2; ++i) {
             Led led;
+            led.isLedAtItsTime = method.name != "implicit-euler";
             const int steps = (method.order == 4 ? 75 : 1200) << i;  // order 4: clear of rounding
             const std::vector<double> x{7.0, 1.0}, v{-3.0, 0.0};     // what it is given is overwritten at once
             Integration<double> run(led, method.name, 3.0 / steps, x, v);

@@ -46,6 +46,9 @@ TEST(SceneFields, SettingsLandInTheirMembers) {
     EXPECT_EQ(scene.solver.integrator, "velocity-verlet");
     EXPECT_EQ(scene.solver.dt, 1e-3);
     EXPECT_EQ(scene.solver.safety, 0.8);
+    EXPECT_EQ(scene.solver.newtonSteps, 4);
+    EXPECT_EQ(scene.solver.cgTolerance, 1e-7);
+    EXPECT_EQ(scene.solver.cgIterations, 300);
     EXPECT_EQ(scene.solver.precision, world::Precision::double_);
     EXPECT_EQ(scene.world.gravity, dvec3(0.5, -1.62, 0.25));
     EXPECT_EQ(scene.world.airDensity, 0.02);
@@ -105,6 +108,9 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
     EXPECT_EQ(body.solver.integrator, "euler");
     EXPECT_EQ(body.solver.dt, 2e-4);
     EXPECT_EQ(body.solver.safety, 0.7);
+    EXPECT_EQ(body.solver.newtonSteps, 5);
+    EXPECT_EQ(body.solver.cgTolerance, 1e-8);
+    EXPECT_EQ(body.solver.cgIterations, 400);
     EXPECT_EQ(body.array.count, ivec3(2, 3, 4));
     EXPECT_EQ(body.array.stepX, dvec3(1, 0, 0));
     EXPECT_EQ(body.array.stepY, dvec3(0, 2, 0));

@@ -16,6 +16,9 @@ integrator = "velocity-verlet"
 dt = 1e-3
 safety = 0.8
 precision = "double"
+newton_steps = 4
+cg_tolerance = 1e-7
+cg_iterations = 300
 on_divergence = "freeze"
 freeze_strain = 0.5
 [world]
@@ -66,7 +69,7 @@ friction = 0.9
 thickness = 0.01
 collide = false
 finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, thread_m = 0.02, roughness = 0.5, sheen = 0.6, texture = "square.png" }
-solver = { integrator = "euler", dt = 2e-4, safety = 0.7 }
+solver = { integrator = "euler", dt = 2e-4, safety = 0.7, newton_steps = 5, cg_tolerance = 1e-8, cg_iterations = 400 }
 array = { count = [2, 3, 4], step_x = [1, 0, 0], step_y = [0, 2, 0], step_z = [0, 0, 3] }
 [cloth.shirt]
 mesh = "square.obj"

@@ -62,7 +62,8 @@ TEST(SceneOverrides, FaultsAreNamedByTheirKey) {
         {"mass.mass_kg=3", "--set mass.mass_kg: error: mass has no element \"mass_kg\"; write mass.0 … mass.0"},
         {"schema.x=3", "--set schema.x: error: schema is 1: it has no \"x\""},
         {"solver.integrator=leapforg",
-         "--set solver.integrator: error: integrator must be one of euler, leapfrog, velocity-verlet, not "
+         "--set solver.integrator: error: integrator must be one of euler, symplectic-euler, heun, midpoint, rk4, "
+         "velocity-verlet, leapfrog, implicit-euler, not "
          "\"leapforg\"; "
          "did you mean \"leapfrog\"?"},
         {"cloth.flag.material=none",

@@ -117,7 +117,8 @@ TEST(SceneErrors, ValuesOfTheWrongTypeAreReported) {
         {"an unknown choice",
          "[solver]\n"
          "integrator = \"leapforg\"\n",
-         "s.toml:3:14: error: integrator must be one of euler, leapfrog, velocity-verlet, not \"leapforg\"\n"
+         "s.toml:3:14: error: integrator must be one of euler, symplectic-euler, heun, midpoint, rk4, "
+         "velocity-verlet, leapfrog, implicit-euler, not \"leapforg\"\n"
          "  integrator = \"leapforg\"\n"
          "               ^ did you mean \"leapfrog\"?"},
         {"a choice that is a number",

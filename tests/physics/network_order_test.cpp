@@ -97,7 +97,7 @@ TEST(ClothOrder, IsThatOfTheMethodWithDashpotsDragAndWind) {
             EXPECT_NEAR(std::log2(x1 / x2), method.order, 0.1);
             EXPECT_NEAR(std::log2(v1 / v2), method.order, 0.1);
             EXPECT_LT(x1, 1e-3);
-            EXPECT_GT(x2, 1e-10);  // above the reference's own error
+            EXPECT_GT(x2, 1e-11);  // above the reference's own error, 1e-14 by its 4000 steps
         }
     }
 }

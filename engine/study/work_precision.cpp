@@ -177,7 +177,7 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
     for (int halvings = 0; halvings <= most && !isStopped(); ++halvings, plan.stepsPerSample *= 2) {
         const double expected = 2 * lastRun;
         // A curve needs a slope: three points, unless they are out of all proportion.
-        if (!isFixed && expected > longestRun * (good < 3 ? 8 : 1)) break;
+        if (!isFixed && expected > longestRun * (good < 3 ? 4 : 1)) break;
         const auto start = Clock::now();
         double seconds = 0;
         RunPoint point = run(plan, seconds);
@@ -253,15 +253,17 @@ WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& se
     study.dimensions = subject.dimensions();
     study.hasEnergy = subject.hasEnergy();
     study.methods = chosenMethods(subject, settings);
-    const double duration = settings.seconds > 0 ? settings.seconds : subject.duration();
+    double duration = settings.seconds > 0 ? settings.seconds : subject.duration();
 
     tell("horizon", 0.0);
     study.horizon = subject.exact(0.0) ? Horizon{duration, false, 1.0} : findHorizon(subject, duration);
+    // Unless asked for, not much of what can only be told in the mean.
+    if (settings.seconds == 0 && study.horizon.isReached) duration = std::min(duration, 3 * study.horizon.seconds);
     study.grid = subject.grid(duration, study.horizon.seconds);
     study.window =
         std::clamp(static_cast<int>(study.horizon.seconds / study.grid.spacing + 1e-6), 1, study.grid.samples);
     tell("reference", 0.02);
-    study.reference = makeReference(subject, study.grid, study.window, 0.08 * settings.budget);
+    study.reference = makeReference(subject, study.grid, study.window, 0.1 * settings.budget);
 
     const double before = 0.12;  // of the budget
     const auto curves = static_cast<double>(study.methods.size() * settings.precisions.size());

@@ -75,7 +75,7 @@ struct Progress {
 struct StudySettings {
     std::vector<std::string> methods;  // empty: all
     std::vector<Precision> precisions = {Precision::single_, Precision::double_};
-    double seconds = 0;  // [s] of motion; 0: as the subject says
+    double seconds = 0;  // [s] of motion; 0: as the subject says, at most three horizons
     double budget = 40;  // [s] of wall time to aim at
     int halvings = 0;    // of the step, exactly so many for every curve and untimed; 0: as many as the budget allows
     std::function<void(const Progress&)> progress;

@@ -222,6 +222,7 @@ Chart chartOf(const WorkPrecision& study, const Quantities& quantities, const st
     Chart chart;
     chart.title = study.title;
     chart.subtitle = subtitle;
+    chart.pngScale = 1.5;
     chart.panelHeight = static_cast<int>(Drawing::height);
     const std::vector<Precision> precisions = precisionsOf(study);
     chart.panelWidth = precisions.size() > 1 ? 460 : 640;

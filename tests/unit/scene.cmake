@@ -8,6 +8,7 @@ list(APPEND TAUT_UNIT_TESTS
   scene_overrides_test.cpp
   scene_reference_errors_test.cpp
   scene_robustness_test.cpp
+  scene_splice_test.cpp
   scene_syntax_errors_test.cpp
   scene_value_errors_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::scene)

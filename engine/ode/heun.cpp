@@ -14,12 +14,12 @@ std::unique_ptr<FirstOrderMethod<Real>> makeHeun() {
 template std::unique_ptr<FirstOrderMethod<float>> makeHeun();
 template std::unique_ptr<FirstOrderMethod<double>> makeHeun();
 
-// ζ < 1: the root of z³/4 - ζ z² + 2ζ² z - 2ζ = 0 (numerics: section 2), z <= 2 there; ζ >= 1 as explicit Euler.
+// ζ < 1: the root of z³/4 - ζ z² + 2ζ² z - 2ζ = 0 (numerics: section 2), at most 2.2; ζ >= 1 as explicit Euler.
 double heunLargestStep(const FastestMode& mode) {
     return explicitLimit(mode, 2.0, [](double zeta) {
         if (zeta >= 1.0) return overdampedLimit(zeta, 2.0);
         if (zeta <= 0.0) return 0.0;
-        return bisect(0.0, 2.0, [&](double z) {
+        return bisect(0.0, 2.5, [&](double z) {
             return 0.25 * z * z * z - zeta * z * z + 2.0 * zeta * zeta * z - 2.0 * zeta < 0.0;
         });
     });

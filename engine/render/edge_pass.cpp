@@ -1,5 +1,7 @@
 #include "render/edge_pass.h"
 
+#include <vector>
+
 namespace taut::render {
 
 float itemMark(std::size_t item) {
@@ -9,8 +11,9 @@ float itemMark(std::size_t item) {
 EdgePass::EdgePass(const Gl& gl, const ShaderFolder& shaders)
     : gl_(&gl),
       surfaces_(shaders.program("edges.vert", "edges.frag")),
-      resolve_(shaders.program("screen.vert", "resolve.frag")),
-      empty_(gl, GlKind::vertexArray) {}
+      resolve_(shaders.program("tiles.vert", "resolve.frag")),
+      tileLayout_(gl, GlKind::vertexArray),
+      tileCorners_(gl, GlKind::buffer) {}
 
 PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height) {
     const glm::vec2 size(width, height);
@@ -35,6 +38,16 @@ PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjecti
 void EdgePass::draw(const view::FrameView& view, std::span<const DrawItem> items, const MeshCache& meshes,
                     const PixelBox& part, Targets& targets) {
     if (part.width == 0 || part.height == 0) return;
+    const std::vector<PixelBox> tiles = edgeTiles(targets.shaded(part));
+    drawCoverage(view, items, meshes, part, targets);
+    targets.bindResolve(part);
+    gl_->Disable(GL_DEPTH_TEST);
+    resolve_.use();
+    drawTiles(tiles, targets.size());
+}
+
+void EdgePass::drawCoverage(const view::FrameView& view, std::span<const DrawItem> items, const MeshCache& meshes,
+                            const PixelBox& part, const Targets& targets) {
     targets.bindCoverage();
     gl_->Scissor(part.x, part.y, part.width, part.height);
     gl_->Enable(GL_SCISSOR_TEST);
@@ -64,14 +77,27 @@ void EdgePass::draw(const view::FrameView& view, std::span<const DrawItem> items
     }
     gl_->Disable(GL_CULL_FACE);
     gl_->Disable(GL_CLIP_DISTANCE0);
-
-    targets.bindResolve(part);
-    gl_->Enable(GL_SCISSOR_TEST);
-    gl_->Disable(GL_DEPTH_TEST);
-    gl_->BindVertexArray(empty_.id());
-    resolve_.use();
-    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
     gl_->Disable(GL_SCISSOR_TEST);
+}
+
+// Two triangles a tile.
+void EdgePass::drawTiles(std::span<const PixelBox> tiles, glm::ivec2 size) {
+    std::vector<glm::vec2> corners;
+    corners.reserve(6 * tiles.size());
+    const auto place = [&](int x, int y) { return 2.0F * glm::vec2(x, y) / glm::vec2(size) - 1.0F; };
+    for (const PixelBox& tile : tiles) {
+        const int right = tile.x + tile.width, high = tile.y + tile.height;
+        for (const glm::vec2& corner : {place(tile.x, tile.y), place(right, tile.y), place(right, high),
+                                        place(tile.x, tile.y), place(right, high), place(tile.x, high)})
+            corners.push_back(corner);
+    }
+    gl_->BindVertexArray(tileLayout_.id());
+    gl_->BindBuffer(GL_ARRAY_BUFFER, tileCorners_.id());
+    gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec2)), corners.data(),
+                    GL_STREAM_DRAW);
+    gl_->EnableVertexAttribArray(0);
+    gl_->VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+    gl_->DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
 }
 
 }  // namespace taut::render

@@ -106,6 +106,17 @@ void Targets::bindCoverage() const {
     gl_->Disable(GL_FRAMEBUFFER_SRGB);
 }
 
+ShadedPixels Targets::shaded(const PixelBox& part) const {
+    const std::size_t count = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
+    ShadedPixels pixels{part, std::vector<std::uint32_t>(count), std::vector<float>(count)};
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
+    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                    pixels.colour.data());
+    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, pixels.depth.data());
+    return pixels;
+}
+
 void Targets::bindResolve(const PixelBox& part) {
     gl_->Disable(GL_FRAMEBUFFER_SRGB);
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());

@@ -3,30 +3,30 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "image/image.h"
+#include "render/edge_tiles.h"
 #include "render/gl.h"
 
 namespace taut::render {
-
-struct PixelBox {
-    int x = 0;  // from the left
-    int y = 0;  // from below
-    int width = 0;
-    int height = 0;
-};
 
 class Targets {
   public:
     // Throws Error(badContent) if GL does not offer the size.
     Targets(const Gl& gl, int width, int height, int samples);
 
+    glm::ivec2 size() const { return {width_, height_}; }  // [pixels]
+
     // Smooth edges are made from exactly four samples a pixel, else left out.
     bool hasSmoothEdges() const { return smooth_; }
 
     void bindShading() const;   // to draw into, one sample a pixel
     void bindCoverage() const;  // to draw into, four samples a pixel; bytes are kept as they are
+
+    // What has been shaded in a part of the picture.
+    ShadedPixels shaded(const PixelBox& part) const;
 
     // To draw a part of the picture again, with textures bound for what has been shaded there (its bytes, its depth)
     // and for the coverage; bytes are kept as they are.

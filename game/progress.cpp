@@ -33,7 +33,7 @@ double Progress::secondsLeft(const pipeline::FrameRecord& record, Clock::time_po
 }
 
 // The most wanted first: a narrow terminal cuts the rest.
-std::string Progress::line(const pipeline::FrameRecord& record, double elapsed, double left) const {
+std::string Progress::line(const pipeline::FrameRecord& record, double elapsed, double left) {
     const auto done = static_cast<double>(record.frame + 1);
     std::string text =
         fmt::format("frame {}/{} {:3.0f} %  {} left  simulation {:.1f}", record.frame + 1, facts_.frames,
@@ -44,8 +44,10 @@ std::string Progress::line(const pipeline::FrameRecord& record, double elapsed, 
                         1e3 * facts_.step, 1e3 * facts_.stepLimit);
     if (record.metrics) {
         const world::Metrics& m = *record.metrics;
-        text += fmt::format("  strain {:.1f} %  energy {:.4g} J", 100.0 * m.maxStrain,
-                            m.kinetic + m.elastic + m.gravitational);
+        const double energy = m.kinetic + m.elastic + m.gravitational;
+        if (!firstEnergy_) firstEnergy_ = energy;
+        text += fmt::format("  strain {:.1f} %  energy {:.4g} J, drift {:+.2g} J", 100.0 * m.maxStrain, energy,
+                            energy - *firstEnergy_);
     }
     return text;
 }

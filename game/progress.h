@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "game/live_line.h"
@@ -27,8 +28,9 @@ class Progress {
 
     void frameDone(const pipeline::FrameRecord& record);
 
-    // The line for a record, without a line end; elapsed and left are wall time [s].
-    std::string line(const pipeline::FrameRecord& record, double elapsed, double left) const;
+    // The line for a record, without a line end; elapsed and left are wall time [s]. Energy drifts from that of the
+    // first record with metrics.
+    std::string line(const pipeline::FrameRecord& record, double elapsed, double left);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -42,6 +44,7 @@ class Progress {
     Clock::time_point paceStart_ = start_;
     std::int64_t paceFrame_ = -1;
     bool pictured_ = false;
+    std::optional<double> firstEnergy_;  // [J]
 };
 
 }  // namespace taut::game

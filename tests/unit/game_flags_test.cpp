@@ -64,7 +64,7 @@ TEST(Progress, ClockIsWrittenForPeople) {
 
 // 30 frames at 30 a second are a second of scene time; it took two.
 TEST(Progress, LineTellsShareSpeedAndTimeLeft) {
-    const Progress progress({.frames = 120, .fps = 30.0, .step = 0.0005, .stepLimit = 0.0006}, true);
+    Progress progress({.frames = 120, .fps = 30.0, .step = 0.0005, .stepLimit = 0.0006}, true);
     pipeline::FrameRecord record{
         .frame = 29, .pictured = true, .simulating = 0.004, .drawing = 0.08, .encoding = 0.011};
     const std::string line = progress.line(record, 2.0, 66.0);
@@ -72,7 +72,9 @@ TEST(Progress, LineTellsShareSpeedAndTimeLeft) {
                              "0.50 x real time", "h 0.5 of 0.6 ms"})
         EXPECT_NE(line.find(part), std::string::npos) << part << " is missing in: " << line;
     record.metrics = world::Metrics{.kinetic = 1.0, .elastic = 2.0, .gravitational = 4.0, .maxStrain = 0.05};
-    EXPECT_NE(progress.line(record, 2.0, 66.0).find("strain 5.0 %  energy 7 J"), std::string::npos);
+    EXPECT_NE(progress.line(record, 2.0, 66.0).find("strain 5.0 %  energy 7 J, drift +0 J"), std::string::npos);
+    record.metrics->kinetic = 0.5;
+    EXPECT_NE(progress.line(record, 2.0, 66.0).find("energy 6.5 J, drift -0.5 J"), std::string::npos);
 }
 
 TEST(Interruption, FirstSignalSetsTheFlagAndTheExitCode) {

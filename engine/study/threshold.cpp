@@ -1,0 +1,232 @@
+#include "study/threshold.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "core/parallel.h"
+#include "ode/method_table.h"
+#include "world/world.h"
+
+namespace taut::study {
+namespace {
+
+constexpr double longest = 1.0;          // [s] of motion in each run unless asked for more
+constexpr double mostStep = 1.0 / 60;    // [s] no tick is longer
+constexpr double stir = 1e-9;            // [m]
+constexpr double apart = 1.01;           // at which bisection ends
+constexpr double leastShare = 1.0 / 32;  // of leap-frog's limit: the shortest step tried
+constexpr int lookEvery = 16;            // steps between looks at the energy
+constexpr double slowSpeed = 0.1;        // [m/s] up to which everything may always move
+
+// The scene with one step a tick of exactly h, or, with h = 0, with the steps that it would choose.
+world::SceneSpec overridden(const world::SceneSpec& spec, std::string_view method, double h) {
+    world::SceneSpec scene = spec;
+    scene.solver.integrator = method;
+    scene.solver.precision = world::Precision::double_;
+    scene.solver.onDivergence = world::OnDivergence::stop;
+    scene.solver.dt.reset();
+    scene.solver.safety = 0.3;
+    if (h > 0) {
+        scene.solver.dt = h * (1 + 1e-9);  // a maximum: rounding may not cost a substep
+        scene.run.fps = 1 / h;
+    }
+    const auto change = [](auto& bodies) {
+        for (world::BodySpec& body : bodies) {
+            body.solver = {};
+            body.jitter += stir;
+        }
+    };
+    change(scene.cloths);
+    change(scene.ropes);
+    change(scene.blocks);
+    change(scene.nets);
+    return scene;
+}
+
+double smaller(double a, double b) {
+    return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::min(a, b);
+}
+
+class Search {
+  public:
+    Search(const world::SceneSpec& spec, const ThresholdSettings& settings, SceneThresholds& result)
+        : spec_(spec), settings_(settings), result_(result) {}
+
+    void run() {
+        tell(0.0, "the reference run");
+        lookAtIslands();
+        playReference();
+        for (const ode::MethodInfo& method : ode::methods()) {
+            const auto& wanted = settings_.methods;
+            if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), method.name) == wanted.end()) continue;
+            MethodThreshold threshold;
+            threshold.method = method.name;
+            threshold.title = method.title;
+            threshold.predicted = predictedFor(method);
+            result_.methods.push_back(std::move(threshold));
+        }
+        parts_.assign(result_.methods.size(), 0.0);
+        core::parallelFor(static_cast<int>(result_.methods.size()), [&](int i) { find(static_cast<std::size_t>(i)); });
+        for (MethodThreshold& threshold : result_.methods) threshold.note = noteOn(threshold);
+        result_.isInterrupted = isStopped();
+    }
+
+  private:
+    bool isStopped() const { return settings_.stop != nullptr && *settings_.stop; }
+
+    void lookAtIslands() {
+        const world::World world(overridden(spec_, "leapfrog", mostStep));
+        for (const world::IslandInfo& info : world.islands()) {
+            IslandFrequencies island;
+            island.name = info.name;
+            island.bodies = info.bodies;
+            island.points = info.points;
+            island.boundAnywhere = info.omegaBound;
+            island.boundHere = info.omegaNow;
+            island.lanczos = info.omegaEstimate;
+            island.mode = info.fastest;
+            island.closedForm = closedFormFrequency(spec_, info.bodies, island.formula);
+            result_.islands.push_back(std::move(island));
+        }
+    }
+
+    void playReference() {
+        world::World world(overridden(spec_, "rk4", 0.0));
+        const auto ticks = static_cast<long long>(std::ceil(result_.seconds / world.tickSeconds()));
+        double mass = 0;
+        for (const world::IslandInfo& info : world.islands()) mass += info.mass;
+        for (long long tick = 0; tick < ticks && !isStopped(); ++tick) {
+            if (world.advance()) break;
+            result_.kinetic = std::max(result_.kinetic, world.metrics().kinetic);
+        }
+        result_.allowance = 4 * result_.kinetic + 0.5 * mass * slowSpeed * slowSpeed;
+        result_.criterion = fmt::format(
+            "a step stands when within {:.3g} s no point is faster than 3000 m/s and the kinetic energy stays below "
+            "{:.3g} J, four times the most of a run of RK4 at a fraction of its limit, and {} m/s for all points",
+            result_.seconds, result_.allowance, slowSpeed);
+    }
+
+    PredictedSteps predictedFor(const ode::MethodInfo& method) const {
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        PredictedSteps steps{infinite, infinite, infinite, infinite};
+        for (const IslandFrequencies& island : result_.islands) {
+            const auto by = [&](double omega) {
+                if (std::isnan(omega)) return omega;
+                ode::FastestMode mode = island.mode;
+                mode.omega = omega;
+                return method.largestStep(mode);
+            };
+            steps.boundAnywhere = std::min(steps.boundAnywhere, by(island.boundAnywhere));
+            steps.boundHere = std::min(steps.boundHere, by(island.boundHere));
+            steps.lanczos = std::min(steps.lanczos, by(island.lanczos));
+            steps.closedForm = smaller(steps.closedForm, by(island.closedForm));
+        }
+        return steps;
+    }
+
+    // Empty when the step stands, else what went first.
+    std::string failure(MethodThreshold& threshold, double h) const {
+        ++threshold.runs;
+        world::World world(overridden(spec_, threshold.method, h));
+        const auto steps = static_cast<long long>(std::ceil(result_.seconds / h));
+        for (long long n = 1; n <= steps; ++n) {
+            if (const auto divergence = world.advance()) return divergence->body;
+            if (n % lookEvery != 0 && n != steps) continue;
+            if (!(world.metrics().kinetic <= result_.allowance)) return "energy";
+            if (isStopped()) break;
+        }
+        return "";
+    }
+
+    void find(std::size_t index) {
+        MethodThreshold& threshold = result_.methods[index];
+        const double leapfrog = predictedFor(*ode::findMethod("leapfrog")).lanczos;
+        const double base = std::min(std::isfinite(leapfrog) ? leapfrog : mostStep, mostStep),
+                     least = leastShare * base;
+        double h = threshold.predicted.lanczos;
+        if (!(h > least) || !std::isfinite(h)) h = base;
+        h = std::min(h, mostStep);
+        const auto stands = [&] {
+            const std::string first = failure(threshold, h);
+            (first.empty() ? threshold.stands : threshold.fails) = h;
+            if (!first.empty()) threshold.limitedBy = first;
+            return first.empty();
+        };
+        // Away from the prediction until one step stands and one fails.
+        if (stands()) {
+            while (threshold.fails == 0 && h < mostStep && !isStopped()) {
+                h = std::min(1.3 * h, mostStep);
+                stands();
+            }
+        } else {
+            while (threshold.stands == 0 && h > least && !isStopped()) {
+                h = std::max(h / 1.5, least);
+                stands();
+            }
+        }
+        tellPart(index, 0.5);
+        threshold.kind = threshold.fails == 0    ? ThresholdKind::aboveMost
+                         : threshold.stands == 0 ? ThresholdKind::belowLeast
+                                                 : ThresholdKind::found;
+        while (threshold.kind == ThresholdKind::found && threshold.fails > apart * threshold.stands && !isStopped()) {
+            h = std::sqrt(threshold.stands * threshold.fails);
+            stands();
+        }
+        tellPart(index, 1.0);
+    }
+
+    std::string noteOn(const MethodThreshold& threshold) const {
+        const ode::MethodInfo& method = *ode::findMethod(threshold.method);
+        std::string note;
+        if (threshold.kind == ThresholdKind::aboveMost)
+            note = fmt::format("stands {:.4g} ms, the longest tick of a scene; where it fails beyond is not tried",
+                               1e3 * mostStep);
+        else if (threshold.kind == ThresholdKind::belowLeast)
+            note = fmt::format("fails at {:.3g} ms already, the shortest step tried", 1e3 * threshold.fails);
+        const std::string because =
+            threshold.predicted.lanczos == 0
+                ? fmt::format(
+                      "has no threshold: motion that nothing damps grows at every step, the more slowly the "
+                      "shorter it is; what is measured holds for {:.3g} s",
+                      result_.seconds)
+                : std::string(method.caution);
+        if (!because.empty()) note += (note.empty() ? "" : "; ") + because;
+        return note;
+    }
+
+    void tellPart(std::size_t index, double part) {
+        const std::lock_guard lock(mutex_);
+        parts_[index] = part;
+        double sum = 0;
+        for (double p : parts_) sum += p;
+        tell(sum / static_cast<double>(parts_.size()), result_.methods[index].title);
+    }
+    void tell(double done, const std::string& doing) const {
+        if (settings_.progress) settings_.progress({doing, done});
+    }
+
+    const world::SceneSpec& spec_;
+    const ThresholdSettings& settings_;
+    SceneThresholds& result_;
+    std::mutex mutex_;
+    std::vector<double> parts_;  // (methods) share done of each
+};
+
+}  // namespace
+
+SceneThresholds findThresholds(const world::SceneSpec& spec, const std::string& name,
+                               const ThresholdSettings& settings) {
+    SceneThresholds result;
+    result.name = name;
+    result.title = spec.title.empty() ? name : spec.title;
+    result.seconds = settings.seconds > 0 ? settings.seconds : std::min(spec.run.seconds, longest);
+    result.mostStep = mostStep;
+    Search(spec, settings, result).run();
+    return result;
+}
+
+}  // namespace taut::study

@@ -6,35 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "game/program.h"
 #include "image/read.h"
 #include "image_support.h"
+#include "program_support.h"
 
 namespace taut::game {
 namespace {
 
+using test::has;
+using test::Outcome;
+using test::run;
 using test::TemporaryFolder;
-
-struct Outcome {
-    int code = 0;
-    std::string out, err;
-};
-
-Outcome run(const std::vector<std::string>& arguments) {
-    std::vector<const char*> argv = {"taut"};
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    Outcome outcome;
-    outcome.code = runProgram(static_cast<int>(argv.size()), argv.data());
-    outcome.out = testing::internal::GetCapturedStdout();
-    outcome.err = testing::internal::GetCapturedStderr();
-    return outcome;
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 TEST(ChartCommand, AloneOrAskedItListsTheProblems) {
     for (const Outcome& outcome : {run({"chart"}), run({"chart", "--list"})}) {

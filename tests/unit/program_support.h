@@ -1,0 +1,34 @@
+// Runs the program within the test, and keeps what it said.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "game/program.h"
+
+namespace taut::test {
+
+struct Outcome {
+    int code = 0;
+    std::string out, err;
+};
+
+inline Outcome run(const std::vector<std::string>& arguments) {
+    std::vector<const char*> argv = {"taut"};
+    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    Outcome outcome;
+    outcome.code = game::runProgram(static_cast<int>(argv.size()), argv.data());
+    outcome.out = testing::internal::GetCapturedStdout();
+    outcome.err = testing::internal::GetCapturedStderr();
+    return outcome;
+}
+
+inline bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace taut::test

@@ -12,11 +12,14 @@ namespace taut::game {
 
 using Action = std::function<int()>;  // returns the exit code
 
+void addAtlas(CLI::App& app, Action& chosen);
 void addChart(CLI::App& app, Action& chosen);
 void addCheck(CLI::App& app, Action& chosen);
 void addDoctor(CLI::App& app, Action& chosen);
 void addInfo(CLI::App& app, Action& chosen);
+void addPlan(CLI::App& app, Action& chosen);
 void addRender(CLI::App& app, Action& chosen);
 void addSchema(CLI::App& app, Action& chosen);
+void addSheet(CLI::App& app, Action& chosen);
 
 }  // namespace taut::game

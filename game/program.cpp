@@ -20,7 +20,7 @@
 namespace taut::game {
 namespace {
 
-constexpr std::array commands{addRender, addCheck, addInfo, addChart, addSchema, addDoctor};
+constexpr std::array commands{addRender, addCheck, addInfo, addChart, addAtlas, addPlan, addSheet, addSchema, addDoctor};
 
 int codeOf(core::ExitCode code) {
     return static_cast<int>(code);

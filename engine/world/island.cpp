@@ -326,9 +326,11 @@ IslandInfo IslandOf<Real>::info() const {
     info.method = plan_.solver.integrator;
     info.omegaBound = choice_.anywhere.omega;
     info.omegaNow = choice_.here.omega;
+    info.fastest = choice_.mode;
     info.stepLimit = choice_.limit;
     info.step = choice_.step;
     info.substeps = choice_.substeps;
+    info.work = work();
     info.limitingSpring = choice_.limitingSpring;
     info.bytes = system_.bytes() + (3 + 2 * state_.memory.size()) * state_.layout.size() * sizeof(Real) * 2;
     core::AlignedArray<Real> u(state_.layout.size()), out(state_.layout.size());

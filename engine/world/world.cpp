@@ -55,6 +55,7 @@ IslandForces World::Impl::forces() {
     registry.each<BodyPart>([&](ecs::Entity, BodyPart& part) { all.push_back(part.body.get()); });
     registry.each<WindPart>([&](ecs::Entity, const WindPart& part) {
         const WindSpec& wind = part.spec;
+        if (wind.drag == 0.0 && wind.lift == 0.0) return;  // without force
         WindOn on;
         on.velocity = wind.velocity;
         on.settings.airDensity = spec.world.airDensity;

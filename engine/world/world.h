@@ -61,11 +61,13 @@ struct IslandInfo {
     double omegaBound = 0;            // B1 [1/s]
     double omegaNow = 0;              // B2 at the start [1/s]
     double omegaEstimate = 0;         // Lanczos [1/s]
+    ode::FastestMode fastest{};       // what stepLimit is computed from, omegaBound among it
     double stepLimit = 0;             // [s] largest stable step by B1 with damping
     double step = 0;                  // [s] chosen
     int substeps = 1;
     std::string limitingSpring;       // what sets the limit, in words
     std::uint64_t bytes = 0;
+    ode::Work work{};                 // of its method since the start
 };
 
 struct Options {

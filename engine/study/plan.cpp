@@ -1,0 +1,197 @@
+#include "study/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "study/plan_bodies.h"
+#include "study/plan_changes.h"
+#include "study/plan_search.h"
+#include "study/scene_subject.h"
+
+namespace taut::study {
+namespace {
+
+constexpr double stricter = 0.75;        // a target after a verification that failed
+constexpr double generatorShare = 0.25;  // of the target, that all generators left out may change together
+
+Candidate plainCandidate(const PlanContext& context) {
+    Candidate candidate;
+    candidate.count = context.resolution.count;
+    return candidate;
+}
+
+// How long the motion can be promised, and what percents and pixels mean. Sets grid and target.
+PlanRun resolveNeed(PlanContext& context, Plan& plan) {
+    checkNeed(context.spec);
+    const double asked = resolvedNeed(context.spec, {1.0, 1.0}).horizon;
+    const world::SceneSpec model = modelOf(context.spec, context.resolution, plainCandidate(context));
+    context.tell("horizon", 0.02);
+    const double tick = planGrid(context.spec, asked).tick;
+    const Horizon horizon = findHorizon(*makeSceneSubject(model, plan.name), std::max(asked, 10 * tick));
+    plan.isChaotic = horizon.isReached && horizon.seconds < asked * (1 - 1e-9);
+    context.grid = planGrid(context.spec, plan.isChaotic ? std::max(horizon.seconds, tick) : asked);
+    plan.seconds = context.grid.seconds();
+    context.tell("scene as it is", 0.15);
+    PlanRun base = play(model, context.resolution, context.grid, {0, true});
+    if (!base.isWhole())
+        throw core::Error(core::ExitCode::diverged,
+                          fmt::format("{}: leap-frog with the step found for it: {}", plan.name, base.failure));
+    plan.need = resolvedNeed(context.spec, base.scales);
+    context.target = plan.need.target;
+    return base;
+}
+
+// Leaves out, in the order of their effect, what together changes less than its share of the target.
+std::vector<Generator> generatorsToDrop(const PlanContext& context, const PlanRun& base, Plan& plan) {
+    const std::vector<Generator> all = generatorsOf(context.spec);
+    const auto changeWithout = [&](const std::vector<Generator>& without) {
+        Candidate candidate = plainCandidate(context);
+        candidate.without = without;
+        return difference(base,
+                          play(modelOf(context.spec, context.resolution, candidate), context.resolution, context.grid));
+    };
+    context.tell("force generators", 0.18);
+    std::vector<double> change(all.size());
+    core::parallelFor(static_cast<int>(all.size()), [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        change[k] = changeWithout({all[k]});
+    });
+    std::vector<std::size_t> order(all.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return change[a] < change[b]; });
+
+    const double most = generatorShare * context.target;
+    std::vector<Generator> without;
+    for (const std::size_t i : order) {
+        GeneratorTrial trial{all[i].name, change[i], false, ""};
+        if (change[i] >= most) {
+            trial.verdict = "needed: it changes more than a quarter of the target";
+        } else {
+            context.tell("force generators", 0.25);
+            without.push_back(all[i]);
+            trial.isLeftOut = without.size() == 1 || changeWithout(without) < most;
+            trial.verdict = trial.isLeftOut ? "left out" : "needed: with the ones above it changes more than a quarter";
+            if (!trial.isLeftOut) without.pop_back();
+        }
+        plan.generators.push_back(trial);
+    }
+    return without;
+}
+
+void listResolutions(const PlanContext& context, const PlanReference& reference, Plan& plan) {
+    plan.order = reference.order;
+    plan.referenceError = reference.error;
+    plan.referenceCount = reference.count;
+    for (const auto& [count, run] : reference.runs) {
+        const double error = reference.errorOf(run);
+        plan.resolutions.push_back({count, run.springs, error, error <= context.target});
+    }
+}
+
+// Against a quarter of the step, and against that at twice the resolution with every generator.
+void verify(const PlanContext& context, Plan& plan) {
+    const PlanTrial& trial = plan.trials[*plan.chosen];
+    const auto withFinerSteps = [&](Candidate candidate) {
+        const StepFacts facts = stepFacts(modelOf(context.spec, context.resolution, candidate));
+        candidate.substeps = std::max(candidate.substeps, facts.leastSubsteps);
+        return candidate;
+    };
+    const auto asIs = [&] {
+        if (!trial.isAsWritten) return sceneOf(context, trial.candidate);
+        world::SceneSpec model = context.spec;
+        forEachBody(model, [](world::BodySpec& body) { body.jitter = 0.0; });
+        return model;
+    };
+    context.tell("verification", 0.9);
+    PlanRun chosen = play(asIs(), context.resolution, context.grid);
+    std::vector<double> seconds{chosen.seconds};
+    for (int i = 0; i < 2; ++i) seconds.push_back(play(asIs(), context.resolution, context.grid).seconds);
+    std::sort(seconds.begin(), seconds.end());
+    plan.trials[*plan.chosen].milliseconds = 1e3 * seconds[1] / context.grid.frames();
+    plan.secondsAnEvaluation =
+        seconds[1] / static_cast<double>(std::max<std::int64_t>(1, chosen.work.evaluations + chosen.work.iterations));
+
+    Candidate quarter = trial.candidate;
+    quarter.precision = Precision::double_;
+    quarter.substeps = 4 * chosen.substeps;
+    quarter = withFinerSteps(quarter);
+    context.tell("verification, a quarter of the step", 0.92);
+    plan.verification.step = difference(chosen, play(sceneOf(context, quarter), context.resolution, context.grid));
+    plan.verification.isPassed = plan.verification.step <= plan.need.target;
+    if (context.resolution.count == 0) return;
+
+    Candidate twice = quarter;
+    twice.count = 2 * trial.candidate.count;
+    twice.without.clear();
+    twice = withFinerSteps(twice);
+    plan.verification.count = twice.count;
+    context.tell("verification, twice the resolution", 0.94);
+    plan.verification.finer = difference(chosen, play(sceneOf(context, twice), context.resolution, context.grid));
+    plan.verification.isPassed = plan.verification.isPassed && plan.verification.finer <= plan.need.target;
+}
+
+// What does not stand the verification is searched for once more with a stricter target.
+void searchAndVerify(PlanContext& context, const PlanReference& reference, std::optional<int> least,
+                     const std::vector<Generator>& without, Plan& plan) {
+    for (int round = 0; round < 3; ++round, context.target *= stricter) {
+        plan.trials.clear();
+        plan.chosen.reset();
+        searchCandidates(context, reference, least, without, plan);
+        if (!plan.chosen) return;
+        verify(context, plan);
+        if (plan.verification.isPassed) return;
+    }
+}
+
+void addRemarks(const PlanContext& context, const PlanReference& reference, Plan& plan) {
+    const auto add = [&](std::string remark) { plan.remarks.push_back(std::move(remark)); };
+    if (plan.isChaotic)
+        add(
+            fmt::format("The motion is chaotic: a shift of 1e-9 m grows a thousandfold within {:.3g} s. The promise "
+                        "holds up to there, not up to the {:.3g} s asked for; later no step and no resolution tells "
+                        "where a point is.",
+                        plan.seconds, plan.need.horizon));
+    else
+        add(fmt::format("The promise holds for the first {:.3g} s, the horizon asked for.", plan.seconds));
+    bool hasJitter = false;
+    forEachBody(context.spec, [&](const world::BodySpec& body) { hasJitter = hasJitter || body.jitter > 0; });
+    if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
+    for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
+    if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
+    if (reference.error > context.target / 2)
+        add(fmt::format("The finest motion that could be afforded is itself known to {} only.",
+                        lengthText(reference.error)));
+}
+
+}  // namespace
+
+Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
+    checkNeed(spec);
+    Plan plan;
+    plan.name = spec.title.empty() ? spec.file : spec.title;
+    PlanContext context{spec, settings, resolutionOf(spec), {}, 0};
+    plan.resolution = context.resolution;
+    const PlanRun base = resolveNeed(context, plan);
+    const std::vector<Generator> without = generatorsToDrop(context, base, plan);
+
+    context.tell("reference", 0.3);
+    PlanReference reference = makePlanReference(context);
+    const std::optional<int> least =
+        context.resolution.count == 0 ? std::optional<int>(0) : leastCount(context, reference);
+    listResolutions(context, reference, plan);
+    searchAndVerify(context, reference, least, without, plan);
+    if (plan.chosen) {
+        const PlanTrial& chosen = plan.trials[*plan.chosen];
+        if (plan.trials.front().cost > 0) plan.ratio = plan.trials.front().cost / chosen.cost;
+        if (!chosen.isAsWritten) plan.changes = planChanges(spec, sceneOf(context, chosen.candidate));
+    }
+    addRemarks(context, reference, plan);
+    if (settings.progress) settings.progress({"done", 1.0});
+    return plan;
+}
+
+}  // namespace taut::study

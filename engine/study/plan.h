@@ -1,0 +1,91 @@
+// From what a scene needs to the cheapest way to model and compute it, with the evidence (numerics: section 7).
+// It writes nothing.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/splice.h"
+#include "study/plan_candidate.h"
+#include "study/plan_need.h"
+#include "study/work_precision.h"
+
+namespace taut::study {
+
+struct PlanSettings {
+    double effort = 3e9;  // spring evaluations that a single run may cost
+    std::function<void(const Progress&)> progress;
+    const std::atomic<bool>* stop = nullptr;
+};
+
+// What leaving out a force generator changes.
+struct GeneratorTrial {
+    std::string name;
+    double change = 0;  // [m] RMS; infinite when the motion diverges without it
+    bool isLeftOut = false;
+    std::string verdict;
+};
+
+// The error of a resolution alone, other things being exact.
+struct ResolutionTrial {
+    int count = 0;  // cells along the longest edge
+    double springs = 0;
+    double error = 0;  // [m]
+    bool isEnough = false;
+};
+
+// A way to compute the scene, all errors of it together.
+struct PlanTrial {
+    static constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+    Candidate candidate;
+    bool isAsWritten = false;
+    double error = unset;         // [m] RMS against the reference, the reference's own error added
+    double step = unset;          // [s]
+    double cost = unset;          // spring evaluations a frame; of one that was not run, a lower bound
+    double milliseconds = unset;  // a frame, on one thread
+    double springs = 0;
+    double evaluations = unset;  // of the forces, solver products included, a frame
+    bool meets = false, wasRun = false;
+    std::string verdict;
+};
+
+struct Verification {
+    double step = PlanTrial::unset;   // [m] change at a quarter of the step
+    double finer = PlanTrial::unset;  // [m] change at twice the resolution too; unset: it has only one
+    int count = 0;                    // the cells then
+    bool isPassed = false;
+};
+
+struct Plan {
+    std::string name;
+    Need need;
+    double seconds = 0;      // [s] that the promise holds for: the horizon asked for, or less
+    bool isChaotic = false;  // the motion cannot be predicted for as long as was asked
+    Resolution resolution;
+    std::vector<GeneratorTrial> generators;
+    std::vector<ResolutionTrial> resolutions;  // by count
+    double order = PlanTrial::unset;           // of convergence with the resolution, as measured
+    double referenceError = 0;                 // [m]
+    int referenceCount = 0;
+    std::vector<PlanTrial> trials;      // in the order of trying
+    std::optional<std::size_t> chosen;  // of trials
+    Verification verification;
+    double ratio = 1;  // cost as written over cost as planned; NaN when that was not run to its end
+    double secondsAnEvaluation = PlanTrial::unset;  // of all forces
+    std::vector<scene::Change> changes;             // of the scene file
+    std::vector<std::string> remarks;
+
+    bool isAccurate() const { return chosen.has_value() && verification.isPassed; }
+    bool isInBudget() const { return chosen && (!need.budget || trials[*chosen].milliseconds <= *need.budget); }
+    bool isMet() const { return isAccurate() && isInBudget(); }
+};
+
+// Throws core::Error: badContent where [need] is missing or contradicts the scene, diverged where even the smallest
+// steps do, interrupted.
+Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings = {});
+
+}  // namespace taut::study

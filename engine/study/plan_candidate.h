@@ -1,0 +1,61 @@
+// One way to model and compute a scene: its resolution, force generators, method, step and precision, and the scene
+// that comes of it. It runs nothing.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "world/spec.h"
+
+namespace taut::study {
+
+// What can be left out of a scene.
+struct Generator {
+    std::string name;  // "wind breeze", "drag", "bend springs", …
+    void (*leaveOut)(world::SceneSpec& spec, const std::string& which) = nullptr;
+    std::string which;  // of several, e.g. the wind's name
+};
+
+// Those that the scene has.
+std::vector<Generator> generatorsOf(const world::SceneSpec& spec);
+
+// Which bodies may be built of more or fewer cells, and why the others may not.
+struct Resolution {
+    int count = 0;                             // cells or segments along the longest edge of all that may; 0: none may
+    std::vector<std::string> scalable;         // "cloth.flag", …
+    std::map<std::string, std::string> fixed;  // by body, why
+};
+Resolution resolutionOf(const world::SceneSpec& spec);
+
+struct Candidate {
+    int count = 0;                   // cells along the longest edge, see Resolution; the others go with it
+    std::vector<Generator> without;  // left out
+    std::string method = "leapfrog";
+    world::Precision precision = world::Precision::double_;
+    int substeps = 0;  // of the island that needs most; 0: as many as stability asks for
+};
+
+// How the steps of a scene are chosen.
+struct StepFacts {
+    int leastSubsteps = 1;     // of the island that needs most
+    double limit = 0;          // [s] its largest stable step
+    bool isPossible = true;    // false: every step is unstable, or more than a million a tick
+    double springs = 0;        // of all islands
+    double springSteps = 0;    // Σ springs · substeps a tick with the fewest substeps
+    double weightedSteps = 0;  // the same with the time that volume cells take
+    int islands = 1;
+    double tick = 0;  // [s]
+};
+
+// The scene without jitter, overrides of its bodies aligned, at `count` cells and without `without`; its step is
+// "auto".
+world::SceneSpec modelOf(const world::SceneSpec& spec, const Resolution& resolution, const Candidate& candidate);
+
+StepFacts stepFacts(const world::SceneSpec& model);
+
+// The model with its step set so that the slowest island makes `substeps` of them a tick; 0 leaves "auto".
+// A single island, and a method without limit, get dt, the others `safety`, so that all steps shrink by the same share.
+void setSubsteps(world::SceneSpec& model, const StepFacts& facts, int substeps);
+
+}  // namespace taut::study

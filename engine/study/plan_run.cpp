@@ -1,0 +1,227 @@
+#include "study/plan_run.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.h"
+#include "world/body.h"
+#include "world/components.h"
+#include "world/world.h"
+
+namespace taut::study {
+namespace {
+
+using glm::dvec3;
+
+// Places of a body that is compared over resolutions: the middles of so many equal parts of each edge.
+constexpr int partsOfRope = 24, partsOfCloth = 12, partsOfBlock = 5;
+
+// A place as points and their weights.
+struct Place {
+    std::array<int, 8> points{};
+    std::array<double, 8> weights{};
+    int count = 0;
+};
+
+// The cell and the share of it at a fraction of an edge.
+struct Along {
+    int cell;
+    double share;
+};
+Along along(int part, int parts, int cells) {
+    const double at = (part + 0.5) / parts * cells;
+    const int cell = std::min(static_cast<int>(at), cells - 1);
+    return {cell, at - cell};
+}
+
+// Linear, bilinear or trilinear between the points of a grid, the first edge running fastest.
+std::vector<Place> placesOfGrid(const std::array<int, 3>& cells, const std::array<int, 3>& parts) {
+    std::vector<Place> places;
+    for (int k = 0; k < parts[2]; ++k)
+        for (int j = 0; j < parts[1]; ++j)
+            for (int i = 0; i < parts[0]; ++i) {
+                const std::array<int, 3> part{i, j, k};
+                Place place;
+                for (int corner = 0; corner < 8; ++corner) {
+                    int point = 0, stride = 1;
+                    double weight = 1;
+                    for (std::size_t d = 0; d < 3; ++d) {
+                        const bool isFar = (corner >> d & 1) != 0;
+                        const Along at = cells[d] > 0 ? along(part[d], parts[d], cells[d]) : Along{0, 0.0};
+                        point += stride * (at.cell + (isFar ? 1 : 0));
+                        weight *= isFar ? at.share : 1 - at.share;
+                        stride *= cells[d] + 1;
+                    }
+                    if (weight <= 0) continue;
+                    place.points[static_cast<std::size_t>(place.count)] = point;
+                    place.weights[static_cast<std::size_t>(place.count++)] = weight;
+                }
+                places.push_back(place);
+            }
+    return places;
+}
+
+std::vector<Place> freePoints(const mechanics::Model& model) {
+    std::vector<Place> places;
+    for (int i = 0; i < model.pointCount(); ++i)
+        if (!model.held[static_cast<std::size_t>(i)]) places.push_back({{i}, {1.0}, 1});
+    return places;
+}
+
+class Watcher {
+  public:
+    Watcher(world::World& world, const world::SceneSpec& model, const Resolution& resolution) : world_(world) {
+        world.registry().each<world::BodyPart>([&](ecs::Entity entity, const world::BodyPart& part) {
+            bodies_.push_back({entity, placesOf(*part.body, model, resolution)});
+        });
+    }
+
+    Sight look() const {
+        Sight sight;
+        for (const auto& [entity, places] : bodies_) {
+            const std::vector<dvec3> positions = world_.positions(entity);
+            for (const Place& place : places) {
+                dvec3 x(0.0);
+                for (std::size_t i = 0; i < static_cast<std::size_t>(place.count); ++i)
+                    x += place.weights[i] * positions[static_cast<std::size_t>(place.points[i])];
+                sight.push_back(x);
+            }
+        }
+        return sight;
+    }
+
+  private:
+    static std::vector<Place> placesOf(const world::Body& body, const world::SceneSpec& model,
+                                       const Resolution& resolution) {
+        const std::string name = std::string(world::kindName(body.kind)) + "." + body.base;
+        const auto& scalable = resolution.scalable;
+        if (std::find(scalable.begin(), scalable.end(), name) == scalable.end()) return freePoints(body.model);
+        if (body.kind == world::Body::Kind::cloth)
+            return placesOfGrid({body.model.grid[0], body.model.grid[1], 0}, {partsOfCloth, partsOfCloth, 1});
+        if (body.kind == world::Body::Kind::rope)
+            return placesOfGrid({body.model.pointCount() - 1, 0, 0}, {partsOfRope, 1, 1});
+        for (const world::BlockSpec& block : model.blocks)
+            if (block.name == body.base)
+                return placesOfGrid({block.cells.x, block.cells.y, block.cells.z},
+                                    {partsOfBlock, partsOfBlock, partsOfBlock});
+        return freePoints(body.model);
+    }
+
+    world::World& world_;
+    std::vector<std::pair<ecs::Entity, std::vector<Place>>> bodies_;
+};
+
+double springEvaluations(const world::World& world) {
+    double sum = 0;
+    for (const world::IslandInfo& island : world.islands())
+        sum +=
+            static_cast<double>(island.springs) * static_cast<double>(island.work.evaluations + island.work.iterations);
+    return sum;
+}
+
+// Size of a pixel at the nearest of these places before the camera. [m] 0 when none is.
+double pixelAt(const world::World& world, const world::SceneSpec& model, const Sight& sight) {
+    const view::Camera camera = world.view(false).camera;
+    const dvec3 ahead = glm::normalize(dvec3(camera.target) - dvec3(camera.eye));
+    double nearest = HUGE_VAL;
+    for (const dvec3& x : sight) {
+        const double depth = glm::dot(x - dvec3(camera.eye), ahead);
+        if (depth > static_cast<double>(camera.nearPlane)) nearest = std::min(nearest, depth);
+    }
+    const double height = 2 * std::tan(0.5 * static_cast<double>(camera.fieldOfView));
+    return nearest < HUGE_VAL ? nearest * height / model.picture.size.y : 0.0;
+}
+
+class Box {
+  public:
+    void add(const Sight& sight) {
+        for (const dvec3& x : sight) least_ = glm::min(least_, x), most_ = glm::max(most_, x);
+    }
+    double diagonal() const { return most_.x < least_.x ? 0.0 : glm::length(most_ - least_); }
+
+  private:
+    dvec3 least_{HUGE_VAL}, most_{-HUGE_VAL};
+};
+
+void advance(world::World& world, const world::SceneSpec& model, const Resolution& resolution, const PlanGrid& grid,
+             const RunLimits& limits, PlanRun& run) {
+    using Clock = std::chrono::steady_clock;
+    const Watcher watcher(world, model, resolution);
+    Box box;
+    if (limits.withScales) box.add(watcher.look());
+    for (int sample = 0; sample < grid.samples; ++sample) {
+        const auto start = Clock::now();
+        for (int tick = 0; tick < grid.every && run.failure.empty(); ++tick)
+            if (const auto divergence = world.advance())
+                run.failure = "diverged at " + std::to_string(divergence->time) + " s";
+        run.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+        if (!run.failure.empty()) return;
+        run.at.push_back(watcher.look());
+        const Sight& seen = run.at.back();
+        if (limits.withScales) {
+            box.add(seen);
+            run.scales.extent = box.diagonal();
+            const double pixel = pixelAt(world, model, seen);
+            if (pixel > 0 && (run.scales.metresPerPixel == 0 || pixel < run.scales.metresPerPixel))
+                run.scales.metresPerPixel = pixel;
+        }
+        // Islands are described from scratch at each call: rarely.
+        if (limits.springEvaluations > 0 &&
+            run.springs * static_cast<double>(world.work().evaluations + world.work().iterations) >
+                limits.springEvaluations &&
+            springEvaluations(world) > limits.springEvaluations) {
+            run.isTooDear = sample + 1 < grid.samples;
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+PlanGrid planGrid(const world::SceneSpec& spec, double horizon) {
+    PlanGrid grid;
+    grid.ticksPerFrame = std::max(1, static_cast<int>(std::ceil(60.0 / spec.run.fps)));
+    grid.tick = 1.0 / (spec.run.fps * grid.ticksPerFrame);
+    const int ticks = std::max(1, static_cast<int>(std::llround(horizon / grid.tick)));
+    grid.every = std::max(1, ticks / 10);
+    grid.samples = std::max(1, ticks / grid.every);
+    return grid;
+}
+
+PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const PlanGrid& grid,
+             const RunLimits& limits) {
+    PlanRun run;
+    try {
+        world::World world(model, {.threads = 1});
+        for (const world::IslandInfo& island : world.islands()) {
+            run.springs += island.springs;
+            if (island.substeps <= run.substeps) continue;
+            run.substeps = island.substeps;
+            run.step = island.step;
+        }
+        advance(world, model, resolution, grid, limits, run);
+        run.work = world.work();
+        run.springEvaluations = springEvaluations(world);
+        run.hasContacts = world.metrics().contacts > 0;
+    } catch (const core::Error& error) {
+        if (error.code() != core::ExitCode::badContent) throw;
+        run.failure = "no step: unstable for all, or more than a million a tick";
+    }
+    return run;
+}
+
+double difference(const PlanRun& a, const PlanRun& b) {
+    if (!a.isWhole() || !b.isWhole() || a.at.empty()) return HUGE_VAL;
+    double sum = 0, count = 0;
+    for (std::size_t s = 0; s < a.at.size(); ++s)
+        for (std::size_t i = 0; i < a.at[s].size(); ++i) {
+            const dvec3 apart = a.at[s][i] - b.at[s][i];
+            sum += glm::dot(apart, apart);
+            ++count;
+        }
+    return std::sqrt(sum / std::max(count, 1.0));
+}
+
+}  // namespace taut::study

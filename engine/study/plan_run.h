@@ -1,0 +1,59 @@
+// A candidate's run: where its material goes, what that costs. Different resolutions are looked at at the same places
+// of the material, by interpolation between points, so that they can be compared.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ode/method.h"
+#include "study/plan_candidate.h"
+#include "study/plan_need.h"
+
+namespace taut::study {
+
+// When a run is looked at: after every `every` ticks, `samples` times.
+struct PlanGrid {
+    int every = 1, samples = 10;
+    double tick = 1.0 / 60;  // [s]
+    int ticksPerFrame = 1;
+    int ticks() const { return every * samples; }
+    double seconds() const { return tick * ticks(); }
+    double frames() const { return static_cast<double>(ticks()) / ticksPerFrame; }
+};
+// At least ten times within `horizon` [s] where there are so many ticks.
+PlanGrid planGrid(const world::SceneSpec& spec, double horizon);
+
+// Positions of the places of the material at one moment. [m]
+using Sight = std::vector<glm::dvec3>;
+
+struct PlanRun {
+    std::string failure;     // why there is none or no end of it; empty: it ran to the end
+    bool isTooDear = false;  // stopped because it cost more than asked for
+    std::vector<Sight> at;   // (samples)
+    ode::Work work;
+    double springEvaluations = 0;  // springs times evaluations of the forces, products of a solver counted as such
+    double springs = 0;
+    double seconds = 0;  // of wall time, on one thread
+    int substeps = 0;    // a tick, of the island that makes most
+    double step = 0;     // [s] of that island
+    bool hasContacts = false;
+    Scales scales;  // filled on demand
+
+    bool isWhole() const { return failure.empty() && !isTooDear; }
+};
+
+struct RunLimits {
+    double springEvaluations = 0;  // stop beyond; 0: never
+    bool withScales = false;
+};
+
+// Never throws for what the scene does: a divergence is a failure.
+PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const PlanGrid& grid,
+             const RunLimits& limits = {});
+
+// RMS over places and times. [m] Infinite when one of the runs did not end.
+double difference(const PlanRun& a, const PlanRun& b);
+
+}  // namespace taut::study

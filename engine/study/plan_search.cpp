@@ -1,0 +1,237 @@
+#include "study/plan_search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ode/method_table.h"
+#include "study/plan_bodies.h"
+
+namespace taut::study {
+namespace {
+
+constexpr int moreCounts = 4;           // resolutions above the coarsest that are tried too
+constexpr double stepPrecision = 1.04;  // the number of steps is found to this factor
+constexpr double clearly = 0.99;        // cheaper by less than that is no reason to change anything
+constexpr int mostRuns = 16;            // of one method at one resolution
+
+class Search {
+  public:
+    Search(const PlanContext& context, const PlanReference& reference, const std::vector<Generator>& without,
+           Plan& plan)
+        : context_(context), reference_(reference), without_(without), plan_(plan) {}
+
+    void tryAsWritten() {
+        world::SceneSpec model = context_.spec;
+        model.solver.onDivergence = world::OnDivergence::stop;
+        forEachBody(model, [](world::BodySpec& body) { body.jitter = 0.0; });
+        PlanTrial trial;
+        trial.isAsWritten = true;
+        trial.candidate.count = context_.resolution.count;
+        trial.candidate.method = model.solver.integrator;
+        trial.candidate.precision = model.solver.precision;
+        const PlanRun run = play(model, context_.resolution, context_.grid, {10 * context_.settings.effort, false});
+        trial.candidate.substeps = run.substeps;
+        note(trial, run);
+    }
+
+    // What is there already stays when nothing found is cheaper.
+    void compareAsWritten() {
+        const PlanTrial& written = plan_.trials.front();
+        if (written.meets && written.cost < clearly * bestCost()) plan_.chosen = 0;
+    }
+
+    void tryAll(int least) {
+        const bool isFixed = context_.resolution.count == 0;
+        const std::vector<std::string> names = methods();
+        // Until something does, only methods that should: where one does, the others compete.
+        int count = least;
+        for (int finest = std::max(least, reference_.count); count <= finest; count += std::max(1, count / 20)) {
+            for (std::size_t i = 0; i < preferred_; ++i) tryMethod(count, names[i], true);
+            if (plan_.chosen || isFixed) break;
+        }
+        for (std::size_t i = preferred_; i < names.size(); ++i)
+            tryMethod(std::min(count, reference_.count), names[i], true);
+        for (int more = 1; more <= moreCounts && !isFixed && plan_.chosen; ++more)
+            for (const std::string& method : names) tryMethod(count + more, method, false);
+    }
+
+    // What a scene whose need cannot be met comes down to.
+    void tryNearest(int count) {
+        const std::vector<std::string> names = methods();
+        for (std::size_t i = 0; i < preferred_; ++i) {
+            PlanTrial trial;
+            trial.candidate = {count, without_, names[i], Precision::double_, 0};
+            run(trial);
+        }
+    }
+
+    // Single precision costs as many evaluations and takes less time each.
+    void trySingle() {
+        if (!plan_.chosen || plan_.trials[*plan_.chosen].candidate.precision == Precision::single_) return;
+        PlanTrial trial;
+        trial.candidate = plan_.trials[*plan_.chosen].candidate;
+        trial.candidate.precision = Precision::single_;
+        run(trial);
+        if (!trial.meets) return;
+        plan_.trials[*plan_.chosen].verdict = "single precision does";
+        plan_.chosen = plan_.trials.size() - 1;
+    }
+
+    void judge() {
+        for (std::size_t i = 0; i < plan_.trials.size(); ++i) {
+            PlanTrial& trial = plan_.trials[i];
+            if (plan_.chosen == i) {
+                trial.verdict = "chosen";
+            } else if (trial.verdict.empty() && !trial.meets) {
+                trial.verdict = fmt::format("its error is {:.3g} times the target", trial.error / context_.target);
+            } else if (trial.verdict.empty() && plan_.chosen) {
+                const double ratio = trial.cost / plan_.trials[*plan_.chosen].cost;
+                trial.verdict = ratio > 0.985 && ratio < 1.015 ? "costs the same"
+                                                               : fmt::format("costs {:.3g} times as much", ratio);
+            }
+        }
+    }
+
+  private:
+    // The scene's own first: what is not better is not changed.
+    std::vector<std::string> methods() {
+        std::vector<std::string> names{context_.spec.solver.integrator};
+        const auto add = [&](std::string_view name) {
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+        };
+        add("leapfrog");
+        preferred_ = names.size();
+        for (const ode::MethodInfo& method : ode::methods()) add(method.name);
+        return names;
+    }
+
+    double perFrame(double value) const { return value / context_.grid.frames(); }
+    double bestCost() const { return plan_.chosen ? plan_.trials[*plan_.chosen].cost : HUGE_VAL; }
+
+    // Completes a trial by its run, and keeps it if it is the cheapest so far.
+    void note(PlanTrial& trial, const PlanRun& run) {
+        trial.wasRun = true;
+        trial.springs = run.springs;
+        trial.step = run.step;
+        trial.cost = perFrame(run.springEvaluations);
+        trial.milliseconds = 1e3 * perFrame(run.seconds);
+        trial.evaluations = perFrame(static_cast<double>(run.work.evaluations + run.work.iterations));
+        if (!run.failure.empty()) trial.verdict = run.failure;
+        if (run.isTooDear) trial.verdict = "stopped: it costs more already";
+        if (run.isWhole()) trial.error = reference_.errorOf(run);
+        trial.meets = trial.error <= context_.target;
+        const bool isCheaper = !trial.isAsWritten && trial.meets && trial.cost < clearly * bestCost();
+        plan_.trials.push_back(trial);
+        if (isCheaper) plan_.chosen = plan_.trials.size() - 1;
+    }
+
+    void run(PlanTrial& trial) {
+        context_.tell(fmt::format("{}, {}", trial.candidate.method, std::string(nameOf(trial.candidate.precision))),
+                      std::min(0.88, 0.6 + 0.012 * static_cast<double>(plan_.trials.size())));
+        const double most = bestCost() * context_.grid.frames() * 1.0001;
+        const RunLimits limits{std::isfinite(most) ? most : 10 * context_.settings.effort, false};
+        note(trial, play(sceneOf(context_, trial.candidate), context_.resolution, context_.grid, limits));
+    }
+
+    void reject(PlanTrial trial, const std::string& verdict) {
+        trial.verdict = verdict;
+        plan_.trials.push_back(std::move(trial));
+    }
+
+    void tryMethod(int count, const std::string& name, bool isToldWhenSkipped) {
+        const ode::MethodInfo& method = *ode::findMethod(name);
+        lastError_ = PlanTrial::unset;
+        PlanTrial trial;
+        trial.candidate = {count, without_, name, Precision::double_, 0};
+        const StepFacts facts = stepFacts(modelOf(context_.spec, context_.resolution, trial.candidate));
+        if (!facts.isPossible) {
+            if (isToldWhenSkipped) reject(trial, "unstable at every step, or more than a million a tick");
+            return;
+        }
+        // An implicit step has at least an evaluation and a product.
+        const double each = std::isfinite(facts.limit) ? method.evaluations : std::max(2, method.evaluations);
+        const auto leastCost = [&](double substeps) {
+            return perFrame(facts.springSteps * substeps / facts.leastSubsteps * each * context_.grid.ticks());
+        };
+        const auto cannotWin = [&](double substeps) { return leastCost(substeps) >= clearly * bestCost(); };
+
+        int tooFew = 0, substeps = facts.leastSubsteps;
+        for (int runs = 0; runs < mostRuns; ++runs) {
+            if (cannotWin(substeps) || leastCost(substeps) * context_.grid.frames() > context_.settings.effort) {
+                trial.candidate.substeps = substeps;
+                trial.step = facts.tick / substeps;
+                trial.springs = facts.springs;
+                trial.cost = leastCost(substeps);
+                if (tooFew > 0 || isToldWhenSkipped)
+                    reject(trial, fmt::format("needs {} {} steps a tick: cannot be cheaper",
+                                              tooFew > 0 ? "about" : "at least", substeps));
+                return;
+            }
+            trial.candidate.substeps = substeps == facts.leastSubsteps ? 0 : substeps;
+            PlanTrial done = trial;
+            run(done);
+            if (done.meets) return refine(trial, tooFew, substeps);
+            if (done.verdict.starts_with("stopped")) return;
+            tooFew = substeps;
+            substeps = nextSubsteps(substeps, done.error, method.order);
+            if (substeps == 0) return;
+        }
+    }
+
+    // At least twice as many, or as many as the method's order promises; none when only the resolution can help.
+    int nextSubsteps(int substeps, double error, int order) {
+        const double most = 1e6;
+        if (!std::isfinite(error)) return 2.0 * substeps < most ? 2 * substeps : 0;
+        const bool isLevel = std::isfinite(lastError_) && error > 0.98 * lastError_ && error < 1.02 * lastError_;
+        lastError_ = isLevel ? PlanTrial::unset : error;
+        if (isLevel) return 0;
+        const double room = std::max(context_.target - reference_.error, 0.1 * context_.target);
+        const double wanted = 0.7 * substeps * std::pow(error / room, 1.0 / order);
+        const double next = std::clamp(wanted, 2.0 * substeps, 64.0 * substeps);
+        return next < most ? static_cast<int>(next) : 0;
+    }
+
+    // The fewest substeps that do, between too few and enough.
+    void refine(PlanTrial trial, int tooFew, int enough) {
+        while (tooFew > 0 && enough - tooFew > 1 && enough > stepPrecision * tooFew) {
+            const int middle = static_cast<int>(std::sqrt(static_cast<double>(tooFew) * enough) + 0.5);
+            const int next = std::clamp(middle, tooFew + 1, enough - 1);
+            trial.candidate.substeps = next;
+            PlanTrial done = trial;
+            run(done);
+            (done.meets ? enough : tooFew) = next;
+        }
+    }
+
+    const PlanContext& context_;
+    const PlanReference& reference_;
+    const std::vector<Generator>& without_;
+    Plan& plan_;
+    double lastError_ = PlanTrial::unset;
+    std::size_t preferred_ = 1;  // methods at the front of the list
+};
+
+}  // namespace
+
+world::SceneSpec sceneOf(const PlanContext& context, const Candidate& candidate) {
+    world::SceneSpec model = modelOf(context.spec, context.resolution, candidate);
+    if (candidate.substeps > 0) setSubsteps(model, stepFacts(model), candidate.substeps);
+    return model;
+}
+
+void searchCandidates(const PlanContext& context, const PlanReference& reference, std::optional<int> least,
+                      const std::vector<Generator>& without, Plan& plan) {
+    Search search(context, reference, without, plan);
+    search.tryAsWritten();
+    if (least)
+        search.tryAll(*least);
+    else
+        search.tryNearest(reference.count);
+    search.trySingle();
+    search.compareAsWritten();
+    search.judge();
+}
+
+}  // namespace taut::study

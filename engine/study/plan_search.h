@@ -1,0 +1,16 @@
+// The search among methods, steps and precisions for the cheapest that meets the need.
+#pragma once
+
+#include "study/plan_reference.h"
+
+namespace taut::study {
+
+// Fills plan.trials and plan.chosen. `least` is the coarsest resolution that can do; where none can, the finest shows
+// how near the scene comes.
+void searchCandidates(const PlanContext& context, const PlanReference& reference, std::optional<int> least,
+                      const std::vector<Generator>& without, Plan& plan);
+
+// The scene that a candidate stands for.
+world::SceneSpec sceneOf(const PlanContext& context, const Candidate& candidate);
+
+}  // namespace taut::study

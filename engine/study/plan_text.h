@@ -1,0 +1,20 @@
+// A plan as text: tables for people, JSON for programs.
+#pragma once
+
+#include <string>
+
+#include "study/plan.h"
+#include "study/work_precision_text.h"
+
+namespace taut::study {
+
+// Need, evidence and result; the last lines say what to change.
+std::string planSummary(const Plan& plan);
+
+// Everything in it, with the machine.
+std::string planJson(const Plan& plan, const MachineFacts& machine);
+
+// One sentence: met, or how near it came.
+std::string planVerdict(const Plan& plan);
+
+}  // namespace taut::study

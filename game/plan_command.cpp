@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commit.h"
+#include "core/error.h"
+#include "game/commands.h"
+#include "game/folders.h"
+#include "game/interruption.h"
+#include "game/live_line.h"
+#include "game/progress.h"
+#include "game/scene_file.h"
+#include "image/whole_file.h"
+#include "pipeline/machine.h"
+#include "scene/load.h"
+#include "scene/splice.h"
+#include "study/plan.h"
+#include "study/plan_text.h"
+
+namespace taut::game {
+namespace {
+
+struct PlanFlags {
+    std::string scene, json;
+    std::vector<std::string> overrides;
+    double effort = 3.0;
+    bool write = false, quiet = false;
+};
+
+study::MachineFacts machineFacts() {
+    const pipeline::Machine machine = pipeline::machine();
+    return {{"processor", machine.processor}, {"compiler", machine.compiler}, {"flags", TAUT_FLAGS},
+            {"simd", machine.simd},           {"program", machine.program},   {"commit", TAUT_COMMIT},
+            {"system", machine.system}};
+}
+
+study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const std::atomic<bool>& stop) {
+    LiveLine line(flags.quiet);
+    const auto start = std::chrono::steady_clock::now();
+    study::PlanSettings settings;
+    settings.effort = 1e9 * flags.effort;
+    settings.stop = &stop;
+    settings.progress = [&](const study::Progress& progress) {
+        if (!line.isDue(progress.done >= 1.0)) return;
+        const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double left = spent * (1.0 / std::max(progress.done, 0.02) - 1.0);
+        line.show(
+            fmt::format("plan {:3.0f} %  about {} left  {}", 100 * progress.done, clockText(left), progress.doing));
+    };
+    return study::makePlan(spec, settings);
+}
+
+// The scene file with the changes, whole or not at all; refuses when someone else has changed it meanwhile.
+void write(const std::filesystem::path& file, const std::string& text, const study::Plan& plan) {
+    if (plan.changes.empty()) return fmt::print("\n{}: nothing to write\n", file.string());
+    const std::string changed = scene::spliced(text, plan.changes);
+    scene::LoadOptions options;
+    if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
+    (void)scene::loadSceneText(changed, file.string(), options);  // throws for what a scene may not say
+    if (image::fileContent(file) != text)
+        throw core::Error(
+            core::ExitCode::inputOutput,
+            fmt::format("{}: the file has changed while it was planned; nothing is written", file.string()));
+    std::error_code ignored;
+    const std::filesystem::path real = std::filesystem::canonical(file, ignored);  // a link stays one
+    const std::filesystem::perms permissions = std::filesystem::status(file, ignored).permissions();
+    image::writeWholeFile(ignored ? file : real, changed);
+    std::filesystem::permissions(ignored ? file : real, permissions, ignored);
+    fmt::print("\n{}: {} value{} written\n", file.string(), plan.changes.size(), plan.changes.size() == 1 ? "" : "s");
+}
+
+int plan(const PlanFlags& flags) {
+    if (flags.write && !flags.overrides.empty())
+        throw core::Error(core::ExitCode::usage,
+                          "--write and --set do not go together: what is planned would not be what the file says");
+    const std::filesystem::path file = sceneFile(flags.scene);
+    const std::string text = image::fileContent(file);
+    const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
+    if (!flags.json.empty()) image::prepareFolderOf(flags.json);
+
+    const Interruption interruption;
+    study::Plan result;
+    try {
+        result = search(spec, flags, interruption.flag());
+    } catch (const core::Error&) {
+        if (const auto code = interruption.exitCode()) return static_cast<int>(*code);
+        throw;
+    }
+    fmt::print("{}", study::planSummary(result));
+    if (!flags.json.empty()) image::writeWholeFile(flags.json, study::planJson(result, machineFacts()));
+    if (!result.isMet()) return static_cast<int>(core::ExitCode::needNotMet);
+    if (flags.write) write(file, text, result);
+    return static_cast<int>(core::ExitCode::ok);
+}
+
+}  // namespace
+
+void addPlan(CLI::App& app, Action& chosen) {
+    const auto flags = std::make_shared<PlanFlags>();
+    CLI::App* command = app.add_subcommand("plan", "Find the cheapest way to compute a scene as well as it needs");
+    command->add_option("SCENE", flags->scene, "A scene file, or a shipped scene; it says in [need] what it needs")
+        ->required();
+    command->add_option("-o,--json", flags->json, "Everything that was found, as JSON")->type_name("FILE");
+    command->add_flag("--write", flags->write, "Write the changed values into the scene file; the rest of it stays");
+    command->add_option("--effort", flags->effort, "Spring evaluations that one run may cost, in 1e9")
+        ->check(CLI::Range(1e-3, 1e6));
+    command->add_option("--set", flags->overrides, "Override a field of the scene; repeatable")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command->add_flag("--quiet", flags->quiet, "No progress");
+    command->footer(
+        "Ends with 5 when the need cannot be met, and says how near it came.\n"
+        "Examples:\n"
+        "  taut plan curtain\n"
+        "  taut plan my.toml --json out/plan.json --write\n"
+        "  taut plan flag --set need.rms_pixels=2 --set need.horizon_s=0.5");
+    command->callback([&chosen, flags] { chosen = [flags] { return plan(*flags); }; });
+}
+
+}  // namespace taut::game

@@ -1,0 +1,184 @@
+#include "study/refinement_chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "report/palette.h"
+
+namespace taut::study {
+namespace {
+
+using report::Panel;
+using report::Scale;
+
+constexpr double leastError = 1e-5, mostError = 1.0;  // of the axis
+
+std::string number(const char* format, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+struct Range {
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    void add(double value) {
+        least = std::min(least, value);
+        most = std::max(most, value);
+    }
+};
+
+Range cellsOf(const RefinementStudy& study) {
+    Range cells;
+    for (const RefinementRun& run : study.runs) cells.add(run.cells);
+    return cells;
+}
+
+report::Axis cellsAxis(const RefinementStudy& study) {
+    report::Axis axis;
+    const Range cells = cellsOf(study);
+    axis.label = "cells along the longest side";
+    axis.scale = Scale::log;
+    axis.least = cells.least / 1.3;
+    axis.most = cells.most * 1.3;
+    std::vector<int> all;
+    for (const RefinementRun& run : study.runs) all.push_back(run.cells);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    for (const int n : all) axis.ticks.push_back({static_cast<double>(n), std::to_string(n), false});
+    return axis;
+}
+
+report::Style styleOfTreatment(int index) {
+    static constexpr int order[] = {1, 2, 0, 4};
+    report::Style style = report::seriesStyle(order[index]);
+    if (index == 0) style = {"#009e73", report::Mark::circle, true, report::Dash::solid, 2.4, 1.25};
+    return style;
+}
+
+// One curve a treatment. Runs that did not come to rest are left out.
+template <class Value>
+void addCurves(Panel& panel, const RefinementStudy& study, const std::string& body, Value value) {
+    for (std::size_t i = treatments().size(); i-- > 0;) {  // the builders' own last, on top
+        report::Curve curve;
+        curve.title = treatments()[i].title;
+        curve.style = styleOfTreatment(static_cast<int>(i));
+        for (const RefinementRun& run : study.runs)
+            if (run.body == body && run.treatment == treatments()[i].name && run.isAtRest)
+                curve.points.push_back({static_cast<double>(run.cells), value(run)});
+        if (!curve.points.empty()) panel.curves.push_back(curve);
+    }
+}
+
+// "order 2.0 weighted, 0.9 naive mass", as far as they were found.
+std::string ordersText(const RefinementStudy& study, const RefinementBody& body) {
+    const double own = measuredOrder(study, body.name, treatments().front().name);
+    const double naive =
+        measuredOrder(study, body.name, body.hasEdgeSprings ? treatments().back().name : treatments()[1].name);
+    if (std::isnan(own)) return "";
+    return "order " + number("%.1f", own) + " weighted" +
+           (std::isnan(naive) ? "" : ", " + number("%.1f", naive) + " naive");
+}
+
+// A line of slope -p through (x, y), to compare with.
+void addSlope(Panel& panel, const Range& cells, int p, double y) {
+    report::Curve line;
+    line.style = {"#b0b0b0", report::Mark::none, true, report::Dash::dotted, 1.4, 1.0};
+    for (const double x : {cells.least, cells.most}) line.points.push_back({x, y * std::pow(x / cells.least, -p)});
+    panel.curves.push_back(line);
+    panel.labels.push_back({cells.most, line.points.back().y, "order " + std::to_string(p), "#808080",
+                            report::Align::right, -2, -11, 10.5});
+}
+
+Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, bool isFirst) {
+    Panel panel;
+    const RefinementBody& body = *facts.body;
+    panel.title = body.title;
+    panel.x = cellsAxis(study);
+    panel.y = {isFirst ? "relative error" : "", Scale::log, leastError, mostError, {}, isFirst, false};
+    for (const auto& [at, text] :
+         {std::pair{1e-5, "0.001 %"}, {1e-4, "0.01 %"}, {1e-3, "0.1 %"}, {1e-2, "1 %"}, {1e-1, "10 %"}, {1.0, "100 %"}})
+        panel.y.ticks.push_back({at, text, false});
+    report::Region good;
+    good.y1 = 0.01;
+    good.colour = "#009e73";
+    panel.regions.push_back(good);
+    const bool isExact = !(*std::max_element(facts.strongest.begin(), facts.strongest.end(), [](double a, double b) {
+        return a < b || std::isnan(a);
+    }) > refinementFloor);
+    const Range cells = cellsOf(study);
+    if (!isExact) {
+        addSlope(panel, cells, 1, 0.6);
+        addSlope(panel, cells, 2, 0.007);
+    }
+    addCurves(panel, study, body.name, [&](const RefinementRun& run) { return isExact ? 2e-5 : std::abs(run.error); });
+    if (isExact)
+        panel.labels.push_back(
+            {0.5, 0.16, "exact at every resolution", "#303030", report::Align::centre, 0, 0, 11, false, true});
+    panel.labels.push_back(
+        {0.03, 0.05, body.quantity + ": " + body.theory, "#303030", report::Align::left, 0, 0, 10.5, true, true});
+    const std::string orders = ordersText(study, body);
+    if (!orders.empty())
+        panel.labels.push_back({0.97, 0.95, orders, "#303030", report::Align::right, 0, 0, 10.5, true, true});
+    return panel;
+}
+
+Panel drapePanel(const RefinementStudy& study, const RefinementFacts& facts, bool isFirst, const Range& percent) {
+    Panel panel;
+    const RefinementBody& body = *facts.body;
+    panel.title = body.title;
+    panel.x = cellsAxis(study);
+    panel.y.label = isFirst ? "difference from the limit [%]" : "";
+    panel.y.hasNumbers = isFirst;
+    panel.y.least = percent.least;
+    panel.y.most = percent.most;
+    report::Region good;
+    good.y0 = -1.0;
+    good.y1 = 1.0;
+    good.colour = "#009e73";
+    good.opacity = 0.16;
+    panel.regions.push_back(good);
+    addCurves(panel, study, body.name, [](const RefinementRun& run) { return 100.0 * run.error; });
+    panel.labels.push_back({0.97, 0.05, body.quantity + ", limit " + number("%.4g mm", 1e3 * facts.reference),
+                            "#303030", report::Align::right, 0, 0, 10.5, true, true});
+    const std::string orders = ordersText(study, body);
+    if (!orders.empty())
+        panel.labels.push_back({0.97, 0.13, orders, "#303030", report::Align::right, 0, 0, 10.5, true, true});
+    return panel;
+}
+
+}  // namespace
+
+std::vector<NamedChart> refinementCharts(const RefinementStudy& study, const std::vector<std::string>& notes) {
+    report::Chart error, drape;
+    error.title = "Finer ropes, cloths and blocks against theory";
+    error.subtitle = "Bodies at rest under gravity: error of their sag or stretch against the number of cells";
+    drape.title = "The drape of ever finer bodies";
+    drape.subtitle = "Sag or stretch at rest, as a difference from its limit; the band is 1 % wide to either side";
+    Range percent;
+    for (const RefinementRun& run : study.runs)
+        for (const RefinementFacts& facts : study.bodies)
+            if (facts.body->name == run.body && !facts.body->exact) percent.add(100.0 * run.error);
+    const double room = 0.08 * (percent.most - percent.least);
+    percent.add(percent.most + room);
+    percent.add(percent.least - room);
+    error.columns = drape.columns = 3;
+    for (const RefinementFacts& facts : study.bodies) {
+        report::Chart& chart = facts.body->exact ? error : drape;
+        const bool isFirst = chart.panels.size() % 3 == 0;
+        chart.panels.push_back(facts.body->exact ? errorPanel(study, facts, isFirst)
+                                                 : drapePanel(study, facts, isFirst, percent));
+    }
+    std::vector<NamedChart> charts;
+    for (auto& [name, chart] : {std::pair{"error", &error}, {"drape", &drape}}) {
+        if (chart->panels.empty()) continue;
+        chart->panelWidth = 330;
+        chart->panelHeight = 280;
+        chart->pngScale = 1.5;
+        chart->notes = notes;
+        charts.push_back({name, *chart});
+    }
+    return charts;
+}
+
+}  // namespace taut::study

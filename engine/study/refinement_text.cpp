@@ -1,0 +1,100 @@
+#include "study/refinement_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/table.h"
+
+namespace taut::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+const RefinementFacts& factsOf(const RefinementStudy& study, const std::string& body) {
+    return *std::find_if(study.bodies.begin(), study.bodies.end(),
+                         [&](const RefinementFacts& facts) { return facts.body->name == body; });
+}
+
+}  // namespace
+
+std::string refinementCsv(const RefinementStudy& study) {
+    report::Table table;
+    table.columns = {"body",    "quantity",    "treatment",      "cells", "points",   "springs",
+                     "value_m", "reference_m", "relative_error", "order", "residual", "settled"};
+    for (const RefinementRun& run : study.runs) {
+        const RefinementFacts& facts = factsOf(study, run.body);
+        table.rows.push_back({run.body, facts.body->quantity, run.treatment, static_cast<long long>(run.cells),
+                              run.points, run.springs, run.value, facts.reference, run.error, run.order, run.residual,
+                              static_cast<long long>(run.isAtRest)});
+    }
+    return report::csv(table);
+}
+
+std::string refinementJson(const RefinementStudy& study, const MachineFacts& machine) {
+    Json json;
+    json["problem"] = "refinement";
+    for (const auto& [name, value] : machine) json["machine"][name] = value;
+    for (const Treatment& treatment : treatments())
+        json["treatments"].push_back({{"name", treatment.name}, {"title", treatment.title}});
+    for (const RefinementFacts& facts : study.bodies) {
+        const RefinementBody& body = *facts.body;
+        Json entry = {{"name", body.name},         {"title", body.title},
+                      {"quantity", body.quantity}, {"reference_m", facts.reference},
+                      {"reference", body.theory},  {"is_theory", body.exact.has_value()}};
+        for (const Treatment& treatment : treatments())
+            entry["order"][treatment.name] = finite(measuredOrder(study, body.name, treatment.name));
+        json["bodies"].push_back(std::move(entry));
+    }
+    json["runs"] = Json::array();
+    for (const RefinementRun& run : study.runs)
+        json["runs"].push_back({{"body", run.body},
+                                {"treatment", run.treatment},
+                                {"cells", run.cells},
+                                {"points", run.points},
+                                {"springs", run.springs},
+                                {"value_m", finite(run.value)},
+                                {"relative_error", finite(run.error)},
+                                {"order", finite(run.order)},
+                                {"residual", finite(run.residual)},
+                                {"steps", run.steps},
+                                {"settled", run.isAtRest}});
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string refinementSummary(const RefinementStudy& study) {
+    report::Table table;
+    table.columns = {"body", "edges"};
+    std::vector<int> cells;
+    for (const RefinementRun& run : study.runs)
+        if (std::find(cells.begin(), cells.end(), run.cells) == cells.end()) cells.push_back(run.cells);
+    std::sort(cells.begin(), cells.end());
+    for (const int n : cells) table.columns.push_back(fmt::format("[%] at {}", n));
+    table.columns.emplace_back("order");
+    for (const RefinementFacts& facts : study.bodies)
+        for (const Treatment& treatment : treatments()) {
+            std::vector<report::Cell> row = {facts.body->name, treatment.name};
+            bool isThere = false;
+            for (const int n : cells) {
+                double percent = std::numeric_limits<double>::quiet_NaN();
+                for (const RefinementRun& run : study.runs)
+                    if (run.body == facts.body->name && run.treatment == treatment.name && run.cells == n) {
+                        isThere = true;
+                        if (run.isAtRest) percent = 100.0 * run.error;
+                    }
+                row.emplace_back(fmt::format("{:+.4f}", percent));
+            }
+            const double order = measuredOrder(study, facts.body->name, treatment.name);
+            row.emplace_back(std::isnan(order) ? std::string("-") : fmt::format("{:.2f}", order));
+            if (isThere) table.rows.push_back(std::move(row));
+        }
+    return report::aligned(table);
+}
+
+}  // namespace taut::study

@@ -120,6 +120,7 @@ int oscillatorAtlas(const AtlasFlags& flags) {
         study::StabilityMapSettings settings;
         settings.methods = flags.methods;
         settings.columns = flags.cells;
+        settings.boundaries = std::min(settings.boundaries, flags.cells);
         settings.stop = &interruption.flag();
         settings.progress = [&](const study::AtlasProgress& progress) { clock.show(progress); };
         map = study::measureStability(settings);
@@ -196,7 +197,7 @@ void addAtlas(CLI::App& app, Action& chosen) {
         ->allow_extra_args(false)
         ->type_name("A,B");
     command->add_option("--cells", flags->cells, "Points of a map along either axis")->check(CLI::Range(3, 1001));
-    command->add_option("--seconds", flags->seconds, "Length of motion in each run of a scene; else 1 at most")
+    command->add_option("--seconds", flags->seconds, "Length of motion in each run of a scene; else 0.5 at most")
         ->check(CLI::PositiveNumber);
     command->add_option("--set", flags->overrides, "Override a field of a scene; repeatable")
         ->type_name("KEY=VALUE")

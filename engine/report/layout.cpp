@@ -42,9 +42,13 @@ double placeLegend(std::vector<LegendEntry>& entries, double left, double right,
     return rows * rowHeight + 8;
 }
 
+// Words at the ticks may need more than numbers.
 double leftRoom(const Panel& panel) {
     if (!panel.y.hasNumbers) return panel.y.label.empty() ? gap : gap + 18;
-    return panel.y.label.empty() ? fewNumbers : numbers;
+    double words = 0;
+    for (const Tick& tick : panel.y.ticks)
+        words = std::max(words, letter * static_cast<double>(tick.text.size()) + (panel.y.label.empty() ? 6 : 26));
+    return std::max(words, panel.y.label.empty() ? fewNumbers : numbers);
 }
 
 }  // namespace

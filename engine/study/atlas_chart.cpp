@@ -99,7 +99,19 @@ Panel workPanel(const StabilityMap& map) {
             const double z = predictedLimit(method, zeta, source.damping) / method.evaluations;
             curve.points.push_back({zeta, z <= map.mostZ ? z : report::nothing});
         }
-        panel.curves.push_back(std::move(curve));
+        // Methods with the same limits share a line.
+        const auto isSame = [&](const Curve& other) {
+            return std::equal(curve.points.begin(), curve.points.end(), other.points.begin(),
+                              [](const auto& a, const auto& b) { return a.y == b.y || std::isnan(a.y + b.y); });
+        };
+        const auto same = std::find_if(panel.curves.begin(), panel.curves.end(), isSame);
+        if (same == panel.curves.end()) {
+            panel.curves.push_back(std::move(curve));
+            continue;
+        }
+        const std::string shared = same->title.substr(0, same->title.find(','));
+        same->title = shared + " and " + curve.title;
+        if (source.method == "leapfrog") same->style.colour = curve.style.colour;
     }
     return panel;
 }
@@ -152,7 +164,7 @@ Chart stabilityChart(const StabilityMap& map, const std::vector<std::string>& no
     chart.columns = static_cast<int>(std::min<std::size_t>(4, chart.panels.size()));
     chart.panelWidth = 236;
     chart.panelHeight = 200;
-    chart.pngScale = 1.5;
+    chart.pngScale = 1;
     labelAxes(chart, "damping ratio ζ", "ωh");
     chart.colours = growthScale();
     chart.notes.push_back(
@@ -257,7 +269,7 @@ Chart thresholdChart(const SceneThresholds& thresholds, const std::vector<std::s
     panel.curves = {closed, anywhere, here, lanczos, measured};
     Chart chart;
     chart.title = "Largest step that each method stands: " + thresholds.title;
-    chart.subtitle = "Measured by bisection to 1 %, beside the bounds";
+    chart.subtitle = "Measured by bisection to 1 %, beside the steps that bounds and theory give";
     chart.panels = {panel};
     chart.panelWidth = 620;
     chart.panelHeight = static_cast<int>(44 * rows + 20);

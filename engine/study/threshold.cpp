@@ -14,12 +14,13 @@
 namespace taut::study {
 namespace {
 
-constexpr double longest = 1.0;          // [s] of motion in each run unless asked for more
+constexpr double longest = 0.5;          // [s] of motion in each run unless asked for more
 constexpr double mostStep = 1.0 / 60;    // [s] no tick is longer
 constexpr double stir = 1e-9;            // [m]
 constexpr double apart = 1.01;           // at which bisection ends
 constexpr double leastShare = 1.0 / 32;  // of leap-frog's limit: the shortest step tried
 constexpr int lookEvery = 16;            // steps between looks at the energy
+constexpr int patience = 1000;           // steps for which a run that has failed is followed to see what breaks
 constexpr double slowSpeed = 0.1;        // [m/s] up to which everything may always move
 
 // The scene with one step a tick of exactly h, or, with h = 0, with the steps that it would choose.
@@ -136,10 +137,18 @@ class Search {
         for (long long n = 1; n <= steps; ++n) {
             if (const auto divergence = world.advance()) return divergence->body;
             if (n % lookEvery != 0 && n != steps) continue;
-            if (!(world.metrics().kinetic <= result_.allowance)) return "energy";
+            if (!(world.metrics().kinetic <= result_.allowance)) return firstToGo(world);
             if (isStopped()) break;
         }
         return "";
+    }
+
+    // Which island has too much energy: the only one, or the one with the body whose points leave all bounds.
+    std::string firstToGo(world::World& world) const {
+        if (result_.islands.size() == 1) return result_.islands.front().name;
+        for (int n = 0; n < patience; ++n)
+            if (const auto divergence = world.advance()) return divergence->body;
+        return "energy";
     }
 
     void find(std::size_t index) {

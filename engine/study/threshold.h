@@ -69,7 +69,7 @@ struct SceneThresholds {
 
 struct ThresholdSettings {
     std::vector<std::string> methods;                    // empty: all
-    double seconds = 0;                                  // [s] of motion; 0: what the scene says, at most 1
+    double seconds = 0;                                  // [s] of motion; 0: what the scene says, at most 0.5
     std::function<void(const AtlasProgress&)> progress;  // from one thread at a time
     const std::atomic<bool>* stop = nullptr;
 };

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+
 #include "core/error.h"
 #include "image/png.h"
 #include "image/whole_file.h"
@@ -42,6 +45,22 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
 std::filesystem::path FramePattern::pathOf(std::int64_t frame) const {
     TAUT_EXPECTS(frame >= 0);
     return folder_ / fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+}
+
+std::vector<std::int64_t> FramePattern::framesThere() const {
+    std::vector<std::int64_t> frames;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.empty() ? "." : folder_, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() < before_.size() + digits_ + after_.size()) continue;
+        std::int64_t frame = 0;
+        const char* const first = name.data() + before_.size();
+        const char* const last = name.data() + name.size() - after_.size();
+        const auto [end, error] = std::from_chars(first, last, frame);
+        if (error == std::errc() && end == last && pathOf(frame).filename() == name) frames.push_back(frame);
+    }
+    std::sort(frames.begin(), frames.end());
+    return frames;
 }
 
 FrameSequence::FrameSequence(const FramePattern& pattern) : pattern_(pattern) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "image/frame_sink.h"
 
@@ -18,6 +19,9 @@ class FramePattern {
 
     std::filesystem::path pathOf(std::int64_t frame) const;  // expects frame >= 0
     const std::filesystem::path& folder() const { return folder_; }
+
+    // The numbers of the frames that are there, ascending; none when the folder is missing.
+    std::vector<std::int64_t> framesThere() const;
 
   private:
     std::filesystem::path folder_;

@@ -1,4 +1,5 @@
 list(APPEND TAUT_UNIT_TESTS
+  report_contact_sheet_test.cpp
   report_gnuplot_test.cpp
   report_layout_test.cpp
   report_table_test.cpp)

@@ -1,0 +1,11 @@
+// A picture in another size. It knows no files.
+#pragma once
+
+#include "image/image.h"
+
+namespace taut::image {
+
+// Averages light, not the bytes of the sRGB curve. Expects a whole image and a size of at least one pixel.
+Image resized(const Image& image, int width, int height);
+
+}  // namespace taut::image

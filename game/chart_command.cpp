@@ -11,6 +11,7 @@
 
 #include "commit.h"
 #include "core/error.h"
+#include "game/chart_refinement.h"
 #include "game/commands.h"
 #include "game/folders.h"
 #include "game/interruption.h"
@@ -47,6 +48,7 @@ void printProblems() {
     fmt::print("taut chart PROBLEM or taut chart SCENE draws error against cost for every method. The problems:\n\n");
     for (const study::ProblemInfo& problem : study::problems())
         fmt::print("  {:<14} {}\n", problem.name, problem.about);
+    fmt::print("\ntaut chart {} draws error against resolution instead: {}\n", refinementName, refinementAbout);
     fmt::print("\nThe methods:");
     for (const ode::MethodInfo& method : ode::methods()) fmt::print(" {}", method.name);
     fmt::print("\nA SCENE is a file, or the name of a shipped one: {}\n", fmt::join(shippedScenes(), ", "));
@@ -66,6 +68,7 @@ std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
                         !std::filesystem::exists(flags.subject);
     if (isBare) {
         for (const study::ProblemInfo& problem : study::problems()) names.emplace_back(problem.name);
+        names.emplace_back(refinementName);
         const std::string hint = didYouMean(flags.subject, names);
         throw core::Error(core::ExitCode::usage,
                           fmt::format("there is no problem or scene '{}'{}", flags.subject,
@@ -130,12 +133,30 @@ void printResults(const study::WorkPrecision& result, const std::vector<study::G
     for (const std::string& remark : result.remarks) fmt::print("\n{}\n", remark);
 }
 
+std::string machineNote(const pipeline::Machine& machine) {
+    return fmt::format("{}, {}, {}; {}", machine.processor, machine.compiler, machine.simd, programText(machine));
+}
+
+int chartResolutions(const ChartFlags& flags) {
+    const ChartFlags unset;
+    if (!flags.methods.empty() || !flags.overrides.empty() || flags.precision != unset.precision ||
+        flags.seconds != unset.seconds || flags.budget != unset.budget)
+        throw core::Error(
+            core::ExitCode::usage,
+            fmt::format("{} studies bodies at rest: it takes --output and --quiet alone", refinementName));
+    const pipeline::Machine machine = pipeline::machine();
+    const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / refinementName
+                                                              : std::filesystem::path(flags.output);
+    return chartRefinement(folder, machineFacts(machine), machineNote(machine), flags.quiet);
+}
+
 int chart(const ChartFlags& flags) {
     if (flags.list || flags.subject.empty()) {
         printProblems();
         return static_cast<int>(core::ExitCode::ok);
     }
     checkMethods(flags.methods);
+    if (flags.subject == refinementName) return chartResolutions(flags);
     const std::unique_ptr<study::Subject> subject = chosenSubject(flags);
     const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / subject->name()
                                                               : std::filesystem::path(flags.output);
@@ -153,9 +174,7 @@ int chart(const ChartFlags& flags) {
     image::writeWholeFile(file(".json"), study::workPrecisionJson(result, growth, machineFacts(machine)));
     printResults(result, growth);
     if (draws)
-        for (const study::NamedChart& drawn :
-             study::workPrecisionCharts(result, {fmt::format("{}, {}, {}; {}", machine.processor, machine.compiler,
-                                                             machine.simd, programText(machine))}))
+        for (const study::NamedChart& drawn : study::workPrecisionCharts(result, {machineNote(machine)}))
             report::writeChart(drawn.chart, file("-" + drawn.name));
     if (!flags.quiet) fmt::print(stderr, "in {}\n", folder.string());
     if (!draws) throw core::Error(core::ExitCode::inputOutput, "no pictures: " + report::gnuplotMissing());
@@ -167,7 +186,7 @@ int chart(const ChartFlags& flags) {
 void addChart(CLI::App& app, Action& chosen) {
     const auto flags = std::make_shared<ChartFlags>();
     CLI::App* command = app.add_subcommand("chart", "Chart error against cost for every method and step");
-    command->add_option("PROBLEM", flags->subject, "A built-in problem, a scene file, or a shipped scene");
+    command->add_option("PROBLEM", flags->subject, "A built-in problem, a scene file, a shipped scene, or refinement");
     command->add_flag("--list", flags->list, "List the built-in problems");
     command->add_option("-o,--output", flags->output, "The folder for CSV, JSON, SVG and PNG; else out/charts/NAME")
         ->type_name("FOLDER");
@@ -187,7 +206,8 @@ void addChart(CLI::App& app, Action& chosen) {
         "Examples:\n"
         "  taut chart cloth-corners\n"
         "  taut chart growth --methods euler,rk4 -o out/growth\n"
-        "  taut chart flag --seconds 0.5 --precision double");
+        "  taut chart flag --seconds 0.5 --precision double\n"
+        "  taut chart refinement");
     command->callback([&chosen, flags] { chosen = [flags] { return chart(*flags); }; });
 }
 

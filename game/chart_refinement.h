@@ -1,0 +1,20 @@
+// `taut chart refinement`: the study of ever finer bodies as tables and pictures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "study/refinement_text.h"
+
+namespace taut::game {
+
+inline constexpr const char* refinementName = "refinement";
+inline constexpr const char* refinementAbout = "ropes, cloths and blocks at rest, at four resolutions, against theory";
+
+// Prints the table and writes CSV, JSON and, when gnuplot runs, the pictures into the folder. `note` stands at the foot
+// of the pictures. Returns the exit code; throws core::Error(inputOutput) when gnuplot is missing, after the rest is
+// written. `settings` say what is studied; stop and progress are set here.
+int chartRefinement(const std::filesystem::path& folder, const study::MachineFacts& machine, const std::string& note,
+                    bool isQuiet, study::RefinementSettings settings = {});
+
+}  // namespace taut::game

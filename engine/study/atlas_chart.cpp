@@ -70,7 +70,8 @@ Panel mapPanel(const StabilityMap& map, const StabilityPanel& source) {
     panel.x = {"", Scale::linear, 0.0, map.mostZeta, {}, true, false};
     panel.y = {"", Scale::linear, 0.0, map.mostZ, {}, true, false};
     report::HeatMap heat{map.columns, map.rows, 0.0, map.mostZeta, map.zAt(0), map.mostZ, {}};
-    for (const double growth : source.growth) heat.values.push_back(shadeOf(growth));
+    // In steps that the eye does not see, and a PNG packs well.
+    for (const double growth : source.growth) heat.values.push_back(std::round(24 * shadeOf(growth)) / 24);
     panel.map = std::move(heat);
     panel.curves = {predictedCurve(map, source), measuredCurve(map, source)};
     const std::string gap = source.isWithoutLimit ? fmt::format("no growth up to ωh = {:.0f}", map.mostMeasured)
@@ -268,8 +269,8 @@ Chart thresholdChart(const SceneThresholds& thresholds, const std::vector<std::s
     panel.y.most = rows + 0.6;
     panel.curves = {closed, anywhere, here, lanczos, measured};
     Chart chart;
-    chart.title = "Largest step that each method stands: " + thresholds.title;
-    chart.subtitle = "Measured by bisection to 1 %, beside the steps that bounds and theory give";
+    chart.title = "Largest step that each method stands";
+    chart.subtitle = thresholds.title + ". Measured by bisection to 1 %, beside the steps that bounds and theory give";
     chart.panels = {panel};
     chart.panelWidth = 620;
     chart.panelHeight = static_cast<int>(44 * rows + 20);

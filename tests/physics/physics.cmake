@@ -2,6 +2,7 @@ find_package(Boost REQUIRED)  # headers of odeint; imported, so the compiler tak
 list(APPEND TAUT_PHYSICS_TESTS
   block_recovery_test.cpp
   contact_test.cpp
+  float_floor_test.cpp
   free_motion_test.cpp
   frequency_bounds_test.cpp
   hanging_test.cpp
@@ -19,5 +20,6 @@ list(APPEND TAUT_PHYSICS_TESTS
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode Boost::headers)
 list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::scene)
-list(APPEND TAUT_PHYSICS_TESTS study_reference_test.cpp)
+list(APPEND TAUT_PHYSICS_TESTS study_reference_test.cpp study_threshold_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::study)
+list(APPEND TAUT_PHYSICS_TESTS plan_brute_force_test.cpp)

@@ -1,0 +1,106 @@
+// `taut plan` as a person calls it: table, JSON, written file, exit codes.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "image/whole_file.h"
+#include "image_support.h"
+#include "program_support.h"
+
+namespace taut::game {
+namespace {
+
+using test::has;
+using test::Outcome;
+using test::run;
+using test::TemporaryFolder;
+
+const std::string rope = R"(# A rope.
+schema = 1
+
+[need]
+rms_position_m = 8e-3   # eight millimetres
+horizon_s = 0.1
+
+[run]
+seconds = 1.0
+
+[rope.r]   # swings
+ends = [[0.0, 2.0, 0.0], [1.0, 2.0, 0.0]]
+segments = 24     # too many
+stretch_N = 60.0
+mass_kg = 0.5
+damping_time_s = 1e-3
+hold = ["start"]
+)";
+
+std::filesystem::path fileOf(const TemporaryFolder& folder, const std::string& text) {
+    const auto path = folder / "rope.toml";
+    test::writeText(path, text);
+    return path;
+}
+
+TEST(PlanCommand, PrintsTheEvidenceAndKeepsTheFile) {
+    const TemporaryFolder folder;
+    const auto path = fileOf(folder, rope);
+    const Outcome outcome = run({"plan", path.string(), "--quiet"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* part : {"Force generators", "Resolution", "Candidates", "implicit-euler", "as written", "chosen",
+                             "Verification", "rope.r.segments = ", "The need is met"})
+        EXPECT_TRUE(has(outcome.out, part)) << part << "\n" << outcome.out;
+    EXPECT_EQ(image::fileContent(path), rope);
+}
+
+TEST(PlanCommand, WritesTheChangedValuesOnly) {
+    const TemporaryFolder folder;
+    const auto path = fileOf(folder, rope);
+    const auto json = folder / "plan.json";
+    const Outcome outcome = run({"plan", path.string(), "--quiet", "--write", "-o", json.string()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto plan = nlohmann::json::parse(image::fileContent(json));
+    EXPECT_TRUE(plan["met"].get<bool>());
+    EXPECT_GT(plan["candidates"].size(), 7U) << "every method";
+    EXPECT_GT(plan["cost_as_written_over_planned"].get<double>(), 1.0);
+    std::string segments;
+    for (const auto& change : plan["changes"])
+        if (change["key"] == "rope.r.segments") segments = change["value"];
+    ASSERT_FALSE(segments.empty());
+
+    const std::string written = image::fileContent(path);
+    EXPECT_TRUE(has(written, "segments = " + segments + "     # too many\n")) << written;
+    EXPECT_TRUE(written.starts_with(rope.substr(0, rope.find("segments")))) << written;
+
+    // What was planned once is as it should be.
+    const Outcome again = run({"plan", path.string(), "--quiet", "--write"});
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(run({"check", path.string()}).code, 0);
+}
+
+TEST(PlanCommand, EndsWithFiveWhenTheNeedCannotBeMet) {
+    const TemporaryFolder folder;
+    const auto path = fileOf(folder, rope);
+    const Outcome budget = run({"plan", path.string(), "--quiet", "--write", "--set", "need.budget_ms=1e-8"});
+    EXPECT_EQ(budget.code, 2) << "--write and --set contradict each other";
+    const Outcome outcome = run({"plan", path.string(), "--quiet", "--set", "need.budget_ms=1e-8"});
+    EXPECT_EQ(outcome.code, 5) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "times the 1e-08 ms allowed")) << outcome.out;
+    const Outcome fine =
+        run({"plan", path.string(), "--quiet", "--effort", "0.001", "--set", "need.rms_position_m=1e-8"});
+    EXPECT_EQ(fine.code, 5) << fine.err;
+    EXPECT_TRUE(has(fine.out, "cannot be met: the nearest, leapfrog")) << fine.out;
+    EXPECT_EQ(image::fileContent(path), rope);
+}
+
+TEST(PlanCommand, AsksForANeed) {
+    const TemporaryFolder folder;
+    const auto path = fileOf(folder, "schema = 1\n[rope.r]\nends = [[0, 2, 0], [1, 2, 0]]\n");
+    const Outcome outcome = run({"plan", path.string(), "--quiet"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_TRUE(has(outcome.err, "it has no [need]")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "horizon_s = 0.5")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace taut::game

@@ -1,0 +1,212 @@
+// What a plan takes for the need, for a model and for a change of the file: without a run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/error.h"
+#include "study/plan_candidate.h"
+#include "study/plan_changes.h"
+#include "study/plan_need.h"
+#include "study/plan_run.h"
+#include "support/small_scenes.h"
+
+namespace taut::study {
+namespace {
+
+world::SceneSpec sceneWithNeed() {
+    world::SceneSpec scene;
+    scene.file = "s.toml";
+    scene.need.rmsPosition = 2e-3;
+    scene.need.horizon = 0.5;
+    scene.cloths.push_back(support::cloth("c", 12));
+    scene.cloths.back().cells = {12, 8};
+    scene.cloths.back().hold = {"top"};
+    return scene;
+}
+
+std::string refusal(const world::SceneSpec& scene) {
+    try {
+        checkNeed(scene);
+    } catch (const core::Error& error) {
+        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        return error.what();
+    }
+    return "";
+}
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(PlanNeed, AMissingOneIsExplainedByAnExample) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.need = {};
+    const std::string message = refusal(scene);
+    EXPECT_TRUE(has(message, "s.toml: error: ")) << message;
+    EXPECT_TRUE(has(message, "[need]\n    rms_position_m = ")) << message;
+}
+
+TEST(PlanNeed, WithoutAnAccuracyItIsRefused) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.need.rmsPosition.reset();
+    EXPECT_TRUE(has(refusal(scene), "how accurate"));
+}
+
+TEST(PlanNeed, AHorizonBeyondTheRunContradictsIt) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.run.seconds = 0.4;
+    EXPECT_TRUE(has(refusal(scene), "horizon_s = 0.5 is later than the end of the run at 0.4 s"));
+    scene.run.seconds = 0.5;
+    EXPECT_EQ(refusal(scene), "");
+}
+
+TEST(PlanNeed, OfSeveralTargetsTheStrictestCounts) {
+    world::SceneSpec scene = sceneWithNeed();
+    EXPECT_EQ(resolvedNeed(scene, {3.0, 1e-3}).target, 2e-3);
+    scene.need.rmsPercent = 0.1;
+    EXPECT_EQ(resolvedNeed(scene, {1.0, 1e-3}).target, 1e-3) << "0.1 % of a metre";
+    EXPECT_EQ(resolvedNeed(scene, {3.0, 1e-3}).target, 2e-3) << "0.1 % of three metres are more";
+    scene.need.rmsPixels = 0.5;
+    EXPECT_EQ(resolvedNeed(scene, {1.0, 1e-3}).target, 0.5e-3);
+}
+
+TEST(PlanNeed, PixelsThatShowNothingAreRefused) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.need.rmsPosition.reset();
+    scene.need.rmsPixels = 1.0;
+    EXPECT_THROW((void)resolvedNeed(scene, {1.0, 0.0}), core::Error);
+}
+
+TEST(PlanModel, AllEdgesGoWithTheLongest) {
+    const world::SceneSpec scene = sceneWithNeed();
+    const Resolution resolution = resolutionOf(scene);
+    ASSERT_EQ(resolution.count, 12);
+    Candidate candidate;
+    candidate.count = 6;
+    EXPECT_EQ(modelOf(scene, resolution, candidate).cloths[0].cells, glm::ivec2(6, 4));
+    candidate.count = 2;
+    EXPECT_EQ(modelOf(scene, resolution, candidate).cloths[0].cells, glm::ivec2(2, 2)) << "two at least";
+}
+
+TEST(PlanModel, WhatIsTiedToItsPointsKeepsThem) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.cloths[0].hold = {"#3"};
+    scene.ropes.push_back(support::rope("a", {0, 2, 0}, {1, 2, 0}, 20));
+    scene.ropes.push_back(support::rope("b", {0, 2, 1}, {1, 2, 1}, 10));
+    world::JointSpec joint;
+    joint.a = "rope.a@end";
+    joint.b = "rope.a@end";
+    scene.joints.push_back(joint);
+    const Resolution resolution = resolutionOf(scene);
+    EXPECT_EQ(resolution.scalable, std::vector<std::string>{"rope.b"});
+    EXPECT_EQ(resolution.count, 10);
+    EXPECT_TRUE(has(resolution.fixed.at("cloth.c"), "held at single points"));
+    EXPECT_TRUE(has(resolution.fixed.at("rope.a"), "joint"));
+}
+
+TEST(PlanModel, EveryGeneratorIsListedAndCanBeLeftOut) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.cloths[0].material = "m";
+    scene.materials["m"] = {};
+    world::BlockSpec block;
+    block.name = "b";
+    scene.blocks.push_back(block);
+    scene.winds.push_back({});
+    scene.winds[0].name = "w";
+    std::vector<std::string> names;
+    for (const Generator& generator : generatorsOf(scene)) {
+        names.push_back(generator.name);
+        generator.leaveOut(scene, generator.which);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"wind w", "drag", "inner friction", "bend springs", "volume terms"}));
+    EXPECT_TRUE(generatorsOf(scene).empty()) << "without them there are none left";
+}
+
+TEST(PlanRuns, ClothsOfOtherCellsAreSeenAtTheSamePlaces) {
+    const world::SceneSpec scene = sceneWithNeed();
+    const Resolution resolution = resolutionOf(scene);
+    PlanGrid grid;
+    grid.samples = 1;
+    Candidate coarse, fine;
+    coarse.count = 5;
+    fine.count = 16;
+    world::SceneSpec a = modelOf(scene, resolution, coarse), b = modelOf(scene, resolution, fine);
+    a.world.gravity = b.world.gravity = {0, 0, 0};  // flat and at rest: interpolation is exact
+    // 1e-12: rounding of coordinates of a metre, 2e-16 an operation.
+    EXPECT_LT(difference(play(a, resolution, grid), play(b, resolution, grid)), 1e-12);
+}
+
+TEST(PlanRuns, CountSpringsTimesEvaluations) {
+    const world::SceneSpec scene = sceneWithNeed();
+    const Resolution resolution = resolutionOf(scene);
+    PlanGrid grid;
+    grid.samples = 3;
+    Candidate candidate;
+    candidate.count = 4;
+    candidate.method = "rk4";
+    const world::SceneSpec model = modelOf(scene, resolution, candidate);
+    const StepFacts facts = stepFacts(model);
+    const PlanRun run = play(model, resolution, grid);
+    ASSERT_TRUE(run.isWhole());
+    // RK4 evaluates four times a step.
+    EXPECT_EQ(run.springEvaluations, facts.springs * 4 * facts.leastSubsteps * 3);
+}
+
+TEST(PlanRuns, StepsAreAsManyAsAskedFor) {
+    const world::SceneSpec scene = sceneWithNeed();
+    const Resolution resolution = resolutionOf(scene);
+    Candidate candidate;
+    candidate.count = 4;
+    for (const int substeps : {7, 13, 50, 333}) {
+        world::SceneSpec model = modelOf(scene, resolution, candidate);
+        setSubsteps(model, stepFacts(model), substeps);
+        EXPECT_EQ(stepFacts(model).leastSubsteps, substeps);
+    }
+}
+
+TEST(PlanRuns, TwoIslandsShrinkTheirStepsByTheSameShare) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.ropes.push_back(support::rope("stiff", {0, 2, 0}, {1, 2, 0}, 20));
+    scene.ropes.back().stretch = 1e6;
+    const Resolution resolution = resolutionOf(scene);
+    Candidate candidate;
+    candidate.count = resolution.count;
+    world::SceneSpec model = modelOf(scene, resolution, candidate);
+    const StepFacts facts = stepFacts(model);
+    setSubsteps(model, facts, 2 * facts.leastSubsteps);
+    EXPECT_FALSE(model.solver.dt.has_value());
+    EXPECT_EQ(stepFacts(model).leastSubsteps, 2 * facts.leastSubsteps);
+}
+
+TEST(PlanChanges, NameWhatDiffersAndNothingElse) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.cloths[0].material = "m";
+    scene.materials["m"] = {};
+    EXPECT_TRUE(planChanges(scene, scene).empty());
+    world::SceneSpec planned = scene;
+    planned.cloths[0].cells = {6, 4};
+    planned.materials["m"].bend = 0;
+    planned.solver.integrator = "rk4";
+    planned.solver.dt = 1e-3;
+    planned.solver.precision = world::Precision::double_;
+    std::string all;
+    for (const scene::Change& change : planChanges(scene, planned)) all += change.key + " = " + change.value + "\n";
+    EXPECT_EQ(all,
+              "cloth.c.cells = [6, 4]\nmaterial.m.bend_N_per_m = 0.0\nsolver.integrator = \"rk4\"\n"
+              "solver.dt = 0.001\nsolver.precision = \"double\"\n");
+}
+
+TEST(PlanChanges, ReachBodiesWithASolverOfTheirOwn) {
+    world::SceneSpec scene = sceneWithNeed();
+    scene.cloths[0].solver.integrator = "heun";
+    world::SceneSpec planned = scene;
+    planned.cloths[0].solver = {};
+    const std::vector<scene::Change> changes = planChanges(scene, planned);
+    ASSERT_EQ(changes.size(), 1U);
+    EXPECT_EQ(changes[0].key, "cloth.c.solver.integrator");
+    EXPECT_EQ(changes[0].value, "\"leapfrog\"");
+}
+
+}  // namespace
+}  // namespace taut::study

@@ -136,10 +136,17 @@ class Script {
     std::vector<std::string> elements_;
 };
 
+// The text at a tick is a format of its value: a per cent sign is written twice.
+std::string tickText(const std::string& text) {
+    std::string out;
+    for (const char c : text) out += c == '%' ? "%%" : std::string(1, c);
+    return report::quoted(out);
+}
+
 void Script::addTicks(char name, const std::vector<Tick>& ticks) {
     std::string list;
     for (const Tick& tick : ticks)
-        list += fmt::format("{}{} {} {}", list.empty() ? "" : ", ", tick.isMinor ? "''" : quoted(tick.text),
+        list += fmt::format("{}{} {} {}", list.empty() ? "" : ", ", tick.isMinor ? "''" : tickText(tick.text),
                             number(tick.at), tick.isMinor ? 1 : 0);
     if (name == 'c')
         add("set cbtics ({})\n", list);

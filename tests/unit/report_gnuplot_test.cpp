@@ -53,6 +53,19 @@ Chart fullChart() {
     return chart;
 }
 
+TEST(ReportGnuplot, WritesPerCentAtATick) {
+    const TemporaryFolder folder;
+    Chart chart;
+    Panel panel;
+    panel.y = {"error", Scale::log, 1e-3, 1.0, {{0.01, "1 %"}, {0.1, "10 %d"}}};
+    panel.curves.push_back({"a", {}, {{0.0, 0.1}, {1.0, 0.2}}});
+    chart.panels = {panel};
+    writeChart(chart, folder / "chart");
+    const std::string svg = test::contentOf(folder / "chart.svg");
+    EXPECT_TRUE(has(svg, "1 %<"));
+    EXPECT_TRUE(has(svg, "10 %d<"));
+}
+
 TEST(ReportGnuplot, DrawsEverythingAChartCanHold) {
     const TemporaryFolder folder;
     const Chart chart = fullChart();

@@ -27,10 +27,14 @@ Model clothIn(double tau, double drag) {
     return model;
 }
 
-std::unique_ptr<mechanics::ForceGenerator<double>> windOn(const Model& model) {
-    // From behind and fast enough that no triangle meets it edge-on in the short run: there its force has a kink.
+enum class Air { still, lifting, blowing };
+
+// From behind, in gusts, fast enough to carry the cloth along: within the run triangles move as the air does, and the
+// normal part of its speed against them changes sign. `lifting` leaves its drag out.
+std::unique_ptr<mechanics::ForceGenerator<double>> windOn(const Model& model, Air air) {
     mechanics::WindSettings settings;
     settings.gust = {0.5, 1.3, 2.0, 3};
+    if (air == Air::lifting) settings.drag = 0.0;
     return std::make_unique<mechanics::Wind<double>>(model.triangles, dvec3(0.5, 3.0, 4.0), settings);
 }
 
@@ -57,10 +61,10 @@ constexpr double horizon = 0.2;  // [s]
 const dvec3 gravity(0, -9.81, 0);
 
 // RMS over all points, of positions and of velocities.
-std::pair<double, double> errorOf(const Model& model, bool windy, std::string_view method, int steps,
+std::pair<double, double> errorOf(const Model& model, Air air, std::string_view method, int steps,
                                   const std::vector<double>& ought) {
     Network network(model, method, horizon / steps, gravity);
-    if (windy) network.add(windOn(model), method, horizon / steps);
+    if (air != Air::still) network.add(windOn(model, air), method, horizon / steps);
     network.step(steps);
     const std::vector<double> v = network.run().synchronisedVelocities();
     double x2 = 0.0, v2 = 0.0;
@@ -71,35 +75,54 @@ std::pair<double, double> errorOf(const Model& model, bool windy, std::string_vi
     return {std::sqrt(x2 / model.pointCount()), std::sqrt(v2 / model.pointCount())};
 }
 
+std::vector<double> referenceFor(const Model& model, Air air, int steps) {
+    Network fine(model, "velocity-verlet", 1e-4, gravity);
+    if (air != Air::still) fine.add(windOn(model, air), "velocity-verlet", 1e-4);
+    std::vector<double> y(fine.run().state.x.begin(), fine.run().state.x.end());
+    y.insert(y.end(), fine.run().state.v.begin(), fine.run().state.v.end());
+    return reference(fine.system(), y, horizon, steps);
+}
+
 // h halves from 1/3 ms (order 4: from 4/3 ms, clear of rounding): ω h = 0.06 (0.24) for the fastest motion and less, so
 // that the exponent is true to some hundredths.
 TEST(ClothOrder, IsThatOfTheMethodWithDashpotsDragAndWind) {
     struct Case {
         double tau, drag;
-        bool windy;
+        Air air;
     };
-    for (const Case& c : {Case{0, 0, false}, Case{5e-3, 0, false}, Case{0, 2.0, false}, Case{5e-3, 2.0, false},
-                          Case{5e-3, 2.0, true}}) {
+    for (const Case& c : {Case{0, 0, Air::still}, Case{5e-3, 0, Air::still}, Case{0, 2.0, Air::still},
+                          Case{5e-3, 2.0, Air::still}, Case{5e-3, 2.0, Air::lifting}, Case{5e-3, 2.0, Air::blowing}}) {
         const Model model = clothIn(c.tau, c.drag);
-        Network fine(model, "velocity-verlet", 1e-4, gravity);
-        if (c.windy) fine.add(windOn(model), "velocity-verlet", 1e-4);
-        std::vector<double> y(fine.run().state.x.begin(), fine.run().state.x.end());
-        y.insert(y.end(), fine.run().state.v.begin(), fine.run().state.v.end());
-        const std::vector<double> ought = reference(fine.system(), y, horizon, 4000);
+        const std::vector<double> ought = referenceFor(model, c.air, 4000);
         for (const ode::MethodInfo& method : ode::methods()) {
-            // The wind's force has kinks (edge-on, and where the waves of gusts join) that lower order 4.
-            if (c.windy && method.order == 4) continue;
+            if (c.air == Air::blowing && method.order == 4) continue;  // the test below
             SCOPED_TRACE(std::string(method.name) + ", τ = " + std::to_string(c.tau) + ", drag " +
-                         std::to_string(c.drag) + (c.windy ? ", wind" : ""));
+                         std::to_string(c.drag) + ", air " + std::to_string(static_cast<int>(c.air)));
             const int steps = method.order == 1 ? 4800 : method.order == 2 ? 600 : 150;
-            const auto [x1, v1] = errorOf(model, c.windy, method.name, steps, ought);
-            const auto [x2, v2] = errorOf(model, c.windy, method.name, 2 * steps, ought);
+            const auto [x1, v1] = errorOf(model, c.air, method.name, steps, ought);
+            const auto [x2, v2] = errorOf(model, c.air, method.name, 2 * steps, ought);
             EXPECT_NEAR(std::log2(x1 / x2), method.order, 0.1);
             EXPECT_NEAR(std::log2(v1 / v2), method.order, 0.1);
             EXPECT_LT(x1, 1e-3);
             EXPECT_GT(x2, 1e-11);  // above the reference's own error, 1e-14 by its 4000 steps
         }
     }
+}
+
+// The drag of air on a triangle goes with |u·n| u, which has a kink where the air moves along the triangle. A step
+// across a kink in v' is off by h² times the jump of its slope, whatever the method: a method of order 4 falls to 2,
+// with a factor that depends on where in the step the kink lies. The joins of gusts (noise.h) do no such harm: with
+// lift alone, above, order 4 stands in the same gusts.
+TEST(ClothOrder, IsTwoForRungeKuttaWhereDragCrossesEdgeOn) {
+    const Model model = clothIn(5e-3, 2.0);
+    const std::vector<double> ought = referenceFor(model, Air::blowing, 64000);
+    const auto error = [&](int steps) { return errorOf(model, Air::blowing, "rk4", steps, ought).second; };
+    // Long steps hide the kinks behind the error of smooth motion, ∝ h⁴; at 0.5 ms and less kinks lead. Over four
+    // halvings their chances even out: measured 2.3 (velocities), from both sides within what the chances allow.
+    const double order = std::log2(error(400) / error(6400)) / 4.0;
+    EXPECT_GT(order, 1.5);
+    EXPECT_LT(order, 2.8);
+    EXPECT_LT(error(400), 1e-5);  // of 10 m/s: nothing that a picture, or another method at that step, would show
 }
 
 }  // namespace

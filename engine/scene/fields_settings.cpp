@@ -67,7 +67,7 @@ Section needSection() {
     section.enter = enterPart(&SceneSpec::need);
     section.fields =
         FieldList<NeedSpec>()
-            .number("rms_position_m", &NeedSpec::rmsPosition, "m", positive, "Largest error of the points' positions.")
+            .number("rms_position_m", &NeedSpec::rmsPosition, "m", positive, "Largest RMS error of positions, over points and time.")
             .number("rms_percent", &NeedSpec::rmsPercent, "%", Range{1e-9, 100.0},
                     "The same as a share of the bounding box.")
             .number("rms_pixels", &NeedSpec::rmsPixels, "px", positive, "The same in pixels of the picture.")

@@ -163,8 +163,9 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
     if (reference.error > context.target / 2)
-        add(fmt::format("The finest motion that could be afforded is itself known to {} only.",
-                        lengthText(reference.error)));
+        add(fmt::format(
+            "The finest motion that the effort allows is itself known to {} only; a larger --effort would tell more.",
+            lengthText(reference.error)));
 }
 
 }  // namespace

@@ -84,7 +84,9 @@ std::string resultText(const Plan& plan) {
     const PlanTrial& chosen = plan.trials[*plan.chosen];
     std::string text = fmt::format("\nOne evaluation of the forces takes {:.3g} us, a frame {:.3g} ms of one processor",
                                    1e6 * plan.secondsAnEvaluation, chosen.milliseconds);
-    text += std::isfinite(plan.ratio)
+    const bool isSame = plan.ratio > 0.985 && plan.ratio < 1.015;
+    text += isSame ? std::string("; as written it costs as many spring evaluations.\n")
+            : std::isfinite(plan.ratio)
                 ? fmt::format("; as written it costs {:.3g} times as many spring evaluations.\n", plan.ratio)
                 : std::string(".\n");
     if (plan.changes.empty()) return text + "\nThe file needs no change.\n";

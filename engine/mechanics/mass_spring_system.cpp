@@ -61,6 +61,27 @@ void MassSpringSystem<Real>::add(std::unique_ptr<ForceGenerator<Real>> generator
 }
 
 template <class Real>
+void MassSpringSystem<Real>::lead(LedPoints led) {
+    for (const int i : led.points)
+        TAUT_EXPECTS(i >= 0 && i < layout_.count && inverseMass_[static_cast<std::size_t>(i)] == Real(0));
+    const std::size_t count = led.points.size();
+    hands_.push_back({std::move(led), std::vector<glm::dvec3>(count), std::vector<glm::dvec3>(count)});
+}
+
+template <class Real>
+void MassSpringSystem<Real>::prescribe(double t, Real* x, Real* v) {
+    for (Hand& hand : hands_) {
+        hand.led.path(t, hand.x, hand.v);
+        for (std::size_t i = 0; i < hand.x.size(); ++i)
+            for (int p = 0; p < 3; ++p) {
+                const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(p) * layout_.stride + hand.led.points[i];
+                if (x != nullptr) x[at] = static_cast<Real>(hand.x[i][p]);
+                if (v != nullptr) v[at] = static_cast<Real>(hand.v[i][p]);
+            }
+    }
+}
+
+template <class Real>
 Motion<Real> MassSpringSystem<Real>::motion(double t, const Real* x, const Real* v) const {
     return {layout_.count, layout_.stride, t, x, v, mass_.data(), inverseMass_.data()};
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +18,14 @@
 #include "ode/system.h"
 
 namespace taut::mechanics {
+
+// Points that are moved by hand: path writes where each of them is at t [s] and how fast it moves [m, m/s], in their
+// order. It is asked at every time at which a method wants forces, stages within a step included, and must give the
+// same answer for the same t.
+struct LedPoints {
+    std::vector<int> points;
+    std::function<void(double t, std::span<glm::dvec3> x, std::span<glm::dvec3> v)> path;
+};
 
 template <class Real>
 class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::ImplicitSystem<Real> {
@@ -33,6 +43,10 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     // Adds a generator; they act in the order of adding.
     void add(std::unique_ptr<ForceGenerator<Real>> generator);
     std::span<const std::unique_ptr<ForceGenerator<Real>>> generators() const { return generators_; }
+
+    // Expects points that are held, each led once. Takes effect when the method is started, or started again.
+    void lead(LedPoints led);
+    void prescribe(double t, Real* x, Real* v) override;
 
     ode::Layout layout() const override { return layout_; }
     const Real* dragRates() const override { return drag_.data(); }
@@ -84,6 +98,11 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     SpringNetwork<Real> network_;
     std::vector<Lane> lanes_;  // (chunks)
     std::vector<std::unique_ptr<ForceGenerator<Real>>> generators_;
+    struct Hand {
+        LedPoints led;
+        std::vector<glm::dvec3> x, v;  // (points of led) what path wrote last
+    };
+    std::vector<Hand> hands_;
     bool isExternalFilled_ = false;  // in this evaluation, by generators that need the whole island
     Real uniform_[3] = {};           // acceleration of all free points in this evaluation [m/s²]
     SpringKernels<Real> kernels_;

@@ -165,9 +165,22 @@ class ImplicitEuler final : public Method<Real> {
             }
         });
         const double scale = massNorm(now, b_.data());
-        solve(now, state.x.data(), state.v.data());
+        if (!passOnWhatIsNoNumber()) solve(now, state.x.data(), state.v.data());
         for (std::size_t i = 0; i < u_.size(); ++i) u_[i] = state.v[i] + change_[i];
         return scale;
+    }
+
+    // A force that is not a number cannot be solved for, and the solver would leave all where it is, unseen: it goes
+    // into the velocity of its point, where whoever looks at the state finds it.
+    bool passOnWhatIsNoNumber() {
+        bool isThere = false;
+        for (std::size_t i = 0; i < b_.size(); ++i)
+            if (!std::isfinite(b_[i])) {
+                change_[i] = b_[i];
+                isThere = true;
+            }
+        if (isThere) ++this->work_.unconverged;
+        return isThere;
     }
 
     // Newton steps on from u_ until the residual is small against the scale, or what the first step has left.

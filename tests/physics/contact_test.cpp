@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ode/method_table.h"
 #include "support/scenes.h"
 
 namespace taut::test {
@@ -11,8 +12,8 @@ namespace {
 
 constexpr double g = 9.81;
 
-world::SceneSpec onePointOver(double height, double tick, const char* method = "leapfrog") {
-    world::SceneSpec scene = exactScene(tick, method);
+world::SceneSpec onePointOver(double height, double tick, std::string method = "leapfrog") {
+    world::SceneSpec scene = exactScene(tick, std::move(method));
     world::NetSpec net;
     net.name = "ball";
     net.drag = 0.0;
@@ -55,10 +56,10 @@ std::vector<double> tops(world::World& world, std::size_t count) {
 // Contact is of first order: a bounce may come a step late, which costs up to v h of the fall twice, 2 √(2 g h0) h/h0 =
 // 0.2 % of the height a bounce at h = 2e-4 s and h0 = 1 m, more for lower bounces.
 TEST(Bounce, ReturnsTheSquareOfTheRestitutionOfItsHeight) {
-    for (const char* method : {"leapfrog", "velocity-verlet", "euler"})
+    for (const ode::MethodInfo& method : ode::methods())
         for (double restitution : {0.9, 0.6}) {
-            SCOPED_TRACE(std::string(method) + ", restitution " + std::to_string(restitution));
-            world::SceneSpec scene = onePointOver(1.0, 2e-4, method);
+            SCOPED_TRACE(std::string(method.name) + ", restitution " + std::to_string(restitution));
+            world::SceneSpec scene = onePointOver(1.0, 2e-4, std::string(method.name));
             scene.colliders[0].restitution = restitution;
             world::World world(scene);
             const std::vector<double> heights = tops(world, 4);
@@ -71,23 +72,24 @@ TEST(Bounce, ReturnsTheSquareOfTheRestitutionOfItsHeight) {
 }
 
 TEST(Bounce, WithoutRestitutionEndsAtTheGround) {
-    for (const char* method : {"leapfrog", "velocity-verlet", "euler"}) {
-        world::World world(onePointOver(0.3, 1e-3, method));
+    for (const ode::MethodInfo& method : ode::methods()) {
+        world::World world(onePointOver(0.3, 1e-3, std::string(method.name)));
         EXPECT_FALSE(advance(world, 1000));
-        EXPECT_NEAR(point(world).y, 0.0, 1e-9) << method;
+        EXPECT_NEAR(point(world).y, 0.0, 1e-9) << method.name;
         // The velocity that the next force will have given it, g h at most: ½ m (g h)² = 2.4e-5 J.
-        EXPECT_LE(world.metrics().kinetic, 2.41e-5) << method;
+        EXPECT_LE(world.metrics().kinetic, 2.41e-5) << method.name;
     }
 }
 
 // A plane turned by α about z: a = g (sin α - μ cos α) down the slope where tan α > μ, rest elsewhere.
 TEST(Incline, LetsAPointSlideAtTheCoulombRateOrNotAtAll) {
-    for (const char* method : {"leapfrog", "velocity-verlet", "euler"})
+    for (const ode::MethodInfo& method : ode::methods())
         for (double slope : {0.3, 0.7})  // [rad]
             for (double share : {0.0, 0.5, 0.95, 1.05}) {
                 const double mu = share * std::tan(slope);
-                SCOPED_TRACE(std::string(method) + ", slope " + std::to_string(slope) + ", μ " + std::to_string(mu));
-                world::SceneSpec scene = onePointOver(0.0, 1e-3, method);
+                SCOPED_TRACE(std::string(method.name) + ", slope " + std::to_string(slope) + ", μ " +
+                             std::to_string(mu));
+                world::SceneSpec scene = onePointOver(0.0, 1e-3, std::string(method.name));
                 scene.colliders[0].normal = {std::sin(slope), std::cos(slope), 0.0};
                 scene.colliders[0].friction = mu;
                 world::World world(scene);
@@ -108,10 +110,14 @@ TEST(Incline, LetsAPointSlideAtTheCoulombRateOrNotAtAll) {
 // A stiff net, ω = 2000/s, dropped on the ground at the step that "auto" finds for the springs: contact adds no
 // stiffness.
 TEST(StiffContact, AddsNoEnergyAtTheLargestStableStep) {
-    for (const char* method : {"leapfrog", "velocity-verlet"}) {
+    for (const ode::MethodInfo& one : ode::methods()) {
+        const std::string method(one.name);
+        if (method == "euler") continue;  // without damping there is no step for it
         SCOPED_TRACE(method);
         world::SceneSpec scene = onePointOver(0.2, 1.0 / 60.0, method);
         scene.solver.dt.reset();
+        // It has no limit, but a single Newton step of 1/60 s at ω h = 33 leaps over an impact: at ω h = 1 it does not.
+        if (method == "implicit-euler") scene.solver.dt = 5e-4;
         world::NetSpec& net = scene.nets[0];
         net.points = {{"a", {0, 0.2, 0}, 0.01, false, {}},
                       {"b", {0.1, 0.3, 0}, 0.01, false, {}},

@@ -8,6 +8,7 @@ list(APPEND TAUT_PHYSICS_TESTS
   hanging_test.cpp
   hard_cases_test.cpp
   implicit_euler_test.cpp
+  led_points_test.cpp
   linear_modes_test.cpp
   network_energy_test.cpp
   network_limits_test.cpp

@@ -53,6 +53,12 @@ class NetworkOf {
         start(method, h);
     }
 
+    // Points moved by hand; restarts the method from the model.
+    void lead(mechanics::LedPoints led, std::string_view method, double h) {
+        system_.lead(std::move(led));
+        start(method, h);
+    }
+
     void step(std::int64_t steps = 1) { run_->step(steps); }
     double time() const { return run_->time(); }
     Integration<Real>& run() { return *run_; }

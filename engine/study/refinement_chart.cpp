@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "report/palette.h"
-
 namespace taut::study {
 namespace {
 
@@ -49,20 +47,24 @@ report::Axis cellsAxis(const RefinementStudy& study) {
     return axis;
 }
 
-report::Style styleOfTreatment(int index) {
-    static constexpr int order[] = {1, 2, 0, 4};
-    report::Style style = report::seriesStyle(order[index]);
-    if (index == 0) style = {"#009e73", report::Mark::circle, true, report::Dash::solid, 2.4, 1.25};
-    return style;
+// Told apart where one lies on another: the builders' own below, wide; crosses and small squares above.
+report::Style styleOfTreatment(std::size_t index) {
+    using report::Dash;
+    using report::Mark;
+    static const report::Style styles[] = {{"#009e73", Mark::circle, true, Dash::solid, 3.0, 1.3},
+                                           {"#d55e00", Mark::diamond, false, Dash::dashed, 1.6, 1.5},
+                                           {"#0072b2", Mark::cross, true, Dash::dashed, 1.6, 1.3},
+                                           {"#101010", Mark::square, true, Dash::dotted, 1.6, 0.7}};
+    return styles[index % std::size(styles)];
 }
 
 // One curve a treatment. Runs that did not come to rest are left out.
 template <class Value>
 void addCurves(Panel& panel, const RefinementStudy& study, const std::string& body, Value value) {
-    for (std::size_t i = treatments().size(); i-- > 0;) {  // the builders' own last, on top
+    for (std::size_t i = 0; i < treatments().size(); ++i) {
         report::Curve curve;
         curve.title = treatments()[i].title;
-        curve.style = styleOfTreatment(static_cast<int>(i));
+        curve.style = styleOfTreatment(i);
         for (const RefinementRun& run : study.runs)
             if (run.body == body && run.treatment == treatments()[i].name && run.isAtRest)
                 curve.points.push_back({static_cast<double>(run.cells), value(run)});
@@ -86,8 +88,8 @@ void addSlope(Panel& panel, const Range& cells, int p, double y) {
     line.style = {"#b0b0b0", report::Mark::none, true, report::Dash::dotted, 1.4, 1.0};
     for (const double x : {cells.least, cells.most}) line.points.push_back({x, y * std::pow(x / cells.least, -p)});
     panel.curves.push_back(line);
-    panel.labels.push_back({cells.most, line.points.back().y, "order " + std::to_string(p), "#808080",
-                            report::Align::right, -2, -11, 10.5});
+    panel.labels.push_back(
+        {cells.most, line.points.back().y, "order " + std::to_string(p), "#808080", report::Align::right, 0, 15, 10.5});
 }
 
 Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, bool isFirst) {
@@ -98,7 +100,7 @@ Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, boo
     panel.y = {isFirst ? "relative error" : "", Scale::log, leastError, mostError, {}, isFirst, false};
     for (const auto& [at, text] :
          {std::pair{1e-5, "0.001 %"}, {1e-4, "0.01 %"}, {1e-3, "0.1 %"}, {1e-2, "1 %"}, {1e-1, "10 %"}, {1.0, "100 %"}})
-        panel.y.ticks.push_back({at, text, false});
+        panel.y.ticks.push_back({at, isFirst ? text : "", false});
     report::Region good;
     good.y1 = 0.01;
     good.colour = "#009e73";
@@ -111,10 +113,10 @@ Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, boo
         addSlope(panel, cells, 1, 0.6);
         addSlope(panel, cells, 2, 0.007);
     }
-    addCurves(panel, study, body.name, [&](const RefinementRun& run) { return isExact ? 2e-5 : std::abs(run.error); });
+    addCurves(panel, study, body.name, [&](const RefinementRun& run) { return isExact ? 5e-5 : std::abs(run.error); });
     if (isExact)
         panel.labels.push_back(
-            {0.5, 0.16, "exact at every resolution", "#303030", report::Align::centre, 0, 0, 11, false, true});
+            {0.5, 0.26, "exact at every resolution", "#303030", report::Align::centre, 0, 0, 11, false, true});
     panel.labels.push_back(
         {0.03, 0.05, body.quantity + ": " + body.theory, "#303030", report::Align::left, 0, 0, 10.5, true, true});
     const std::string orders = ordersText(study, body);
@@ -123,15 +125,18 @@ Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, boo
     return panel;
 }
 
-Panel drapePanel(const RefinementStudy& study, const RefinementFacts& facts, bool isFirst, const Range& percent) {
+Panel drapePanel(const RefinementStudy& study, const RefinementFacts& facts, bool isFirst) {
     Panel panel;
     const RefinementBody& body = *facts.body;
     panel.title = body.title;
     panel.x = cellsAxis(study);
     panel.y.label = isFirst ? "difference from the limit [%]" : "";
-    panel.y.hasNumbers = isFirst;
-    panel.y.least = percent.least;
-    panel.y.most = percent.most;
+    Range percent;
+    for (const RefinementRun& run : study.runs)
+        if (run.body == body.name) percent.add(100.0 * run.error);
+    const double room = 0.12 * (percent.most - percent.least);
+    panel.y.least = percent.least - room;
+    panel.y.most = percent.most + room;
     report::Region good;
     good.y0 = -1.0;
     good.y1 = 1.0;
@@ -152,22 +157,16 @@ Panel drapePanel(const RefinementStudy& study, const RefinementFacts& facts, boo
 std::vector<NamedChart> refinementCharts(const RefinementStudy& study, const std::vector<std::string>& notes) {
     report::Chart error, drape;
     error.title = "Finer ropes, cloths and blocks against theory";
-    error.subtitle = "Bodies at rest under gravity: error of their sag or stretch against the number of cells";
+    error.subtitle =
+        "Bodies at rest under gravity: error of their sag or stretch against the number of cells; tinted: within 1 %";
     drape.title = "The drape of ever finer bodies";
     drape.subtitle = "Sag or stretch at rest, as a difference from its limit; the band is 1 % wide to either side";
-    Range percent;
-    for (const RefinementRun& run : study.runs)
-        for (const RefinementFacts& facts : study.bodies)
-            if (facts.body->name == run.body && !facts.body->exact) percent.add(100.0 * run.error);
-    const double room = 0.08 * (percent.most - percent.least);
-    percent.add(percent.most + room);
-    percent.add(percent.least - room);
     error.columns = drape.columns = 3;
     for (const RefinementFacts& facts : study.bodies) {
         report::Chart& chart = facts.body->exact ? error : drape;
         const bool isFirst = chart.panels.size() % 3 == 0;
         chart.panels.push_back(facts.body->exact ? errorPanel(study, facts, isFirst)
-                                                 : drapePanel(study, facts, isFirst, percent));
+                                                 : drapePanel(study, facts, isFirst));
     }
     std::vector<NamedChart> charts;
     for (auto& [name, chart] : {std::pair{"error", &error}, {"drape", &drape}}) {
@@ -175,7 +174,9 @@ std::vector<NamedChart> refinementCharts(const RefinementStudy& study, const std
         chart->panelWidth = 330;
         chart->panelHeight = 280;
         chart->pngScale = 1.5;
-        chart->notes = notes;
+        chart->notes = {
+            "Naive mass: every point weighs the same. Naive springs: those at the edge are as stiff as the others."};
+        chart->notes.insert(chart->notes.end(), notes.begin(), notes.end());
         charts.push_back({name, *chart});
     }
     return charts;

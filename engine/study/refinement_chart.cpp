@@ -116,7 +116,7 @@ Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, boo
     addCurves(panel, study, body.name, [&](const RefinementRun& run) { return isExact ? 5e-5 : std::abs(run.error); });
     if (isExact)
         panel.labels.push_back(
-            {0.5, 0.26, "exact at every resolution", "#303030", report::Align::centre, 0, 0, 11, false, true});
+            {0.5, 0.26, "exact: far below 0.001 %", "#303030", report::Align::centre, 0, 0, 11, false, true});
     panel.labels.push_back(
         {0.03, 0.05, body.quantity + ": " + body.theory, "#303030", report::Align::left, 0, 0, 10.5, true, true});
     const std::string orders = ordersText(study, body);

@@ -11,7 +11,7 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 
-// Stiffness of a cell of sides s by its edges and face diagonals (numerics: section 6).
+// Stiffness of a cell of sides s by its edges and face diagonals.
 //
 // Shares. A cell owns a quarter of each of its 12 edges and half of the two diagonals of each of its 6 faces, with k
 // for the whole: three edges and six diagonals a cell. Cells that meet add their shares, so an inner edge has k, an

@@ -1,5 +1,5 @@
 // Builders: from a size, a resolution and a material to a model. Stiffness is per metre of material, so that a
-// finer model behaves like a coarse one (numerics: section 6). All lengths in metres, SI units.
+// finer model behaves like a coarse one. All lengths in metres, SI units.
 #pragma once
 
 #include <cstdint>

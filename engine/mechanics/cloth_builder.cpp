@@ -9,7 +9,7 @@ namespace {
 
 using glm::dvec3;
 
-// Stiffness of a cell of a by b, per metre of material (numerics: section 6).
+// Stiffness of a cell of a by b, per metre of material.
 //
 //  a strip of width b holds one spring along a:   force per metre  k (ε a)/b    = k_s ε      ->  k = k_s b/a
 //  two diagonals of length d, d² = a² + b²:       C12 = C66 = 2 k ab/d²         = k_d        ->  k = k_d d²/(2ab)

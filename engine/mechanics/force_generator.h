@@ -20,7 +20,7 @@ struct Motion {
     const Real* inverseMass = nullptr;  // (stride) [1/kg], 0 if held
 };
 
-// A generator's share of the stability bound (numerics: section 3), per point where it acts.
+// A generator's share of the stability bound, per point where it acts.
 struct StabilityShare {
     // (points) summed stiffness: an upper bound of the row of the stiffness matrix that is not from springs [N/m].
     std::vector<double> stiffness;

@@ -1,4 +1,4 @@
-// How fast a network can swing: bounds and an estimate of ω_max, from which the step is chosen (numerics: section 3).
+// How fast a network can swing: bounds and an estimate of ω_max, from which the step is chosen.
 #pragma once
 
 #include <functional>

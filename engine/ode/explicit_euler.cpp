@@ -13,7 +13,7 @@ std::unique_ptr<FirstOrderMethod<Real>> makeExplicitEuler() {
 template std::unique_ptr<FirstOrderMethod<float>> makeExplicitEuler();
 template std::unique_ptr<FirstOrderMethod<double>> makeExplicitEuler();
 
-// ω h <= 2ζ for ζ < 1 and 2(ζ - √(ζ²-1)) above (numerics: section 2), both smallest for the fastest mode: for ζ < 1
+// ω h <= 2ζ for ζ < 1 and 2(ζ - √(ζ²-1)) above, both smallest for the fastest mode: for ζ < 1
 // the first is τ + γ/ω², and an overdamped mode decays at most at the rate ω (ζ + √(ζ²-1)). Springs under tension add
 // motion that no dashpot damps; then the limit is too high.
 double explicitEulerLargestStep(const FastestMode& mode) {

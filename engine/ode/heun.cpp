@@ -14,7 +14,7 @@ std::unique_ptr<FirstOrderMethod<Real>> makeHeun() {
 template std::unique_ptr<FirstOrderMethod<float>> makeHeun();
 template std::unique_ptr<FirstOrderMethod<double>> makeHeun();
 
-// ζ < 1: the root of z³/4 - ζ z² + 2ζ² z - 2ζ = 0 (numerics: section 2), at most 2.2; ζ >= 1 as explicit Euler.
+// ζ < 1: the root of z³/4 - ζ z² + 2ζ² z - 2ζ = 0, at most 2.2; ζ >= 1 as explicit Euler.
 double heunLargestStep(const FastestMode& mode) {
     return explicitLimit(mode, 2.0, [](double zeta) {
         if (zeta >= 1.0) return overdampedLimit(zeta, 2.0);

@@ -139,7 +139,7 @@ std::unique_ptr<Method<Real>> makeLeapfrog() {
 template std::unique_ptr<Method<float>> makeLeapfrog();
 template std::unique_ptr<Method<double>> makeLeapfrog();
 
-// Largest h with h²ω² + 4h(τω² + c) < 4 (numerics: section 3); drag is semi-implicit and does not enter.
+// Largest h with h²ω² + 4h(τω² + c) < 4; drag is semi-implicit and does not enter.
 double leapfrogLargestStep(const FastestMode& mode) {
     if (mode.omega <= 0.0) return mode.rate > 0.0 ? 1.0 / mode.rate : HUGE_VAL;
     const double omega2 = mode.omega * mode.omega;

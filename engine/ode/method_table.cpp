@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view growth =
     "motion that nothing damps grows at every step: dt = \"auto\" keeps it to a factor of e in 10 s";
 
-// In the order of the table of section 2.
+// In the order in which texts name them.
 constexpr MethodInfo table[] = {
     {.name = "euler",
      .title = "explicit Euler",

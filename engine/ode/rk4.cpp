@@ -29,7 +29,7 @@ std::unique_ptr<FirstOrderMethod<Real>> makeRk4() {
 template std::unique_ptr<FirstOrderMethod<float>> makeRk4();
 template std::unique_ptr<FirstOrderMethod<double>> makeRk4();
 
-// |R(w)| = 1 (numerics: section 2). Within |w| <= 2.5 all of the left half plane is stable, and beyond 3.5 nothing.
+// |R(w)| = 1. Within |w| <= 2.5 all of the left half plane is stable, and beyond 3.5 nothing.
 double rk4LargestStep(const FastestMode& mode) {
     constexpr double real = 2.785293563405282;  // on the real axis: w³ + 4w² + 12w + 24 = 0
     return explicitLimit(mode, real, [](double zeta) {

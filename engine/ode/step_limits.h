@@ -26,7 +26,7 @@ double bisect(double low, double high, const std::function<bool(double)>& isBelo
 // Cube root of x >= 0; the C library's may differ from processor to processor.
 double cubeRoot(double x);
 
-// Heun and midpoint let undamped motion grow by 1 + z⁴/8 a step (numerics: section 2), so no step is stable for ever,
+// Heun and midpoint let undamped motion grow by 1 + z⁴/8 a step, so no step is stable for ever,
 // but a short one is good for long: the step at which motion of that frequency grows e-fold in `patience` seconds.
 inline constexpr double patience = 10.0;  // [s]
 double slowGrowthStep(double omega, double drag);

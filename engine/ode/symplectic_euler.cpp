@@ -61,8 +61,8 @@ std::unique_ptr<Method<Real>> makeSymplecticEuler() {
 template std::unique_ptr<Method<float>> makeSymplecticEuler();
 template std::unique_ptr<Method<double>> makeSymplecticEuler();
 
-// Largest h with h²ω² + 2h(τω² + c - γ) < 4: the trace and determinant of a step of the damped oscillator (numerics:
-// section 2 has it for c and γ alone). Drag helps, as little as the point with the smallest has.
+// Largest h with h²ω² + 2h(τω² + c - γ) < 4: from the trace and determinant of a step of the damped oscillator. Drag
+// helps, as little as the point with the smallest has.
 double symplecticEulerLargestStep(const FastestMode& mode) {
     if (mode.omega <= 0.0) return mode.rate > mode.drag ? 2.0 / (mode.rate - mode.drag) : HUGE_VAL;
     const double omega2 = mode.omega * mode.omega;

@@ -37,8 +37,8 @@ double rms(const std::vector<dvec3>& x, const std::vector<dvec3>& ought) {
 // A step adds h v to x and h a to v. Single precision keeps 24 bits, so each sum is rounded by up to 3e-8 of x (1 m)
 // and of v (2 m/s), and the shorter the step, the more sums there are: T/h of them leave 3e-8 √(T/h) when they fall out
 // at random, which is 1e-6 m at 2.5e-4 s, and more where a slow v or a resting x is rounded the same way at every step.
-// The method's own error falls with h². The sum of the two is least near h = 2.5e-4 s, at about 1e-6 m (numerics:
-// section 5); a step that short serves no picture. Double precision rounds 5e8 times finer: there the method's own
+// The method's own error falls with h². The sum of the two is least near h = 2.5e-4 s, at about 1e-6 m; a
+// step that short serves no picture. Double precision rounds 5e8 times finer: there the method's own
 // error goes on falling.
 TEST(FloatFloor, SinglePrecisionIsBestNearAQuarterMillisecondWhileDoubleGoesOn) {
     const std::vector<dvec3> ought = endOf<double>("rk4", 4000);  // ω h = 0.2 at most, in fourth order: 1e-12 m

@@ -181,7 +181,7 @@ TEST(Reversal, BringsAClothBackAfterFiveHundredSteps) {
         network.run().reverse();
         network.step(500);
         for (int i = 0; i < cloth.pointCount(); ++i)
-            // 1000 steps of rounding, enlarged by what the folding cloth magnifies: numerics asks for 1e-9.
+            // 1000 steps of rounding, enlarged by what the folding cloth magnifies.
             EXPECT_LT(glm::length(network.position(i) - cloth.positions[static_cast<std::size_t>(i)]), 1e-9) << method;
     }
 }

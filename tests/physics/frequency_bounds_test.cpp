@@ -132,7 +132,7 @@ TEST(FrequencyBounds, AreTightOnCloth) {
         const double truth = fastestFrequency(model, model.positions);
         const double here = bound2(model, model.positions) / truth, anywhere = bound1(model) / truth;
         EXPECT_GE(here, 1.0 - 1e-12);
-        EXPECT_LT(here, 1.20);  // numerics, section 3: within 1–20 %
+        EXPECT_LT(here, 1.20);  // measured on many networks: within 1–20 %
         EXPECT_GT(anywhere, 1.2);
         EXPECT_LT(anywhere, 1.55);  // about 1.4–1.5 times ω
     }

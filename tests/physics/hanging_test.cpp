@@ -161,7 +161,7 @@ TEST(Refinement, KeepsTheSagOfAClothHeldAllAround) {
     EXPECT_GT(sag[2], 0.05);
     EXPECT_NEAR(sag[1] / sag[0], 1.0, 0.05);
     EXPECT_NEAR(sag[2] / sag[1], 1.0, 0.0125);
-    // Order 1 to 2, as for sagging cloth in general (numerics, section 5.7): the changes fall by 2 to 4.
+    // Order 1 to 2, as for sagging cloth in general: the changes fall by 2 to 4.
     const double fall = (sag[1] - sag[0]) / (sag[2] - sag[1]);
     EXPECT_GT(fall, 1.8);
     EXPECT_LT(fall, 4.8);

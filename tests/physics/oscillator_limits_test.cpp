@@ -38,7 +38,7 @@ void expectLimit(std::string_view method, const Oscillator::Values& values, doub
 double leapfrogLimit(double zetaOfDashpot) {
     return 2.0 * (std::sqrt(1.0 + 4.0 * zetaOfDashpot * zetaOfDashpot) - 2.0 * zetaOfDashpot) / omega;
 }
-// Explicit damping, numerics: section 2.
+// Explicit damping.
 double symplecticEulerLimit(double zetaOfDrag, double zetaOfDashpot) {
     const double zeta = zetaOfDashpot - zetaOfDrag;
     return 2.0 * (std::sqrt(1.0 + zeta * zeta) - zeta) / omega;

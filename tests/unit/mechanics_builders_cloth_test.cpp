@@ -43,7 +43,7 @@ TEST(ClothBuilder, WeightedMassesAreAQuarterAndAHalfOnTheBoundary) {
     EXPECT_NEAR(model.masses[8], cell, rounding);
 }
 
-// C11 = C22 = ks + kd, C12 = C66 = kd (numerics: section 6), whatever the resolution.
+// C11 = C22 = ks + kd, C12 = C66 = kd, whatever the resolution.
 TEST(ClothBuilder, SquareCellsHaveTheMaterialsStiffnessAtEveryResolution) {
     for (int fineness : {1, 2, 4}) {
         ClothShape shape = flag(6 * fineness, 4 * fineness);

@@ -18,7 +18,7 @@ SceneSpec oneRope() {
     return scene;
 }
 
-// numerics, section 3: h = σ 2 (√(τ² + 1/Ω²) - τ).
+// From h²Ω² + 4hτΩ² = 4: h = σ 2 (√(τ² + 1/Ω²) - τ).
 TEST(StepChoice, AutoIsTheSafeShareOfTheLimitRoundedToWholeSubsteps) {
     const SceneSpec scene = oneRope();
     const IslandInfo island = World(scene).islands()[0];

@@ -2,27 +2,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "commit.h"
 #include "core/error.h"
 #include "game/commands.h"
-#include "game/folders.h"
 #include "game/interruption.h"
-#include "game/live_line.h"
-#include "game/messages.h"
-#include "game/progress.h"
+#include "game/lab.h"
 #include "game/scene_file.h"
-#include "game/suggestion.h"
-#include "image/whole_file.h"
-#include "ode/method_table.h"
 #include "pipeline/machine.h"
-#include "report/gnuplot.h"
 #include "study/atlas_chart.h"
 #include "study/atlas_text.h"
 #include "study/phase_plane.h"
@@ -42,90 +32,31 @@ struct AtlasFlags {
     bool quiet = false;
 };
 
-void checkMethods(const std::vector<std::string>& wanted) {
-    std::vector<std::string> names;
-    for (const ode::MethodInfo& method : ode::methods()) names.emplace_back(method.name);
-    for (const std::string& name : wanted)
-        if (ode::findMethod(name) == nullptr) {
-            const std::string hint = didYouMean(name, names);
-            throw core::Error(core::ExitCode::usage,
-                              fmt::format("there is no method '{}'{}", name,
-                                          hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
-        }
-}
-
-// Tells how far the work is and how long it will take, from any thread but one at a time.
-class Clock {
-  public:
-    explicit Clock(const AtlasFlags& flags) : line_(flags.quiet) {}
-    void show(const study::AtlasProgress& progress) {
-        if (!line_.isDue(progress.done >= 1.0)) return;
-        const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-        const std::string left =
-            progress.done > 0.01 ? clockText(spent * (1.0 / progress.done - 1.0)) + " left" : "time left unknown";
-        line_.show(fmt::format("atlas {:3.0f} %  {}  {}", 100 * progress.done, left, progress.doing));
-    }
-
-  private:
-    LiveLine line_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// What is written, and where.
-class Output {
-  public:
-    Output(const AtlasFlags& flags, const std::string& fallback)
-        : folder_(flags.output.empty() ? std::filesystem::path(fallback) : std::filesystem::path(flags.output)),
-          draws_(!report::gnuplotVersion().empty()),
-          isQuiet_(flags.quiet) {
-        image::prepareFolderOf(folder_ / "any");
-        if (!draws_) printWarnings({report::gnuplotMissing() + "; only CSV and JSON will be written"});
-    }
-    void write(const std::string& name, const std::string& text) const { image::writeWholeFile(folder_ / name, text); }
-    void draw(const std::string& name, const report::Chart& chart) const {
-        if (draws_) report::writeChart(chart, folder_ / name);
-    }
-    void finish() const {
-        if (!isQuiet_) fmt::print(stderr, "in {}\n", folder_.string());
-        if (!draws_) throw core::Error(core::ExitCode::inputOutput, "no pictures: " + report::gnuplotMissing());
-    }
-
-  private:
-    std::filesystem::path folder_;
-    bool draws_, isQuiet_;
-};
-
-study::MachineFacts machineFacts(const pipeline::Machine& machine) {
-    return {{"processor", machine.processor}, {"compiler", machine.compiler}, {"flags", TAUT_FLAGS},
-            {"simd", machine.simd},           {"program", machine.program},   {"commit", TAUT_COMMIT},
-            {"system", machine.system}};
-}
-
 std::vector<std::string> footOf(const pipeline::Machine& machine) {
-    return {fmt::format("{}, commit {}; {}", machine.program, TAUT_COMMIT, machine.compiler)};
+    return {fmt::format("{}; {}", programText(machine), machine.compiler)};
 }
 
-int exitCode(const Interruption& interruption) {
-    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+LabFolder folderOf(const AtlasFlags& flags, const std::string& fallback) {
+    return {flags.output.empty() ? fallback : flags.output, flags.quiet};
 }
 
 int oscillatorAtlas(const AtlasFlags& flags) {
     if (!flags.overrides.empty() || flags.seconds > 0.0)
         throw core::Error(core::ExitCode::usage, "--set and --seconds are of scenes: name one");
-    const Output output(flags, "out/atlas");
     const Interruption interruption;
+    const LabFolder output = folderOf(flags, "out/atlas");
     study::StabilityMap map;
     {
-        Clock clock(flags);
+        LabProgress line("atlas", flags.quiet, interruption.flag());
         study::StabilityMapSettings settings;
         settings.methods = flags.methods;
         settings.columns = flags.cells;
         settings.boundaries = std::min(settings.boundaries, flags.cells);
         settings.stop = &interruption.flag();
-        settings.progress = [&](const study::AtlasProgress& progress) { clock.show(progress); };
+        settings.progress = [&](const study::AtlasProgress& progress) { line.show(progress.done, progress.doing); };
         map = study::measureStability(settings);
     }
-    if (map.isInterrupted) return exitCode(interruption);  // half a map says nothing
+    if (map.isInterrupted) return output.abandon(interruption);  // half a map says nothing
     const std::vector<study::PhasePath> paths = study::phasePaths(flags.methods);
     const pipeline::Machine machine = pipeline::machine();
     output.write("stability-map.csv", study::boundariesCsv(map));
@@ -135,8 +66,7 @@ int oscillatorAtlas(const AtlasFlags& flags) {
     fmt::print("{}", study::stabilitySummary(map));
     output.draw("stability-map", study::stabilityChart(map, footOf(machine)));
     output.draw("phase-plane", study::phasePlaneChart(paths, footOf(machine)));
-    output.finish();
-    return exitCode(interruption);
+    return output.finish(interruption);
 }
 
 // "rope" and "cloth", a shipped scene, or a file.
@@ -155,26 +85,25 @@ world::SceneSpec chosenScene(const AtlasFlags& flags, std::string& name) {
 int sceneAtlas(const AtlasFlags& flags) {
     std::string name;
     const world::SceneSpec spec = chosenScene(flags, name);
-    const Output output(flags, "out/atlas/" + name);
     const Interruption interruption;
+    const LabFolder output = folderOf(flags, "out/atlas/" + name);
     study::SceneThresholds thresholds;
     {
-        Clock clock(flags);
+        LabProgress line("atlas", flags.quiet, interruption.flag());
         study::ThresholdSettings settings;
         settings.methods = flags.methods;
         settings.seconds = flags.seconds;
         settings.stop = &interruption.flag();
-        settings.progress = [&](const study::AtlasProgress& progress) { clock.show(progress); };
+        settings.progress = [&](const study::AtlasProgress& progress) { line.show(progress.done, progress.doing); };
         thresholds = study::findThresholds(spec, name, settings);
     }
-    if (thresholds.isInterrupted) return exitCode(interruption);
+    if (thresholds.isInterrupted) return output.abandon(interruption);
     const pipeline::Machine machine = pipeline::machine();
     output.write(name + "-thresholds.csv", study::thresholdsCsv(thresholds));
     output.write(name + "-thresholds.json", study::thresholdsJson(thresholds, machineFacts(machine)));
     fmt::print("{}", study::thresholdsSummary(thresholds));
     output.draw(name + "-thresholds", study::thresholdChart(thresholds, footOf(machine)));
-    output.finish();
-    return exitCode(interruption);
+    return output.finish(interruption);
 }
 
 int atlas(const AtlasFlags& flags) {
@@ -198,7 +127,7 @@ void addAtlas(CLI::App& app, Action& chosen) {
         ->type_name("A,B");
     command->add_option("--cells", flags->cells, "Points of a map along either axis")->check(CLI::Range(3, 1001));
     command->add_option("--seconds", flags->seconds, "Length of motion in each run of a scene; else 0.5 at most")
-        ->check(CLI::PositiveNumber);
+        ->check(numberWithin(leastSeconds, mostSeconds));
     command->add_option("--set", flags->overrides, "Override a field of a scene; repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);

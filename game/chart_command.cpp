@@ -3,27 +3,21 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "commit.h"
 #include "core/error.h"
 #include "game/chart_refinement.h"
 #include "game/commands.h"
 #include "game/folders.h"
 #include "game/interruption.h"
-#include "game/live_line.h"
-#include "game/messages.h"
-#include "game/progress.h"
+#include "game/lab.h"
 #include "game/scene_file.h"
 #include "game/suggestion.h"
-#include "image/whole_file.h"
 #include "ode/method_table.h"
 #include "pipeline/machine.h"
-#include "report/gnuplot.h"
 #include "study/growth_table.h"
 #include "study/problems.h"
 #include "study/scene_subject.h"
@@ -78,28 +72,6 @@ std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
     return study::makeSceneSubject(readScene(flags.subject, flags.overrides), file.stem().string());
 }
 
-void checkMethods(const std::vector<std::string>& wanted) {
-    std::vector<std::string> names;
-    for (const ode::MethodInfo& method : ode::methods()) names.emplace_back(method.name);
-    for (const std::string& name : wanted)
-        if (ode::findMethod(name) == nullptr) {
-            const std::string hint = didYouMean(name, names);
-            throw core::Error(core::ExitCode::usage,
-                              fmt::format("there is no method '{}'{}", name,
-                                          hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
-        }
-}
-
-std::string programText(const pipeline::Machine& machine) {
-    return fmt::format("{}, commit {}", machine.program, TAUT_COMMIT);
-}
-
-study::MachineFacts machineFacts(const pipeline::Machine& machine) {
-    return {{"processor", machine.processor}, {"compiler", machine.compiler}, {"flags", TAUT_FLAGS},
-            {"simd", machine.simd},           {"program", machine.program},   {"commit", TAUT_COMMIT},
-            {"system", machine.system}};
-}
-
 study::StudySettings studySettings(const ChartFlags& flags) {
     study::StudySettings settings;
     settings.methods = flags.methods;
@@ -112,16 +84,9 @@ study::StudySettings studySettings(const ChartFlags& flags) {
 
 study::WorkPrecision play(const study::Subject& subject, study::StudySettings settings, bool isQuiet,
                           const std::atomic<bool>& stop) {
-    LiveLine line(isQuiet);
-    const auto start = std::chrono::steady_clock::now();
+    LabProgress line(subject.name(), isQuiet, stop);
     settings.stop = &stop;
-    settings.progress = [&](const study::Progress& progress) {
-        if (!line.isDue(progress.done >= 1.0)) return;
-        const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        const double left = progress.done > 0.01 ? spent * (1.0 / progress.done - 1.0) : settings.budget;
-        line.show(fmt::format("{} {:3.0f} %  {} left  {}", subject.name(), 100 * progress.done, clockText(left),
-                              progress.doing));
-    };
+    settings.progress = [&](const study::Progress& progress) { line.show(progress.done, progress.doing); };
     return studyWorkPrecision(subject, settings);
 }
 
@@ -160,25 +125,18 @@ int chart(const ChartFlags& flags) {
     const std::unique_ptr<study::Subject> subject = chosenSubject(flags);
     const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / subject->name()
                                                               : std::filesystem::path(flags.output);
-    const auto file = [&](const std::string& ending) { return folder / (subject->name() + ending); };
-    image::prepareFolderOf(file(".csv"));
-    const bool draws = !report::gnuplotVersion().empty();
-    if (!draws) printWarnings({report::gnuplotMissing() + "; only CSV and JSON will be written"});
-
     const Interruption interruption;
+    const LabFolder output(folder, flags.quiet);
     const study::WorkPrecision result = play(*subject, studySettings(flags), flags.quiet, interruption.flag());
     std::vector<study::GrowthRow> growth;
-    if (subject->name() == "growth" && !result.isInterrupted) growth = study::growthTable();
+    if (subject->name() == "growth" && !result.isInterrupted) growth = study::growthTable(1e-6, flags.methods);
     const pipeline::Machine machine = pipeline::machine();
-    image::writeWholeFile(file(".csv"), study::workPrecisionCsv(result));
-    image::writeWholeFile(file(".json"), study::workPrecisionJson(result, growth, machineFacts(machine)));
+    output.write(subject->name() + ".csv", study::workPrecisionCsv(result));
+    output.write(subject->name() + ".json", study::workPrecisionJson(result, growth, machineFacts(machine)));
     printResults(result, growth);
-    if (draws)
-        for (const study::NamedChart& drawn : study::workPrecisionCharts(result, {machineNote(machine)}))
-            report::writeChart(drawn.chart, file("-" + drawn.name));
-    if (!flags.quiet) fmt::print(stderr, "in {}\n", folder.string());
-    if (!draws) throw core::Error(core::ExitCode::inputOutput, "no pictures: " + report::gnuplotMissing());
-    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+    for (const study::NamedChart& drawn : study::workPrecisionCharts(result, {machineNote(machine)}))
+        output.draw(subject->name() + "-" + drawn.name, drawn.chart);
+    return output.finish(interruption);
 }
 
 }  // namespace
@@ -196,8 +154,10 @@ void addChart(CLI::App& app, Action& chosen) {
         ->type_name("A,B");
     command->add_option("--precision", flags->precision, "single, double or both")
         ->check(CLI::IsMember({"single", "double", "both"}));
-    command->add_option("--seconds", flags->seconds, "Length of motion to study")->check(CLI::PositiveNumber);
-    command->add_option("--budget", flags->budget, "Wall time to aim at, in seconds")->check(CLI::Range(0.5, 86400.0));
+    command->add_option("--seconds", flags->seconds, "Length of motion to study")
+        ->check(numberWithin(leastSeconds, mostSeconds));
+    command->add_option("--budget", flags->budget, "Wall time to aim at, in seconds")
+        ->check(numberWithin(0.5, mostSeconds));
     command->add_option("--set", flags->overrides, "Override a field of a scene; repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);

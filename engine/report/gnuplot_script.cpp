@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -61,6 +62,36 @@ int pointType(Mark mark, bool isFilled) {
     return 0;
 }
 
+constexpr double stripRow = 11;  // [px] height of a row of the strip
+
+// Where the strip of a panel begins, 0 … 1 of the panel; 1 without one.
+double stripFoot(const Panel& panel, const Box& box) {
+    if (panel.strip.rows == 0) return 1;
+    return 1 - (panel.strip.rows * stripRow + 6) / (box.top - box.bottom);
+}
+
+// The axis below a strip: what lies in the strip has no value, so neither ticks nor numbers go on there. Powers of ten
+// as many as have room. Other axes are as they were.
+Axis belowStrip(Axis axis, double foot) {
+    if (foot >= 1 || axis.scale != Scale::log || !axis.least || !axis.most || !axis.ticks.empty()) return axis;
+    constexpr int mostNumbers = 10;
+    const double first = std::log10(*axis.least), last = first + foot * (std::log10(*axis.most) - first);
+    const int least = static_cast<int>(std::ceil(first)), most = static_cast<int>(std::floor(last));
+    const int every = 1 + std::max(most - least, 0) / mostNumbers;
+    for (int power = least - 1; power <= most; ++power) {
+        const double decade = std::pow(10.0, power);
+        if (power >= least) {
+            const bool isMinor = power % every != 0;
+            axis.ticks.push_back({decade, isMinor ? "" : fmt::format("10^{{{}}}", power), isMinor});
+        }
+        for (int digit = 2; every == 1 && digit <= 9; ++digit) {
+            const double at = std::log10(digit * decade);
+            if (at > first && at < last) axis.ticks.push_back({digit * decade, "", true});
+        }
+    }
+    return axis;
+}
+
 class Script {
   public:
     Script(const Chart& chart, Format format, const std::filesystem::path& output)
@@ -119,12 +150,12 @@ class Script {
     void addTicks(char name, const std::vector<Tick>& ticks);
     void addPanel(const Panel& panel, const Box& box);
     void addRegion(const Region& region);
-    void addGuide(const Panel& panel, const Guide& guide);
+    void addGuide(const Panel& panel, const Guide& guide, double foot);
     void addLabel(const Label& label);
     void addMap(const HeatMap& map);
     void addArrows(const Arrows& arrows);
     void addCurve(const Curve& curve);
-    void addStrip(const EdgeStrip& strip, const Box& box);
+    void addStrip(const EdgeStrip& strip, const Box& box, double foot);
     void addFrame();
     void addText(double x, double y, const std::string& words, double size, const char* colour);
 
@@ -178,18 +209,19 @@ void Script::addAxis(char name, const Axis& axis) {
 void Script::addPanel(const Panel& panel, const Box& box) {
     begin(box);
     add("set border 3 lc rgb '#606060' lw 0.8\nset grid back lt 1 lc rgb '#e4e4e4' lw 0.6\n");
+    const double foot = stripFoot(panel, box);
     addAxis('x', panel.x);
-    addAxis('y', panel.y);
+    addAxis('y', belowStrip(panel.y, foot));
     if (!panel.title.empty())
         add("set label {} noenhanced at graph 0, graph 1 offset screen 0, screen {} left font {} textcolor rgb "
             "'#202020'\n",
             quoted(panel.title), number(14 / layout_.height), font(13));
     for (const Region& region : panel.regions) addRegion(region);
     if (panel.map) addMap(*panel.map);
-    for (const Guide& guide : panel.guides) addGuide(panel, guide);
+    for (const Guide& guide : panel.guides) addGuide(panel, guide, foot);
     for (const Arrows& arrows : panel.arrows) addArrows(arrows);
     for (const Curve& curve : panel.curves) addCurve(curve);
-    if (panel.strip.rows > 0) addStrip(panel.strip, box);
+    if (panel.strip.rows > 0) addStrip(panel.strip, box, foot);
     for (const Label& label : panel.labels) addLabel(label);
     if (panel.map) add("set grid noxtics noytics\nset border 15\n");
     plot();
@@ -205,7 +237,7 @@ void Script::addRegion(const Region& region) {
         region.colour, number(region.opacity));
 }
 
-void Script::addGuide(const Panel& panel, const Guide& guide) {
+void Script::addGuide(const Panel& panel, const Guide& guide, double foot) {
     const bool isUpright = guide.x.has_value();
     const double at = isUpright ? *guide.x : guide.y.value_or(0);
     const Axis& axis = isUpright ? panel.x : panel.y;
@@ -214,8 +246,8 @@ void Script::addGuide(const Panel& panel, const Guide& guide) {
         return isUpright ? fmt::format("first {}, graph {}", number(at), number(along))
                          : fmt::format("graph {}, first {}", number(along), number(at));
     };
-    add("set arrow from {} to {} nohead back lc rgb '{}' lw {} dt {}\n", place(0), place(1), guide.style.colour,
-        number(guide.style.width), dashType(guide.style.dash));
+    add("set arrow from {} to {} nohead back lc rgb '{}' lw {} dt {}\n", place(0), place(isUpright ? foot : 1),
+        guide.style.colour, number(guide.style.width), dashType(guide.style.dash));
     if (!guide.label.empty())
         add("set label {} noenhanced at {} left {} offset screen {}, screen {} font {} textcolor rgb '{}'\n",
             quoted(guide.label), place(guide.labelAt), isUpright ? "rotate by 90" : "",
@@ -307,10 +339,8 @@ void Script::addCurve(const Curve& curve) {
     marks(style.isFilled, style.colour);
 }
 
-void Script::addStrip(const EdgeStrip& strip, const Box& box) {
-    constexpr double rowHeight = 11;  // [px]
+void Script::addStrip(const EdgeStrip& strip, const Box& box, double foot) {
     const double height = box.top - box.bottom;
-    const double foot = 1.0 - (strip.rows * rowHeight + 6) / height;
     add("set object rectangle from graph 0, graph {} to graph 1, graph 1 back fillcolor rgb '#f2e9e4' fillstyle solid "
         "noborder\n",
         number(foot));
@@ -318,7 +348,7 @@ void Script::addStrip(const EdgeStrip& strip, const Box& box) {
         "'#7a5548'\n",
         quoted(strip.label), number(foot), number(-5 / layout_.width), number(9 / layout_.height), font(10.5));
     for (const EdgeMark& mark : strip.marks) {
-        const double y = 1.0 - (mark.row * rowHeight + 9) / height, half = 0.5 * rowHeight / height;
+        const double y = 1.0 - (mark.row * stripRow + 9) / height, half = 0.5 * stripRow / height;
         if (mark.style.mark == Mark::bar) {
             add("set arrow from first {0}, graph {1} to first {0}, graph {2} nohead front lc rgb '{3}' lw 2\n",
                 number(mark.x), number(y - half), number(y + half), mark.style.colour);

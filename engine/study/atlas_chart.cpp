@@ -261,19 +261,21 @@ Chart thresholdChart(const SceneThresholds& thresholds, const std::vector<std::s
         const bool isRight = method.kind == ThresholdKind::aboveMost;
         const double at = isRight ? most / 1.05 : h > 0 ? h : least * 1.05;
         panel.labels.push_back({inMilliseconds(at), row, text, "#303030",
-                                isRight ? report::Align::right : report::Align::left, 0, h > 0 ? 14.0 : 0.0, 10.5});
+                                isRight ? report::Align::right : report::Align::left, 0, 14, 10.5});
         row -= 1;
     }
     panel.x = {"step h [ms]", Scale::log, inMilliseconds(least), inMilliseconds(most), {}, true, false};
     panel.y.least = 0.4;
     panel.y.most = rows + 0.6;
-    panel.curves = {closed, anywhere, here, lanczos, measured};
+    for (const Curve* curve : {&closed, &anywhere, &here, &lanczos, &measured})
+        if (!curve->points.empty()) panel.curves.push_back(*curve);
     Chart chart;
     chart.title = "Largest step that each method stands";
-    chart.subtitle = thresholds.title + ". Measured by bisection to 1 %, beside the steps that bounds and theory give";
+    chart.subtitle = thresholds.title;
     chart.panels = {panel};
     chart.panelWidth = 620;
     chart.panelHeight = static_cast<int>(44 * rows + 20);
+    chart.notes.push_back("Measured by bisection to 1 %, beside the steps that bounds and theory give.");
     std::string criterion = thresholds.criterion;
     if (!criterion.empty() && criterion[0] == 'a') criterion[0] = 'A';
     const std::size_t middle = criterion.find(" and the kinetic");

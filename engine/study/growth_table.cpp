@@ -1,7 +1,9 @@
 #include "study/growth_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "ode/method_table.h"
 #include "study/problems.h"
@@ -19,10 +21,13 @@ double growthError(const std::string& method, long long steps) {
     return std::abs(trial->observe().values.front() - std::numbers::e);
 }
 
-std::vector<GrowthRow> growthTable(double tolerance) {
+std::vector<GrowthRow> growthTable(double tolerance, const std::vector<std::string>& methods) {
+    const auto isWanted = [&](std::string_view name) {
+        return methods.empty() || std::find(methods.begin(), methods.end(), name) != methods.end();
+    };
     std::vector<GrowthRow> rows;
     for (const ode::MethodInfo& info : ode::methods()) {
-        if (!info.isFirstOrder) continue;
+        if (!info.isFirstOrder || !isWanted(info.name)) continue;
         GrowthRow row;
         row.method = info.name;
         row.tolerance = tolerance;

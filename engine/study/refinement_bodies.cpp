@@ -143,7 +143,7 @@ RefinementBody clothStrip() {
             "Cloth strip hung by its end",
             "stretch",
             density * g * length * length / (2.0 * young),
-            "ρgL²/2E, E = 4/3 k_s",
+            "ρgL²/2E, E = 4/3 kₛ",
             true,
             [](int cells, Lumped lumped) {
                 Model model = sheet({0.5 * length, length}, {cells / 2, cells}, 0.75 * young, lumped);

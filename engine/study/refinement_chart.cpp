@@ -82,6 +82,13 @@ std::string ordersText(const RefinementStudy& study, const RefinementBody& body)
            (std::isnan(naive) ? "" : ", " + number("%.1f", naive) + " naive");
 }
 
+// "errors below 1e-10": the power of ten above the largest.
+std::string boundText(const RefinementFacts& facts) {
+    double most = 0;
+    for (const double error : facts.strongest) most = std::fmax(most, error);
+    return most > 0 ? "errors below " + number("%.0e", std::pow(10, std::ceil(std::log10(most)))) : "no error";
+}
+
 // A line of slope -p through (x, y), to compare with.
 void addSlope(Panel& panel, const Range& cells, int p, double y) {
     report::Curve line;
@@ -113,10 +120,12 @@ Panel errorPanel(const RefinementStudy& study, const RefinementFacts& facts, boo
         addSlope(panel, cells, 1, 0.6);
         addSlope(panel, cells, 2, 0.007);
     }
-    addCurves(panel, study, body.name, [&](const RefinementRun& run) { return isExact ? 5e-5 : std::abs(run.error); });
+    // Errors that lie decades below the axis are said, not drawn.
     if (isExact)
-        panel.labels.push_back(
-            {0.5, 0.26, "exact: far below 0.001 %", "#303030", report::Align::centre, 0, 0, 11, false, true});
+        panel.labels.push_back({0.5, 0.5, "exact with every treatment: " + boundText(facts), "#303030",
+                                report::Align::centre, 0, 0, 11, true, true});
+    else
+        addCurves(panel, study, body.name, [&](const RefinementRun& run) { return std::abs(run.error); });
     panel.labels.push_back(
         {0.03, 0.05, body.quantity + ": " + body.theory, "#303030", report::Align::left, 0, 0, 10.5, true, true});
     const std::string orders = ordersText(study, body);

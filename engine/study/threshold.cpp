@@ -18,7 +18,10 @@ constexpr double longest = 0.5;          // [s] of motion in each run unless ask
 constexpr double mostStep = 1.0 / 60;    // [s] no tick is longer
 constexpr double stir = 1e-9;            // [m]
 constexpr double apart = 1.01;           // at which bisection ends
-constexpr double leastShare = 1.0 / 32;  // of leap-frog's limit: the shortest step tried
+constexpr double leastShare = 1.0 / 32;  // of leap-frog's limit: the shortest step tried, or
+constexpr double belowTheory = 0.5;      // of the predicted limit where that is less, but
+constexpr double mostSteps = 1e6;        // in a run, however short that limit
+constexpr double beyondTheory = 1.05;    // of the predicted limit: from there on what stands only fails later
 constexpr int lookEvery = 16;            // steps between looks at the energy
 constexpr int patience = 1000;           // steps for which a run that has failed is followed to see what breaks
 constexpr double slowSpeed = 0.1;        // [m/s] up to which everything may always move
@@ -154,9 +157,11 @@ class Search {
     void find(std::size_t index) {
         MethodThreshold& threshold = result_.methods[index];
         const double leapfrog = predictedFor(*ode::findMethod("leapfrog")).lanczos;
-        const double base = std::min(std::isfinite(leapfrog) ? leapfrog : mostStep, mostStep),
-                     least = leastShare * base;
-        double h = threshold.predicted.lanczos;
+        const double base = std::min(std::isfinite(leapfrog) ? leapfrog : mostStep, mostStep);
+        const double predicted = threshold.predicted.lanczos;
+        double least = leastShare * base;
+        if (predicted > 0) least = std::min(least, std::max(belowTheory * predicted, result_.seconds / mostSteps));
+        double h = predicted;
         if (!(h > least) || !std::isfinite(h)) h = base;
         h = std::min(h, mostStep);
         const auto stands = [&] {
@@ -196,14 +201,18 @@ class Search {
                                1e3 * mostStep);
         else if (threshold.kind == ThresholdKind::belowLeast)
             note = fmt::format("fails at {:.3g} ms already, the shortest step tried", 1e3 * threshold.fails);
-        const std::string because =
-            threshold.predicted.lanczos == 0
-                ? fmt::format(
-                      "has no threshold: motion that nothing damps grows at every step, the more slowly the "
-                      "shorter it is; what is measured holds for {:.3g} s",
-                      result_.seconds)
-                : std::string(method.caution);
-        if (!because.empty()) note += (note.empty() ? "" : "; ") + because;
+        const double predicted = threshold.predicted.lanczos;
+        std::string because(method.caution);
+        const auto add = [](std::string& text, const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+        if (predicted == 0)
+            because =
+                "has no threshold: motion that nothing damps grows at every step, the more slowly the shorter it is";
+        else if (threshold.stands > beyondTheory * predicted)
+            add(because,
+                fmt::format("theory allows {:.4g} ms as the scene starts; beyond, growth is slow or comes late",
+                            1e3 * predicted));
+        if (!because.empty()) add(because, fmt::format("what is measured holds for {:.3g} s", result_.seconds));
+        if (!because.empty()) add(note, because);
         return note;
     }
 

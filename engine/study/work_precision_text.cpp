@@ -19,15 +19,20 @@ Json finite(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json pointJson(const RunPoint& p) {
+// The errors' columns carry their unit, in both files.
+std::string errorName(const char* name, const WorkPrecision& study) {
+    return study.unit.empty() ? name : std::string(name) + "_" + study.unit;
+}
+
+Json pointJson(const WorkPrecision& study, const RunPoint& p) {
     return {{"method", p.method},
             {"precision", nameOf(p.precision)},
             {"step_s", p.step},
             {"steps", p.steps},
             {"status", nameOf(p.status)},
-            {"rms_error", finite(p.rmsError)},
-            {"final_error", finite(p.finalError)},
-            {"max_error", finite(p.maxError)},
+            {errorName("rms_error", study), finite(p.rmsError)},
+            {errorName("final_error", study), finite(p.finalError)},
+            {errorName("max_error", study), finite(p.maxError)},
             {"at_reference_floor", p.isAtFloor},
             {"energy_error", finite(p.energyError)},
             {"energy_at_reference_floor", p.isEnergyAtFloor},
@@ -37,9 +42,9 @@ Json pointJson(const RunPoint& p) {
             {"evaluations", p.evaluations},
             {"iterations", p.iterations},
             {"unconverged", p.unconverged},
-            {"seconds", finite(p.seconds)},
-            {"seconds_quarter", finite(p.fastSeconds)},
-            {"seconds_three_quarters", finite(p.slowSeconds)},
+            {"run_s", finite(p.seconds)},
+            {"run_quarter_s", finite(p.fastSeconds)},
+            {"run_three_quarters_s", finite(p.slowSeconds)},
             {"repeats", p.repeats}};
 }
 
@@ -61,16 +66,15 @@ std::string limitText(double limit) {
 
 std::string workPrecisionCsv(const WorkPrecision& study) {
     report::Table table;
-    const std::string unit = study.unit.empty() ? "" : "_" + study.unit;
     table.columns = {"problem",
                      "method",
                      "precision",
                      "step_s",
                      "steps",
                      "status",
-                     "rms_error" + unit,
-                     "final_error" + unit,
-                     "max_error" + unit,
+                     errorName("rms_error", study),
+                     errorName("final_error", study),
+                     errorName("max_error", study),
                      "at_reference_floor",
                      "energy_error",
                      "energy_at_reference_floor",
@@ -151,17 +155,21 @@ std::string workPrecisionJson(const WorkPrecision& study, const std::vector<Grow
                                         {"steps_with_four_evaluations", row.stepsForFour},
                                         {"error_with_four_evaluations", row.errorForFour}});
     json["runs"] = Json::array();
-    for (const RunPoint& point : study.points) json["runs"].push_back(pointJson(point));
+    for (const RunPoint& point : study.points) json["runs"].push_back(pointJson(study, point));
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string workPrecisionSummary(const WorkPrecision& study) {
     report::Table table;
     table.columns = {"method",      "precision",         "limit [ms]",          "order", "smallest error",
-                     "with h [ms]", "[us/s] within 1 %", "[us/s] within 0.1 %", "failed"};
+                     "with h [ms]", "[ms/s] within 1 %", "[ms/s] within 0.1 %", "failed"};
     const double duration = study.grid.duration();
-    const auto microseconds = [&](const RunPoint* p) {
-        return p == nullptr ? RunPoint::unset : 1e6 * p->seconds / duration;
+    // Wall time for a second of motion, with three digits: it is not measured better.
+    const auto cost = [&](double error, const MethodFacts& method, Precision precision) -> Cell {
+        const RunPoint* p = cheapest(study, method.name, precision, error);
+        if (p == nullptr) return RunPoint::unset;
+        const double value = std::stod(fmt::format("{:.3g}", 1e3 * p->seconds / duration));
+        return value < 1000 ? Cell(value) : Cell(std::llround(value));
     };
     for (const MethodFacts& method : study.methods)
         for (const Precision precision : {Precision::single_, Precision::double_}) {
@@ -177,12 +185,11 @@ std::string workPrecisionSummary(const WorkPrecision& study) {
             }
             if (all == 0) continue;
             const double extent = study.reference.extent;
-            table.rows.push_back({method.name, std::string(nameOf(precision)), limitText(method.stepLimit),
-                                  measuredOrder(study, method.name, precision),
-                                  best == nullptr ? RunPoint::unset : best->rmsError,
-                                  best == nullptr ? RunPoint::unset : 1e3 * best->step,
-                                  microseconds(cheapest(study, method.name, precision, 1e-2 * extent)),
-                                  microseconds(cheapest(study, method.name, precision, 1e-3 * extent)), failed});
+            table.rows.push_back(
+                {method.name, std::string(nameOf(precision)), limitText(method.stepLimit),
+                 measuredOrder(study, method.name, precision), best == nullptr ? RunPoint::unset : best->rmsError,
+                 best == nullptr ? RunPoint::unset : 1e3 * best->step, cost(1e-2 * extent, method, precision),
+                 cost(1e-3 * extent, method, precision), failed});
         }
     return report::aligned(table);
 }

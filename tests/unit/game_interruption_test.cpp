@@ -96,5 +96,25 @@ TEST(Interrupted, ProgramLeavesAWholeVideoWhenTerminated) {
     EXPECT_NE(test::contentOf(folder / "a.mp4").find("moov"), std::string::npos);
 }
 
+// Half an atlas says nothing: neither files nor folders are left, and it does not look finished.
+TEST(Interrupted, AtlasSaysSoAndLeavesNothing) {
+    const TemporaryFolder folder;
+    const std::filesystem::path out = folder / "made/for/it";
+    for (const std::vector<std::string>& what :
+         {std::vector<std::string>{"rope", "--seconds", "80000"}, {"--cells", "1001"}}) {
+        std::vector<std::string> arguments = {"atlas", "-o", out.string()};
+        arguments.insert(arguments.end(), what.begin(), what.end());
+        const pid_t process = started(arguments, folder / "messages");
+        EXPECT_TRUE(comesTrue([&] { return std::filesystem::exists(out); }));
+        ::kill(process, SIGINT);
+        EXPECT_EQ(exitCodeOf(process), 130);
+        const std::string said = test::contentOf(folder / "messages");
+        EXPECT_NE(said.find("interrupted: nothing is written"), std::string::npos) << said;
+        EXPECT_EQ(said.find("100 %"), std::string::npos) << said;
+        EXPECT_FALSE(std::filesystem::exists(folder / "made"));
+        std::filesystem::remove(folder / "messages");
+    }
+}
+
 }  // namespace
 }  // namespace taut::game

@@ -66,6 +66,27 @@ TEST(ReportGnuplot, WritesPerCentAtATick) {
     EXPECT_TRUE(has(svg, "10 %d<"));
 }
 
+// A failed run has no error: beside the strip, which takes some two of six decades here, stand no powers of ten.
+TEST(ReportGnuplot, AStripOfFailuresHasNoNumbers) {
+    Chart chart;
+    chart.panelHeight = 160;
+    Panel panel;
+    panel.x = {"h [s]", Scale::log, 1e-3, 1.0};
+    panel.y = {"error", Scale::log, 1e-6, 1.0};
+    Guide guide;
+    guide.x = 0.1;
+    panel.guides.push_back(guide);
+    chart.panels = {panel};
+    const std::string without = gnuplotScript(chart, Format::svg, "chart.svg");
+    EXPECT_TRUE(has(without, "from first 0.1, graph 0 to first 0.1, graph 1 "));
+    chart.panels[0].strip = {"failed", 4, {}};
+    const std::string with = gnuplotScript(chart, Format::svg, "chart.svg");
+    for (const int power : {-6, -3, -2}) EXPECT_TRUE(has(with, "\"10^{" + std::to_string(power) + "}\"")) << power;
+    for (const int power : {-1, 0}) EXPECT_FALSE(has(with, "\"10^{" + std::to_string(power) + "}\"")) << power;
+    // Four rows of 11 px and 6 px: 50 of 160.
+    EXPECT_TRUE(has(with, "from first 0.1, graph 0 to first 0.1, graph 0.6875 "));
+}
+
 TEST(ReportGnuplot, DrawsEverythingAChartCanHold) {
     const TemporaryFolder folder;
     const Chart chart = fullChart();

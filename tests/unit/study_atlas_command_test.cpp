@@ -41,7 +41,11 @@ TEST(AtlasCommand, WrongWordsAreUsageErrors) {
     EXPECT_EQ(method.code, 2);
     EXPECT_TRUE(has(method.err, "there is no method 'leapfrg'; did you mean leapfrog?")) << method.err;
     EXPECT_EQ(run({"--cells", "1"}).code, 2);
-    EXPECT_EQ(run({"rope", "--seconds", "0"}).code, 2);
+    for (const char* seconds : {"0", "-1", "nan", "inf"}) {
+        const Outcome wrong = run({"rope", "--seconds", seconds});
+        EXPECT_EQ(wrong.code, 2) << seconds;
+        EXPECT_TRUE(has(wrong.err, "expected a number from 0.001 to 86400")) << wrong.err;
+    }
     const Outcome noScene = run({"--seconds", "1"});
     EXPECT_EQ(noScene.code, 2);
     EXPECT_TRUE(has(noScene.err, "name one")) << noScene.err;

@@ -40,7 +40,13 @@ TEST(ChartCommand, WrongWordsAreUsageErrorsWithASuggestion) {
     EXPECT_EQ(unfit.code, 2);
     EXPECT_TRUE(has(unfit.err, "x'' = a")) << unfit.err;
     EXPECT_EQ(run({"chart", "growth", "--precision", "half"}).code, 2);
-    EXPECT_EQ(run({"chart", "growth", "--seconds", "-1"}).code, 2);
+    for (const char* number : {"nan", "-1", "0", "inf", "1e999", "1s", ""})
+        for (const char* flag : {"--seconds", "--budget"}) {
+            const Outcome wrong = run({"chart", "growth", flag, number});
+            EXPECT_EQ(wrong.code, 2) << flag << " " << number;
+            EXPECT_TRUE(has(wrong.err, flag)) << wrong.err;
+            EXPECT_LT(wrong.err.size(), 200U) << wrong.err;  // no limit with hundreds of digits
+        }
     EXPECT_EQ(run({"chart", "growth", "--set", "run.fps=30"}).code, 2);
     EXPECT_EQ(run({"chart", "no/such.toml"}).code, 6);
 }
@@ -53,6 +59,7 @@ TEST(ChartCommand, WritesTablesAndPictures) {
     EXPECT_TRUE(outcome.err.empty()) << outcome.err;
     EXPECT_TRUE(has(outcome.out, "rk4")) << outcome.out;
     EXPECT_TRUE(has(outcome.out, "1359140")) << outcome.out;  // steps of Euler: e/2 · 1e6
+    EXPECT_FALSE(has(outcome.out, "heun")) << outcome.out;
     for (const char* name : {"growth.csv", "growth.json", "growth-time.svg", "growth-evaluations.svg"})
         EXPECT_GT(std::filesystem::file_size(folder / "charts" / name), 0U) << name;
     EXPECT_FALSE(std::filesystem::exists(folder / "charts/growth-energy.png"));  // y' = y has none
@@ -82,6 +89,10 @@ springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]
     ASSERT_FALSE(json["runs"].empty());
     EXPECT_LE(json["runs"][0]["step_s"].get<double>(), 1.0 / 60 * (1 + 1e-12));  // a tick at most
     EXPECT_TRUE(std::filesystem::exists(folder / "out/spring-energy.svg"));
+    // A column of the CSV has the name that it has in the JSON.
+    const std::string csv = test::contentOf(folder / "out/spring.csv");
+    const std::string header = "," + csv.substr(0, csv.find('\n')) + ",";
+    for (const auto& [name, value] : json["runs"][0].items()) EXPECT_TRUE(has(header, "," + name + ",")) << name;
 }
 
 TEST(ChartCommand, WithoutGnuplotItStillWritesTheNumbers) {

@@ -48,6 +48,12 @@ TEST(StudyGrowth, StepsForAToleranceAreThoseOfTheFormulas) {
     }
 }
 
+TEST(StudyGrowth, HasRowsForTheMethodsAskedForAlone) {
+    const std::vector<GrowthRow> rows = growthTable(1e-2, {"rk4", "leapfrog"});  // leap-frog does not integrate y' = y
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].method, "rk4");
+}
+
 TEST(StudyGrowth, TheSlidesOwnToleranceForHigherOrders) {
     EXPECT_GE(growthError("rk4", exactSteps(4, 1e-6L) - 1), 1e-6);
     EXPECT_LT(growthError("rk4", exactSteps(4, 1e-6L)), 1e-6);

@@ -1,0 +1,94 @@
+#include "game/lab.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "commit.h"
+#include "core/error.h"
+#include "game/messages.h"
+#include "game/progress.h"
+#include "game/suggestion.h"
+#include "image/whole_file.h"
+#include "ode/method_table.h"
+#include "report/gnuplot.h"
+
+namespace taut::game {
+
+void checkMethods(const std::vector<std::string>& wanted) {
+    std::vector<std::string> names;
+    for (const ode::MethodInfo& method : ode::methods()) names.emplace_back(method.name);
+    for (const std::string& name : wanted)
+        if (ode::findMethod(name) == nullptr) {
+            const std::string hint = didYouMean(name, names);
+            throw core::Error(core::ExitCode::usage,
+                              fmt::format("there is no method '{}'{}", name,
+                                          hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
+        }
+}
+
+std::function<std::string(const std::string&)> numberWithin(double least, double most) {
+    return [least, most](const std::string& text) -> std::string {
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool isNumber = error == std::errc() && end == text.data() + text.size();
+        if (isNumber && value >= least && value <= most) return "";  // false for nan
+        return fmt::format("expected a number from {:g} to {:g}, not {}", least, most, text);
+    };
+}
+
+std::vector<std::pair<std::string, std::string>> machineFacts(const pipeline::Machine& machine) {
+    return {{"processor", machine.processor}, {"compiler", machine.compiler}, {"flags", TAUT_FLAGS},
+            {"simd", machine.simd},           {"program", machine.program},   {"commit", TAUT_COMMIT},
+            {"system", machine.system}};
+}
+
+std::string programText(const pipeline::Machine& machine) {
+    return fmt::format("{}, commit {}", machine.program, TAUT_COMMIT);
+}
+
+void LabProgress::show(double done, const std::string& doing) {
+    if (stop_ || !line_.isDue(done >= 1.0)) return;
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const std::string left = done > 0.01 ? clockText(spent * (1.0 / done - 1.0)) + " left" : "time left unknown";
+    line_.show(fmt::format("{} {:3.0f} %  {}  {}", name_, 100 * done, left, doing));
+}
+
+LabFolder::LabFolder(std::filesystem::path folder, bool isQuiet)
+    : folder_(std::move(folder)), draws_(!report::gnuplotVersion().empty()), isQuiet_(isQuiet) {
+    std::error_code ignored;  // what cannot be looked at is reported when the folder is made
+    for (std::filesystem::path at = folder_; !at.empty() && !std::filesystem::exists(at, ignored);
+         at = at.parent_path())
+        made_.push_back(at);
+    image::prepareFolderOf(folder_ / "any");
+    if (!draws_) printWarnings({report::gnuplotMissing() + "; only CSV and JSON will be written"});
+}
+
+void LabFolder::write(const std::string& name, const std::string& text) const {
+    image::writeWholeFile(folder_ / name, text);
+}
+
+void LabFolder::draw(const std::string& name, const report::Chart& chart) const {
+    if (draws_) report::writeChart(chart, folder_ / name);
+}
+
+int LabFolder::finish(const Interruption& interruption) const {
+    const auto code = interruption.exitCode();
+    if (code)
+        fmt::print(stderr, "interrupted: what was done until then is in {}\n", folder_.string());
+    else if (!isQuiet_)
+        fmt::print(stderr, "in {}\n", folder_.string());
+    if (!draws_) throw core::Error(core::ExitCode::inputOutput, "no pictures: " + report::gnuplotMissing());
+    return static_cast<int>(code.value_or(core::ExitCode::ok));
+}
+
+int LabFolder::abandon(const Interruption& interruption) const {
+    std::error_code ignored;  // a folder with something in it stays
+    for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, ignored);
+    fmt::print(stderr, "interrupted: nothing is written\n");
+    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::interrupted));
+}
+
+}  // namespace taut::game

@@ -1,0 +1,68 @@
+// What the commands that measure share: checked flags, progress, the folder of results, facts of the machine. It knows
+// nothing of what is measured.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "game/interruption.h"
+#include "game/live_line.h"
+#include "pipeline/machine.h"
+#include "report/chart.h"
+
+namespace taut::game {
+
+// Throws core::Error(usage), with a suggestion, when there is no method of one of the names.
+void checkMethods(const std::vector<std::string>& wanted);
+
+// A check for a flag: empty when its text is a number in least … most, else what is wrong. Unlike CLI::Range it lets
+// neither nan nor numbers of hundreds of digits through.
+std::function<std::string(const std::string&)> numberWithin(double least, double most);
+
+// What `--seconds` takes: more motion, or less, than anybody waits for is a slip of the hand.
+inline constexpr double leastSeconds = 1e-3, mostSeconds = 86400.0;  // [s]
+
+// Name and value of everything that measured times depend on.
+std::vector<std::pair<std::string, std::string>> machineFacts(const pipeline::Machine& machine);
+std::string programText(const pipeline::Machine& machine);  // version and commit
+
+// Tells how far the work is and how long it will take, from any thread but one at a time; nothing once it is stopped,
+// as what is done then is no measure.
+class LabProgress {
+  public:
+    LabProgress(std::string name, bool isQuiet, const std::atomic<bool>& stop)
+        : name_(std::move(name)), line_(isQuiet), stop_(stop) {}
+    void show(double done, const std::string& doing);
+
+  private:
+    std::string name_;
+    LiveLine line_;
+    const std::atomic<bool>& stop_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// The folder that results go to. Without gnuplot it keeps tables only, and says so.
+class LabFolder {
+  public:
+    // Makes the folder; throws core::Error(inputOutput).
+    LabFolder(std::filesystem::path folder, bool isQuiet);
+    void write(const std::string& name, const std::string& text) const;
+    void draw(const std::string& name, const report::Chart& chart) const;
+
+    // Says where the results are and returns the exit code; throws core::Error(inputOutput) without gnuplot.
+    int finish(const Interruption& interruption) const;
+    // The same when interrupted before there were results: of the folders made, none is left.
+    int abandon(const Interruption& interruption) const;
+
+  private:
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> made_;  // folders that were not there before, the innermost first
+    bool draws_, isQuiet_;
+};
+
+}  // namespace taut::game

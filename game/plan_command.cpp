@@ -55,22 +55,17 @@ study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const s
     return study::makePlan(spec, settings);
 }
 
-// The scene file with the changes, whole or not at all; refuses when someone else has changed it meanwhile.
+// The scene file with the changes, whole or not at all.
 void write(const std::filesystem::path& file, const std::string& text, const study::Plan& plan) {
     if (plan.changes.empty()) return fmt::print("\n{}: nothing to write\n", file.string());
     const std::string changed = scene::spliced(text, plan.changes);
     scene::LoadOptions options;
     if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
     (void)scene::loadSceneText(changed, file.string(), options);  // throws for what a scene may not say
-    if (image::fileContent(file) != text)
-        throw core::Error(
-            core::ExitCode::inputOutput,
-            fmt::format("{}: the file has changed while it was planned; nothing is written", file.string()));
-    std::error_code ignored;
-    const std::filesystem::path real = std::filesystem::canonical(file, ignored);  // a link stays one
-    const std::filesystem::perms permissions = std::filesystem::status(file, ignored).permissions();
-    image::writeWholeFile(ignored ? file : real, changed);
-    std::filesystem::permissions(ignored ? file : real, permissions, ignored);
+    if (plan.unseen() > 0)
+        fmt::print(stderr, "warning: what happens between {:.3g} s and {:.3g} s was not looked at; look at the film\n",
+                   plan.seconds, plan.runSeconds);
+    replaceSceneFile(file, text, changed);
     fmt::print("\n{}: {} value{} written\n", file.string(), plan.changes.size(), plan.changes.size() == 1 ? "" : "s");
 }
 
@@ -93,7 +88,10 @@ int plan(const PlanFlags& flags) {
     }
     fmt::print("{}", study::planSummary(result));
     if (!flags.json.empty()) image::writeWholeFile(flags.json, study::planJson(result, machineFacts()));
-    if (!result.isMet()) return static_cast<int>(core::ExitCode::needNotMet);
+    if (!result.isMet()) {
+        if (flags.write) fmt::print("\n{}: nothing is written, as the need is not met\n", file.string());
+        return static_cast<int>(core::ExitCode::needNotMet);
+    }
     if (flags.write) write(file, text, result);
     return static_cast<int>(core::ExitCode::ok);
 }
@@ -116,9 +114,9 @@ void addPlan(CLI::App& app, Action& chosen) {
     command->footer(
         "Ends with 5 when the need cannot be met, and says how near it came.\n"
         "Examples:\n"
-        "  taut plan curtain\n"
+        "  taut plan drape\n"
         "  taut plan my.toml --json out/plan.json --write\n"
-        "  taut plan flag --set need.rms_pixels=2 --set need.horizon_s=0.5");
+        "  taut plan flag --set need.rms_pixels=2 --set need.horizon_s=0.1 --effort 0.05");
     command->callback([&chosen, flags] { chosen = [flags] { return plan(*flags); }; });
 }
 

@@ -8,6 +8,7 @@
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/suggestion.h"
+#include "image/whole_file.h"
 #include "scene/load.h"
 
 namespace taut::game {
@@ -42,6 +43,18 @@ world::SceneSpec readScene(const std::string& argument, const std::vector<std::s
     scene::Loaded loaded = scene::loadScene(sceneFile(argument), options);
     printWarnings(loaded.warnings);
     return std::move(loaded.spec);
+}
+
+void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {
+    if (image::fileContent(file) != expected)
+        throw core::Error(
+            core::ExitCode::inputOutput,
+            fmt::format("{}: the file has changed while it was planned; nothing is written", file.string()));
+    std::error_code ignored;
+    const std::filesystem::path real = std::filesystem::canonical(file, ignored);
+    const std::filesystem::perms permissions = std::filesystem::status(file, ignored).permissions();
+    image::writeWholeFile(ignored ? file : real, content);
+    std::filesystem::permissions(ignored ? file : real, permissions, ignored);
 }
 
 }  // namespace taut::game

@@ -17,4 +17,8 @@ std::filesystem::path sceneFile(const std::string& argument);
 // a scene that needs more memory than the machine can give.
 world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides);
 
+// Puts `content` in the place of a scene file that still holds `expected`; a link stays one, permissions stay. Throws
+// core::Error(inputOutput), also when someone else has changed the file meanwhile.
+void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content);
+
 }  // namespace taut::game

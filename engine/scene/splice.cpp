@@ -179,6 +179,65 @@ class Splicer {
     Outline outline_;
 };
 
+// The changes of the single elements that a change of a list comes to where it keeps its length; else itself.
+class Elements {
+  public:
+    Elements(std::string_view text, const std::string& value)
+        : value_("value = " + value), inFile_(outlineOf(text)), inValue_(outlineOf(value_)) {}
+
+    struct Element {
+        KeyPath path;
+        std::string value;
+    };
+
+    std::vector<Element> changed(const KeyPath& path, const Node* before, const Node& after) {
+        add(path, {"value"}, before, after);
+        return std::move(found_);
+    }
+
+  private:
+    static const OutlineValue* find(const Outline& outline, const KeyPath& path) {
+        for (const OutlineValue& value : outline.values)
+            if (value.path == path) return &value;
+        return nullptr;
+    }
+
+    void add(const KeyPath& path, const KeyPath& pathInValue, const Node* before, const Node& after) {
+        const bool isElementwise = before != nullptr && before->kind == NodeKind::list &&
+                                   after.kind == NodeKind::list && before->items.size() == after.items.size() &&
+                                   find(inFile_, path) != nullptr;
+        if (!isElementwise) {
+            const OutlineValue& value = *find(inValue_, pathInValue);
+            return found_.push_back({path, value_.substr(value.begin, value.end - value.begin)});
+        }
+        for (std::size_t i = 0; i < after.items.size(); ++i) {
+            if (isSame(before->items[i], after.items[i])) continue;
+            KeyPath item = path, itemInValue = pathInValue;
+            item.push_back(std::to_string(i));
+            itemInValue.push_back(std::to_string(i));
+            add(item, itemInValue, &before->items[i], after.items[i]);
+        }
+    }
+
+    std::string value_;
+    Outline inFile_, inValue_;
+    std::vector<Element> found_;
+};
+
+const Node* nodeAt(const Node& root, const KeyPath& path) {
+    const Node* node = &root;
+    for (const std::string& key : path) {
+        if (node->kind == NodeKind::list) {
+            node = &node->items[std::stoul(key)];  // set() has refused what is no element
+            continue;
+        }
+        const Member* member = node->find(key);
+        if (member == nullptr) return nullptr;
+        node = &member->value;
+    }
+    return node;
+}
+
 KeyPath pathOf(const std::string& key) {
     KeyPath path;
     std::size_t begin = 0;
@@ -203,8 +262,10 @@ std::string spliced(std::string_view text, std::span<const Change> changes) {
         } catch (const SyntaxError& error) {
             fail(change, error.what());
         }
+        const Node before = expected;
         set(expected, path, value, change);
-        result = Splicer(result, path, change.value).result();
+        for (const auto& [place, part] : Elements(result, change.value).changed(path, nodeAt(before, path), value))
+            result = Splicer(result, place, part).result();
         try {
             if (!isSame(documentTree(result, 0), expected)) fail(change, "other values would change with it");
         } catch (const SyntaxError& error) {

@@ -9,7 +9,7 @@
 
 namespace taut::study {
 
-Horizon findHorizon(const Subject& subject, double duration) {
+Horizon findHorizon(const Subject& subject, double duration, double shift) {
     RunPlan plan;
     plan.method = "rk4";
     plan.grid = subject.grid(duration, duration / 12);  // some 120 looks
@@ -17,10 +17,11 @@ Horizon findHorizon(const Subject& subject, double duration) {
     plan.stepsPerSample = stepsPerSample(subject, plan.grid, std::min(limit / 4, duration / 500));
 
     const std::unique_ptr<Trial> plain = subject.begin(plan);
-    plan.perturbation = perturbation;
+    plan.perturbation = shift;
     const std::unique_ptr<Trial> moved = subject.begin(plan);
     Horizon horizon{plan.grid.duration(), false, 1.0};
     const double start = rmsDifference(plain->observe().values, moved->observe().values, subject.dimensions());
+    if (!(start > 0)) return horizon;
     for (int sample = 1; sample <= plan.grid.samples; ++sample) {
         bool runs[2] = {true, true};
         core::parallelFor(2, [&](int i) { runs[i] = (i == 0 ? plain : moved)->advance(); });
@@ -28,8 +29,8 @@ Horizon findHorizon(const Subject& subject, double duration) {
             runs[0] && runs[1]
                 ? rmsDifference(plain->observe().values, moved->observe().values, subject.dimensions()) / start
                 : HUGE_VAL;
-        horizon.growth = std::max(horizon.growth, growth);
-        if (growth < horizonGrowth) continue;
+        horizon.growth = std::isfinite(growth) ? std::max(horizon.growth, growth) : HUGE_VAL;
+        if (growth < horizonGrowth) continue;  // written so that NaN ends it
         horizon.seconds = plan.grid.spacing * (sample - 1);
         horizon.isReached = true;
         break;

@@ -5,9 +5,10 @@
 
 namespace taut::study {
 
-// Every coordinate of the start is moved by up to this. [m]
+// Every coordinate of the start is moved by up to this unless a caller has a length of its own. [m]
 inline constexpr double perturbation = 1e-9;
-// The horizon is where the difference has grown by this factor: a micrometre has become a millimetre.
+// The horizon is where the difference has grown by this factor: a micrometre has become a millimetre. Of motion that
+// is not linear that depends on the size of the shift; whoever must keep within a target shifts by its thousandth.
 inline constexpr double horizonGrowth = 1000;
 
 struct Horizon {
@@ -16,7 +17,8 @@ struct Horizon {
     double growth = 0;       // largest that was seen, of the RMS difference
 };
 
-// Integrates by RK4 in double precision at a quarter of its stability limit.
-Horizon findHorizon(const Subject& subject, double duration);
+// Integrates by RK4 in double precision at a quarter of its stability limit. A shift [m] that is lost in the rounding
+// of the coordinates, or moves nothing, has no horizon: its growth counts as 1.
+Horizon findHorizon(const Subject& subject, double duration, double shift = perturbation);
 
 }  // namespace taut::study

@@ -29,19 +29,26 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     checkNeed(context.spec);
     const double asked = resolvedNeed(context.spec, {1.0, 1.0}).horizon;
     const world::SceneSpec model = modelOf(context.spec, context.resolution, plainCandidate(context));
-    context.tell("horizon", 0.02);
-    const double tick = planGrid(context.spec, asked).tick;
-    const Horizon horizon = findHorizon(*makeSceneSubject(model, plan.name), std::max(asked, 10 * tick));
-    plan.isChaotic = horizon.isReached && horizon.seconds < asked * (1 - 1e-9);
-    context.grid = planGrid(context.spec, plan.isChaotic ? std::max(horizon.seconds, tick) : asked);
-    plan.seconds = context.grid.seconds();
-    context.tell("scene as it is", 0.15);
+    const std::unique_ptr<Subject> subject = makeSceneSubject(model, plan.name);
+    context.tell("scene as it is", 0.02);
+    context.grid = planGrid(context.spec, asked);
     PlanRun base = play(model, context.resolution, context.grid, {0, true});
     if (!base.isWhole())
         throw core::Error(core::ExitCode::diverged,
                           fmt::format("{}: leap-frog with the step found for it: {}", plan.name, base.failure));
     plan.need = resolvedNeed(context.spec, base.scales);
     context.target = plan.need.target;
+
+    context.tell("horizon", 0.08);
+    plan.perturbation = context.target / horizonGrowth;
+    const double tick = context.grid.tick;
+    const Horizon horizon = findHorizon(*subject, std::max(asked, 10 * tick), plan.perturbation);
+    plan.isChaotic = horizon.isReached && horizon.seconds < asked * (1 - 1e-9);
+    plan.seconds = plan.isChaotic ? horizon.seconds : context.grid.seconds();
+    if (plan.isChaotic) {
+        context.grid = planGrid(context.spec, std::max(horizon.seconds, tick));
+        base = play(model, context.resolution, context.grid);
+    }
     return base;
 }
 
@@ -150,13 +157,17 @@ void searchAndVerify(PlanContext& context, const PlanReference& reference, std::
 void addRemarks(const PlanContext& context, const PlanReference& reference, Plan& plan) {
     const auto add = [&](std::string remark) { plan.remarks.push_back(std::move(remark)); };
     if (plan.isChaotic)
-        add(
-            fmt::format("The motion is chaotic: a shift of 1e-9 m grows a thousandfold within {:.3g} s. The promise "
-                        "holds up to there, not up to the {:.3g} s asked for; later no step and no resolution tells "
-                        "where a point is.",
-                        plan.seconds, plan.need.horizon));
+        add(fmt::format(
+            "The motion is chaotic: start positions shifted by up to {}, a thousandth of what is allowed, are further "
+            "apart "
+            "than is allowed after {:.3g} s. The promise holds up to there, not up to the {:.3g} s asked for; later no "
+            "step and no resolution tells where a point is.",
+            lengthText(plan.perturbation), plan.seconds, plan.need.horizon));
     else
         add(fmt::format("The promise holds for the first {:.3g} s, the horizon asked for.", plan.seconds));
+    if (plan.unseen() > 0)
+        add(fmt::format("Warning: what happens between {:.3g} s and the end of the run at {:.3g} s was not looked at.",
+                        plan.seconds, plan.runSeconds));
     bool hasJitter = false;
     forEachBody(context.spec, [&](const world::BodySpec& body) { hasJitter = hasJitter || body.jitter > 0; });
     if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
@@ -176,6 +187,7 @@ Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
     plan.name = spec.title.empty() ? spec.file : spec.title;
     PlanContext context{spec, settings, resolutionOf(spec), {}, 0};
     plan.resolution = context.resolution;
+    plan.runSeconds = spec.run.seconds;
     const PlanRun base = resolveNeed(context, plan);
     const std::vector<Generator> without = generatorsToDrop(context, base, plan);
 
@@ -187,7 +199,8 @@ Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
     searchAndVerify(context, reference, least, without, plan);
     if (plan.chosen) {
         const PlanTrial& chosen = plan.trials[*plan.chosen];
-        if (plan.trials.front().cost > 0) plan.ratio = plan.trials.front().cost / chosen.cost;
+        const PlanTrial& written = plan.trials.front();
+        plan.ratio = written.hasWholeCost() ? written.cost / chosen.cost : PlanTrial::unset;
         if (!chosen.isAsWritten) plan.changes = planChanges(spec, sceneOf(context, chosen.candidate));
     }
     addRemarks(context, reference, plan);

@@ -45,11 +45,13 @@ struct PlanTrial {
     bool isAsWritten = false;
     double error = unset;         // [m] RMS against the reference, the reference's own error added
     double step = unset;          // [s]
-    double cost = unset;          // spring evaluations a frame; of one that was not run, a lower bound
-    double milliseconds = unset;  // a frame, on one thread
+    double cost = unset;          // spring evaluations a frame; of one not run to its end, a lower bound
+    double milliseconds = unset;  // a frame, on one thread; of a run to its end only
     double springs = 0;
     double evaluations = unset;  // of the forces, solver products included, a frame
     bool meets = false, wasRun = false;
+    bool wasStopped = false;  // before its end, as it cost more than a better one
+    bool hasWholeCost() const { return wasRun && !wasStopped; }
     std::string verdict;
 };
 
@@ -63,8 +65,10 @@ struct Verification {
 struct Plan {
     std::string name;
     Need need;
-    double seconds = 0;      // [s] that the promise holds for: the horizon asked for, or less
-    bool isChaotic = false;  // the motion cannot be predicted for as long as was asked
+    double seconds = 0;       // [s] that the promise holds for: the horizon asked for, or less
+    bool isChaotic = false;   // the motion cannot be predicted for as long as was asked
+    double perturbation = 0;  // [m] of the start, by which that was tried; see makePlan
+    double runSeconds = 0;    // [s] of the whole run
     Resolution resolution;
     std::vector<GeneratorTrial> generators;
     std::vector<ResolutionTrial> resolutions;  // by count
@@ -81,11 +85,16 @@ struct Plan {
 
     bool isAccurate() const { return chosen.has_value() && verification.isPassed; }
     bool isInBudget() const { return chosen && (!need.budget || trials[*chosen].milliseconds <= *need.budget); }
-    bool isMet() const { return isAccurate() && isInBudget(); }
+    bool isMet() const { return isAccurate() && isInBudget() && !isChaotic; }
+    // [s] at the end of the run that no promise covers.
+    double unseen() const { return runSeconds > seconds * (1 + 1e-9) ? runSeconds - seconds : 0.0; }
 };
 
-// Throws core::Error: badContent where [need] is missing or contradicts the scene, diverged where even the smallest
-// steps do, interrupted.
+// Motion counts as predictable until a shift of the start positions by a thousandth of the target has grown to the
+// target: from there on what candidates differ by is the disturbance, not how well they compute. Where that is before
+// the horizon asked for, the search goes up to there and the need is not met.
+// Throws core::Error: badContent where [need] is missing or contradicts the scene or nothing can move, diverged where
+// even the smallest steps do, interrupted.
 Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings = {});
 
 }  // namespace taut::study

@@ -149,6 +149,7 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
              const RunLimits& limits, PlanRun& run) {
     using Clock = std::chrono::steady_clock;
     const Watcher watcher(world, model, resolution);
+    const double atStart = springEvaluations(world);
     Box box;
     if (limits.withScales) box.add(watcher.look());
     for (int sample = 0; sample < grid.samples; ++sample) {
@@ -171,7 +172,7 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
         if (limits.springEvaluations > 0 &&
             run.springs * static_cast<double>(world.work().evaluations + world.work().iterations) >
                 limits.springEvaluations &&
-            springEvaluations(world) > limits.springEvaluations) {
+            springEvaluations(world) - atStart > limits.springEvaluations) {
             run.isTooDear = sample + 1 < grid.samples;
             return;
         }
@@ -186,7 +187,8 @@ PlanGrid planGrid(const world::SceneSpec& spec, double horizon) {
     grid.tick = 1.0 / (spec.run.fps * grid.ticksPerFrame);
     const int ticks = std::max(1, static_cast<int>(std::llround(horizon / grid.tick)));
     grid.every = std::max(1, ticks / 10);
-    grid.samples = std::max(1, ticks / grid.every);
+    while (ticks % grid.every != 0) --grid.every;  // the last look is at the horizon itself
+    grid.samples = ticks / grid.every;
     return grid;
 }
 
@@ -201,9 +203,10 @@ PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const 
             run.substeps = island.substeps;
             run.step = island.step;
         }
+        const double atStart = springEvaluations(world);
         advance(world, model, resolution, grid, limits, run);
         run.work = world.work();
-        run.springEvaluations = springEvaluations(world);
+        run.springEvaluations = springEvaluations(world) - atStart;
         run.hasContacts = world.metrics().contacts > 0;
     } catch (const core::Error& error) {
         if (error.code() != core::ExitCode::badContent) throw;

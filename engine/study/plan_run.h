@@ -22,18 +22,19 @@ struct PlanGrid {
     double seconds() const { return tick * ticks(); }
     double frames() const { return static_cast<double>(ticks()) / ticksPerFrame; }
 };
-// At least ten times within `horizon` [s] where there are so many ticks.
+// Up to `horizon` [s], at least ten times within it where there are so many ticks.
 PlanGrid planGrid(const world::SceneSpec& spec, double horizon);
 
 // Positions of the places of the material at one moment. [m]
 using Sight = std::vector<glm::dvec3>;
 
 struct PlanRun {
-    std::string failure;     // why there is none or no end of it; empty: it ran to the end
-    bool isTooDear = false;  // stopped because it cost more than asked for
-    std::vector<Sight> at;   // (samples)
-    ode::Work work;
-    double springEvaluations = 0;  // springs times evaluations of the forces, products of a solver counted as such
+    std::string failure;           // why there is none or no end of it; empty: it ran to the end
+    bool isTooDear = false;        // stopped because it cost more than asked for
+    std::vector<Sight> at;         // (samples)
+    ode::Work work;                // the start's too
+    double springEvaluations = 0;  // springs times evaluations of the forces, products of a solver counted as such;
+                                   // without the start's, which are made once however long the run
     double springs = 0;
     double seconds = 0;  // of wall time, on one thread
     int substeps = 0;    // a tick, of the island that makes most

@@ -116,11 +116,17 @@ class Search {
         trial.springs = run.springs;
         trial.step = run.step;
         trial.cost = perFrame(run.springEvaluations);
-        trial.milliseconds = 1e3 * perFrame(run.seconds);
-        trial.evaluations = perFrame(static_cast<double>(run.work.evaluations + run.work.iterations));
-        if (!run.failure.empty()) trial.verdict = run.failure;
-        if (run.isTooDear) trial.verdict = "stopped: it costs more already";
-        if (run.isWhole()) trial.error = reference_.errorOf(run);
+        trial.wasStopped = run.isTooDear;
+        if (!run.failure.empty()) {
+            trial.verdict = run.failure;
+            trial.cost = PlanTrial::unset;
+        } else if (run.isTooDear) {
+            trial.verdict = "stopped: it costs more already";
+        } else {
+            trial.error = reference_.errorOf(run);
+            trial.milliseconds = 1e3 * perFrame(run.seconds);
+            trial.evaluations = perFrame(static_cast<double>(run.work.evaluations + run.work.iterations));
+        }
         trial.meets = trial.error <= context_.target;
         const bool isCheaper = !trial.isAsWritten && trial.meets && trial.cost < clearly * bestCost();
         plan_.trials.push_back(trial);
@@ -173,7 +179,7 @@ class Search {
             PlanTrial done = trial;
             run(done);
             if (done.meets) return refine(trial, tooFew, substeps);
-            if (done.verdict.starts_with("stopped")) return;
+            if (done.wasStopped) return;
             tooFew = substeps;
             substeps = nextSubsteps(substeps, done.error, method.order);
             if (substeps == 0) return;

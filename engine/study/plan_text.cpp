@@ -54,7 +54,7 @@ std::string trialTable(const Plan& plan) {
                      "ms a frame", "verdict"};
     for (std::size_t i = 0; i < plan.trials.size(); ++i) {
         const PlanTrial& trial = plan.trials[i];
-        const std::string bound = trial.wasRun ? "" : "> ";
+        const std::string bound = trial.hasWholeCost() ? "" : "> ";
         table.rows.push_back({std::string(plan.chosen == i ? "*" : ""), trial.candidate.method,
                               std::string(nameOf(trial.candidate.precision)), countText(trial.candidate.count),
                               numberText(1e3 * trial.step, "{:.3g}"), lengthText(trial.error),
@@ -62,7 +62,7 @@ std::string trialTable(const Plan& plan) {
                               numberText(trial.milliseconds, "{:.3f}"),
                               trial.isAsWritten ? "as written: " + trial.verdict : trial.verdict});
     }
-    return "\nCandidates\n" + report::aligned(table);
+    return "\nCandidates (evaluations of a long run: those of the start alone are left out)\n" + report::aligned(table);
 }
 
 std::string verificationText(const Plan& plan) {
@@ -113,6 +113,8 @@ Json trialJson(const PlanTrial& trial, bool isChosen) {
             {"step_s", finite(trial.step)},
             {"springs", trial.springs},
             {"was_run", trial.wasRun},
+            {"was_stopped", trial.wasStopped},
+            {"cost_is_lower_bound", !trial.hasWholeCost()},
             {"error_m", finite(trial.error)},
             {"spring_evaluations_per_frame", finite(trial.cost)},
             {"force_evaluations_per_frame", finite(trial.evaluations)},
@@ -148,6 +150,11 @@ std::string planVerdict(const Plan& plan) {
             "The need cannot be met: the cheapest within {} takes {:.3g} ms a frame, {:.3g} times the "
             "{:.3g} ms allowed.",
             target, chosen.milliseconds, chosen.milliseconds / *plan.need.budget, *plan.need.budget);
+    if (plan.isChaotic)
+        return fmt::format(
+            "The need is met for the first {:.3g} s of the {:.3g} s asked for only: an error of {} where "
+            "{} is allowed.",
+            plan.seconds, plan.need.horizon, lengthText(chosen.error), target);
     return fmt::format("The need is met: an error of {} where {} is allowed, for the first {:.3g} s.",
                        lengthText(chosen.error), target, plan.seconds);
 }
@@ -171,6 +178,9 @@ std::string planJson(const Plan& plan, const MachineFacts& machine) {
                     {"horizon_s", plan.need.horizon},
                     {"budget_ms", plan.need.budget ? Json(*plan.need.budget) : Json(nullptr)}};
     json["promised_s"] = plan.seconds;
+    json["run_s"] = plan.runSeconds;
+    json["not_looked_at_s"] = plan.unseen();
+    json["perturbation_m"] = plan.perturbation;
     json["chaotic"] = plan.isChaotic;
     json["met"] = plan.isMet();
     json["verdict"] = planVerdict(plan);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "ode/method_table.h"
 #include "world/components.h"
 #include "world/world.h"
@@ -32,6 +33,15 @@ world::SceneSpec overridden(const world::SceneSpec& spec, const std::string& met
         body.jitter += perturbation;  // moves points by perturbation times a number between -1 and 1
     });
     return scene;
+}
+
+bool hasFreePoint(world::World& world) {
+    bool has = false;
+    world.registry().each<world::BodyPart>([&](ecs::Entity, const world::BodyPart& part) {
+        const auto& held = part.body->model.held;
+        has = has || std::find(held.begin(), held.end(), false) != held.end();
+    });
+    return has;
 }
 
 class SceneTrial final : public Trial {
@@ -70,8 +80,12 @@ class SceneSubject final : public Subject {
   public:
     SceneSubject(const world::SceneSpec& spec, std::string name)
         : spec_(spec), name_(std::move(name)), title_(spec.title.empty() ? name_ : spec.title) {
-        const world::World world(overridden(spec, "leapfrog", Precision::double_, 1.0, 0.0), {.threads = 1});
+        world::World world(overridden(spec, "leapfrog", Precision::double_, 1.0, 0.0), {.threads = 1});
         tick_ = world.tickSeconds();
+        if (!hasFreePoint(world))
+            throw core::Error(core::ExitCode::badContent,
+                              spec.file + (spec.file.empty() ? "" : ": ") +
+                                  "error: nothing in the scene can move: it has no point that is free");
     }
 
     const std::string& name() const override { return name_; }

@@ -192,9 +192,9 @@ TEST(Plan, LeavesOutAForceWithoutEffectAndKeepsOneThatMatters) {
     EXPECT_GT(find("wind storm")->change, 1e-3);
 }
 
-TEST(Plan, OfAChaoticSceneItPromisesNoMoreThanTheHorizon) {
-    // A straight rope pushed together buckles: a shift of 1e-9 m grows a thousandfold at once.
-    world::SceneSpec scene = shortScene(0.5, 1e-3);
+// A straight rope pushed together buckles: a shift of a micrometre grows a thousandfold at once.
+world::SceneSpec bucklingRope(double target) {
+    world::SceneSpec scene = shortScene(0.5, target);
     scene.world.gravity = {0, 0, 0};
     world::RopeSpec rope = support::rope("r", {0, 2, 0}, {0.1, 2, 0}, 8);
     rope.stretch = 500;
@@ -202,11 +202,26 @@ TEST(Plan, OfAChaoticSceneItPromisesNoMoreThanTheHorizon) {
     rope.velocity = {-5, 0, 0};
     rope.hold = {"start"};
     scene.ropes.push_back(rope);
-    const Plan plan = makePlan(scene);
+    return scene;
+}
+
+TEST(Plan, OfAChaoticSceneItPromisesNoMoreThanTheHorizonAndDoesNotMeetTheNeed) {
+    const Plan plan = makePlan(bucklingRope(1e-3));
     EXPECT_TRUE(plan.isChaotic);
     EXPECT_LT(plan.seconds, 0.5);
+    EXPECT_FALSE(plan.isMet());
     EXPECT_TRUE(std::any_of(plan.remarks.begin(), plan.remarks.end(),
                             [](const std::string& remark) { return remark.find("chaotic") != std::string::npos; }));
+}
+
+TEST(Plan, CallsNothingChaoticThatStaysWithinTheTarget) {
+    // The same rope: whichever way it buckles, points of a rope of 0.1 m are hardly further apart than that.
+    PlanSettings settings;
+    settings.effort = 1e6;
+    const Plan plan = makePlan(bucklingRope(0.3), settings);
+    EXPECT_FALSE(plan.isChaotic);
+    EXPECT_DOUBLE_EQ(plan.seconds, 0.5);
+    EXPECT_DOUBLE_EQ(plan.unseen(), 0.5) << "of a run of one second";
 }
 
 }  // namespace

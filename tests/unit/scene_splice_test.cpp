@@ -38,9 +38,21 @@ TEST(Splice, WithoutChangesKeepsEveryByte) {
     EXPECT_EQ(spliced(text, {}), text);
 }
 
-TEST(Splice, ReplacesAListOverSeveralLinesWithItsComments) {
-    EXPECT_EQ(splicedOne("[a]\ncells = [  # across\n  36,\n  24,  # ] down\n]  # end\nb = 1\n", "a.cells", "[12, 8]"),
-              "[a]\ncells = [12, 8]  # end\nb = 1\n");
+TEST(Splice, OfAListThatKeepsItsLengthReplacesTheElementsThatDiffer) {
+    const std::string text = "[a]\ncells = [  # across\n  36,\n  24,  # ] down\n]  # end\nb = 1\n";
+    EXPECT_EQ(splicedOne(text, "a.cells", "[12, 8]"),
+              "[a]\ncells = [  # across\n  12,\n  8,  # ] down\n]  # end\nb = 1\n");
+    EXPECT_EQ(splicedOne(text, "a.cells", "[36, 8]"),
+              "[a]\ncells = [  # across\n  36,\n  8,  # ] down\n]  # end\nb = 1\n");
+    EXPECT_EQ(splicedOne(text, "a.cells", "[36, 24]"), text);
+    EXPECT_EQ(splicedOne("x = [ [1 , 2], # one\n [3, 4] ]\n", "x", "[[1, 5], [3, 6]]"),
+              "x = [ [1 , 5], # one\n [3, 6] ]\n");
+}
+
+TEST(Splice, ReplacesAListOfAnotherLengthWholeWithItsComments) {
+    EXPECT_EQ(splicedOne("[a]\nx = [  # across\n  36,\n  24,  # ] down\n]  # end\nb = 1\n", "a.x", "[12, 8, 4]"),
+              "[a]\nx = [12, 8, 4]  # end\nb = 1\n");
+    EXPECT_EQ(splicedOne("x = [1, [2, 3]]  # x\n", "x", "[1, [4]]"), "x = [1, [4]]  # x\n");
 }
 
 TEST(Splice, ReplacesOneElementOfAList) {

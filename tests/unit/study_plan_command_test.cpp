@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/error.h"
+#include "game/scene_file.h"
 #include "image/whole_file.h"
 #include "image_support.h"
 #include "program_support.h"
@@ -91,6 +93,76 @@ TEST(PlanCommand, EndsWithFiveWhenTheNeedCannotBeMet) {
     EXPECT_EQ(fine.code, 5) << fine.err;
     EXPECT_TRUE(has(fine.out, "cannot be met: the nearest, leapfrog")) << fine.out;
     EXPECT_EQ(image::fileContent(path), rope);
+}
+
+TEST(PlanCommand, SaysWhatItDidNotLookAt) {
+    const TemporaryFolder folder;
+    const auto path = fileOf(folder, rope);
+    const auto json = folder / "plan.json";
+    const Outcome outcome = run({"plan", path.string(), "--quiet", "--write", "-o", json.string()});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "between 0.1 s and the end of the run at 1 s was not looked at")) << outcome.out;
+    EXPECT_TRUE(has(outcome.err, "warning: what happens between 0.1 s and 1 s was not looked at")) << outcome.err;
+    // 0.9: a second of which a tenth was looked at; 1e-12 rounding.
+    EXPECT_NEAR(nlohmann::json::parse(image::fileContent(json))["not_looked_at_s"].get<double>(), 0.9, 1e-12);
+}
+
+TEST(PlanCommand, ShowsNoTimeOfWhatWasStopped) {
+    const TemporaryFolder folder;
+    const auto path = fileOf(folder, rope);
+    const auto json = folder / "plan.json";
+    ASSERT_EQ(run({"plan", path.string(), "--quiet", "-o", json.string()}).code, 0);
+    int stopped = 0;
+    for (const auto& trial : nlohmann::json::parse(image::fileContent(json))["candidates"]) {
+        if (!trial["was_stopped"].get<bool>()) continue;
+        ++stopped;
+        EXPECT_TRUE(trial["ms_per_frame"].is_null());
+        EXPECT_TRUE(trial["cost_is_lower_bound"].get<bool>());
+    }
+    EXPECT_GT(stopped, 0) << "else this shows nothing";
+}
+
+TEST(PlanCommand, WhatCannotBePredictedForAsLongAsAskedIsNotWritten) {
+    const TemporaryFolder folder;
+    const std::string buckling = R"(schema = 1
+[need]
+rms_position_m = 1e-3
+horizon_s = 0.5
+[run]
+seconds = 1.0
+[world]
+gravity = [0, 0, 0]
+[rope.r]
+ends = [[0.0, 2.0, 0.0], [0.1, 2.0, 0.0]]
+segments = 8
+stretch_N = 500.0
+mass_kg = 0.05
+velocity = [-5.0, 0.0, 0.0]
+hold = ["start"]
+)";
+    const auto path = fileOf(folder, buckling);
+    const Outcome outcome = run({"plan", path.string(), "--quiet", "--write", "--effort", "0.001"});
+    EXPECT_EQ(outcome.code, 5) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "The motion is chaotic")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "nothing is written")) << outcome.out;
+    EXPECT_EQ(image::fileContent(path), buckling);
+}
+
+TEST(PlanCommand, WhereNothingCanMoveThereIsNothingToPlan) {
+    const TemporaryFolder folder;
+    const auto path = fileOf(folder, rope.substr(0, rope.find("hold")) + "hold = [\"all\"]\n");
+    const Outcome outcome = run({"plan", path.string(), "--quiet"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_TRUE(has(outcome.err, "nothing in the scene can move")) << outcome.err;
+}
+
+TEST(PlanCommand, AFileThatChangedMeanwhileIsLeftAlone) {
+    const TemporaryFolder folder;
+    const auto path = fileOf(folder, rope + "# somebody was here\n");
+    EXPECT_THROW(replaceSceneFile(path, rope, "new"), core::Error);
+    EXPECT_EQ(image::fileContent(path), rope + "# somebody was here\n");
+    replaceSceneFile(path, rope + "# somebody was here\n", "new");
+    EXPECT_EQ(image::fileContent(path), "new");
 }
 
 TEST(PlanCommand, AsksForANeed) {

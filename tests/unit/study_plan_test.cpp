@@ -153,6 +153,27 @@ TEST(PlanRuns, CountSpringsTimesEvaluations) {
     EXPECT_EQ(run.springEvaluations, facts.springs * 4 * facts.leastSubsteps * 3);
 }
 
+TEST(PlanRuns, DoNotCountTheStart) {
+    const world::SceneSpec scene = sceneWithNeed();
+    const Resolution resolution = resolutionOf(scene);
+    PlanGrid grid;
+    grid.samples = 3;
+    Candidate candidate;
+    candidate.count = 4;  // leap-frog: one evaluation a step, and one to start
+    const world::SceneSpec model = modelOf(scene, resolution, candidate);
+    const StepFacts facts = stepFacts(model);
+    EXPECT_EQ(play(model, resolution, grid).springEvaluations, facts.springs * facts.leastSubsteps * 3);
+}
+
+TEST(PlanRuns, EndAtTheHorizonItself) {
+    const world::SceneSpec scene = sceneWithNeed();
+    for (const int ticks : {1, 7, 10, 25, 29, 60}) {
+        const PlanGrid grid = planGrid(scene, ticks / 60.0);
+        EXPECT_EQ(grid.ticks(), ticks);
+        EXPECT_GE(grid.samples, std::min(ticks, 10));
+    }
+}
+
 TEST(PlanRuns, StepsAreAsManyAsAskedFor) {
     const world::SceneSpec scene = sceneWithNeed();
     const Resolution resolution = resolutionOf(scene);

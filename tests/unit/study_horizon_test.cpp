@@ -1,0 +1,64 @@
+// How long a motion can be predicted depends on what is asked of it, and where nothing moves there is nothing to ask.
+#include "study/horizon.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "study/scene_subject.h"
+#include "support/small_scenes.h"
+
+namespace taut::study {
+namespace {
+
+// A straight rope pushed together, which buckles to a side that its start alone decides.
+world::SceneSpec bucklingRope() {
+    world::SceneSpec scene;
+    scene.world.gravity = {0, 0, 0};
+    world::RopeSpec rope = support::rope("r", {0, 2, 0}, {0.1, 2, 0}, 8);
+    rope.stretch = 500;
+    rope.mass = 0.05;
+    rope.velocity = {-5, 0, 0};
+    rope.hold = {"start"};
+    scene.ropes.push_back(rope);
+    return scene;
+}
+
+std::string refusal(const world::SceneSpec& scene) {
+    try {
+        (void)makeSceneSubject(scene, "s");
+    } catch (const core::Error& error) {
+        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(StudyHorizon, OfASceneWithoutFreePointsThereIsNone) {
+    world::SceneSpec scene;
+    scene.file = "s.toml";
+    EXPECT_NE(refusal(scene).find("s.toml: error: nothing in the scene can move"), std::string::npos);
+    scene.cloths.push_back(support::cloth("c", 4));
+    scene.cloths.back().hold = {"all"};
+    EXPECT_NE(refusal(scene).find("nothing in the scene can move"), std::string::npos);
+    scene.cloths.back().hold = {"top"};
+    EXPECT_EQ(refusal(scene), "");
+}
+
+TEST(StudyHorizon, AShiftThatMovesNothingGrowsByOne) {
+    const Horizon horizon = findHorizon(*makeSceneSubject(bucklingRope(), "s"), 0.2, 0.0);
+    EXPECT_FALSE(horizon.isReached);
+    EXPECT_EQ(horizon.growth, 1.0);
+}
+
+TEST(StudyHorizon, AShiftThatCannotGrowAThousandfoldWithinTheRopeIsNoChaos) {
+    const auto subject = makeSceneSubject(bucklingRope(), "s");
+    EXPECT_TRUE(findHorizon(*subject, 0.2, 1e-9).isReached);
+    // A thousand times 1 mm are a metre; the rope, held at one end, is 0.1 m long.
+    EXPECT_FALSE(findHorizon(*subject, 0.2, 1e-3).isReached);
+}
+
+}  // namespace
+}  // namespace taut::study

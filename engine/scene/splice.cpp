@@ -258,7 +258,9 @@ std::string spliced(std::string_view text, std::span<const Change> changes) {
         const KeyPath path = pathOf(change.key);
         Node value;
         try {
-            value = documentTree("value = " + change.value, 0).find("value")->value;
+            const Node alone = documentTree("value = " + change.value, 0);
+            if (alone.members.size() != 1) fail(change, "it is more than one value");
+            value = alone.find("value")->value;
         } catch (const SyntaxError& error) {
             fail(change, error.what());
         }

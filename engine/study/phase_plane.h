@@ -17,7 +17,7 @@ struct PhasePath {
     double growthPerTurn = 1;        // of the amplitude, from the first step to the last
 };
 
-// Sixteen steps of leap-frog make exactly one turn: its angle a step is 2 asin(z/2) (numerics: section 2).
+// Sixteen steps of leap-frog make exactly one turn: its angle a step is 2 asin(z/2).
 inline constexpr int stepsPerTurn = 16;
 double phasePlaneStep();  // z = ωh = 2 sin(π/16)
 

@@ -1,4 +1,4 @@
-// From what a scene needs to the cheapest way to model and compute it, with the evidence (numerics: section 7).
+// From what a scene needs to the cheapest way to model and compute it, with the evidence.
 // It writes nothing.
 #pragma once
 

@@ -19,7 +19,7 @@ int addPoint(mechanics::Model& model, const dvec3& position, double mass, bool i
     return model.pointCount() - 1;
 }
 
-// x'' + 2ζω x' + ω² x = 0 with x(0) = d, x'(0) = 0, as numerics, section 1, has it:
+// x'' + 2ζω x' + ω² x = 0 with x(0) = d, x'(0) = 0:
 //   ζ < 1: e^{-at} [d cos ω_d t + (a d/ω_d) sin ω_d t], a = ζω, ω_d = √(ω² - a²); ζ = 1: e^{-at} d (1 + a t);
 //   ζ > 1: cosh and sinh with √(a² - ω²), written as two decays so that nothing overflows.
 void oscillation(double omega, double zeta, double d, double t, double& x, double& v) {

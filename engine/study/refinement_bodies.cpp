@@ -105,7 +105,7 @@ RefinementBody hangingRope() {
             [](const std::vector<dvec3>& x, int) { return -x.back().y - length; }};
 }
 
-// Square cells of an isotropic sheet: k_d = k_s/2, E = 4 k_s/3 [N/m], ν = 1/3 (numerics: section 6).
+// Square cells of an isotropic sheet: k_d = k_s/2, E = 4 k_s/3 [N/m], ν = 1/3.
 Model sheet(glm::dvec2 size, glm::ivec2 cells, double stretch, Lumped lumped) {
     return mixed(
         [&](Lumping lumping) {

@@ -27,7 +27,7 @@ struct IslandFrequencies {
     ode::FastestMode mode;                                         // with B1
 };
 
-// ω_max of an island of one body, where numerics, section 3, has it: a straight rope held at both ends without bend
+// ω_max of an island of one body, in closed form: a straight rope held at both ends without bend
 // springs, or a grid of square cells. NaN otherwise; `formula` says which.
 double closedFormFrequency(const world::SceneSpec& spec, const std::vector<std::string>& bodies, std::string& formula);
 

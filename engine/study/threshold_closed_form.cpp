@@ -1,4 +1,4 @@
-// Networks whose fastest motion is known in closed form (numerics: section 3).
+// Networks whose fastest motion is known in closed form.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -34,7 +34,7 @@ double rk4Excess(double z, double zeta) {
     return std::abs(1.0 + w + w * w / 2.0 + w * w * w / 6.0 + w * w * w * w / 24.0) - 1;
 }
 
-// The table of numerics, section 2.
+// The stability limits by theory.
 double theory(const std::string& method, double zeta, Damping damping) {
     const bool isDrag = damping == Damping::drag;
     if (method == "euler") return zeta < 1 ? 2 * zeta : overdamped(zeta, 2);

@@ -49,7 +49,7 @@ TEST(StudyWorkPrecision, AnEquationOfFirstOrderTakesTheMethodsThatCan) {
     EXPECT_THROW(studyWorkPrecision(*makeGrowth(), settings), core::Error);
 }
 
-// Heun and RK4 integrate y' + y/x = -4 from y = 3/x - 2x exactly (numerics, section 4), Euler does not.
+// Heun and RK4 integrate y' + y/x = -4 from y = 3/x - 2x exactly, Euler does not.
 TEST(StudyWorkPrecision, HeunAndRungeKuttaSolveTheQuotientToRounding) {
     const WorkPrecision study = studyWorkPrecision(*makeQuotient(), fixed(3));
     for (const RunPoint& point : study.points) {

@@ -38,8 +38,10 @@ PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjecti
 void EdgePass::draw(const view::FrameView& view, std::span<const DrawItem> items, const MeshCache& meshes,
                     const PixelBox& part, Targets& targets) {
     if (part.width == 0 || part.height == 0) return;
-    const std::vector<PixelBox> tiles = edgeTiles(targets.shaded(part));
+    const ShadedPixels shaded = targets.shaded(part);
     drawCoverage(view, items, meshes, part, targets);
+    gl_->Flush();  // GL goes on drawing while the tiles are looked for
+    const std::vector<PixelBox> tiles = edgeTiles(shaded);
     targets.bindResolve(part);
     gl_->Disable(GL_DEPTH_TEST);
     resolve_.use();

@@ -3,7 +3,8 @@
 // a ratio is the median over rounds of bout against bout.
 //
 //   Cloth/<float|double>/N/threads      counters: ns a point a step of each, and how many times faster taut is
-//   WindyCloth/…                        the same cloth with wind on its triangles, taut alone
+//   Scaling/…                           the same cloth, taut alone: what a point costs as the state grows
+//   WindyCloth/…                        likewise, with wind on its triangles
 //
 // Bullet's link solver and the textbook version run on one thread always, Bullet in single precision always.
 #include <benchmark/benchmark.h>
@@ -112,11 +113,11 @@ void clothAgainstOthers(benchmark::State& state, int side, int threads) {
     state.counters["x_objects"] = median(overTextbook);
 }
 
-template <class Real>
-void windyCloth(benchmark::State& state, int side, int threads) {
+template <class Real, Air air>
+void clothAlone(benchmark::State& state, int side, int threads) {
     const core::ThreadLimit limit(threads);
     const mechanics::Model cloth = hangingCloth(side);
-    ClothRun<Real> run(cloth, Air::windy);
+    ClothRun<Real> run(cloth, air);
     Contestant taut([&](int n) { run.step(n); }, cloth.pointCount(), threads);
     for ([[maybe_unused]] auto _ : state)
         state.SetIterationTime(taut.bout() * taut.steps() * cloth.pointCount() * 1e-9);
@@ -140,9 +141,13 @@ void addAll() {
             add("Cloth/float", clothAgainstOthers<float>, side, threads, rounds);
             add("Cloth/double", clothAgainstOthers<double>, side, threads, rounds);
         }
+    for (const int side : {32, 64, 128, 256, 512}) {
+        add("Scaling/float", clothAlone<float, Air::still>, side, 1, 4 * rounds);
+        add("Scaling/double", clothAlone<double, Air::still>, side, 1, 4 * rounds);
+    }
     for (const int threads : {1, 2}) {
-        add("WindyCloth/float", windyCloth<float>, 256, threads, rounds);
-        add("WindyCloth/double", windyCloth<double>, 256, threads, rounds);
+        add("WindyCloth/float", clothAlone<float, Air::windy>, 256, threads, rounds);
+        add("WindyCloth/double", clothAlone<double, Air::windy>, 256, threads, rounds);
     }
 }
 

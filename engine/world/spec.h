@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "world/action_spec.h"
+#include "world/source.h"
+
 namespace taut::world {
 
 using glm::dvec2;
@@ -18,17 +21,9 @@ using glm::dvec3;
 using glm::ivec2;
 using glm::ivec3;
 
-// Where in its file something was written, for messages that come later than loading.
-struct Source {
-    std::string file;
-    int line = 0;
-    int column = 0;
-};
-
 enum class Precision { single_, double_ };
 enum class OnDivergence { stop, freeze };
 enum class Align { left, centre, right };
-enum class Ease { linear, smooth, in, out, hold };
 
 struct SolverSpec {
     std::string integrator = "leapfrog";
@@ -39,7 +34,8 @@ struct SolverSpec {
     double cgTolerance = 1e-5;  // of implicit Euler: residual over right-hand side at which a solve ends
     int cgIterations = 1000;    // of implicit Euler: at most, a solve
     OnDivergence onDivergence = OnDivergence::stop;
-    double freezeStrain = 1.0;  // |l - L|/L of a spring (but those of bending) at which freezing takes a body to diverge
+    double freezeStrain =
+        1.0;  // |l - L|/L of a spring (but those of bending) at which freezing takes a body to diverge
 };
 
 // A body may override these parts of [solver].
@@ -63,12 +59,43 @@ struct RunSpec {
     double seconds = 5.0;  // length
 };
 
-struct NeedSpec {  // what "accurate enough" means for the scene
+struct NeedSpec {                       // what "accurate enough" means for the scene
     std::optional<double> rmsPosition;  // [m]
     std::optional<double> rmsPercent;   // [% of the bounding box]
     std::optional<double> rmsPixels;    // [px at the output size]
     std::optional<double> horizon;      // [s]
     std::optional<double> budget;       // [ms a frame]
+};
+
+// What hands may do while the scene runs. A timeline's own grabs are allowed for without it.
+struct HandSpec {
+    bool anywhere = false;      // any point of any body may be grabbed: every step allows for it
+    double strength = 200.0;    // [N/m] at most, of a hand
+    double dampingRatio = 0.3;  // at most
+};
+
+// A claim about the state, e.g. "max_strain(cloth.*) < 0.1". With neither at nor from and upTo it must always hold.
+struct CheckSpec {
+    Source source;  // of the text's first character
+    std::string that;
+    std::optional<double> at;          // [s] at this moment
+    std::optional<double> from, upTo;  // [s] all through this span, ends included
+};
+
+// Pictures to compare with recorded ones.
+struct GoldenSpec {
+    Source source;
+    std::vector<int> frames;
+    bool restart = false;  // drawn from the state stored with the picture instead of the one just computed
+    bool debug = false;    // with springs, points and contacts
+    std::string camera;    // name; empty: that of [picture]
+    ivec2 size{640, 360};  // [px]
+};
+
+// When a material stops being elastic.
+struct PlasticitySpec {
+    std::optional<double> yieldStrain;  // |l - L|/L beyond which a spring's rest length gives way; none: never
+    std::optional<double> breakStrain;  // (l - L)/L beyond which a spring is gone; none: never
 };
 
 // How a thing looks; see view::Finish.
@@ -85,17 +112,18 @@ struct FinishSpec {
     std::string texture;            // path, resolved by the loader
 };
 
-struct MaterialSpec {            // of cloth, per metre of material
-    double density = 0.2;        // [kg/m²]
-    double stretch = 900.0;      // k_s [N/m]
-    std::optional<double> shear;  // k_d [N/m]; none: stretch / 2, isotropic
-    double bend = 1.0;           // k_b [N/m]
-    double dampingTime = 1e-4;   // τ [s]
-    double drag = 0.3;           // γ/m [1/s]
+struct MaterialSpec {                  // of cloth, per metre of material
+    double density = 0.2;              // [kg/m²]
+    double stretch = 900.0;            // k_s [N/m]
+    std::optional<double> shear;       // k_d [N/m]; none: stretch / 2, isotropic
+    double bend = 1.0;                 // k_b [N/m]
+    double dampingTime = 1e-4;         // τ [s]
+    double drag = 0.3;                 // γ/m [1/s]
     std::string lumping = "weighted";  // weighted uniform
+    PlasticitySpec plasticity;
 };
 
-struct ArraySpec {           // copies of a body along three directions, named NAME.0, NAME.1, …
+struct ArraySpec {  // copies of a body along three directions, named NAME.0, NAME.1, …
     ivec3 count{1, 1, 1};
     dvec3 stepX{0.0}, stepY{0.0}, stepZ{0.0};  // [m] from one copy to the next
 };
@@ -126,18 +154,18 @@ struct MeshData {
 
 struct ClothSpec : BodySpec {
     // A grid …
-    dvec2 size{1.0, 1.0};        // [m]
+    dvec2 size{1.0, 1.0};  // [m]
     ivec2 cells{20, 20};
-    dvec3 origin{0.0};           // top left corner [m]
+    dvec3 origin{0.0};            // top left corner [m]
     dvec3 across{1.0, 0.0, 0.0};  // direction from left to right
     dvec3 down{0.0, -1.0, 0.0};   // direction from top to bottom
     // … or an OBJ mesh (then the five fields above are not allowed).
-    std::string mesh;            // path, resolved by the loader; empty: a grid
+    std::string mesh;                          // path, resolved by the loader; empty: a grid
     std::shared_ptr<const MeshData> meshData;  // what the file holds; null: a grid
-    dvec3 position{0.0};         // [m]
-    dvec3 rotation{0.0};         // [rad] about x, then y, then z
+    dvec3 position{0.0};                       // [m]
+    dvec3 rotation{0.0};                       // [rad] about x, then y, then z
     double scale = 1.0;
-    std::string material;        // name of a [material.NAME]
+    std::string material;  // name of a [material.NAME]
 };
 
 struct RopeSpec : BodySpec {
@@ -151,20 +179,22 @@ struct RopeSpec : BodySpec {
     double drag = 0.3;          // [1/s]
     double radius = 0.02;       // [m] drawn
     std::string lumping = "weighted";
+    PlasticitySpec plasticity;
 };
 
 struct BlockSpec : BodySpec {
     dvec3 size{0.5, 0.5, 0.5};  // [m]
     ivec3 cells{4, 4, 4};
-    dvec3 position{0.0};        // centre [m]
-    dvec3 rotation{0.0};        // [rad]
-    double density = 300.0;     // [kg/m³]
-    double young = 2e4;         // [Pa]
-    double bulk = 2e4;          // [Pa]
-    double dampingTime = 1e-3;  // [s]
-    double drag = 0.1;          // [1/s]
+    dvec3 position{0.0};          // centre [m]
+    dvec3 rotation{0.0};          // [rad]
+    double density = 300.0;       // [kg/m³]
+    double young = 2e4;           // [Pa]
+    double bulk = 2e4;            // [Pa]
+    double dampingTime = 1e-3;    // [s]
+    double drag = 0.1;            // [1/s]
     double workingStretch = 1.5;  // up to which the step must hold [-]
     std::string lumping = "weighted";
+    PlasticitySpec plasticity;
 };
 
 struct NetPointSpec {
@@ -176,9 +206,9 @@ struct NetPointSpec {
 };
 struct NetSpringSpec {
     std::string a, b;
-    double stiffness = 100.0;          // [N/m]
-    std::optional<double> restLength;  // [m]
-    std::optional<double> dampingTime; // [s]; none: the net's
+    double stiffness = 100.0;           // [N/m]
+    std::optional<double> restLength;   // [m]
+    std::optional<double> dampingTime;  // [s]; none: the net's
     Source source;
 };
 struct NetSpec : BodySpec {
@@ -188,6 +218,7 @@ struct NetSpec : BodySpec {
     double drag = 0.1;         // [1/s]
     double radius = 0.015;     // [m] of a drawn spring
     double ball = 0.06;        // [m] radius of a drawn point
+    PlasticitySpec plasticity;
 };
 
 // Targets are written KIND.NAME@SELECTOR, e.g. "cloth.flag@left"; NAME may have the wildcard *.
@@ -209,16 +240,16 @@ struct MassSpec {  // mass added to points
 struct AnchorSpec {  // a spring of zero rest length from each target point to a place, or to a moving place
     std::string name;
     std::string target;
-    dvec3 at{0.0};            // [m]
+    dvec3 at{0.0};             // [m]
     double stiffness = 100.0;  // [N/m] of each point
     double damping = 0.0;      // [kg/s] of each point
     Source source;
 };
 
 struct PoseKey {
-    double t = 0.0;        // [s]
-    dvec3 position{0.0};   // [m]
-    dvec3 rotation{0.0};   // [rad]
+    double t = 0.0;            // [s]
+    dvec3 position{0.0};       // [m]
+    dvec3 rotation{0.0};       // [rad]
     Ease ease = Ease::smooth;  // from the key before to this one
 };
 
@@ -238,9 +269,9 @@ struct ColliderSpec {
     std::vector<ColliderSpec> parts;  // compound
     double friction = 0.3;
     double restitution = 0.0;
-    std::vector<PoseKey> keys;     // keyframes; then position and rotation are not used
+    std::vector<PoseKey> keys;  // keyframes; then position and rotation are not used
     bool visible = true;
-    double edge = 0.01;            // [m] rounding of a drawn box's edges
+    double edge = 0.01;  // [m] rounding of a drawn box's edges
     FinishSpec finish;
 };
 
@@ -252,8 +283,8 @@ struct WindSpec {
     double gustPeriod = 1.5;   // [s]
     double gustLength = 2.0;   // [m] size of an eddy
     std::int64_t gustSeed = 1;
-    double drag = 1.0;         // drag coefficient of a triangle across the flow [-]
-    double lift = 0.6;         // lift coefficient [-]
+    double drag = 1.0;            // drag coefficient of a triangle across the flow [-]
+    double lift = 0.6;            // lift coefficient [-]
     std::vector<std::string> on;  // bodies it acts on, e.g. "cloth.*"; empty: every cloth
 };
 
@@ -301,14 +332,14 @@ struct LabelSpec {
     double size = 0.035;              // [picture heights]
     dvec3 colour{1.0, 1.0, 1.0};
     Align align = Align::centre;
-    double plate = 0.0;               // darkness behind the text, 0 … 1
+    double plate = 0.0;  // darkness behind the text, 0 … 1
 };
 
 struct PictureSpec {
-    ivec2 size{1280, 720};    // [px]
-    std::string camera;       // name; empty: the first by name
-    int samples = 4;          // multisampling
-    int shadowSize = 2048;    // [px] edge of the shadow map
+    ivec2 size{1280, 720};  // [px]
+    std::string camera;     // name; empty: the first by name
+    int samples = 4;        // multisampling
+    int shadowSize = 2048;  // [px] edge of the shadow map
 };
 
 struct SceneSpec {
@@ -327,13 +358,17 @@ struct SceneSpec {
     std::vector<RopeSpec> ropes;
     std::vector<BlockSpec> blocks;
     std::vector<NetSpec> nets;
-    std::vector<JointSpec> joints;   // in the order of the file
-    std::vector<MassSpec> masses;    // in the order of the file
+    std::vector<JointSpec> joints;  // in the order of the file
+    std::vector<MassSpec> masses;   // in the order of the file
     std::vector<AnchorSpec> anchors;
     std::vector<ColliderSpec> colliders;
     std::vector<WindSpec> winds;
     std::vector<CameraSpec> cameras;
     std::vector<LabelSpec> labels;
+    HandSpec hand;
+    std::vector<ActionSpec> actions;  // by time, those of one moment in the order of the file
+    std::vector<CheckSpec> checks;    // in the order of the file
+    std::vector<GoldenSpec> goldens;
 };
 
 }  // namespace taut::world

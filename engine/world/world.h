@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,14 +22,14 @@ namespace taut::world {
 // Why a run cannot go on: everything a person needs to mend the scene.
 struct Divergence {
     std::int64_t tick = 0;
-    double time = 0;          // [s]
-    std::string body;         // "cloth.flag"
-    int point = -1;           // in the order of authoring
-    std::string spring;       // the stiffest relative to its masses at that point, e.g. "structural 12-13"
-    double omegaH = 0;        // ω h there
-    double limit = 0;         // largest ω h that the method stands
-    double safeStep = 0;      // [s] largest step that would hold
-    std::string message;      // the whole diagnosis, several lines
+    double time = 0;      // [s]
+    std::string body;     // "cloth.flag"
+    int point = -1;       // in the order of authoring
+    std::string spring;   // the stiffest relative to its masses at that point, e.g. "structural 12-13"
+    double omegaH = 0;    // ω h there
+    double limit = 0;     // largest ω h that the method stands
+    double safeStep = 0;  // [s] largest step that would hold
+    std::string message;  // the whole diagnosis, several lines
 };
 
 // An island that diverged while others went on: [solver] on_divergence = "freeze".
@@ -38,36 +40,51 @@ struct FrozenIsland {
     Divergence divergence;
 };
 
-struct Metrics {  // at a published tick, velocities synchronised; frozen islands left out
-    double time = 0;                // [s]
-    double kinetic = 0;             // [J]
-    double elastic = 0;             // [J]
-    double gravitational = 0;       // [J]
-    glm::dvec3 momentum{0.0};       // [kg m/s]
+struct Metrics {                      // at a published tick, velocities synchronised; frozen islands left out
+    double time = 0;                  // [s]
+    double kinetic = 0;               // [J]
+    double elastic = 0;               // [J]
+    double gravitational = 0;         // [J]
+    glm::dvec3 momentum{0.0};         // [kg m/s]
     glm::dvec3 angularMomentum{0.0};  // [kg m²/s] about the origin
-    double maxStrain = 0;           // largest |l - L|/L of any spring but those of bending
+    double maxStrain = 0;             // largest |l - L|/L of any spring but those of bending
     int contacts = 0;
-    int invertedCells = 0;          // V/V0 <= 0
-    double minVolumeRatio = 1;      // smallest V/V0
-    ode::Work work{};               // of the methods since the start
+    int invertedCells = 0;      // V/V0 <= 0
+    int brokenSprings = 0;      // cut or torn since the start
+    double volume = 0;          // [m³] of the cells of blocks
+    double penetration = 0;     // [m] largest depth of a free, colliding point inside a collider
+    double minVolumeRatio = 1;  // smallest V/V0
+    ode::Work work{};           // of the methods since the start
+};
+
+// Points of a target at a published tick, velocities synchronised; body by body, in the order of authoring.
+struct PointsNow {
+    std::vector<glm::dvec3> x, v;  // (points) [m], [m/s]
+    std::vector<double> mass;      // (points) [kg]
+};
+
+// A body's part of the state hash, to tell which of them differ.
+struct BodyHash {
+    std::string name;  // "cloth.flag"
+    std::uint64_t hash = 0;
 };
 
 struct IslandInfo {
     std::string name;                 // of its first body
     std::vector<std::string> bodies;  // "cloth.flag", …
     int points = 0, heldPoints = 0, springs = 0, runs = 0, singles = 0, cells = 0;
-    double mass = 0;                  // [kg] of the points
+    double mass = 0;  // [kg] of the points
     std::string method;
-    double omegaBound = 0;            // B1 [1/s]
-    double omegaNow = 0;              // B2 at the start [1/s]
-    double omegaEstimate = 0;         // Lanczos [1/s]
-    ode::FastestMode fastest{};       // what stepLimit is computed from, omegaBound among it
-    double stepLimit = 0;             // [s] largest stable step by B1 with damping
-    double step = 0;                  // [s] chosen
+    double omegaBound = 0;       // B1 [1/s]
+    double omegaNow = 0;         // B2 at the start [1/s]
+    double omegaEstimate = 0;    // Lanczos [1/s]
+    ode::FastestMode fastest{};  // what stepLimit is computed from, omegaBound among it
+    double stepLimit = 0;        // [s] largest stable step by B1 with damping
+    double step = 0;             // [s] chosen
     int substeps = 1;
-    std::string limitingSpring;       // what sets the limit, in words
+    std::string limitingSpring;  // what sets the limit, in words
     std::uint64_t bytes = 0;
-    ode::Work work{};                 // of its method since the start
+    ode::Work work{};  // of its method since the start
 };
 
 struct Options {
@@ -93,11 +110,30 @@ class World {
     // on, and nothing is returned.
     std::optional<Divergence> advance();
 
+    // Does it now, between two ticks; advance() does so with the actions of the scene when their tick begins. Bodies
+    // whose forces change restart their method. Throws core::Error(badContent), with the action's source, for one that
+    // finds nothing to act on, such as a hand that is not there.
+    void apply(const ActionSpec& action);
+
+    // Where a hand is [m]; none if there is no hand of that name.
+    std::optional<glm::dvec3> handPlace(const std::string& id) const;
+
     // The picture of this moment; size in pixels sets the scale of the debug marks only.
     view::FrameView view(bool debug) const;
 
-    std::uint64_t stateHash() const;  // chained over ticks
+    std::uint64_t stateHash() const;                                 // chained over ticks
+    std::vector<BodyHash> bodyHashes() const;                        // in the order of the state hash; not chained
+    std::vector<std::uint64_t> pointHashes(ecs::Entity body) const;  // of x and the stored v, in the order of authoring
     Metrics metrics() const;
+    Metrics metrics(const std::string& bodies) const;  // of those that "cloth.*" names
+    PointsNow points(const std::string& target) const;
+
+    // Everything that the ticks so far have changed, as bytes, and back into a world that was built from the same scene
+    // up to that tick; what a scene says of later ticks may differ as long as it leads to the same steps. restore()
+    // throws core::Error(badContent) for bytes that do not fit this world, and leaves it unusable then.
+    std::vector<std::byte> save() const;
+    void restore(std::span<const std::byte> bytes);
+
     std::vector<IslandInfo> islands() const;
     ode::Work work() const;                     // of all methods since the start
     std::vector<FrozenIsland> frozen() const;   // in the order of islands()

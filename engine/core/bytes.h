@@ -27,9 +27,9 @@ class ByteWriter {
         add(static_cast<std::uint64_t>(text.size()));
         append(text.data(), text.size());
     }
-    // A list of numbers, or of plain structs of numbers without padding: its length and its bytes.
+    // A list of numbers, or of plain structs of numbers that fill them without gaps: its length and its bytes.
     template <class Item>
-    requires std::has_unique_object_representations_v<Item> || std::is_floating_point_v<Item>
+    requires std::is_trivially_copyable_v<Item>
     void addList(std::span<const Item> items) {
         add(static_cast<std::uint64_t>(items.size()));
         append(items.data(), items.size_bytes());

@@ -41,7 +41,7 @@ TEST(Bytes, EndingTooEarlyIsAnError) {
     writer.add(std::string_view("twelve bytes"));
     const std::vector<std::byte> bytes = writer.take();
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-        ByteReader reader(std::span(bytes).first(size));
+        ByteReader reader(std::span<const std::byte>(bytes).first(size));
         EXPECT_THROW(reader.text(), Error) << size;
     }
 }

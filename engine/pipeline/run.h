@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -33,6 +34,11 @@ struct RunOptions {
     std::int64_t lastFrame = 0;   // included
     bool debugView = false;
     bool metrics = false;
+
+    // Where to go on: the world is at the time of this frame already, with these records of the frames before.
+    std::int64_t startFrame = 0;
+    std::vector<FrameRecord> before{};
+    std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
 };
 
 // Hears of progress; every function may be left empty. They are called from several threads, never two at a time for
@@ -40,10 +46,13 @@ struct RunOptions {
 struct RunListener {
     std::function<void(const FrameRecord&)> frameDone;
     std::function<void(std::int64_t tick, std::uint64_t hash)> tickDone;
+    // The state that goes on with `frame`, and the records of the frames before: they are on disk.
+    std::function<void(std::int64_t frame, std::vector<std::byte> state, const std::vector<FrameRecord>& before)>
+        checkpoint;
 };
 
 struct RunResult {
-    std::vector<FrameRecord> frames;  // every simulated one, ascending
+    std::vector<FrameRecord> frames;  // every simulated one, those before the start among them, ascending
     std::optional<world::Divergence> divergence;
     bool interrupted = false;
     double seconds = 0.0;  // [s] of wall time, the whole run
@@ -52,9 +61,9 @@ struct RunResult {
 // What turns a view into a picture; called on the thread that calls play().
 using Draw = std::function<image::Image(const view::FrameView&)>;
 
-// Plays frames 0 … lastFrame. With `draw` and `sink` the frames from firstFrame on are drawn and written while the next
-// ones are simulated; without them nothing is drawn. Ends early, with everything that was begun finished, when the
-// state diverges or `stop` becomes true; the sink is finished in any case but an exception. Rethrows what a stage
+// Plays frames startFrame … lastFrame. With `draw` and `sink` the frames from firstFrame on are drawn and written while
+// the next ones are simulated; without them nothing is drawn. Ends early, with everything that was begun finished, when
+// the state diverges or `stop` becomes true; the sink is finished in any case but an exception. Rethrows what a stage
 // throws.
 RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
                const RunListener& listener, const std::atomic<bool>& stop);

@@ -1,0 +1,47 @@
+// The state of a run in a file, to go on from it later: as if the run had never stopped. It knows files of one run;
+// what of a scene a state depends on, the caller says by a key.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/run.h"
+
+namespace taut::pipeline {
+
+struct Checkpoint {
+    std::int64_t frame = 0;            // that comes next; the world is at its time
+    std::uint64_t state = 0;           // key of all that has made this state: scene, timeline so far, steps
+    std::uint64_t picture = 0;         // key of all that has made the pictures before
+    std::vector<std::byte> world;      // World::save()
+    std::vector<FrameRecord> records;  // of the frames before
+};
+
+// Whole or not at all; throws core::Error(inputOutput).
+void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
+
+// Throws core::Error: inputOutput, or badContent for a file that is foreign, damaged or of another version.
+Checkpoint readCheckpoint(const std::filesystem::path& path);
+
+// The checkpoints of one run, in a folder: checkpoint_000120.taut goes on with frame 120.
+class CheckpointFolder {
+  public:
+    explicit CheckpointFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    const std::filesystem::path& path() const { return folder_; }
+    std::filesystem::path pathOf(std::int64_t frame) const;
+    std::vector<std::int64_t> framesThere() const;  // ascending
+
+    // The last one at or before a frame whose state key is as `keyOf` says for its frame. Those that cannot be used are
+    // passed over, each with a line in `refused`.
+    std::optional<Checkpoint> latest(std::int64_t frame, const std::function<std::uint64_t(std::int64_t)>& keyOf,
+                                     std::vector<std::string>& refused) const;
+
+  private:
+    std::filesystem::path folder_;
+};
+
+}  // namespace taut::pipeline

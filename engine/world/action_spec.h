@@ -21,7 +21,7 @@ struct RampField {
     enum class Affects { picture, forces, colliders, springs };  // springs: of bodies and their materials
     Affects affects = Affects::forces;
     std::string owner;  // "material.nylon", "rope.rail", "wind.breeze", "world", …
-    std::function<std::vector<double>(const SceneSpec&)> read;  // in the units of the spec
+    std::function<std::vector<double>(const SceneSpec&)> read;  // in the units of the file, as write takes them
     std::function<void(SceneSpec&, const std::vector<double>&)> write;
 };
 
@@ -61,7 +61,7 @@ struct ActionSpec {
 
     // ramp
     std::string key;            // "wind.breeze.velocity"
-    std::vector<double> value;  // in the units of the spec
+    std::vector<double> value;  // in the units of the file, see RampField
     RampField field;
 };
 

@@ -120,7 +120,7 @@ struct MaterialSpec {                  // of cloth, per metre of material
     double dampingTime = 1e-4;         // τ [s]
     double drag = 0.3;                 // γ/m [1/s]
     std::string lumping = "weighted";  // weighted uniform
-    PlasticitySpec plasticity;
+    PlasticitySpec plasticity{};
 };
 
 struct ArraySpec {  // copies of a body along three directions, named NAME.0, NAME.1, …
@@ -179,7 +179,7 @@ struct RopeSpec : BodySpec {
     double drag = 0.3;          // [1/s]
     double radius = 0.02;       // [m] drawn
     std::string lumping = "weighted";
-    PlasticitySpec plasticity;
+    PlasticitySpec plasticity{};
 };
 
 struct BlockSpec : BodySpec {
@@ -194,7 +194,7 @@ struct BlockSpec : BodySpec {
     double drag = 0.1;            // [1/s]
     double workingStretch = 1.5;  // up to which the step must hold [-]
     std::string lumping = "weighted";
-    PlasticitySpec plasticity;
+    PlasticitySpec plasticity{};
 };
 
 struct NetPointSpec {
@@ -218,7 +218,7 @@ struct NetSpec : BodySpec {
     double drag = 0.1;         // [1/s]
     double radius = 0.015;     // [m] of a drawn spring
     double ball = 0.06;        // [m] radius of a drawn point
-    PlasticitySpec plasticity;
+    PlasticitySpec plasticity{};
 };
 
 // Targets are written KIND.NAME@SELECTOR, e.g. "cloth.flag@left"; NAME may have the wildcard *.

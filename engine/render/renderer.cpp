@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "render/camera_axes.h"
 #include "render/context.h"
@@ -125,7 +126,9 @@ image::Image Renderer::draw(const view::FrameView& view) {
     if (view.ground) occlusion = occlusionArea(casters, view.ground->height);
 
     // The maps that shading reads.
-    parts.shadow.draw(items, parts.meshes, box);
+    const std::span<const DrawItem> shadowed =
+        options.shadows ? std::span<const DrawItem>(items) : std::span<const DrawItem>();
+    parts.shadow.draw(shadowed, parts.meshes, box);
     if (occlusion) parts.occlusion.draw(items, parts.meshes, *occlusion, view.ground->height);
 
     // The picture; ground and sky last, for what is hidden need not be shaded.

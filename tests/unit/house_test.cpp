@@ -30,6 +30,9 @@ const std::map<std::string, Folders> allowed = {
     {"pipeline", {"core", "view", "image", "world", "scene", "render"}},
     {"report", {"core", "image"}},
     {"study", {"core", "ode", "ecs", "view", "mechanics", "collision", "world", "scene", "report"}},
+    {"regression",
+     {"core", "view", "image", "mechanics", "collision", "render", "ecs", "ode", "world", "check", "scene", "pipeline",
+      "report"}},
 };
 
 struct Include {

@@ -1,0 +1,45 @@
+// Draws golden pictures: one renderer for each size asked for, made when it is first needed. It belongs to one thread,
+// and knows neither scenarios nor files of pictures.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "image/image.h"
+#include "render/renderer.h"
+#include "view/frame_view.h"
+#include "world/spec.h"
+
+namespace taut::regression {
+
+struct DrawingOptions {
+    std::vector<render::Backend> backends = {render::Backend::osmesa, render::Backend::egl};  // the first that works
+    std::filesystem::path shaders;
+    std::filesystem::path font;
+    bool shadows = true;
+};
+
+class Drawer {
+  public:
+    explicit Drawer(DrawingOptions options);
+    ~Drawer();
+    Drawer(const Drawer&) = delete;
+    Drawer& operator=(const Drawer&) = delete;
+
+    // Throws core::Error(noRenderer) when nothing here can draw, and what Renderer::draw throws.
+    image::Image draw(const view::FrameView& view, const world::PictureSpec& picture, world::ivec2 size);
+
+    // What drew the last picture: "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6, osmesa".
+    const std::string& renderer() const { return renderer_; }
+
+  private:
+    DrawingOptions options_;
+    std::map<std::tuple<int, int, int, int>, std::unique_ptr<render::Renderer>> renderers_;
+    std::string renderer_;
+};
+
+}  // namespace taut::regression

@@ -1,0 +1,115 @@
+#include "regression/goldens.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "core/error.h"
+#include "image/png.h"
+#include "image/read.h"
+#include "image/whole_file.h"
+#include "pipeline/machine.h"
+#include "pipeline/sealed_file.h"
+#include "regression/judging.h"
+#include "regression/tape_compare.h"
+
+namespace taut::regression {
+namespace {
+
+const pipeline::SealedKind storedKind{"tautgold", 1, "stored state of a golden picture"};
+
+bool isThere(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
+void removeFile(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: {}", path.string(), error.message()));
+}
+
+bool hasSameChain(const std::filesystem::path& file, const Tape& tape) {
+    try {
+        return isThere(file) && !firstDifference(readTape(file), tape);
+    } catch (const core::Error& error) {
+        if (error.code() == core::ExitCode::inputOutput) throw;
+        return false;  // damaged: written anew
+    }
+}
+
+bool hasSamePicture(const std::filesystem::path& file, const image::Image& picture, const image::Tolerance& tolerance) {
+    try {
+        return isThere(file) && image::compare(image::readImage(file), picture, tolerance).within;
+    } catch (const core::Error& error) {
+        if (error.code() == core::ExitCode::inputOutput) throw;
+        return false;
+    }
+}
+
+// True when the golden had to change.
+bool updateState(const Scenario& scenario, const Played& played, const GoldenFolder& folder, GoldenScenario& goldens,
+                 const std::string& why) {
+    const std::filesystem::path file = folder.tape(scenario.name);
+    const std::string last = hexadecimal(played.tape.chain.back());
+    if (goldens.state && goldens.state->lastHash == last && hasSameChain(file, played.tape)) return false;
+    writeTape(file, played.tape);
+    const TapeOrigin& origin = played.tape.origin;
+    goldens.state = {why, last, played.tape.ticks(), origin.program, origin.compiler, origin.simd};
+    return true;
+}
+
+bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const GoldenFolder& folder,
+                   const Manifest& manifest, GoldenScenario& goldens, const std::string& why,
+                   const std::string& renderer) {
+    const std::string key = played.request.key();
+    const std::filesystem::path file = folder.picture(scenario.name, key), stored = folder.stored(scenario.name, key);
+    const auto known = goldens.pictures.find(key);
+    const bool hasState = !played.request.restart || isThere(stored);
+    if (known != goldens.pictures.end() && hasState && hasSamePicture(file, played.picture, manifest.tolerance)) {
+        // The picture stays and so does its reason; the state that it shows may have changed unseen.
+        if (!played.request.restart) known->second.stateHash = hexadecimal(played.stateHash);
+        return false;
+    }
+    if (played.request.restart) {
+        TAUT_EXPECTS(!played.savedState.empty());
+        pipeline::writeSealed(stored, storedKind, played.savedState);
+    }
+    image::writePng(file, played.picture);
+    goldens.pictures[key] = {why, hexadecimal(played.stateHash), renderer};
+    return true;
+}
+
+}  // namespace
+
+std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
+                                       Manifest& manifest, const std::string& why) {
+    TAUT_EXPECTS(!played.divergence && !played.interrupted);
+    std::vector<std::string> changes;
+    image::prepareFolderOf(folder.tape(scenario.name));
+    const std::vector<std::string> dropped = leftOver(scenario, manifest);
+    GoldenScenario& goldens = manifest.scenarios[scenario.name];
+    if (updateState(scenario, played, folder, goldens, why))
+        changes.push_back(fmt::format("{}: state, {} ticks", folder.tape(scenario.name).string(), played.tape.ticks()));
+    for (const PlayedPicture& picture : played.pictures)
+        if (updatePicture(scenario, picture, folder, manifest, goldens, why, played.renderer))
+            changes.push_back(
+                fmt::format("{}: picture", folder.picture(scenario.name, picture.request.key()).string()));
+    for (const std::string& key : dropped) {
+        goldens.pictures.erase(key);
+        removeFile(folder.picture(scenario.name, key));
+        removeFile(folder.stored(scenario.name, key));
+        changes.push_back(fmt::format("{}: dropped", folder.picture(scenario.name, key).string()));
+    }
+    writeManifest(folder, manifest);
+    return changes;
+}
+
+std::optional<std::vector<std::byte>> storedState(const GoldenFolder& folder, const std::string& scenario,
+                                                  const std::string& key) {
+    const std::filesystem::path file = folder.stored(scenario, key);
+    if (!isThere(file)) return std::nullopt;
+    return pipeline::readSealed(file, storedKind);
+}
+
+}  // namespace taut::regression

@@ -1,0 +1,197 @@
+#include "regression/judging.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "image/png.h"
+#include "image/read.h"
+#include "image/whole_file.h"
+#include "pipeline/run.h"
+#include "regression/tape_compare.h"
+
+namespace taut::regression {
+namespace {
+
+using report::TestPicture;
+using report::TestScenario;
+using report::TestState;
+using report::Verdict;
+
+// The entry of a scenario in the manifest; an empty one when there is none.
+const GoldenScenario& goldensOf(const Scenario& scenario, const Manifest& manifest) {
+    static const GoldenScenario none;
+    const auto found = manifest.scenarios.find(scenario.name);
+    return found == manifest.scenarios.end() ? none : found->second;
+}
+
+bool isThere(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
+std::vector<std::byte> bytesOf(const std::filesystem::path& path) {
+    const std::string content = image::fileContent(path);
+    const auto bytes = std::as_bytes(std::span<const char>(content.data(), content.size()));
+    return {bytes.begin(), bytes.end()};
+}
+
+TestState judgedState(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
+                      const GoldenScenario& goldens) {
+    TestState state;
+    state.ticks = played.tape.ticks();
+    state.lastHash = hexadecimal(played.tape.chain.back());
+    const std::filesystem::path file = folder.tape(scenario.name);
+    if (!goldens.state || !isThere(file)) {
+        state.verdict = Verdict::missing;
+        state.reason = goldens.state ? fmt::format("the manifest names a chain that is not there: {}", file.string())
+                                     : "no chain of state hashes is kept for this scenario yet";
+        return state;
+    }
+    state.why = goldens.state->why;
+    state.madeBy = fmt::format("{}, {}, {}", goldens.state->program, goldens.state->compiler, goldens.state->simd);
+    try {
+        const Tape golden = readTape(file);
+        if (const auto difference = firstDifference(golden, played.tape)) {
+            state.verdict = Verdict::failed;
+            state.reason = describe(*difference);
+            if (difference->fault == TapeFault::length)
+                state.reason = fmt::format("the run has {} ticks, its golden {}; up to there they agree", state.ticks,
+                                           golden.ticks());
+        } else if (hexadecimal(golden.chain.back()) != goldens.state->lastHash) {
+            state.verdict = Verdict::failed;
+            state.reason = fmt::format("{} ends with another hash than the manifest says", file.string());
+        }
+    } catch (const core::Error& error) {
+        state.verdict = Verdict::failed;
+        state.reason = error.what();
+    }
+    return state;
+}
+
+// Whether the state at a picture's frame is the one that its golden was drawn from.
+bool showsSameState(const PlayedPicture& played, const GoldenPicture& golden) {
+    return played.request.restart || hexadecimal(played.stateHash) == golden.stateHash;
+}
+
+void compare(const PlayedPicture& played, const GoldenPicture& golden, const std::filesystem::path& file,
+             const image::Tolerance& tolerance, TestPicture& picture) {
+    image::Image expected;
+    try {
+        picture.golden = bytesOf(file);
+        expected = image::readImage(file);
+    } catch (const core::Error& error) {
+        picture.golden.clear();
+        picture.verdict = Verdict::failed;
+        picture.reason = error.what();
+        return;
+    }
+    const image::Comparison comparison = image::compare(expected, played.picture, tolerance);
+    if (comparison.sameSize) {
+        picture.figures = image::describe(comparison, tolerance);
+        picture.isSame = comparison.largest == 0;
+        picture.difference = image::pngBytes(image::differencePicture(expected, played.picture));
+    }
+    if (comparison.within) return;
+    picture.verdict = Verdict::failed;
+    picture.reason = comparison.sameSize
+                         ? picture.figures
+                         : fmt::format("this picture has {}x{} pixels, its golden {}x{}", played.picture.width,
+                                       played.picture.height, expected.width, expected.height);
+    if (!showsSameState(played, golden)) picture.reason += "; the state that it shows differs too";
+}
+
+TestPicture judgedPicture(const Scenario& scenario, const PlayedPicture& played, const GoldenFolder& folder,
+                          const GoldenScenario& goldens, const image::Tolerance& tolerance) {
+    TestPicture picture;
+    picture.key = played.request.key();
+    picture.frame = played.request.frame;
+    picture.time = played.time;
+    if (played.picture.isWhole()) picture.actual = image::pngBytes(played.picture);
+    if (!played.fault.empty()) {
+        picture.verdict = Verdict::failed;
+        picture.reason = played.fault;
+        return picture;
+    }
+    const auto golden = goldens.pictures.find(picture.key);
+    const std::filesystem::path file = folder.picture(scenario.name, picture.key);
+    if (golden == goldens.pictures.end() || !isThere(file)) {
+        picture.verdict = Verdict::missing;
+        picture.reason = golden == goldens.pictures.end()
+                             ? "no golden picture is kept for this frame yet"
+                             : fmt::format("the manifest names a picture that is not there: {}", file.string());
+        return picture;
+    }
+    picture.why = golden->second.why;
+    picture.madeBy = golden->second.renderer;
+    if (played.request.restart && !isThere(folder.stored(scenario.name, picture.key))) {
+        picture.verdict = Verdict::missing;
+        picture.reason = "the state that this picture is to be drawn from is not stored";
+        return picture;
+    }
+    compare(played, golden->second, file, tolerance, picture);
+    return picture;
+}
+
+TestScenario blank(const Scenario& scenario) {
+    TestScenario result;
+    result.name = scenario.name;
+    result.title = scenario.spec.title;
+    result.file = scenario.file.string();
+    result.framesPerSecond = scenario.spec.run.fps;
+    result.sceneSeconds = static_cast<double>(pipeline::frameCount(scenario.spec.run)) / scenario.spec.run.fps;
+    result.notes = scenario.warnings;
+    return result;
+}
+
+}  // namespace
+
+std::string hexadecimal(std::uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
+
+std::vector<std::string> leftOver(const Scenario& scenario, const Manifest& manifest) {
+    std::vector<std::string> keys;
+    for (const auto& [key, picture] : goldensOf(scenario, manifest).pictures)
+        if (std::none_of(scenario.goldens.begin(), scenario.goldens.end(),
+                         [&, &name = key](const GoldenRequest& request) { return request.key() == name; }))
+            keys.push_back(key);
+    return keys;
+}
+
+TestScenario judged(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
+                    const Manifest& manifest) {
+    const GoldenScenario& goldens = goldensOf(scenario, manifest);
+    TestScenario result = blank(scenario);
+    result.seconds = played.seconds;
+    result.checks = played.checks;
+    result.notes.insert(result.notes.end(), played.warnings.begin(), played.warnings.end());
+    for (const PlayedPicture& picture : played.pictures)
+        result.pictures.push_back(judgedPicture(scenario, picture, folder, goldens, manifest.tolerance));
+    if (played.divergence) {
+        result.state.verdict = Verdict::diverged;
+        result.state.ticks = played.tape.ticks();
+        result.state.lastHash = hexadecimal(played.tape.chain.back());
+        result.faults.push_back(played.divergence->message);
+    } else {
+        result.state = judgedState(scenario, played, folder, goldens);
+    }
+    for (const std::string& key : leftOver(scenario, manifest))
+        result.notes.push_back(fmt::format("the golden picture {} is asked for no more; --update drops it", key));
+
+    result.verdict = result.state.verdict;
+    for (const report::TestCheck& check : result.checks) result.verdict = worse(result.verdict, check.verdict);
+    for (const TestPicture& picture : result.pictures) result.verdict = worse(result.verdict, picture.verdict);
+    return result;
+}
+
+TestScenario brokenScenario(const Scenario& scenario, const std::string& fault) {
+    TestScenario result = blank(scenario);
+    result.verdict = Verdict::failed;
+    result.faults.push_back(fault);
+    result.state.verdict = Verdict::skipped;
+    return result;
+}
+
+}  // namespace taut::regression

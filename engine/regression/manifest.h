@@ -1,0 +1,56 @@
+// What is known of the goldens: which pictures and state chains are kept, why each is as it is, and what made it. One
+// file for all scenarios of a folder of goldens. It knows neither how a scenario is played nor how goldens are
+// compared.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "image/compare.h"
+
+namespace taut::regression {
+
+// A picture; its name is made by keyOf() in goldens.h: "000120", "000060-debug".
+struct GoldenPicture {
+    std::string why;
+    std::string stateHash;  // of the chain where it was drawn, 16 hexadecimal digits
+    std::string renderer;   // what drew it
+};
+
+// The chain of state hashes of a whole run.
+struct GoldenState {
+    std::string why;
+    std::string lastHash;  // 16 hexadecimal digits
+    std::int64_t ticks = 0;
+    std::string program, compiler, simd;  // what computed it
+};
+
+struct GoldenScenario {
+    std::optional<GoldenState> state;
+    std::map<std::string, GoldenPicture> pictures;
+};
+
+struct Manifest {
+    image::Tolerance tolerance;
+    std::map<std::string, GoldenScenario> scenarios;
+};
+
+// Where things lie in a folder of goldens.
+struct GoldenFolder {
+    std::filesystem::path path;
+    std::filesystem::path manifest() const { return path / "manifest.json"; }
+    std::filesystem::path picture(const std::string& scenario, const std::string& key) const;  // NAME/000120.png
+    std::filesystem::path stored(const std::string& scenario, const std::string& key) const;   // NAME/000120.state
+    std::filesystem::path tape(const std::string& scenario) const;                             // NAME/state.tape
+};
+
+// Without a file an empty manifest. Throws core::Error: inputOutput when it cannot be read, badContent when it is no
+// manifest, with what is wrong in it.
+Manifest readManifest(const GoldenFolder& folder);
+
+// Throws core::Error(inputOutput).
+void writeManifest(const GoldenFolder& folder, const Manifest& manifest);
+
+}  // namespace taut::regression

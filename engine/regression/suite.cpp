@@ -1,0 +1,100 @@
+#include "regression/suite.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "core/error.h"
+#include "regression/goldens.h"
+#include "regression/judging.h"
+
+namespace taut::regression {
+namespace {
+
+class Suite {
+  public:
+    Suite(const std::vector<Scenario>& scenarios, const SuiteOptions& options, const Manifest& manifest,
+          const std::atomic<bool>& stop)
+        : scenarios_(scenarios), options_(options), manifest_(manifest), stop_(stop), results_(scenarios.size()) {}
+
+    void run() {
+        const auto most = static_cast<int>(scenarios_.size());
+        const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+        const int count = std::clamp(options_.threads > 0 ? options_.threads : machine, 1, std::max(1, most));
+        std::vector<std::jthread> workers;
+        for (int i = 1; i < count; ++i) workers.emplace_back([this] { work(); });
+        work();
+        workers.clear();  // joins
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+    std::vector<report::TestScenario> results() {
+        std::vector<report::TestScenario> all;
+        for (auto& result : results_)
+            if (result) all.push_back(std::move(*result));
+        return all;
+    }
+
+  private:
+    void work() {
+        Drawer drawer(options_.drawing);
+        for (int i = next_++; i < static_cast<int>(scenarios_.size()) && !stop_ && !failed_; i = next_++) {
+            try {
+                play(static_cast<std::size_t>(i), drawer);
+            } catch (...) {
+                const std::lock_guard lock(mutex_);
+                if (!failure_) failure_ = std::current_exception();
+                failed_ = true;
+            }
+        }
+    }
+
+    void play(std::size_t i, Drawer& drawer) {
+        const Scenario& scenario = scenarios_[i];
+        PlayOptions options;
+        options.storedState = storedStates(options_.goldens, scenario);
+        report::TestScenario result;
+        try {
+            const Played played = playScenario(scenario, drawer, options, stop_);
+            if (played.interrupted) return;
+            result = judged(scenario, played, options_.goldens, manifest_);
+        } catch (const core::Error& error) {
+            if (error.code() != core::ExitCode::badContent) throw;
+            result = brokenScenario(scenario, error.what());
+        }
+        const std::lock_guard lock(mutex_);
+        results_[i] = std::move(result);
+        if (options_.scenarioDone) options_.scenarioDone(++done_, *results_[i]);
+    }
+
+    const std::vector<Scenario>& scenarios_;
+    const SuiteOptions& options_;
+    const Manifest& manifest_;
+    const std::atomic<bool>& stop_;
+    std::vector<std::optional<report::TestScenario>> results_;
+    std::atomic<int> next_ = 0;
+    std::atomic<bool> failed_ = false;
+    int done_ = 0;
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+};
+
+}  // namespace
+
+std::function<std::optional<std::vector<std::byte>>(const GoldenRequest&)> storedStates(const GoldenFolder& folder,
+                                                                                        const Scenario& scenario) {
+    return [folder, name = scenario.name](const GoldenRequest& request) {
+        return storedState(folder, name, request.key());
+    };
+}
+
+std::vector<report::TestScenario> runSuite(const std::vector<Scenario>& scenarios, const SuiteOptions& options,
+                                           const Manifest& manifest, const std::atomic<bool>& stop) {
+    Suite suite(scenarios, options, manifest, stop);
+    suite.run();
+    return suite.results();
+}
+
+}  // namespace taut::regression

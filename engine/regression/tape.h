@@ -1,0 +1,55 @@
+// What a run's state was at every tick, as hashes: of the whole chain, of each body, and of each point if asked for. It
+// knows nothing of pictures and tolerances; hashes agree or they do not.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "world/world.h"
+
+namespace taut::regression {
+
+// Where a tape comes from.
+struct TapeOrigin {
+    std::string program, compiler, simd;  // as in run.json
+    std::string scene;                    // the file that was played; empty in a tape that belongs to a scenario
+    std::string text;                     // what that file said
+    std::vector<std::string> overrides;   // "key=value"
+};
+
+// The bodies that a tick has hashes of.
+struct TapeBodies {
+    std::vector<std::string> names;  // "cloth.flag", in the order of the state hash
+    std::vector<int> points;         // (names) how many have a hash; 0 where points are not recorded
+    bool operator==(const TapeBodies&) const = default;
+};
+
+struct Tape {
+    TapeOrigin origin;
+    double tickSeconds = 0;  // [s]
+    int ticksPerFrame = 1;
+
+    std::vector<std::uint64_t> chain;      // (ticks) from tick 0, the start, on
+    std::vector<TapeBodies> casts;         // each other than the one before: a body may be spawned
+    std::vector<std::uint32_t> castOf;     // (ticks) index into casts
+    std::vector<std::uint64_t> bodies;     // (ticks × bodies of that tick)
+    std::vector<std::uint32_t> points;     // (ticks × points of that tick), folded to 32 bits
+    std::vector<std::uint64_t> bodyAt{};   // (ticks) where in `bodies` a tick begins
+    std::vector<std::uint64_t> pointAt{};  // (ticks) where in `points` a tick begins
+
+    std::int64_t ticks() const { return static_cast<std::int64_t>(chain.size()) - 1; }  // after the start
+};
+
+// A tape of this program, without ticks.
+Tape blankTape();
+
+// Adds the moment that the world is at, which follows the last one on the tape; of a world after its start the rates.
+void addTick(Tape& tape, world::World& world, bool withPoints);
+
+// Throw core::Error: inputOutput, or badContent for what is no tape, a damaged one, or one of another version.
+void writeTape(const std::filesystem::path& path, const Tape& tape);
+Tape readTape(const std::filesystem::path& path);
+
+}  // namespace taut::regression

@@ -1,0 +1,132 @@
+#include "report/junit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace taut::report {
+namespace {
+
+struct Case {
+    std::string name;
+    Verdict verdict = Verdict::passed;
+    std::string message;
+    double seconds = 0;
+};
+
+// How many bytes the UTF-8 character that begins there has; 0: it is none, or one that XML does not allow.
+std::size_t characterLength(const std::string& text, std::size_t at) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0U;
+    };
+    const unsigned first = byte(at);
+    if (first < 0x80) return first >= 0x20 || first == '\n' || first == '\r' || first == '\t' ? 1 : 0;
+    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+    if (first < 0xC2 || first > 0xF4) return 0;
+    std::uint32_t code = first & (0xFFU >> (length + 1));
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(at + i) & 0xC0U) != 0x80U) return 0;
+        code = (code << 6U) | (byte(at + i) & 0x3FU);
+    }
+    const bool isTooLong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+    const bool isNoCharacter =
+        (code >= 0xD800 && code <= 0xDFFF) || code == 0xFFFE || code == 0xFFFF || code > 0x10FFFF;
+    return isTooLong || isNoCharacter ? 0 : length;
+}
+
+// For text and attributes; what XML does not allow becomes a question mark.
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = characterLength(text, at);
+        if (length == 0) {
+            out += '?';
+            ++at;
+            continue;
+        }
+        switch (text[at]) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            case '\n':
+                out += "&#10;";
+                break;
+            case '\r':
+                out += "&#13;";
+                break;
+            case '\t':
+                out += "&#9;";
+                break;
+            default:
+                out.append(text, at, length);
+        }
+        at += length;
+    }
+    return out;
+}
+
+std::vector<Case> casesOf(const TestScenario& scenario) {
+    std::vector<Case> cases;
+    Case run{"runs", scenario.faults.empty() ? Verdict::passed : Verdict::failed, "", scenario.seconds};
+    for (const std::string& fault : scenario.faults) run.message += (run.message.empty() ? "" : "\n") + fault;
+    if (scenario.verdict == Verdict::diverged) run.verdict = Verdict::diverged;
+    cases.push_back(run);
+    for (const TestCheck& check : scenario.checks)
+        cases.push_back({fmt::format("check {} ({})", check.that, check.source), check.verdict, check.reason, 0.0});
+    cases.push_back({"state", scenario.state.verdict, scenario.state.reason, 0.0});
+    for (const TestPicture& picture : scenario.pictures)
+        cases.push_back({"picture " + picture.key, picture.verdict, picture.reason, 0.0});
+    return cases;
+}
+
+bool isFailure(Verdict verdict) {
+    return verdict != Verdict::passed && verdict != Verdict::skipped;
+}
+
+std::string counts(const std::vector<Case>& cases, double seconds) {
+    const auto failures = std::count_if(cases.begin(), cases.end(), [](const Case& c) { return isFailure(c.verdict); });
+    const auto skipped =
+        std::count_if(cases.begin(), cases.end(), [](const Case& c) { return c.verdict == Verdict::skipped; });
+    return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"", cases.size(),
+                       failures, skipped, seconds);
+}
+
+std::string caseXml(const std::string& suite, const Case& c) {
+    std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(suite),
+                                   escaped(c.name), c.seconds);
+    if (c.verdict == Verdict::skipped) return text + ">\n      <skipped/>\n    </testcase>\n";
+    if (!isFailure(c.verdict)) return text + "/>\n";
+    const std::string first = c.message.substr(0, c.message.find('\n'));
+    return text + fmt::format(">\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n    </testcase>\n",
+                              nameOf(c.verdict), escaped(first), escaped(c.message));
+}
+
+}  // namespace
+
+std::string junitXml(const TestReport& report) {
+    std::string suites;
+    std::vector<Case> all;
+    for (const TestScenario& scenario : report.scenarios) {
+        const std::vector<Case> cases = casesOf(scenario);
+        const std::string suite = "taut." + scenario.name;
+        suites += fmt::format("  <testsuite name=\"{}\" {}>\n", escaped(suite), counts(cases, scenario.seconds));
+        for (const Case& c : cases) suites += caseXml(suite, c);
+        suites += "  </testsuite>\n";
+        all.insert(all.end(), cases.begin(), cases.end());
+    }
+    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"taut\" {}>\n{}</testsuites>\n",
+                       counts(all, report.seconds), suites);
+}
+
+}  // namespace taut::report

@@ -1,0 +1,14 @@
+// A run of tests as JUnit XML, which the usual CI systems read. It writes no file.
+#pragma once
+
+#include <string>
+
+#include "report/test_report.h"
+
+namespace taut::report {
+
+// A suite for each scenario with a case for the run, each check, the state and each picture. What only lacks its golden
+// is a failure of type "missing".
+std::string junitXml(const TestReport& report);
+
+}  // namespace taut::report

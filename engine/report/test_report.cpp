@@ -1,0 +1,142 @@
+#include "report/test_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "report/table.h"
+
+namespace taut::report {
+namespace {
+
+template <class Items>
+std::string countPassed(const Items& items) {
+    if (items.empty()) return "-";
+    const auto passed =
+        std::count_if(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::passed; });
+    return fmt::format("{}/{}{}", passed, items.size(), static_cast<std::size_t>(passed) == items.size() ? "" : " !");
+}
+
+std::string stateWord(const TestScenario& scenario) {
+    switch (scenario.state.verdict) {
+        case Verdict::passed:
+            return fmt::format("same, {} ticks", scenario.state.ticks);
+        case Verdict::failed:
+            return "differs !";
+        case Verdict::missing:
+            return "missing !";
+        case Verdict::diverged:
+            return "diverged !";
+        case Verdict::skipped:
+            break;
+    }
+    return "-";
+}
+
+void addLine(std::string& text, const std::string& line) {
+    text += "  ";
+    for (const char c : line) {
+        text += c;
+        if (c == '\n') text += "    ";
+    }
+    text += '\n';
+}
+
+int rank(Verdict verdict) {
+    constexpr std::array order{Verdict::passed, Verdict::skipped, Verdict::missing, Verdict::failed, Verdict::diverged};
+    return static_cast<int>(std::find(order.begin(), order.end(), verdict) - order.begin());
+}
+
+}  // namespace
+
+std::string nameOf(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::passed:
+            return "passed";
+        case Verdict::failed:
+            return "failed";
+        case Verdict::missing:
+            return "missing";
+        case Verdict::diverged:
+            return "diverged";
+        case Verdict::skipped:
+            break;
+    }
+    return "skipped";
+}
+
+Verdict worse(Verdict a, Verdict b) {
+    return rank(a) < rank(b) ? b : a;
+}
+
+Verdict verdictOf(const TestReport& report) {
+    Verdict verdict = Verdict::passed;
+    for (const TestScenario& scenario : report.scenarios) verdict = worse(verdict, scenario.verdict);
+    for (const CalibrationRow& row : report.calibration)
+        if (!row.refusal.empty()) verdict = worse(verdict, Verdict::failed);
+    return verdict;
+}
+
+std::string testTable(const TestReport& report) {
+    Table table{{"scenario", "", "checks", "state", "pictures", "time"}, {}};
+    for (const TestScenario& scenario : report.scenarios)
+        table.rows.push_back({scenario.name, nameOf(scenario.verdict), countPassed(scenario.checks),
+                              stateWord(scenario), countPassed(scenario.pictures),
+                              fmt::format("{:5.1f} s", scenario.seconds)});
+    return aligned(table);
+}
+
+std::string testFailures(const TestReport& report) {
+    std::string text;
+    for (const TestScenario& scenario : report.scenarios) {
+        if (scenario.verdict == Verdict::passed && scenario.notes.empty()) continue;
+        text += fmt::format("\n{} ({})\n", scenario.name, scenario.file);
+        for (const std::string& fault : scenario.faults) addLine(text, fault);
+        for (const TestCheck& check : scenario.checks)
+            if (!check.reason.empty()) addLine(text, fmt::format("{}: {}", check.source, check.reason));
+        if (!scenario.state.reason.empty()) addLine(text, fmt::format("state: {}", scenario.state.reason));
+        for (const TestPicture& picture : scenario.pictures)
+            if (!picture.reason.empty()) addLine(text, fmt::format("picture {}: {}", picture.key, picture.reason));
+        for (const std::string& note : scenario.notes) addLine(text, fmt::format("note: {}", note));
+        if (!scenario.accept.empty()) addLine(text, fmt::format("where this is meant: {}", scenario.accept));
+    }
+    return text;
+}
+
+std::string testSummary(const TestReport& report) {
+    std::string text = fmt::format("{} scenario{}:", report.scenarios.size(), report.scenarios.size() == 1 ? "" : "s");
+    const char* comma = " ";
+    for (const Verdict verdict :
+         {Verdict::diverged, Verdict::failed, Verdict::missing, Verdict::skipped, Verdict::passed}) {
+        const auto count = std::count_if(report.scenarios.begin(), report.scenarios.end(),
+                                         [&](const TestScenario& scenario) { return scenario.verdict == verdict; });
+        if (count == 0) continue;
+        text += fmt::format("{}{} {}", comma, count, verdict == Verdict::missing ? "without golden" : nameOf(verdict));
+        comma = ", ";
+    }
+    return text + fmt::format(", {:.1f} s", report.seconds);
+}
+
+std::string calibrationTable(const TestReport& report) {
+    if (report.calibration.empty()) return "";
+    Table table{
+        {"scenario", "picture", "against", "pixels", "worst tile", "largest", "picture", "state", "meant for", ""}, {}};
+    for (const CalibrationRow& row : report.calibration) {
+        const auto word = [&](bool has, bool differs) { return !has ? "-" : differs ? "differs" : "same"; };
+        table.rows.push_back({row.scenario, row.picture, row.what,
+                              row.hasPicture ? fmt::format("{:.4f} %", 100.0 * row.share) : "-",
+                              row.hasPicture ? fmt::format("{:.3f}", row.tileMean) : "-",
+                              row.hasPicture ? fmt::format("{}", row.largest) : "-",
+                              word(row.hasPicture, row.pictureDiffers), word(row.hasState, row.stateDiffers),
+                              row.isMutant ? row.meantFor : "noise", row.refusal.empty() ? "" : "REFUSED"});
+    }
+    std::string text = aligned(table);
+    for (const CalibrationRow& row : report.calibration)
+        if (!row.refusal.empty())
+            text += fmt::format("{} {}, {}: {}\n", row.scenario, row.picture, row.what, row.refusal);
+    return text;
+}
+
+}  // namespace taut::report

@@ -1,0 +1,109 @@
+// What a run of tests found, as plain data for the console, the page and the JUnit file. It knows neither how scenarios
+// are played nor how they are judged.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace taut::report {
+
+enum class Verdict { passed, failed, missing, diverged, skipped };
+
+struct TestCheck {
+    Verdict verdict = Verdict::passed;
+    std::string that;    // "max_strain(cloth.*) < 0.1"
+    std::string span;    // when it has to hold: "always", "at 2 s"
+    std::string value;   // "0.031", with its unit
+    std::string bound;   // "0.1"
+    std::string when;    // "2.317 s, frame 139": where it failed first, or came nearest to failing
+    std::string where;   // "cloth.flag, point 12"; empty: nowhere in particular
+    std::string source;  // "flag.toml:31"
+    std::string reason;  // one line that says what is wrong; empty when it passed
+};
+
+// The chain of state hashes.
+struct TestState {
+    Verdict verdict = Verdict::passed;
+    std::int64_t ticks = 0;
+    std::string lastHash;  // 16 hexadecimal digits
+    std::string reason;    // empty when it passed
+    std::string why;       // the manifest's reason for the golden
+    std::string madeBy;    // the program that recorded the golden
+};
+
+// PNG files as bytes; empty where there is none.
+struct TestPicture {
+    Verdict verdict = Verdict::passed;
+    std::string key;  // "000120-debug"
+    std::int64_t frame = 0;
+    double time = 0;      // [s]
+    std::string figures;  // how far the pictures are apart
+    std::string reason;   // empty when it passed
+    std::string why;      // the manifest's reason for the golden
+    std::string madeBy;   // the renderer that drew the golden
+    bool isSame = false;  // golden and actual do not differ in a single pixel
+    std::vector<std::byte> golden, actual, difference;
+};
+
+struct TestScenario {
+    std::string name, title;
+    std::string file;
+    Verdict verdict = Verdict::passed;
+    std::vector<std::string> faults;  // of the scenario as a whole: it diverged, or could not be built
+    std::vector<std::string> notes;   // that fail nothing
+    std::vector<TestCheck> checks;
+    TestState state;
+    std::vector<TestPicture> pictures;
+    double seconds = 0;       // [s] of wall time
+    double sceneSeconds = 0;  // [s] of the scene
+    double framesPerSecond = 60;
+    std::string accept;  // the command that accepts what differs; empty: nothing to accept
+};
+
+// How far apart two pictures of the same thing are, or of the same thing with a mistake in it.
+struct CalibrationRow {
+    std::string scenario, picture;
+    std::string what;  // "again", "EGL", "camera one pixel off"
+    bool isMutant = false;
+    bool hasPicture = true, hasState = true;            // false: this row does not concern it
+    double share = 0;                                   // of pixels that differ [-]
+    double tileMean = 0;                                // of the worst tile [1/255]
+    int largest = 0;                                    // [1/255]
+    bool pictureDiffers = false, stateDiffers = false;  // as the tests see it
+    std::string meantFor;                               // "picture", "state"
+    std::string refusal;                                // which threshold is refused, and why; empty: in order
+};
+
+struct TestReport {
+    std::string program, compiler, machine;
+    std::string renderer;   // of the pictures drawn now
+    std::string tolerance;  // in words
+    std::vector<std::string> notes;
+    std::vector<TestScenario> scenarios;
+    std::vector<CalibrationRow> calibration;
+    double seconds = 0;  // [s] of wall time
+};
+
+std::string nameOf(Verdict verdict);  // "passed"
+
+// The worse of two: diverged, failed, missing, skipped, passed.
+Verdict worse(Verdict a, Verdict b);
+
+// Of all scenarios and the calibration.
+Verdict verdictOf(const TestReport& report);
+
+// A line a scenario: name, checks, state, pictures, time.
+std::string testTable(const TestReport& report);
+
+// Everything that went wrong, a paragraph a scenario, with the command that accepts it; empty when nothing did.
+std::string testFailures(const TestReport& report);
+
+// "3 scenarios: 1 failed, 2 passed, 12.3 s".
+std::string testSummary(const TestReport& report);
+
+// Of the calibration; empty when there is none.
+std::string calibrationTable(const TestReport& report);
+
+}  // namespace taut::report

@@ -65,10 +65,11 @@ bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const 
     const std::string key = played.request.key();
     const std::filesystem::path file = folder.picture(scenario.name, key), stored = folder.stored(scenario.name, key);
     const auto known = goldens.pictures.find(key);
-    const bool hasState = !played.request.restart || isThere(stored);
-    if (known != goldens.pictures.end() && hasState && hasSamePicture(file, played.picture, manifest.tolerance)) {
-        // The picture stays and so does its reason; the state that it shows may have changed unseen.
-        if (!played.request.restart) known->second.stateHash = hexadecimal(played.stateHash);
+    const std::string hash = hexadecimal(played.stateHash);
+    const bool isKnown = known != goldens.pictures.end();
+    const bool hasState = !played.request.restart || (isKnown && isThere(stored) && known->second.stateHash == hash);
+    if (isKnown && hasState && hasSamePicture(file, played.picture, manifest.tolerance)) {
+        known->second.stateHash = hash;  // the picture stays and so does its reason; its state may have changed unseen
         return false;
     }
     if (played.request.restart) {
@@ -76,7 +77,7 @@ bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const 
         pipeline::writeSealed(stored, storedKind, played.savedState);
     }
     image::writePng(file, played.picture);
-    goldens.pictures[key] = {why, hexadecimal(played.stateHash), renderer};
+    goldens.pictures[key] = {why, hash, renderer};
     return true;
 }
 

@@ -20,9 +20,7 @@ class Suite {
         : scenarios_(scenarios), options_(options), manifest_(manifest), stop_(stop), results_(scenarios.size()) {}
 
     void run() {
-        const auto most = static_cast<int>(scenarios_.size());
-        const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-        const int count = std::clamp(options_.threads > 0 ? options_.threads : machine, 1, std::max(1, most));
+        const int count = std::clamp(options_.sideBySide, 1, std::max(1, static_cast<int>(scenarios_.size())));
         std::vector<std::jthread> workers;
         for (int i = 1; i < count; ++i) workers.emplace_back([this] { work(); });
         work();
@@ -30,6 +28,7 @@ class Suite {
         if (failure_) std::rethrow_exception(failure_);
     }
 
+    const std::string& renderer() const { return rendererName_; }
     std::vector<report::TestScenario> results() {
         std::vector<report::TestScenario> all;
         for (auto& result : results_)
@@ -54,6 +53,7 @@ class Suite {
     void play(std::size_t i, Drawer& drawer) {
         const Scenario& scenario = scenarios_[i];
         PlayOptions options;
+        options.threads = options_.threadsEach;
         options.storedState = storedStates(options_.goldens, scenario);
         report::TestScenario result;
         try {
@@ -65,6 +65,7 @@ class Suite {
             result = brokenScenario(scenario, error.what());
         }
         const std::lock_guard lock(mutex_);
+        if (!drawer.renderer().empty()) rendererName_ = drawer.renderer();
         results_[i] = std::move(result);
         if (options_.scenarioDone) options_.scenarioDone(++done_, *results_[i]);
     }
@@ -77,6 +78,7 @@ class Suite {
     std::atomic<int> next_ = 0;
     std::atomic<bool> failed_ = false;
     int done_ = 0;
+    std::string rendererName_;
     std::mutex mutex_;
     std::exception_ptr failure_;
 };
@@ -91,9 +93,11 @@ std::function<std::optional<std::vector<std::byte>>(const GoldenRequest&)> store
 }
 
 std::vector<report::TestScenario> runSuite(const std::vector<Scenario>& scenarios, const SuiteOptions& options,
-                                           const Manifest& manifest, const std::atomic<bool>& stop) {
+                                           const Manifest& manifest, std::string& renderer,
+                                           const std::atomic<bool>& stop) {
     Suite suite(scenarios, options, manifest, stop);
     suite.run();
+    renderer = suite.renderer();
     return suite.results();
 }
 

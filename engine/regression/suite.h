@@ -14,17 +14,20 @@
 namespace taut::regression {
 
 struct SuiteOptions {
-    int threads = 0;  // scenarios at the same time; 0: as many as the machine has
+    int sideBySide = 1;   // scenarios at the same time
+    int threadsEach = 0;  // of a world; 0: as many as the machine has
     DrawingOptions drawing;
     GoldenFolder goldens;
     // Called as scenarios end, one at a time.
     std::function<void(int done, const report::TestScenario& scenario)> scenarioDone{};
 };
 
-// In the order of the scenarios. A scenario that cannot be built fails alone; throws core::Error(noRenderer) when
-// pictures are asked for and nothing can draw. After `stop` those not finished are left out.
+// In the order of the scenarios; `renderer` becomes what drew. A scenario that cannot be built fails alone; throws
+// core::Error(noRenderer) when pictures are asked for and nothing can draw. After `stop` those not finished are left
+// out.
 std::vector<report::TestScenario> runSuite(const std::vector<Scenario>& scenarios, const SuiteOptions& options,
-                                           const Manifest& manifest, const std::atomic<bool>& stop);
+                                           const Manifest& manifest, std::string& renderer,
+                                           const std::atomic<bool>& stop);
 
 // The goldens of a folder as where restart pictures take their states from.
 std::function<std::optional<std::vector<std::byte>>(const GoldenRequest&)> storedStates(const GoldenFolder& folder,

@@ -1,0 +1,257 @@
+#include "report/test_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "report/page_parts.h"
+
+namespace taut::report {
+namespace {
+
+// As a JavaScript string within a script element, where "</" would end the element.
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            out += std::string("\\") + c;
+        else if (c == '\n')
+            out += "\\n";
+        else if (static_cast<unsigned char>(c) < 0x20 || c == '<')
+            out += fmt::format("\\u{:04x}", static_cast<int>(c));
+        else
+            out += c;
+    }
+    return out + "\"";
+}
+
+std::string mark(Verdict verdict) {
+    return fmt::format("<span class=\"mark {0}\">{0}</span>", nameOf(verdict));
+}
+
+std::string reason(Verdict verdict, const std::string& text) {
+    if (text.empty()) return "";
+    return fmt::format("<div class=\"reason {}\"><span>{}</span></div>\n", nameOf(verdict), htmlText(text));
+}
+
+template <class Items>
+std::string counted(const Items& items, const char* what) {
+    if (items.empty()) return "";
+    const auto passed =
+        std::count_if(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::passed; });
+    return fmt::format("<span>{}/{} {}</span>", passed, items.size(), what);
+}
+
+std::string checksTable(const TestScenario& scenario) {
+    if (scenario.checks.empty()) return "";
+    std::string text =
+        "<h3>Checks</h3>\n<table><tr><th></th><th>check</th><th>holds</th><th>value</th><th>bound</th><th>when</th>"
+        "<th>where</th><th>line</th></tr>\n";
+    for (const TestCheck& check : scenario.checks) {
+        text += fmt::format(
+            "<tr><td>{}</td><td><code>{}</code></td><td>{}</td><td class=\"mono\">{}</td><td class=\"mono\">{}</td>"
+            "<td>{}</td><td>{}</td><td class=\"quiet small\">{}</td></tr>\n",
+            mark(check.verdict), htmlText(check.that), htmlText(check.span), htmlText(check.value),
+            htmlText(check.bound), htmlText(check.when), htmlText(check.where), htmlText(check.source));
+    }
+    text += "</table>\n";
+    for (const TestCheck& check : scenario.checks) text += reason(check.verdict, check.reason);
+    return text;
+}
+
+std::string statePart(const TestState& state) {
+    std::string text =
+        fmt::format("<h3>State</h3>\n<div>{} <span class=\"quiet\">&ensp;{} ticks", mark(state.verdict), state.ticks);
+    if (!state.lastHash.empty()) text += fmt::format(", last hash <code>{}</code>", state.lastHash);
+    text += "</span></div>\n" + reason(state.verdict, state.reason);
+    if (!state.why.empty())
+        text += fmt::format("<p class=\"note\">“{}” <span class=\"quiet small\">{}</span></p>\n", htmlText(state.why),
+                            htmlText(state.madeBy));
+    return text;
+}
+
+std::string frameJson(const TestPicture& picture) {
+    return fmt::format(
+        "{{\"key\":{},\"frame\":{},\"label\":{},\"verdict\":\"{}\",\"reason\":{},\"figures\":{},\"why\":{},"
+        "\"madeBy\":{},\"same\":{},\"golden\":\"{}\",\"actual\":\"{}\",\"difference\":\"{}\"}}",
+        quoted(picture.key), picture.frame, quoted(fmt::format("frame {}, {:.3f} s", picture.frame, picture.time)),
+        nameOf(picture.verdict), quoted(picture.reason), quoted(picture.figures), quoted(picture.why),
+        quoted(picture.madeBy), picture.isSame, base64(picture.golden), picture.isSame ? "" : base64(picture.actual),
+        base64(picture.difference));
+}
+
+std::string figurePart(const char* kind, bool swaps, const char* none) {
+    return fmt::format(
+        "<figure data-kind=\"{}\"><figcaption><b></b>{}</figcaption><div class=\"frame{}\">"
+        "<img hidden alt=\"\"><div class=\"none\" hidden>{}</div></div></figure>\n",
+        kind, swaps ? "<span>point to swap</span>" : "", swaps ? " swaps" : "", none);
+}
+
+// The slider begins at the first picture that fails.
+std::string viewerPart(const TestScenario& scenario) {
+    if (scenario.pictures.empty()) return "";
+    const auto bad = std::find_if(scenario.pictures.begin(), scenario.pictures.end(),
+                                  [](const TestPicture& picture) { return picture.verdict != Verdict::passed; });
+    const auto first = bad == scenario.pictures.end() ? 0 : bad - scenario.pictures.begin();
+    std::string frames;
+    for (const TestPicture& picture : scenario.pictures) frames += (frames.empty() ? "" : ",\n") + frameJson(picture);
+    return fmt::format(
+        "<h3>Pictures</h3>\n<div class=\"viewer\">\n<script type=\"application/json\">[{}]</script>\n"
+        "<div class=\"scrub\"><span class=\"mark\"></span><span class=\"where\"></span>"
+        "<input type=\"range\" min=\"0\" max=\"{}\" step=\"1\" value=\"{}\" aria-label=\"golden frame\"{}></div>\n"
+        "<div class=\"stage\">\n{}{}{}</div>\n"
+        "<div class=\"reason\" hidden><span></span></div>\n"
+        "<p class=\"note\"><span class=\"why\"></span> <span class=\"quiet small made\"></span></p>\n"
+        "<p class=\"quiet small figures\"></p>\n</div>\n",
+        frames, scenario.pictures.size() - 1, first, scenario.pictures.size() == 1 ? " disabled" : "",
+        figurePart("golden", true, "no golden yet"), figurePart("actual", true, "not drawn"),
+        figurePart("difference", false, "nothing to compare"));
+}
+
+std::string scenarioPart(const TestScenario& scenario) {
+    const bool isGood = scenario.verdict == Verdict::passed;
+    std::string text = fmt::format(
+        "<details class=\"scenario{}\" id=\"{}\"{}>\n<summary>{}<h2>{}<span class=\"title\">{}</span></h2>"
+        "<span class=\"counts\">{}{}<span>{:.4g} s of scene</span><span>{:.1f} s</span></span></summary>\n"
+        "<div class=\"inside\">\n",
+        isGood ? " is-good" : "", htmlText(scenario.name), isGood ? "" : " open", mark(scenario.verdict),
+        htmlText(scenario.name), htmlText(scenario.title), counted(scenario.checks, "checks"),
+        counted(scenario.pictures, "pictures"), scenario.sceneSeconds, scenario.seconds);
+    for (const std::string& fault : scenario.faults) text += reason(scenario.verdict, fault);
+    text += viewerPart(scenario) + checksTable(scenario) + statePart(scenario.state);
+    if (!scenario.accept.empty())
+        text += fmt::format(
+            "<h3>Where this is meant</h3>\n<div class=\"command\"><code>{}</code><button class=\"copy\">Copy</button>"
+            "</div>\n",
+            htmlText(scenario.accept));
+    if (!scenario.notes.empty()) text += "<h3>Notes</h3>\n";
+    for (const std::string& note : scenario.notes)
+        text += fmt::format("<p class=\"quiet small\">{}</p>\n", htmlText(note));
+    return text + fmt::format("<p class=\"quiet small\">{}</p>\n</div>\n</details>\n", htmlText(scenario.file));
+}
+
+std::string calibrationPart(const std::vector<CalibrationRow>& rows) {
+    if (rows.empty()) return "";
+    std::string text =
+        "<details class=\"scenario\" id=\"calibration\" open>\n<summary><span></span><h2>Calibration<span "
+        "class=\"title\">"
+        "what the thresholds let through and what they find</span></h2><span></span></summary><div class=\"inside\">\n"
+        "<table class=\"cal\"><tr><th>scenario</th><th>picture</th><th>against</th><th class=\"number\">pixels</th>"
+        "<th class=\"number\">worst tile</th><th class=\"number\">largest</th><th>picture</th><th>state</th>"
+        "<th>meant for</th></tr>\n";
+    const auto cell = [](bool has, bool differs, bool isMutant) {
+        if (!has) return std::string("<td class=\"quiet\">–</td>");
+        const char* colour = !isMutant ? (differs ? "failed" : "quiet") : differs ? "passed" : "quiet";
+        return fmt::format("<td class=\"{}\">{}</td>", colour, differs ? (isMutant ? "found" : "differs") : "same");
+    };
+    for (const CalibrationRow& row : rows) {
+        text += fmt::format("<tr><td>{}</td><td class=\"mono\">{}</td><td>{}</td>", htmlText(row.scenario),
+                            htmlText(row.picture), htmlText(row.what));
+        if (row.hasPicture)
+            text += fmt::format(
+                "<td class=\"number\">{:.4f} %</td><td class=\"number\">{:.3f}</td><td "
+                "class=\"number\">{}</td>",
+                100.0 * row.share, row.tileMean, row.largest);
+        else
+            text +=
+                "<td class=\"number quiet\">–</td><td class=\"number quiet\">–</td><td class=\"number quiet\">–</td>";
+        text +=
+            cell(row.hasPicture, row.pictureDiffers, row.isMutant) + cell(row.hasState, row.stateDiffers, row.isMutant);
+        text += fmt::format("<td class=\"quiet\">{}</td></tr>\n", row.isMutant ? htmlText(row.meantFor) : "noise");
+        if (!row.refusal.empty())
+            text += fmt::format("<tr><td></td><td colspan=\"8\">{}</td></tr>\n", reason(Verdict::failed, row.refusal));
+    }
+    return text + "</table>\n</div></details>\n";
+}
+
+std::string tilesPart(const TestReport& report) {
+    std::string text = "<div class=\"tiles\">\n";
+    const auto tile = [&](std::size_t count, const char* what, const char* colour) {
+        text += fmt::format("<div class=\"tile\"><b class=\"{}\">{}</b><span>{}</span></div>\n", colour, count, what);
+    };
+    const auto count = [&](Verdict verdict) {
+        return static_cast<std::size_t>(
+            std::count_if(report.scenarios.begin(), report.scenarios.end(),
+                          [&](const TestScenario& scenario) { return scenario.verdict == verdict; }));
+    };
+    tile(report.scenarios.size(), report.scenarios.size() == 1 ? "scenario" : "scenarios", "");
+    if (count(Verdict::diverged) > 0) tile(count(Verdict::diverged), "diverged", "diverged");
+    if (count(Verdict::failed) > 0) tile(count(Verdict::failed), "failed", "failed");
+    if (count(Verdict::missing) > 0) tile(count(Verdict::missing), "without golden", "missing");
+    tile(count(Verdict::passed), "passed", count(Verdict::passed) > 0 ? "passed" : "quiet");
+    text += fmt::format("<div class=\"tile\"><b>{:.1f} s</b><span>wall time</span></div>\n</div>\n", report.seconds);
+    return text;
+}
+
+std::string join(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts)
+        if (!part.empty()) text += (text.empty() ? "" : " · ") + htmlText(part);
+    return text;
+}
+
+}  // namespace
+
+std::string htmlText(const std::string& text) {
+    std::string out;
+    for (const char c : text) switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            case '\'':
+                out += "&#39;";
+                break;
+            default:
+                out += c;
+        }
+    return out;
+}
+
+std::string base64(const std::vector<std::byte>& bytes) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    out.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](std::size_t at) { return at < bytes.size() ? std::to_integer<unsigned>(bytes[at]) : 0U; };
+        const unsigned three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
+        for (unsigned k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : letters[(three >> (18U - 6U * k)) & 63U];
+    }
+    return out;
+}
+
+// Failing scenarios stand first. The policy in the head makes sure that the page asks nothing of any network.
+std::string testPage(const TestReport& report) {
+    const Verdict verdict = verdictOf(report);
+    std::string text = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+        "'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>taut test: {}</title>\n"
+        "<style>{}</style>\n</head>\n<body>\n<main>\n<div class=\"top\"><h1>taut test</h1>{}<span "
+        "class=\"space\"></span>"
+        "<button id=\"failing\" aria-pressed=\"false\">Failing only</button><button id=\"theme\">Dark</button></div>\n"
+        "<div class=\"facts\">{}</div>\n{}",
+        nameOf(verdict), pageStyle(), mark(verdict),
+        join({report.program, report.compiler, report.machine, report.renderer}), tilesPart(report));
+    for (const bool isGood : {false, true})
+        for (const TestScenario& scenario : report.scenarios)
+            if ((scenario.verdict == Verdict::passed) == isGood) text += scenarioPart(scenario);
+    text += calibrationPart(report.calibration);
+    for (const std::string& note : report.notes)
+        text += fmt::format("<p class=\"quiet small\">{}</p>\n", htmlText(note));
+    text += fmt::format("<footer>{}</footer>\n</main>\n<script>{}</script>\n</body>\n</html>\n",
+                        htmlText(report.tolerance), pageScript());
+    return text;
+}
+
+}  // namespace taut::report

@@ -1,0 +1,19 @@
+// A run of tests as one HTML page that needs nothing besides: pictures, style and script are in it. It opens from a
+// file and asks nothing of any network. It writes no file.
+#pragma once
+
+#include <string>
+
+#include "report/test_report.h"
+
+namespace taut::report {
+
+std::string testPage(const TestReport& report);
+
+// For text and attributes.
+std::string htmlText(const std::string& text);
+
+// Of bytes, as RFC 4648 has it.
+std::string base64(const std::vector<std::byte>& bytes);
+
+}  // namespace taut::report

@@ -28,6 +28,16 @@ for (const viewer of document.querySelectorAll('.viewer')) {
   const figures = Object.fromEntries([...viewer.querySelectorAll('figure')].map(f => [f.dataset.kind, f]));
   const names = {golden: 'Golden', actual: 'Actual', difference: 'Difference × 16'};
   let now = null;
+  const stops = frames.map((frame, i) => {
+    const stop = document.createElement('button');
+    stop.className = frame.verdict;
+    stop.textContent = frame.frame;
+    stop.title = frame.label + ': ' + frame.verdict;
+    stop.tabIndex = -1;
+    stop.addEventListener('click', () => { slider.value = i; show(i); });
+    viewer.querySelector('.stops').append(stop);
+    return stop;
+  });
   const source = kind => kind === 'actual' && now.same ? now.golden : now[kind];
   const put = (kind, shown, swapped) => {
     const figure = figures[kind], image = figure.querySelector('img'), data = source(shown);
@@ -43,8 +53,8 @@ for (const viewer of document.querySelectorAll('.viewer')) {
     now = frames[index];
     viewer.dataset.key = now.key;
     for (const kind of ['golden', 'actual', 'difference']) put(kind, kind, false);
-    const where = viewer.querySelector('.where');
-    where.textContent = now.label;
+    viewer.querySelector('.where').textContent = now.label;
+    stops.forEach((stop, i) => stop.classList.toggle('on', i === index));
     const mark = viewer.querySelector('.scrub .mark');
     mark.className = 'mark ' + now.verdict;
     mark.textContent = now.verdict;

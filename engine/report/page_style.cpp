@@ -66,17 +66,20 @@ td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .small { font-size: 13px; }
 
 .viewer { margin-top: 6px; }
-.scrub { display: flex; align-items: center; gap: 14px; margin: 4px 0 12px; }
-.scrub input { flex: 1; accent-color: var(--accent); margin: 0; }
-.scrub .where { min-width: 250px; font-variant-numeric: tabular-nums; }
-.ticks { display: flex; justify-content: space-between; }
+.scrub { display: grid; grid-template-columns: auto 1fr; gap: 0 24px; align-items: center; margin: 4px 0 14px; }
+.scrub .now { display: flex; gap: 12px; min-width: 230px; font-variant-numeric: tabular-nums; }
+.scrub input { width: 100%; accent-color: var(--accent); margin: 0; }
+.stops { grid-column: 2; display: flex; justify-content: space-between; height: 22px; padding: 0 1px; }
+.stops button { border: 0; background: none; padding: 0; width: 14px; font-size: 12px; line-height: 1; display: flex; flex-direction: column; align-items: center; gap: 3px; font-variant-numeric: tabular-nums; }
+.stops button::before { content: ""; width: 2px; height: 7px; background: currentColor; border-radius: 1px; }
+.stops button.on { font-weight: 700; }
 .stage { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 12px; }
 figure { margin: 0; }
 figcaption { display: flex; justify-content: space-between; font-size: 13px; color: var(--quiet); padding: 0 2px 5px; }
 figcaption b { color: var(--text); font-weight: 600; }
 .frame { position: relative; border-radius: 10px; overflow: hidden; background: var(--faint); border: 1px solid var(--line); aspect-ratio: 16 / 9; }
 .frame img { display: block; width: 100%; height: 100%; object-fit: contain; }
-.frame img[hidden] { display: none; }
+.frame [hidden] { display: none !important; }
 .frame .none { position: absolute; inset: 0; display: grid; place-items: center; color: var(--quiet); font-size: 14px; }
 .frame.swaps { cursor: crosshair; }
 .frame.swapped { border-color: var(--accent); box-shadow: 0 0 0 2px var(--accent); }

@@ -98,8 +98,9 @@ std::string viewerPart(const TestScenario& scenario) {
     for (const TestPicture& picture : scenario.pictures) frames += (frames.empty() ? "" : ",\n") + frameJson(picture);
     return fmt::format(
         "<h3>Pictures</h3>\n<div class=\"viewer\">\n<script type=\"application/json\">[{}]</script>\n"
-        "<div class=\"scrub\"><span class=\"mark\"></span><span class=\"where\"></span>"
-        "<input type=\"range\" min=\"0\" max=\"{}\" step=\"1\" value=\"{}\" aria-label=\"golden frame\"{}></div>\n"
+        "<div class=\"scrub\"><span class=\"now\"><span class=\"mark\"></span><span class=\"where\"></span></span>"
+        "<input type=\"range\" min=\"0\" max=\"{}\" step=\"1\" value=\"{}\" aria-label=\"golden frame\"{}>"
+        "<div class=\"stops\"></div></div>\n"
         "<div class=\"stage\">\n{}{}{}</div>\n"
         "<div class=\"reason\" hidden><span></span></div>\n"
         "<p class=\"note\"><span class=\"why\"></span> <span class=\"quiet small made\"></span></p>\n"

@@ -1,0 +1,123 @@
+#include "report/test_report.h"
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <string>
+
+#include "report/junit.h"
+#include "report/test_page.h"
+#include "report_test_results.h"
+
+namespace taut::report {
+namespace {
+
+using test::bytes;
+using test::mixedReport;
+
+int count(const std::string& text, const std::string& part) {
+    int n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+    return n;
+}
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(TestReport, OfSeveralFailuresTheGravestCounts) {
+    TestReport report = mixedReport();
+    EXPECT_EQ(verdictOf(report), Verdict::diverged);
+    report.scenarios.pop_back();
+    EXPECT_EQ(verdictOf(report), Verdict::failed);
+    report.scenarios.erase(report.scenarios.begin() + 1);
+    EXPECT_EQ(verdictOf(report), Verdict::missing);
+    report.scenarios.pop_back();
+    EXPECT_EQ(verdictOf(report), Verdict::passed);
+    report.calibration.push_back(
+        {"good", "000010", "shadow off", true, true, false, 0, 0, 0, false, false, "picture", "lets it through"});
+    EXPECT_EQ(verdictOf(report), Verdict::failed);
+}
+
+TEST(TestReport, TheTableHasALineForEveryScenarioAndTheSummaryCountsThem) {
+    const std::string table = testTable(mixedReport());
+    EXPECT_EQ(count(table, "\n"), 5);  // a heading and four scenarios
+    EXPECT_TRUE(has(table, "same, 59 ticks")) << table;
+    EXPECT_EQ(testSummary(mixedReport()), "4 scenarios: 1 diverged, 1 failed, 1 without golden, 1 passed, 3.5 s");
+}
+
+TEST(TestReport, FailuresAreToldWithTheirPlaceAndTheCommandThatAcceptsThem) {
+    const std::string text = testFailures(mixedReport());
+    for (const char* part : {"bad.toml:7: 5 is not below 3", "state: tick 7 differs", "picture 000010: too many pixels",
+                             "where this is meant: taut test s --update bad", "rope.a diverged\n      at point 3"})
+        EXPECT_TRUE(has(text, part)) << part << " in\n" << text;
+    EXPECT_FALSE(has(text, "good")) << text;
+}
+
+// The schema that Jenkins and GitLab read: testsuites > testsuite > testcase > failure, counts in both.
+TEST(TestReportJunit, CountsWhatItHolds) {
+    const std::string xml = junitXml(mixedReport());
+    // good: run, check, state; bad: run, check, state, picture; missing: run, state; diverged: run, state.
+    EXPECT_EQ(count(xml, "<testcase "), 3 + 4 + 2 + 2);
+    EXPECT_EQ(count(xml, "<failure "), 0 + 3 + 1 + 2);
+    EXPECT_TRUE(
+        has(xml, "<testsuites name=\"taut\" tests=\"11\" failures=\"6\" errors=\"0\" skipped=\"0\" time=\"3.500\">"))
+        << xml;
+    EXPECT_TRUE(has(xml, "<testsuite name=\"taut.bad\" tests=\"4\" failures=\"3\"")) << xml;
+    EXPECT_TRUE(has(xml, "type=\"missing\"")) << xml;
+}
+
+TEST(TestReportJunit, EscapesWhatXmlDoesNotAllow) {
+    TestReport report = mixedReport();
+    report.scenarios[1].checks[0].reason = "a<b>&\"\x01\xff\xed\xa0\x80 é\n";
+    const std::string xml = junitXml(report);
+    EXPECT_TRUE(has(xml, "check 1 &lt; 2 &amp; &quot;x&quot; (bad.toml:7)")) << xml;
+    // The control character, the stray byte and the three bytes of half a surrogate pair become question marks.
+    EXPECT_TRUE(has(xml, "a&lt;b&gt;&amp;&quot;????? é&#10;")) << xml;
+}
+
+// RFC 4648, section 10.
+TEST(TestReportPage, Base64IsThatOfTheStandard) {
+    EXPECT_EQ(base64(bytes("")), "");
+    EXPECT_EQ(base64(bytes("f")), "Zg==");
+    EXPECT_EQ(base64(bytes("fo")), "Zm8=");
+    EXPECT_EQ(base64(bytes("foo")), "Zm9v");
+    EXPECT_EQ(base64(bytes("foob")), "Zm9vYg==");
+    EXPECT_EQ(base64(bytes("fooba")), "Zm9vYmE=");
+    EXPECT_EQ(base64(bytes("foobar")), "Zm9vYmFy");
+}
+
+TEST(TestReportPage, HoldsItsPicturesAndNamesNoOtherPlace) {
+    const std::string page = testPage(mixedReport());
+    EXPECT_TRUE(has(page, base64(bytes("golden"))));
+    EXPECT_TRUE(has(page, base64(bytes("actual"))));
+    EXPECT_TRUE(has(page, base64(bytes("difference"))));
+    for (const char* outside : {"http://", "https://", "src=\"", "href=", "@import", "url("})
+        EXPECT_FALSE(has(page, outside)) << outside;
+    EXPECT_TRUE(has(page, "default-src 'none'"));
+}
+
+TEST(TestReportPage, ShowsFailuresFirstWithReasonAndCommand) {
+    const std::string page = testPage(mixedReport());
+    EXPECT_LT(page.find("id=\"bad\""), page.find("id=\"good\""));
+    EXPECT_TRUE(has(page, "5 is not below 3"));
+    EXPECT_TRUE(has(page, "taut test s --update bad --why &quot;…&quot;"));
+    EXPECT_TRUE(has(page, "First picture."));
+    // Text from a scenario cannot end the script that it stands in.
+    EXPECT_TRUE(has(page, "too many pixels \\u003c/script> differ"));
+    EXPECT_EQ(count(page, "</script>"), 2);
+    EXPECT_TRUE(has(page, "<code>1 &lt; 2 &amp; &quot;x&quot;</code>"));
+}
+
+TEST(TestReportPage, ShowsTheCalibration) {
+    TestReport report = mixedReport();
+    EXPECT_FALSE(has(testPage(report), "id=\"calibration\""));
+    EXPECT_EQ(calibrationTable(report), "");
+    report.calibration.push_back({"good", "000010", "shadow off", true, true, false, 0.5, 1.5, 9, false, false,
+                                  "picture", "share 0.9 lets it through"});
+    EXPECT_TRUE(has(testPage(report), "share 0.9 lets it through"));
+    EXPECT_TRUE(has(calibrationTable(report), "good 000010, shadow off: share 0.9 lets it through"));
+}
+
+}  // namespace
+}  // namespace taut::report

@@ -164,6 +164,10 @@ std::optional<TargetFault> BodyIndex::pointsFault(const std::string& target) con
     return std::nullopt;
 }
 
+std::optional<TargetFault> BodyIndex::targetFault(const std::string& target) const {
+    return target.find('@') == std::string::npos ? bodiesFault(target) : pointsFault(target);
+}
+
 std::optional<TargetFault> BodyIndex::bodyFault(const std::string& target) const {
     if (target.find('@') == std::string::npos) return bodiesFault(target);
     return TargetFault{fmt::format("\"{}\" names points, not a body", target),
@@ -189,6 +193,19 @@ std::vector<const BodyEntry*> BodyIndex::matches(const std::string& target) cons
     std::vector<const BodyEntry*> found;
     for (const BodyEntry& body : bodies_) {
         if (fits(withoutSelector(target), body)) found.push_back(&body);
+    }
+    return found;
+}
+
+std::vector<std::string> BodyIndex::names(const std::string& target) const {
+    const std::string_view pattern = withoutSelector(target);
+    std::vector<std::string> found;
+    for (const BodyEntry* body : matches(target)) {
+        if (body->copies == 1) found.push_back(body->title());
+        for (int i = 0; body->copies > 1 && i < body->copies; ++i) {
+            std::string name = fmt::format("{}.{}", body->title(), i);
+            if (fits(pattern, name)) found.push_back(std::move(name));
+        }
     }
     return found;
 }

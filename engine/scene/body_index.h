@@ -38,6 +38,9 @@ class BodyIndex {
     // KIND.NAME@SELECTOR; NAME may hold the wildcard *, and ends in .0, .1, … for one copy of an array.
     std::optional<TargetFault> pointsFault(const std::string& target) const;
 
+    // The same, where a missing @SELECTOR means all points.
+    std::optional<TargetFault> targetFault(const std::string& target) const;
+
     // KIND.NAME, with the same wildcard.
     std::optional<TargetFault> bodyFault(const std::string& target) const;
 
@@ -49,6 +52,9 @@ class BodyIndex {
 
     // The bodies that KIND.NAME or KIND.NAME@SELECTOR names, sorted; none if it is faulty.
     std::vector<const BodyEntry*> matches(const std::string& target) const;
+
+    // The same by name, each copy of an array for itself: "cloth.flag", "cloth.tile.0"; of faulty bodies too.
+    std::vector<std::string> names(const std::string& target) const;
 
   private:
     std::optional<TargetFault> bodiesFault(const std::string& target) const;

@@ -10,10 +10,10 @@
 namespace taut::scene {
 
 std::vector<Section> sceneSections() {
-    return {fileSection(),    needSection(),     solverSection(), worldSection(),      runSection(),
-            pictureSection(), materialSection(), clothSection(),  ropeSection(),       blockSection(),
-            netSection(),     jointSection(),    massSection(),   anchorSection(),     colliderSection(),
-            windSection(),    cameraSection(),   lightSection(),  backgroundSection(), labelSection()};
+    return {fileSection(),       needSection(),   solverSection(),   worldSection(), runSection(),    pictureSection(),
+            materialSection(),   clothSection(),  ropeSection(),     blockSection(), netSection(),    jointSection(),
+            massSection(),       anchorSection(), colliderSection(), windSection(),  cameraSection(), lightSection(),
+            backgroundSection(), labelSection(),  handSection(),     atSection(),    checkSection(),  goldenSection()};
 }
 
 Place CheckInput::at(const std::string& key) const {
@@ -68,9 +68,13 @@ std::string description(const Field& field) {
         case FieldKind::colour:
             return "a list of 3 numbers from 0 to 1, or \"#rrggbb\"";
         case FieldKind::segment:
-            return "a list of two points, each a list of 3 numbers" + unit;
+            return fmt::format("a list of two points, each a list of {} numbers{}", field.components, unit);
         case FieldKind::texts:
             return "a list of texts";
+        case FieldKind::wholes:
+            return "a list of whole numbers";
+        case FieldKind::numbers:
+            return "a number, a list of numbers or \"#rrggbb\"";
         case FieldKind::table:
             return "a table";
         case FieldKind::tables:

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,8 +27,10 @@ enum class FieldKind {
     wholeVector,  // `components` whole numbers
     direction,    // three numbers that are not all zero
     colour,       // three numbers 0 … 1 or "#rrggbb"
-    segment,      // two points in space
+    segment,      // two points of `components` numbers
     texts,        // a list of texts
+    wholes,       // a list of whole numbers
+    numbers,      // a number, a list of numbers or a colour: what another field may hold
     table,        // fields of its own
     tables,       // a list of tables
 };
@@ -59,7 +62,7 @@ enum class Role {
 
 // A value in the file's units. Vectors, directions, colours and segments are numbers; none is "not given".
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
-                           std::vector<std::string>>;
+                           std::vector<std::string>>;  // lists of whole numbers are numbers too
 
 struct Section;
 
@@ -73,6 +76,7 @@ struct Field {
     bool required = false;
     std::vector<std::string> only;  // variants of the section that have this field; empty: all
     Role role = Role::none;
+    std::optional<world::RampField::Affects> ramp;  // what changes with it, if a ramp may change it
     std::string help;
 
     std::function<void(void*, const Value&)> write;  // into the section's struct
@@ -110,9 +114,12 @@ struct Section {
 
     // Which of several forms a table has, e.g. a collider's shape; no function: there is one form only.
     std::function<std::string(const Node&)> variant;
+    std::string variantKey;  // the field that says it, e.g. "shape"; empty: none does
 
     // The struct to fill: a part of the scene, or a new body with its name. Not of a section inside another.
     std::function<void*(world::SceneSpec&, const std::string& name, const world::Source&)> enter;
+    // The struct that is there already, or null; no function: ramps change nothing of it.
+    std::function<void*(world::SceneSpec&, const std::string& name)> existing;
 
     // What no single field can say. Called after the fields are read, also if some were wrong; may amend the struct.
     std::function<void(const CheckInput&, void*)> check;

@@ -48,6 +48,15 @@ class FieldList {
                 }
             });
     }
+    // A number of a part of the struct.
+    template <class Part, class Base>
+    FieldList& number(const char* key, Part Base::*part, std::optional<double> Part::*member, const char* unit,
+                      Range range, const char* help) {
+        return add(
+            key, FieldKind::number, unit, range, help,
+            [=](Spec& s, const Value& value) { (s.*part).*member = std::get<double>(value); },
+            [=](const Spec& s) -> Value { return (s.*part).*member ? Value(*((s.*part).*member)) : Value(); });
+    }
     template <class Number, class Base>
     FieldList& degrees(const char* key, Number Base::*member, Range range, const char* help) {
         return number(key, member, "degrees", range, help, core::radians(1.0));
@@ -146,16 +155,21 @@ class FieldList {
     // A vector that may be left out.
     template <int N, class Base>
     FieldList& vector(const char* key, std::optional<glm::vec<N, double, glm::defaultp>> Base::*member,
-                      const char* unit, Range range, const char* help) {
+                      const char* unit, Range range, const char* help, double factor = 1.0) {
         using Vector = glm::vec<N, double, glm::defaultp>;
         add(
             key, FieldKind::vector, unit, range, help,
-            [=](Spec& s, const Value& value) { s.*member = vectorOf<Vector>(std::get<std::vector<double>>(value)); },
-            [=](const Spec& s) -> Value { return s.*member ? Value(numbersOf(*(s.*member))) : Value(); });
+            [=](Spec& s, const Value& value) {
+                s.*member = vectorOf<Vector>(std::get<std::vector<double>>(value)) * factor;
+            },
+            [=](const Spec& s) -> Value {
+                return s.*member ? Value(numbersOf(*(s.*member) / factor)) : Value();
+            });
         last().components = N;
         return *this;
     }
-    FieldList& rotation(const char* key, glm::dvec3 Spec::*member, const char* help) {
+    template <class Vector, class Base>  // dvec3 or std::optional<dvec3>
+    FieldList& rotation(const char* key, Vector Base::*member, const char* help) {
         return vector(key, member, "degrees", Range{-1e6, 1e6}, help, core::radians(1.0));
     }
     FieldList& direction(const char* key, glm::dvec3 Spec::*member, const char* help) {
@@ -195,6 +209,46 @@ class FieldList {
         last().components = 3;
         return *this;
     }
+    // Two points that may be left out, of two or three numbers each.
+    template <int N>
+    FieldList& segment(const char* key, std::optional<glm::vec<N, double, glm::defaultp>> Spec::*start,
+                       std::optional<glm::vec<N, double, glm::defaultp>> Spec::*end, const char* unit, Range range,
+                       const char* help) {
+        using Vector = glm::vec<N, double, glm::defaultp>;
+        add(
+            key, FieldKind::segment, unit, range, help,
+            [=](Spec& s, const Value& value) {
+                s.*start = vectorOf<Vector>(std::get<std::vector<double>>(value));
+                s.*end = vectorOf<Vector>(std::get<std::vector<double>>(value), N);
+            },
+            [=](const Spec& s) -> Value {
+                if (!(s.*start) || !(s.*end)) return {};
+                std::vector<double> numbers = numbersOf(*(s.*start));
+                for (const double number : numbersOf(*(s.*end))) numbers.push_back(number);
+                return numbers;
+            });
+        last().components = N;
+        return *this;
+    }
+    FieldList& wholes(const char* key, std::vector<int> Spec::*member, Range range, const char* help) {
+        return add(
+            key, FieldKind::wholes, "", range, help,
+            [=](Spec& s, const Value& value) {
+                (s.*member).clear();
+                for (const double number : std::get<std::vector<double>>(value))
+                    (s.*member).push_back(static_cast<int>(number));
+            },
+            [=](const Spec& s) -> Value {
+                return std::vector<double>((s.*member).begin(), (s.*member).end());
+            });
+    }
+    // What another field may hold.
+    FieldList& numbers(const char* key, std::vector<double> Spec::*member, const char* help) {
+        return add(
+            key, FieldKind::numbers, "", anyNumber, help,
+            [=](Spec& s, const Value& value) { s.*member = std::get<std::vector<double>>(value); },
+            [=](const Spec& s) -> Value { return (s.*member).empty() ? Value() : Value(s.*member); });
+    }
     FieldList& texts(const char* key, std::vector<std::string> Spec::*member, Role role, const char* help) {
         return add(
                    key, FieldKind::texts, "", anyNumber, help,
@@ -223,7 +277,7 @@ class FieldList {
                          });
     }
 
-    // These three change the field added last.
+    // These four change the field added last.
     FieldList& required() {
         last().required = true;
         return *this;
@@ -234,6 +288,10 @@ class FieldList {
     }
     FieldList& role(Role role) {
         last().role = role;
+        return *this;
+    }
+    FieldList& ramps(world::RampField::Affects affects) {
+        last().ramp = affects;
         return *this;
     }
 

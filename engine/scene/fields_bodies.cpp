@@ -21,8 +21,10 @@ constexpr Range length{1e-6, 1e6};      // [m]
 constexpr Range count{1.0, 1e9};        // of cells; what is too much is said with figures once all is read
 constexpr Range dampingTime{0.0, 1e3};  // [s]
 constexpr Range dragRate{0.0, 1e6};     // [1/s]
+constexpr Range strain{1e-6, 1e3};      // |l - L|/L
 constexpr Range copies{1.0, 100000.0};
 constexpr double maxCopies = 100000;
+constexpr auto springs = RampField::Affects::springs;
 
 Section arraySection() {
     Section section;
@@ -84,12 +86,23 @@ std::vector<Field> withBodyFields(FieldList<Spec> list) {
     return list.take();
 }
 
+// Fields of all that stops being elastic.
+template <class Spec>
+FieldList<Spec> withPlasticity(FieldList<Spec> list) {
+    list.number("yield_strain", &Spec::plasticity, &PlasticitySpec::yieldStrain, "", strain,
+                "Strain beyond which springs keep part of it for good; never if not given.");
+    list.number("break_strain", &Spec::plasticity, &PlasticitySpec::breakStrain, "", strain,
+                "Strain of a stretched spring at which it tears; never if not given.");
+    return list;
+}
+
 // Fields of all bodies that have a stiffness of their own.
 template <class Spec>
 FieldList<Spec> withLosses(FieldList<Spec> list) {
     list.number("damping_time_s", &Spec::dampingTime, "s", dampingTime,
-                "Damping of a spring over its stiffness: inner friction.");
-    list.number("drag_per_s", &Spec::drag, "1/s", dragRate, "Rate at which still air slows a point.");
+                "Damping of a spring over its stiffness: inner friction.")
+        .ramps(springs);
+    list.number("drag_per_s", &Spec::drag, "1/s", dragRate, "Rate at which still air slows a point.").ramps(springs);
     return list;
 }
 
@@ -137,13 +150,20 @@ Section materialSection() {
     section.enter = [](SceneSpec& scene, const std::string& name, const Source&) -> void* {
         return &scene.materials[name];
     };
+    section.existing = [](SceneSpec& scene, const std::string& name) -> void* {
+        const auto found = scene.materials.find(name);
+        return found == scene.materials.end() ? nullptr : &found->second;
+    };
     FieldList<MaterialSpec> list;
     list.number("density_kg_per_m2", &MaterialSpec::density, "kg/m²", positive, "Mass of a square metre.")
         .number("stretch_N_per_m", &MaterialSpec::stretch, "N/m", positive, "Spring constant along the threads.")
+        .ramps(springs)
         .number("shear_N_per_m", &MaterialSpec::shear, "N/m", notNegative,
                 "Spring constant along the diagonals; half of stretch_N_per_m, which is isotropic, if not given.")
-        .number("bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative, "Spring constant across two cells.");
-    section.fields = withLosses(list)
+        .ramps(springs)
+        .number("bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative, "Spring constant across two cells.")
+        .ramps(springs);
+    section.fields = withPlasticity(withLosses(list))
                          .choice("lumping", &MaterialSpec::lumping, lumpingNames(),
                                  "How mass is shared out: by area, or the same for every point.")
                          .take();
@@ -206,6 +226,7 @@ Section ropeSection() {
     section.layout = Layout::named;
     section.help = "A rope between two points.";
     section.enter = enterNamed(&SceneSpec::ropes);
+    section.existing = findNamed(&SceneSpec::ropes);
     FieldList<RopeSpec> list;
     list.segment("ends", &RopeSpec::start, &RopeSpec::end, "Its two ends.")
         .required()
@@ -214,8 +235,10 @@ Section ropeSection() {
                 "Natural length; 0 means the distance of the ends, more hangs slack.")
         .number("mass_kg", &RopeSpec::mass, "kg", positive, "Mass of the whole rope.")
         .number("stretch_N", &RopeSpec::stretch, "N", positive, "Stiffness EA: force that doubles its length.")
-        .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.");
-    section.fields = withBodyFields(withLosses(list)
+        .ramps(springs)
+        .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
+        .ramps(springs);
+    section.fields = withBodyFields(withPlasticity(withLosses(list))
                                         .number("radius", &RopeSpec::radius, "m", length, "As it is drawn.")
                                         .choice("lumping", &RopeSpec::lumping, lumpingNames(),
                                                 "How mass is shared out: by length, or the same for every point."));
@@ -234,6 +257,7 @@ Section blockSection() {
     section.layout = Layout::named;
     section.help = "A deformable block.";
     section.enter = enterNamed(&SceneSpec::blocks);
+    section.existing = findNamed(&SceneSpec::blocks);
     FieldList<BlockSpec> list;
     list.vector("size", &BlockSpec::size, "m", length, "Its three edges.")
         .vector("cells", &BlockSpec::cells, "", count, "Number of cells along each.")
@@ -241,12 +265,14 @@ Section blockSection() {
         .rotation("rotation_deg", &BlockSpec::rotation, "About x, then y, then z.")
         .number("density_kg_per_m3", &BlockSpec::density, "kg/m³", positive, "Mass of a cubic metre.")
         .number("young_Pa", &BlockSpec::young, "Pa", positive, "Young's modulus.")
+        .ramps(springs)
         .number("bulk_Pa", &BlockSpec::bulk, "Pa", notNegative, "Resistance to a change of volume.")
+        .ramps(springs)
         .number("working_stretch", &BlockSpec::workingStretch, "", Range{1.0, 100.0},
                 "Stretch up to which the step must hold.");
-    section.fields =
-        withBodyFields(withLosses(list).choice("lumping", &BlockSpec::lumping, lumpingNames(),
-                                               "How mass is shared out: by volume, or the same for every point."));
+    section.fields = withBodyFields(withPlasticity(withLosses(list))
+                                        .choice("lumping", &BlockSpec::lumping, lumpingNames(),
+                                                "How mass is shared out: by volume, or the same for every point."));
     return section;
 }
 
@@ -323,12 +349,13 @@ Section netSection() {
     section.layout = Layout::named;
     section.help = "Points and springs listed one by one.";
     section.enter = enterNamed(&SceneSpec::nets);
+    section.existing = findNamed(&SceneSpec::nets);
     FieldList<NetSpec> list;
     list.tables("points", &NetSpec::points, netPointSection(), "Its point masses.")
         .required()
         .tables("springs", &NetSpec::springs, netSpringSection(), "Its springs.");
     section.fields =
-        withBodyFields(withLosses(list)
+        withBodyFields(withPlasticity(withLosses(list))
                            .number("radius", &NetSpec::radius, "m", length, "Radius of a spring as it is drawn.")
                            .number("ball", &NetSpec::ball, "m", length, "Radius of a point as it is drawn."));
     section.check = [](const CheckInput& input, void* target) {

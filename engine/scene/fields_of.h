@@ -31,6 +31,12 @@ Section windSection();
 Section cameraSection();
 Section labelSection();
 
+// What happens while it runs, and what is claimed of it.
+Section handSection();
+Section atSection();
+Section checkSection();
+Section goldenSection();
+
 // Parts of several sections.
 Section finishSection();
 std::vector<std::string> easeNames();
@@ -48,6 +54,21 @@ auto enterNamed(std::vector<Spec> world::SceneSpec::*list) {
         spec.source = source;
         return &spec;
     };
+}
+
+// Finds an element by its name.
+template <class Spec>
+auto findNamed(std::vector<Spec> world::SceneSpec::*list) {
+    return [list](world::SceneSpec& scene, const std::string& name) -> void* {
+        for (Spec& spec : scene.*list)
+            if (spec.name == name) return &spec;
+        return nullptr;
+    };
+}
+
+template <class Part>
+auto findPart(Part world::SceneSpec::*part) {
+    return [part](world::SceneSpec& scene, const std::string&) -> void* { return &(scene.*part); };
 }
 
 // Enters a part of the scene that exists once.

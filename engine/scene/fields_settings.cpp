@@ -12,6 +12,7 @@ namespace {
 
 constexpr Range seconds{1e-3, 1e6};
 constexpr Range fieldOfView{1.0, 170.0};
+constexpr auto picture = RampField::Affects::picture;
 
 // Whether one can look from one point to another with y up.
 void checkView(const CheckInput& input, const Node& table, Place place, const dvec3& eye, const dvec3& target) {
@@ -67,7 +68,8 @@ Section needSection() {
     section.enter = enterPart(&SceneSpec::need);
     section.fields =
         FieldList<NeedSpec>()
-            .number("rms_position_m", &NeedSpec::rmsPosition, "m", positive, "Largest RMS error of positions, over points and time.")
+            .number("rms_position_m", &NeedSpec::rmsPosition, "m", positive,
+                    "Largest RMS error of positions, over points and time.")
             .number("rms_percent", &NeedSpec::rmsPercent, "%", Range{1e-9, 100.0},
                     "The same as a share of the bounding box.")
             .number("rms_pixels", &NeedSpec::rmsPixels, "px", positive, "The same in pixels of the picture.")
@@ -108,10 +110,13 @@ Section worldSection() {
     section.name = "world";
     section.help = "The surroundings.";
     section.enter = enterPart(&SceneSpec::world);
+    section.existing = findPart(&SceneSpec::world);
     section.fields = FieldList<WorldSpec>()
                          .vector("gravity", &WorldSpec::gravity, "m/s²", Range{-1e6, 1e6}, "Acceleration of gravity.")
+                         .ramps(RampField::Affects::forces)
                          .number("air_density_kg_per_m3", &WorldSpec::airDensity, "kg/m³", Range{0.0, 1e6},
                                  "Density of the air, for wind.")
+                         .ramps(RampField::Affects::forces)
                          .take();
     return section;
 }
@@ -149,16 +154,24 @@ Section lightSection() {
     section.name = "light";
     section.help = "The sun and the light of the sky.";
     section.enter = enterPart(&SceneSpec::light);
+    section.existing = findPart(&SceneSpec::light);
     section.fields =
         FieldList<LightSpec>()
             .direction("direction", &LightSpec::direction, "The way the light travels; any length.")
+            .ramps(picture)
             .colour("colour", &LightSpec::colour, "Colour of the direct light.")
+            .ramps(picture)
             .number("intensity", &LightSpec::intensity, "", Range{0.0, 1000.0}, "Strength of the direct light.")
+            .ramps(picture)
             .degrees("softness_deg", &LightSpec::softness, Range{0.0, 45.0},
                      "Apparent size of the light; wider makes softer shadows.")
+            .ramps(picture)
             .colour("sky", &LightSpec::sky, "Ambient light from above.")
+            .ramps(picture)
             .colour("ground", &LightSpec::ground, "Ambient light from below.")
+            .ramps(picture)
             .number("ambient", &LightSpec::ambient, "", Range{0.0, 1000.0}, "Strength of the ambient light.")
+            .ramps(picture)
             .take();
     return section;
 }
@@ -168,13 +181,18 @@ Section backgroundSection() {
     section.name = "background";
     section.help = "What lies behind everything.";
     section.enter = enterPart(&SceneSpec::background);
+    section.existing = findPart(&SceneSpec::background);
     section.fields =
         FieldList<BackgroundSpec>()
             .colour("top", &BackgroundSpec::top, "Colour at the top of the picture.")
+            .ramps(picture)
             .colour("horizon", &BackgroundSpec::horizon, "Colour at the horizon.")
+            .ramps(picture)
             .number("fade_start", &BackgroundSpec::fadeStart, "m", notNegative,
                     "Distance from the camera's target where the ground begins to fade.")
+            .ramps(picture)
             .number("fade_end", &BackgroundSpec::fadeEnd, "m", positive, "Distance where the ground has gone.")
+            .ramps(picture)
             .take();
     section.check = [](const CheckInput& input, void* target) {
         const auto& background = *static_cast<const BackgroundSpec*>(target);
@@ -204,6 +222,7 @@ Section cameraSection() {
     section.layout = Layout::named;
     section.help = "A place to look from.";
     section.enter = enterNamed(&SceneSpec::cameras);
+    section.existing = findNamed(&SceneSpec::cameras);
     section.variant = [](const Node& table) -> std::string {
         return table.find("keys") != nullptr             ? "a camera with keys"
                : table.find("orbit_period_s") != nullptr ? "an orbiting camera"
@@ -211,10 +230,13 @@ Section cameraSection() {
     };
     section.fields = FieldList<CameraSpec>()
                          .vector("eye", &CameraSpec::eye, "m", Range{-1e6, 1e6}, "Where the camera stands.")
+                         .ramps(picture)
                          .only({"a still camera", "an orbiting camera"})
                          .vector("target", &CameraSpec::target, "m", Range{-1e6, 1e6}, "What it looks at.")
+                         .ramps(picture)
                          .only({"a still camera", "an orbiting camera"})
                          .degrees("fov_deg", &CameraSpec::fieldOfView, fieldOfView, "Vertical field of view.")
+                         .ramps(picture)
                          .number("orbit_period_s", &CameraSpec::orbitPeriod, "s", Range{-1e6, 1e6},
                                  "Time of one turn about the vertical through the target.")
                          .only({"an orbiting camera"})

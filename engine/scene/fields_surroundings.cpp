@@ -60,6 +60,7 @@ Section poseKeySection() {
 Section partSection() {
     Section section;
     section.variant = shapeOf;
+    section.variantKey = "shape";
     section.fields = shapeFields({"box", "sphere", "capsule", "cylinder", "cone", "hull", "mesh"}).take();
     return section;
 }
@@ -146,13 +147,17 @@ Section anchorSection() {
     section.layout = Layout::named;
     section.help = "Springs of no length from points to a place.";
     section.enter = enterNamed(&SceneSpec::anchors);
+    section.existing = findNamed(&SceneSpec::anchors);
     section.fields = FieldList<AnchorSpec>()
                          .text("target", &AnchorSpec::target, Role::points, "The points: KIND.NAME@SELECTOR.")
                          .required()
                          .vector("at", &AnchorSpec::at, "m", place, "The place.")
+                         .ramps(RampField::Affects::forces)
                          .required()
                          .number("stiffness_N_per_m", &AnchorSpec::stiffness, "N/m", notNegative, "Of each point.")
+                         .ramps(RampField::Affects::forces)
                          .number("damping_kg_per_s", &AnchorSpec::damping, "kg/s", notNegative, "Of each point.")
+                         .ramps(RampField::Affects::forces)
                          .take();
     return section;
 }
@@ -163,7 +168,9 @@ Section colliderSection() {
     section.layout = Layout::named;
     section.help = "A rigid thing that stops bodies, still or moved by keys.";
     section.enter = enterNamed(&SceneSpec::colliders);
+    section.existing = findNamed(&SceneSpec::colliders);
     section.variant = shapeOf;
+    section.variantKey = "shape";
     section.fields =
         shapeFields({"plane", "box", "sphere", "capsule", "cylinder", "cone", "hull", "mesh", "compound"})
             .direction("normal", &ColliderSpec::normal, "Away from the solid; any length.")
@@ -172,7 +179,9 @@ Section colliderSection() {
             .required()
             .only({"compound"})
             .number("friction", &ColliderSpec::friction, "", Range{0.0, 100.0}, "Coulomb's coefficient.")
+            .ramps(RampField::Affects::colliders)
             .number("restitution", &ColliderSpec::restitution, "", share, "Speed after a bounce over speed before.")
+            .ramps(RampField::Affects::colliders)
             .tables("keys", &ColliderSpec::keys, poseKeySection(), "Keyframes, in the order of time.")
             .flag("visible", &ColliderSpec::visible, "Whether it is drawn.")
             .number("edge", &ColliderSpec::edge, "m", Range{0.0, 1e3}, "Rounding of a drawn box's edges.")
@@ -189,6 +198,7 @@ Section windSection() {
     Section gust;
     gust.fields = FieldList<WindSpec>()
                       .number("amplitude", &WindSpec::gustAmplitude, "m/s", Range{0.0, 1e3}, "Strength.")
+                      .ramps(RampField::Affects::forces)
                       .number("period_s", &WindSpec::gustPeriod, "s", Range{1e-3, 1e6}, "Time of a change.")
                       .number("length_m", &WindSpec::gustLength, "m", Range{1e-3, 1e6}, "Size of an eddy.")
                       .whole("seed", &WindSpec::gustSeed, "", Range{0.0, 1e12}, "Seed: the same gusts each time.")
@@ -198,12 +208,16 @@ Section windSection() {
     section.layout = Layout::named;
     section.help = "Moving air; acts on surfaces.";
     section.enter = enterNamed(&SceneSpec::winds);
+    section.existing = findNamed(&SceneSpec::winds);
     section.fields =
         FieldList<WindSpec>()
             .vector("velocity", &WindSpec::velocity, "m/s", Range{-1e3, 1e3}, "Mean velocity.")
+            .ramps(RampField::Affects::forces)
             .tableOfSelf("gust", gust, "How it changes in space and time.")
             .number("drag", &WindSpec::drag, "", Range{0.0, 100.0}, "Drag coefficient across the flow.")
+            .ramps(RampField::Affects::forces)
             .number("lift", &WindSpec::lift, "", Range{0.0, 100.0}, "Lift coefficient.")
+            .ramps(RampField::Affects::forces)
             .texts("on", &WindSpec::on, Role::bodies, "Bodies it acts on, e.g. \"cloth.*\"; every cloth if not given.")
             .take();
     return section;

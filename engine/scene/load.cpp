@@ -14,6 +14,7 @@
 #include "scene/scene_reader.h"
 #include "scene/suspicions.h"
 #include "scene/text_file.h"
+#include "scene/timeline.h"
 
 namespace taut::scene {
 
@@ -69,6 +70,8 @@ void sortByName(world::SceneSpec& spec) {
     sortByName(spec.winds);
     sortByName(spec.cameras);
     sortByName(spec.labels);
+    std::stable_sort(spec.actions.begin(), spec.actions.end(),
+                     [](const world::ActionSpec& a, const world::ActionSpec& b) { return a.t < b.t; });
 }
 
 }  // namespace
@@ -96,6 +99,7 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     ReadScene scene = readScene(root, sections, fileName, labels, problems);
     loadAssets(std::filesystem::path(fileName).parent_path(), options.assetFolders, scene, problems);
     checkReferences(scene, problems);
+    checkTimeline(root, sections, scene, problems);
     throwIfAny(problems);
     checkSize(scene, options.memoryLimit > 0 ? options.memoryLimit : memoryLimit(), problems);
     throwIfAny(problems);

@@ -4,6 +4,7 @@
 #include "scene/field.h"
 #include "scene/load.h"
 #include "scene/problems.h"
+#include "scene/ramp_key.h"
 
 namespace taut::scene {
 
@@ -56,7 +57,11 @@ std::string manual() {
         "  cloth mesh   boundary top bottom left right\n"
         "  rope         start end ends, 50%\n"
         "  block        left right bottom top back front corners\n"
-        "  net          the names of its points";
+        "  net          the names of its points\n\n"
+        "Ramps\n"
+        "  do = \"ramp\" changes a number or a list of numbers from its value at that moment:\n\n";
+    for (const std::string& line : rampableKeys(sceneSections())) out += "  " + line + "\n";
+    out.pop_back();
     return out;
 }
 

@@ -112,8 +112,10 @@ class SceneReader {
             const Node& item = member.value.items[i];
             const std::string name = fmt::format("{}[{}]", section.name, i);
             out_.owners.emplace(name, item.place);
+            const int before = problems_.errorCount();
             readItem(section, item, name, fmt::format("[[{}]]", section.name),
                      section.enter(out_.spec, "", sourceOf(item.place)));
+            if (problems_.errorCount() > before) out_.faulty.insert(name);
         }
     }
 
@@ -141,7 +143,7 @@ class SceneReader {
                 reportUnknownKey(section, member, where);
             } else if (!fits(*field) && isKnownVariant(section, variant)) {
                 const std::string form =
-                    section.find("shape") != nullptr ? fmt::format("shape \"{}\"", variant) : variant;
+                    section.variantKey.empty() ? variant : fmt::format("{} \"{}\"", section.variantKey, variant);
                 problems_.addError(member.place, fmt::format("{} does not go with {}", member.key, form),
                                    fmt::format("it belongs to {}", joined(field->only)));
             } else {
@@ -159,9 +161,8 @@ class SceneReader {
 
     // Whether a variant is one that the table has, not a slip such as shape = "spere".
     static bool isKnownVariant(const Section& section, const std::string& variant) {
-        const Field* shape = section.find("shape");
-        return shape == nullptr ||
-               std::find(shape->choices.begin(), shape->choices.end(), variant) != shape->choices.end();
+        const Field* key = section.find(section.variantKey);
+        return key == nullptr || std::find(key->choices.begin(), key->choices.end(), variant) != key->choices.end();
     }
 
     static std::string remedyFor(const Field& field) {

@@ -53,9 +53,16 @@ Json valueSchema(const Field& field) {
                 {"anyOf",
                  {listSchema(numberSchema(field, false), 3), {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}}}};
         case FieldKind::segment:
-            return listSchema(listSchema(numberSchema(field, false), 3), 2);
+            return listSchema(listSchema(numberSchema(field, false), field.components), 2);
         case FieldKind::texts:
             return {{"type", "array"}, {"items", {{"type", "string"}}}};
+        case FieldKind::wholes:
+            return {{"type", "array"}, {"items", numberSchema(field, true)}};
+        case FieldKind::numbers:
+            return {{"anyOf",
+                     {{{"type", "number"}},
+                      {{"type", "array"}, {"items", {{"type", "number"}}}},
+                      {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}}}};
         case FieldKind::table:
         case FieldKind::tables:
             break;
@@ -72,7 +79,7 @@ Json defaultJson(const Field& field, const Value& value) {
     const auto& numbers = std::get<std::vector<double>>(value);
     Json list = Json::array();
     for (const double number : numbers) {
-        if (field.kind == FieldKind::wholeVector) {
+        if (field.kind == FieldKind::wholeVector || field.kind == FieldKind::wholes) {
             list.push_back(static_cast<std::int64_t>(number));
         } else {
             list.push_back(number);

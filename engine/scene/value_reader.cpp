@@ -39,6 +39,10 @@ class ValueReader {
                 return segment(node);
             case FieldKind::texts:
                 return texts(node);
+            case FieldKind::wholes:
+                return wholes(node);
+            case FieldKind::numbers:
+                return anyNumbers(node);
             case FieldKind::table:
             case FieldKind::tables:
                 break;
@@ -64,7 +68,8 @@ class ValueReader {
 
     std::optional<double> number(const Node& node, const std::string& name) const {
         const std::string unit = field_.unit.empty() ? "" : fmt::format(" [{}]", field_.unit);
-        const bool isWhole = field_.kind == FieldKind::whole || field_.kind == FieldKind::wholeVector;
+        const bool isWhole = field_.kind == FieldKind::whole || field_.kind == FieldKind::wholeVector ||
+                             field_.kind == FieldKind::wholes;
         if (node.kind == NodeKind::number && isWhole) {
             return fail(node, name, "a whole number", description(node));
         }
@@ -182,6 +187,34 @@ class ValueReader {
         if (!start || !end) return std::nullopt;
         start->insert(start->end(), end->begin(), end->end());
         return Value(*start);
+    }
+
+    std::optional<Value> wholes(const Node& node) const {
+        if (node.kind != NodeKind::list) return failKind(node);
+        std::vector<double> values;
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            const auto value = number(node.items[i], fmt::format("{}[{}]", field_.key, i));
+            if (value) values.push_back(*value);
+        }
+        if (values.size() != node.items.size()) return std::nullopt;
+        return Value(values);
+    }
+
+    // Whether it fits is said by the field that it is for.
+    std::optional<Value> anyNumbers(const Node& node) const {
+        if (node.kind == NodeKind::text) return wrapped(colour(node));
+        std::vector<double> values;
+        if (node.kind != NodeKind::list) {
+            const auto value = number(node, field_.key);
+            if (!value) return std::nullopt;
+            return Value(std::vector<double>{*value});
+        }
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            const auto value = number(node.items[i], fmt::format("{}[{}]", field_.key, i));
+            if (value) values.push_back(*value);
+        }
+        if (values.size() != node.items.size()) return std::nullopt;
+        return Value(values);
     }
 
     std::optional<Value> texts(const Node& node) const {

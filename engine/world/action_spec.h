@@ -57,7 +57,7 @@ struct ActionSpec {
     std::optional<glm::dvec2> from,
         upTo;  // … a segment on a grid cloth, in shares of width and height from the top left
 
-    double mass = 0.0;  // [kg] addMass: of the whole target, shared evenly
+    double mass = 1.0;  // [kg] addMass: of the whole target, shared evenly
 
     // ramp
     std::string key;            // "wind.breeze.velocity"

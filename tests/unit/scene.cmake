@@ -1,4 +1,5 @@
 list(APPEND TAUT_UNIT_TESTS
+  scene_action_errors_test.cpp
   scene_contradiction_errors_test.cpp
   scene_field_table_test.cpp
   scene_fields_test.cpp
@@ -10,5 +11,7 @@ list(APPEND TAUT_UNIT_TESTS
   scene_robustness_test.cpp
   scene_splice_test.cpp
   scene_syntax_errors_test.cpp
+  scene_timeline_errors_test.cpp
+  scene_timeline_fields_test.cpp
   scene_value_errors_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::scene)

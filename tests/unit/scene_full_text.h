@@ -53,6 +53,8 @@ bend_N_per_m = 0.2
 damping_time_s = 2e-4
 drag_per_s = 0.4
 lumping = "uniform"
+yield_strain = 0.05
+break_strain = 0.5
 [cloth.flag]
 size = [1.8, 1.2]
 cells = [36, 24]
@@ -88,6 +90,8 @@ damping_time_s = 3e-4
 drag_per_s = 0.6
 radius = 0.03
 lumping = "uniform"
+yield_strain = 0.06
+break_strain = 0.6
 hold = ["ends", "25%"]
 [block.jelly]
 size = [0.1, 0.2, 0.3]
@@ -101,6 +105,8 @@ damping_time_s = 4e-4
 drag_per_s = 0.7
 working_stretch = 2
 lumping = "uniform"
+yield_strain = 0.07
+break_strain = 0.7
 [net.cradle]
 points = [{ name = "a", position = [0, 1, 0], mass_kg = 3, hold = true }, { name = "b", position = [1, 1, 0] }]
 springs = [{ a = "a", b = "b", stiffness_N_per_m = 20, rest_length_m = 0.5, damping_time_s = 5e-4 }]
@@ -108,6 +114,8 @@ damping_time_s = 6e-4
 drag_per_s = 0.8
 radius = 0.04
 ball = 0.07
+yield_strain = 0.08
+break_strain = 0.8
 [[joint]]
 a = "rope.rail@end"
 b = "net.cradle@b"
@@ -180,6 +188,70 @@ at = [1, 2, 3]
 [label.title]
 text = "title"
 screen = [0.1, 0.2]
+[hand]
+anywhere = true
+strength_N_per_m = 150
+damping_ratio = 0.4
+[[at]]
+t = 1
+do = "grab"
+id = "left"
+target = "cloth.flag.0@bottom-right"
+near = [1, 2, 3]
+radius = 0.2
+rigid = true
+strength_N_per_m = 140
+damping_ratio = 0.2
+[[at]]
+t = 1.5
+do = "move"
+id = "left"
+to = [4, 5, 6]
+over_s = 0.5
+ease = "out"
+[[at]]
+t = 1.5
+do = "move"
+target = "collider.ball"
+rotation_deg = [0, 90, 0]
+[[at]]
+t = 2.5
+do = "push"
+target = "rope.rail@50%"
+impulse_Ns = [0, 1, 2]
+[[at]]
+t = 2
+do = "cut"
+target = "cloth.flag.1"
+segment = [[0, 0.25], [0.5, 0.75]]
+[[at]]
+t = 2
+do = "cut"
+target = "block.jelly"
+plane = [[1, 2, 3], [0, 2, 0]]
+[[at]]
+t = 3
+do = "add-mass"
+target = "net.cradle@b"
+mass_kg = 0.5
+[[at]]
+t = 3
+do = "ramp"
+key = "wind.breeze.velocity"
+to = [9, 8, 7]
+[[check]]
+that = "height(cloth.flag.*) > 0"
+at = 2
+[[check]]
+that = "time >= 0"
+from = 1
+to = 3
+[[golden]]
+frames = [10, 20]
+restart = true
+debug = true
+camera = "turning"
+size = [320, 180]
 )toml";
 
 }  // namespace taut::scene

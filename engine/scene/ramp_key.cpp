@@ -1,0 +1,156 @@
+#include "scene/ramp_key.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/problems.h"
+
+namespace taut::scene {
+
+namespace {
+
+std::vector<std::string> partsOf(const std::string& key) {
+    std::vector<std::string> parts(1);
+    for (const char c : key) {
+        if (c == '.') {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+// A field by its path inside a section, and what to call to get from the section's struct to its own.
+struct Row {
+    std::string path;  // "gust.amplitude"
+    const Field* field = nullptr;
+    std::function<void*(void*, const world::Source&)> enter;  // none: it is the section's own
+};
+
+std::vector<Row> rowsOf(const Section& section) {
+    std::vector<Row> rows;
+    for (const Field& field : section.fields) {
+        rows.push_back({field.key, &field, {}});
+        if (field.kind != FieldKind::table) continue;
+        for (const Field& inner : field.inside.front().fields)
+            rows.push_back({field.key + "." + inner.key, &inner, field.enter});
+    }
+    return rows;
+}
+
+std::vector<std::string> rampablePaths(const Section& section) {
+    std::vector<std::string> paths;
+    if (!section.existing) return paths;
+    for (const Row& row : rowsOf(section))
+        if (row.field->ramp) paths.push_back(row.path);
+    return paths;
+}
+
+std::vector<double> numbersIn(const Value& value) {
+    if (const double* number = std::get_if<double>(&value)) return {*number};
+    if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return *numbers;
+    return {};
+}
+
+// The elements of a kind that the document has.
+std::vector<std::string> namesIn(const Node& root, const std::string& kind) {
+    std::vector<std::string> names;
+    const Member* section = root.find(kind);
+    if (section == nullptr) return names;
+    for (const Member& member : section->value.members) names.push_back(member.key);
+    return names;
+}
+
+const Node* tableOf(const Node& root, const Section& section, const std::string& name) {
+    const Member* member = root.find(section.name);
+    if (member != nullptr && section.layout == Layout::named) member = member->value.find(name);
+    return member == nullptr ? nullptr : &member->value;
+}
+
+world::RampField accessOf(const Section& section, const std::string& owner, const std::string& name, const Row& row) {
+    const auto place = [existing = section.existing, enter = row.enter, name](world::SceneSpec& scene) {
+        void* target = existing(scene, name);
+        return enter ? enter(target, {}) : target;
+    };
+    world::RampField access;
+    access.affects = *row.field->ramp;
+    access.owner = owner;
+    access.read = [place, read = row.field->read](const world::SceneSpec& scene) {
+        return numbersIn(read(place(const_cast<world::SceneSpec&>(scene))));  // it is only looked at
+    };
+    const bool isNumber = row.field->kind == FieldKind::number;
+    access.write = [place, write = row.field->write, isNumber](world::SceneSpec& scene,
+                                                               const std::vector<double>& value) {
+        write(place(scene), isNumber ? Value(value.front()) : Value(value));
+    };
+    return access;
+}
+
+}  // namespace
+
+std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<Section>& sections,
+                               world::SceneSpec& scene, TargetFault& fault) {
+    const std::vector<std::string> parts = partsOf(key);
+    const auto section = std::find_if(sections.begin(), sections.end(),
+                                      [&](const Section& s) { return !s.name.empty() && s.name == parts[0]; });
+    const auto fail = [&](std::string message, std::string remedy) {
+        fault = {std::move(message), std::move(remedy)};
+        return std::nullopt;
+    };
+    if (section == sections.end() || rampablePaths(*section).empty()) {
+        std::vector<std::string> names;
+        for (const Section& s : sections)
+            if (!rampablePaths(s).empty()) names.push_back(s.name);
+        std::string remedy = section == sections.end() ? suggestion(parts[0], names) : "";
+        if (remedy.empty()) remedy = "what may: " + joined(names);
+        if (section == sections.end()) return fail(fmt::format("there is no \"{}\" to change", parts[0]), remedy);
+        return fail(fmt::format("nothing of {} can change while the scene runs", parts[0]), remedy);
+    }
+    const bool isNamed = section->layout == Layout::named;
+    const std::size_t first = isNamed ? 2 : 1;
+    const std::string name = isNamed && parts.size() > 1 ? parts[1] : "";
+    const std::string owner = isNamed ? section->name + "." + name : section->name;
+    if (isNamed && section->existing(scene, name) == nullptr) {
+        const std::vector<std::string> names = namesIn(root, section->name);
+        const std::string remedy = names.empty() ? "the scene has none" : suggestion(name, names);
+        return fail(fmt::format("there is no {} \"{}\"", section->name, name), remedy);
+    }
+    std::string path;
+    for (std::size_t i = first; i < parts.size(); ++i) path += (i == first ? "" : ".") + parts[i];
+    const std::vector<Row> rows = rowsOf(*section);
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.path == path; });
+    const std::vector<std::string> paths = rampablePaths(*section);
+    if (row == rows.end()) {
+        std::string remedy = suggestion(path, paths);
+        if (remedy.empty()) remedy = "what may change: " + joined(paths);
+        return fail(path.empty() ? fmt::format("\"{}\" names no field", key)
+                                 : fmt::format("[{}] has no key \"{}\"", owner, path),
+                    remedy);
+    }
+    if (!row->field->ramp)
+        return fail(fmt::format("{} cannot change while the scene runs", key), "what may of it: " + joined(paths));
+    const Node* table = tableOf(root, *section, name);
+    const std::string variant = section->variant && table != nullptr ? section->variant(*table) : "";
+    const std::vector<std::string>& only = row->field->only;
+    if (!variant.empty() && !only.empty() && std::find(only.begin(), only.end(), variant) == only.end())
+        return fail(fmt::format("{} is {}, which has no {}", owner, variant, path), "");
+    RampKey found{row->field, accessOf(*section, owner, name, *row)};
+    if (found.access.read(scene).empty())
+        return fail(fmt::format("{} has no value to begin from", key), fmt::format("give it in [{}]", owner));
+    return found;
+}
+
+std::vector<std::string> rampableKeys(const std::vector<Section>& sections) {
+    std::vector<std::string> lines;
+    for (const Section& section : sections) {
+        const std::vector<std::string> paths = rampablePaths(section);
+        if (paths.empty()) continue;
+        const std::string name = section.layout == Layout::named ? section.name + ".NAME" : section.name;
+        lines.push_back(fmt::format("{:<14} {}", name, joined(paths)));
+    }
+    return lines;
+}
+
+}  // namespace taut::scene

@@ -1,0 +1,14 @@
+// Checks what happens while a scene runs: times, targets, hands, ramps, and actions that contradict one another.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene_reader.h"
+
+namespace taut::scene {
+
+// Reports every fault of the actions and goldens, and resolves the keys of ramps. `root` is the document that the
+// scene was read from. Expects the meshes to be loaded.
+void checkTimeline(const Node& root, const std::vector<Section>& sections, ReadScene& scene, Problems& problems);
+
+}  // namespace taut::scene

@@ -23,6 +23,7 @@
 #include "image/several_sinks.h"
 #include "image/video_writer.h"
 #include "image/whole_file.h"
+#include "pipeline/overlay.h"
 #include "pipeline/run.h"
 #include "pipeline/run_record.h"
 #include "pipeline/self_test.h"
@@ -38,6 +39,7 @@ struct RenderFlags {
     int threads = 0;
     std::vector<std::string> overrides;
     bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
+    bool overlay = false;
 };
 
 // What --fps, --seconds, --size and --camera ask for, in the words of the scene format.
@@ -79,7 +81,7 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec
     return {.firstFrame = range.first,
             .lastFrame = last,
             .debugView = flags.debug,
-            .metrics = flags.metrics || !flags.quiet};
+            .metrics = flags.metrics || flags.overlay || !flags.quiet};
 }
 
 std::unique_ptr<render::Renderer> makeRenderer(const RenderFlags& flags, const world::PictureSpec& picture) {
@@ -112,7 +114,8 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pi
     auto sink = std::make_unique<image::SeveralSinks>(std::move(sinks));
     if (overwrite == Overwrite::no)  // the records belong to the run: asked for or not, they are not replaced
         for (const char* record : {"run.json", "metrics.csv"})
-            if (std::filesystem::exists(sink->companion(record)) && (flags.metrics || record == std::string("run.json")))
+            if (std::filesystem::exists(sink->companion(record)) &&
+                (flags.metrics || record == std::string("run.json")))
                 throw core::Error(core::ExitCode::inputOutput,
                                   fmt::format("{} exists already", sink->companion(record).string()));
     return sink;
@@ -128,8 +131,13 @@ ProgressFacts progressFacts(const world::World& world, const pipeline::RunOption
     return facts;
 }
 
-pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunOptions& options, Progress& progress) {
+pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunOptions& options, Progress& progress,
+                                  pipeline::Overlay* overlay, int ticksPerFrame) {
     pipeline::RunListener listener;
+    if (overlay != nullptr)
+        listener.frameSimulated = [overlay, ticksPerFrame](const pipeline::FrameRecord& record) {
+            overlay->add(pipeline::momentOf(record.frame * ticksPerFrame, *record.metrics));
+        };
     const bool everyTick = flags.hashEvery == "tick";
     const bool everyFrame = flags.hash && !everyTick;
     listener.frameDone = [&progress, everyFrame, first = options.firstFrame](const pipeline::FrameRecord& record) {
@@ -176,12 +184,22 @@ int render(const RenderFlags& flags) {
         renderer = makeRenderer(flags, spec.picture);
         draw = [&](const view::FrameView& view) { return renderer->draw(view); };
     }
+    std::unique_ptr<pipeline::Overlay> overlay;
+    if (flags.overlay && draw) {
+        overlay = std::make_unique<pipeline::Overlay>(fontFile(), pipeline::smallestStep(world));
+        draw = [&](const view::FrameView& view) {
+            image::Image picture = renderer->draw(view);
+            overlay->paint(picture, view.time);
+            return picture;
+        };
+    }
 
     pipeline::RunResult result;
     {
         Progress progress(progressFacts(world, options, spec.run.fps), flags.quiet);
         result = pipeline::play(world, options, draw, flags.noPictures ? nullptr : sink.get(),
-                                listenerFor(flags, options, progress), interruption.flag());
+                                listenerFor(flags, options, progress, overlay.get(), world.ticksPerFrame()),
+                                interruption.flag());
     }
     if (sink) {
         const pipeline::RunRequest request{flags.output, allOverrides(flags), flags.threads, options};
@@ -218,6 +236,8 @@ void addPictureFlags(CLI::App& command, RenderFlags& flags) {
     command.add_option("--gl", flags.gl, "What draws; the first that works when not given")
         ->check(CLI::IsMember({"osmesa", "egl"}));
     command.add_flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
+    command.add_flag("--overlay", flags.overlay,
+                     "Show time, step and limit, largest strain, and the energies as a graph");
     command.add_flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
 }
 

@@ -40,6 +40,7 @@ class Player {
         current_ = FrameRecord{.frame = next_++, .time = world_.time(), .hash = world_.stateHash()};
         if (options_.metrics) current_.metrics = world_.metrics();
         current_.simulating = secondsSince(start);
+        if (listener_.frameSimulated) listener_.frameSimulated(current_);
         return true;
     }
 

@@ -1,0 +1,69 @@
+// The figures of a run in a corner of its pictures: time, step and limit, strain, and the energies as a small graph.
+// It knows neither the world nor GL; a picture depends on the moments that it was told of and on nothing else.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "image/image.h"
+#include "pipeline/painting.h"
+#include "world/world.h"
+
+namespace taut::pipeline {
+
+// The step of the island that has the smallest.
+struct StepFacts {
+    double step = 0.0;   // [s]
+    double limit = 0.0;  // [s] largest stable; infinite: none
+};
+StepFacts smallestStep(const world::World& world);
+
+// What the graph shows of a moment.
+struct Moment {
+    std::int64_t tick = 0;
+    double time = 0.0;                                         // [s]
+    double kinetic = 0.0, elastic = 0.0, gravitational = 0.0;  // [J]
+    double maxStrain = 0.0;
+};
+Moment momentOf(std::int64_t tick, const world::Metrics& metrics);
+
+// A name and its value: a line of the panel above those of the run.
+using OverlayLine = std::pair<std::string, std::string>;
+
+// add() and paint() may be called from two threads at the same time.
+class Overlay {
+  public:
+    static constexpr double span = 4.0;  // [s] that the graph shows
+
+    // An empty font stands for the one that Debian installs. Throws core::Error(inputOutput, badContent) of the font.
+    Overlay(const std::filesystem::path& font, const StepFacts& step);
+
+    // Ascending in time. The gravitational energy is shown as what it has changed since the first.
+    void add(const Moment& moment);
+
+    // Paints what was the case at `time` [s]: the last moment not after it, and those before. Forgets what no later
+    // picture will show. Nothing is painted before the first moment.
+    void paint(image::Image& picture, double time, std::span<const OverlayLine> above = {});
+
+    // For text of the same kind elsewhere in the picture.
+    render::TextPainter& letters() { return letters_; }
+
+  private:
+    render::TextPainter letters_;
+    StepFacts step_;
+    std::mutex mutex_;
+    std::deque<Moment> moments_;
+    double firstGravitational_ = 0.0;  // [J]
+    bool hasFirst_ = false;
+};
+
+// [px] size of the type that reads well in a picture of this height.
+float typeSize(int pictureHeight);
+
+}  // namespace taut::pipeline

@@ -1,0 +1,51 @@
+// Plates, lines and text over a finished picture, mixed in light as lights add. It knows neither what they mean nor GL.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string_view>
+
+#include "image/image.h"
+#include "render/text_picture.h"
+
+namespace taut::pipeline {
+
+struct Ink {
+    std::uint8_t red = 255, green = 255, blue = 255;  // sRGB
+};
+
+struct Box {
+    glm::vec2 low{0.0F}, high{0.0F};  // [px] corners from the top left of the picture
+};
+
+enum class Side { left, middle, right };
+
+// Coordinates in pixels from the picture's top left corner, y down; the middle of the first pixel is at (½, ½). What
+// lies outside the picture is left out. The pixels depend on the arguments alone.
+class Painting {
+  public:
+    // Both must outlive it. Expects a whole picture.
+    Painting(image::Image& picture, render::TextPainter& letters);
+
+    // A box with round corners. `strength` 0 (nothing) … 1 (opaque).
+    void plate(const Box& box, float radius, Ink ink, float strength);
+
+    // A line through the corners, with round ends, `width` [px] wide; where it crosses itself it is no stronger.
+    void line(std::span<const glm::vec2> corners, float width, Ink ink, float strength = 1.0F);
+
+    // A line of text of a size of type of `pixels`, its base line at `at`, of which that point is the named side.
+    void text(glm::vec2 at, Side side, std::string_view text, float pixels, Ink ink);
+
+    float widthOf(std::string_view text, float pixels);  // [px]
+
+  private:
+    void lay(int x, int y, const glm::vec3& light, float part);
+    std::array<std::array<std::uint8_t, 256>, 3> mixed(const glm::vec3& light, float part) const;
+
+    image::Image& picture_;
+    render::TextPainter& letters_;
+};
+
+}  // namespace taut::pipeline

@@ -13,14 +13,18 @@ namespace taut::mechanics {
 template <class Real>
 class Anchor final : public ForceGenerator<Real> {
   public:
-    // stiffness k [N/m] and damping c [kg/s] of each point, >= 0. Offsets (points) [m] keep the points of a grip
+    // stiffness k [N/m] and damping c [kg/s] of every point, >= 0. Offsets (points) [m] keep the points of a grip
     // apart; none: all are drawn to the place itself. Expects different points.
     Anchor(std::vector<int> points, const glm::dvec3& place, double stiffness, double damping,
            std::vector<glm::dvec3> offsets = {});
+    // The same with k and c of each point for itself (points).
+    Anchor(std::vector<int> points, const glm::dvec3& place, std::vector<double> stiffness, std::vector<double> damping,
+           std::vector<glm::dvec3> offsets = {});
 
-    // The place stays, or moves evenly from one to the other between t0 and t1 [s].
+    // The place stays, moves evenly from one to the other between t0 and t1 [s], or as the path says.
     void setPlace(const glm::dvec3& place) { place_ = {place, place, 0.0, 0.0}; }
     void setPlace(const glm::dvec3& from, const glm::dvec3& to, double t0, double t1) { place_ = {from, to, t0, t1}; }
+    void setPlace(const LinearPath& path) { place_ = path; }
     glm::dvec3 place(double t) const { return place_.at(t); }
 
     void setStiffness(double stiffness, double damping);
@@ -41,8 +45,8 @@ class Anchor final : public ForceGenerator<Real> {
     std::vector<int> points_;
     std::vector<glm::dvec3> offsets_;  // (points) [m]
     LinearPath place_;
-    double stiffness_, damping_;
-    Real weight_ = 0;  // s k + c times the damping: of each point, in the products
+    std::vector<double> stiffness_, damping_;  // (points) [N/m], [kg/s]
+    std::vector<Real> weight_;                 // (points) s k + d c for the s and d of linearise()
 };
 
 extern template class Anchor<float>;

@@ -1,6 +1,7 @@
 // Force generators in Millington's sense, made fit for batches: one virtual call adds a force to all its points.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <string_view>
 #include <vector>
 
@@ -41,9 +42,10 @@ class ForceGenerator {
     // Adds the force on points first … last - 1 to f (3 · stride) [N]. Not local: first = 0, last = count.
     virtual void addForces(const Motion<Real>& motion, int first, int last, Real* f) const = 0;
 
-    // (3) The acceleration that it gives to all points alike, when that is all it does [m/s²]; nullptr otherwise. The
-    // system then adds that to the free points itself, and does not call addForces().
-    virtual const double* uniformAcceleration() const { return nullptr; }
+    // Whether all it does is to give every point the same acceleration. The system then adds that to the free points
+    // itself, and does not call addForces().
+    virtual bool isUniform() const { return false; }
+    virtual glm::dvec3 uniformAcceleration(double /*t*/) const { return glm::dvec3(0.0); }  // [m/s²]
 
     // Potential energy [J] at the motion's positions; 0 for a force that has none.
     virtual double potentialEnergy(const Motion<Real>& motion) const = 0;

@@ -7,8 +7,9 @@ namespace taut::mechanics {
 template <class Real>
 void Gravity<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
     const Real* mass = motion.mass;
+    const glm::dvec3 acceleration = acceleration_.at(motion.t);
     for (int axis = 0; axis < 3; ++axis) {
-        const Real g = static_cast<Real>(acceleration_[axis]);
+        const Real g = static_cast<Real>(acceleration[axis]);
         if (g == Real(0)) continue;
         Real* plane = f + static_cast<std::ptrdiff_t>(axis) * motion.stride;
         TAUT_INDEPENDENT
@@ -18,12 +19,13 @@ void Gravity<Real>::addForces(const Motion<Real>& motion, int first, int last, R
 
 template <class Real>
 double Gravity<Real>::potentialEnergy(const Motion<Real>& motion) const {
+    const glm::dvec3 acceleration = acceleration_.at(motion.t);
     double energy = 0.0;
     for (int i = 0; i < motion.count; ++i) {
         const Real* x = motion.x + i;
         const std::ptrdiff_t stride = motion.stride;
         const glm::dvec3 position(x[0], x[stride], x[2 * stride]);
-        energy -= static_cast<double>(motion.mass[i]) * glm::dot(acceleration_, position);
+        energy -= static_cast<double>(motion.mass[i]) * glm::dot(acceleration, position);
     }
     return energy;
 }

@@ -1,30 +1,33 @@
-// A uniform gravitational field: m g on every point.
+// A uniform gravitational field: m g on every point; g may change with time.
 #pragma once
 
 #include <glm/glm.hpp>
 
 #include "mechanics/force_generator.h"
+#include "mechanics/linear_path.h"
 
 namespace taut::mechanics {
 
 template <class Real>
 class Gravity final : public ForceGenerator<Real> {
   public:
-    explicit Gravity(const glm::dvec3& acceleration) : acceleration_(acceleration) {}  // [m/s²]
+    explicit Gravity(const glm::dvec3& acceleration) : acceleration_{acceleration, acceleration} {}  // [m/s²]
+    explicit Gravity(const LinearPath& acceleration) : acceleration_(acceleration) {}                // [m/s²]
 
-    void setAcceleration(const glm::dvec3& acceleration) { acceleration_ = acceleration; }
-    const glm::dvec3& acceleration() const { return acceleration_; }
+    void setAcceleration(const glm::dvec3& acceleration) { acceleration_ = {acceleration, acceleration}; }
+    void setAcceleration(const LinearPath& acceleration) { acceleration_ = acceleration; }
 
     std::string_view name() const override { return "gravity"; }
     bool isLocal() const override { return true; }
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
-    const double* uniformAcceleration() const override { return &acceleration_.x; }
+    bool isUniform() const override { return true; }
+    glm::dvec3 uniformAcceleration(double t) const override { return acceleration_.at(t); }
     double potentialEnergy(const Motion<Real>& motion) const override;  // -Σ m g·x
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
     void addStability(const Motion<Real>&, StabilityShare&) const override {}
 
   private:
-    glm::dvec3 acceleration_;
+    LinearPath acceleration_;
 };
 
 extern template class Gravity<float>;

@@ -1,4 +1,5 @@
-// A vector that moves evenly from one value to another between two times: where a hand leads, how a wind rises.
+// A vector that moves evenly, from one value to another between two times or without an end: where a hand leads, how a
+// wind rises.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,16 +9,26 @@ namespace taut::mechanics {
 struct LinearPath {
     glm::dvec3 from{0.0}, to{0.0};
     double t0 = 0.0, t1 = 0.0;  // [s]
+    bool isLine = false;        // goes on at both ends instead of resting there
 
-    // `from` before t0, `to` from t1 on.
+    // `at` at t0, and everywhere else on the line through it.
+    static LinearPath line(const glm::dvec3& at, const glm::dvec3& rate, double t0) {
+        return {at, at + rate, t0, t0 + 1.0, true};
+    }
+
+    // `from` before t0, `to` from t1 on, unless it is a line.
     glm::dvec3 at(double t) const {
+        if (isLine) return from + (to - from) * (t - t0);
         if (t >= t1) return to;
         if (t <= t0) return from;
         return from + (to - from) * ((t - t0) / (t1 - t0));
     }
 
-    // Its rate of change: zero outside t0 <= t < t1 [1/s].
-    glm::dvec3 rate(double t) const { return t >= t0 && t < t1 ? (to - from) / (t1 - t0) : glm::dvec3(0.0); }
+    // Its rate of change: zero outside t0 <= t < t1, unless it is a line [1/s].
+    glm::dvec3 rate(double t) const {
+        if (isLine) return to - from;
+        return t >= t0 && t < t1 ? (to - from) / (t1 - t0) : glm::dvec3(0.0);
+    }
 };
 
 }  // namespace taut::mechanics

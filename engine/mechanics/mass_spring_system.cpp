@@ -56,8 +56,14 @@ void MassSpringSystem<Real>::layOutLanes() {
 
 template <class Real>
 void MassSpringSystem<Real>::add(std::unique_ptr<ForceGenerator<Real>> generator) {
-    if (generator->uniformAcceleration() == nullptr) external_ = core::AlignedArray<Real>(layout_.size());
+    if (!generator->isUniform() && external_.empty()) external_ = core::AlignedArray<Real>(layout_.size());
     generators_.push_back(std::move(generator));
+}
+
+template <class Real>
+void MassSpringSystem<Real>::removeGenerators() {
+    generators_.clear();
+    external_ = {};
 }
 
 template <class Real>
@@ -92,10 +98,10 @@ template <class Real>
 void MassSpringSystem<Real>::accelerate(double t, const Real* x, const Real* v, ode::AccelerationSink<Real>& sink) {
     const Motion<Real> now = motion(t, x, v);
     isExternalFilled_ = false;
-    double uniform[3] = {};
+    glm::dvec3 uniform(0.0);
     for (const auto& generator : generators_) {
-        if (const double* g = generator->uniformAcceleration()) {
-            for (int p = 0; p < 3; ++p) uniform[p] += g[p];
+        if (generator->isUniform()) {
+            uniform += generator->uniformAcceleration(t);
         } else if (!generator->isLocal()) {
             if (!isExternalFilled_) std::fill(external_.begin(), external_.end(), Real(0));
             isExternalFilled_ = true;
@@ -170,7 +176,7 @@ void MassSpringSystem<Real>::finish(const SpringBlock& block, const Motion<Real>
                 std::fill(plane + first, plane + last, Real(0));
             }
         for (const auto& generator : generators_)
-            if (generator->isLocal() && generator->uniformAcceleration() == nullptr)
+            if (generator->isLocal() && !generator->isUniform())
                 generator->addForces(now, first, last, external_.data());
     }
     kernels_.accelerate({last - first,

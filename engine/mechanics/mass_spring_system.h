@@ -43,6 +43,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     // Adds a generator; they act in the order of adding.
     void add(std::unique_ptr<ForceGenerator<Real>> generator);
     std::span<const std::unique_ptr<ForceGenerator<Real>>> generators() const { return generators_; }
+    void removeGenerators();
 
     // Expects points that are held, each led once. Takes effect when the method is started, or started again.
     void lead(LedPoints led);

@@ -19,6 +19,7 @@ struct GustField {
     double period = 1.5;     // [s] > 0 in which a gust comes and goes
     double length = 2.0;     // [m] > 0 size of an eddy, half a wave on average
     std::int64_t seed = 1;
+    bool operator==(const GustField&) const = default;
 };
 
 // The field's waves at one instant, in the form the wind kernel takes.

@@ -26,10 +26,14 @@ auto windKernel() -> void (*)(const WindBatch<Real>&) {
 
 template <class Real>
 Wind<Real>::Wind(std::span<const Triangle> triangles, const glm::dvec3& velocity, const WindSettings& settings)
+    : Wind(triangles, LinearPath{velocity, velocity}, settings) {}
+
+template <class Real>
+Wind<Real>::Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings)
     : triangles_(triangles.begin(), triangles.end()),
       runs_(triangles),
       weight_(runs_.sources().size()),
-      velocity_{velocity, velocity, 0.0, 0.0},
+      velocity_(velocity),
       settings_(settings),
       addBatch_(windKernel<Real>()) {
     for (std::size_t lane = 0; lane < weight_.size(); ++lane)

@@ -34,6 +34,7 @@ struct WindSettings {
     GustField gust;           // added to the steady flow; none with amplitude 0
     // Relative speed up to which the damping share holds [m/s]; 0: twice the fastest air, at least 10 m/s.
     double workingSpeed = 0.0;
+    bool operator==(const WindSettings&) const = default;
 };
 
 // One flow over a set of triangles. Two of them over the same triangles do not add up as flows would (each resists
@@ -45,12 +46,14 @@ class Wind final : public ForceGenerator<Real> {
 
     // Uses the kernel of the instruction set in use now.
     Wind(std::span<const Triangle> triangles, const glm::dvec3& velocity, const WindSettings& settings);
+    Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings);
 
     // The steady flow [m/s]: as given, or evenly from one to the other between t0 and t1 [s].
     void setVelocity(const glm::dvec3& velocity) { velocity_ = {velocity, velocity, 0.0, 0.0}; }
     void setVelocity(const glm::dvec3& from, const glm::dvec3& to, double t0, double t1) {
         velocity_ = {from, to, t0, t1};
     }
+    void setVelocity(const LinearPath& velocity) { velocity_ = velocity; }
     void setSettings(const WindSettings& settings) { settings_ = settings; }
     const WindSettings& settings() const { return settings_; }
 

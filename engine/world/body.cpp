@@ -84,6 +84,13 @@ mechanics::ClothMaterial materialOf(const ClothSpec& spec, const std::map<std::s
             lumpingOf(m.lumping)};
 }
 
+Body finishCloth(const ClothSpec& spec, mechanics::Model model, const std::map<std::string, MaterialSpec>& materials) {
+    Body body = finishBody(Body::Kind::cloth, spec, std::move(model));
+    if (const auto found = materials.find(spec.material); found != materials.end())
+        body.plasticity = found->second.plasticity;
+    return body;
+}
+
 template <class Spec, class Build>
 void addArray(std::vector<Body>& bodies, const Spec& spec, Build&& build) {
     const ArraySpec& array = spec.array;
@@ -149,7 +156,7 @@ Body buildBody(const ClothSpec& spec, const std::map<std::string, MaterialSpec>&
         const dvec3 down = unit(spec.down - glm::dot(spec.down, across) * across);
         mechanics::Model model =
             mechanics::buildCloth({spec.origin, across, down, spec.size, spec.cells, material});
-        return finishBody(Body::Kind::cloth, spec, std::move(model));
+        return finishCloth(spec, std::move(model), materials);
     }
     mechanics::MeshClothShape shape;
     const glm::dquat turn = rotationOf(spec.rotation);
@@ -158,7 +165,7 @@ Body buildBody(const ClothSpec& spec, const std::map<std::string, MaterialSpec>&
     shape.triangles = spec.meshData->triangles;
     shape.material = material;
     try {
-        return finishBody(Body::Kind::cloth, spec, mechanics::buildMeshCloth(shape));
+        return finishCloth(spec, mechanics::buildMeshCloth(shape), materials);
     } catch (const Error& error) {
         throw Error(error.code(), at(spec.source) + spec.mesh + ": " + error.what());
     }
@@ -178,6 +185,7 @@ Body buildBody(const RopeSpec& spec) {
     shape.lumping = lumpingOf(spec.lumping);
     Body body = finishBody(Body::Kind::rope, spec, mechanics::buildRope(shape));
     body.radius = spec.radius;
+    body.plasticity = spec.plasticity;
     return body;
 }
 
@@ -196,6 +204,7 @@ Body buildBody(const BlockSpec& spec) {
     shape.lumping = lumpingOf(spec.lumping);
     Body body = finishBody(Body::Kind::block, spec, mechanics::buildBlock(shape));
     body.workingStretch = spec.workingStretch;
+    body.plasticity = spec.plasticity;
     return body;
 }
 
@@ -209,6 +218,7 @@ Body buildBody(const NetSpec& spec) {
     Body body = finishBody(Body::Kind::net, spec, mechanics::buildNet(points, springs));
     body.radius = spec.radius;
     body.ball = spec.ball;
+    body.plasticity = spec.plasticity;
     return body;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mechanics/model.h"
+#include "world/damage.h"
 #include "world/spec.h"
 
 namespace taut::world {
@@ -22,6 +23,9 @@ struct Body {
     double radius = 0;         // [m] rope, net: of the tube
     double ball = 0;           // [m] net: of a point
     double workingStretch = 1; // block
+    PlasticitySpec plasticity;
+
+    Damage damage;  // what has been cut or torn of it
 
     // In the island that owns it.
     std::vector<int> pointOf;            // (points) number in the island, for each point of the model

@@ -22,6 +22,7 @@ struct Identity {
 struct BodyPart {
     std::unique_ptr<Body> body;
     std::unique_ptr<BodyDrawing> drawing;
+    std::size_t drawnDamage = 0;  // severed edges that the drawing knows of
 };
 
 // Where a rigid thing is at the start and the end of the current tick. A system that moves it writes `to`.
@@ -30,9 +31,17 @@ struct Placement {
     bool moved = false;  // in the tick before
 };
 
+// The way that an action sends a collider, in ticks.
+struct PoseMove {
+    collision::Pose from, to;
+    std::int64_t start = 0, length = 1;
+    Ease ease = Ease::smooth;
+};
+
 struct ColliderPart {
     ColliderSpec spec;
     std::shared_ptr<const ColliderModel> model;
+    std::optional<PoseMove> move{};  // the last; where there is one, keyframes do not count any more
 };
 
 struct WindPart {

@@ -1,17 +1,43 @@
 // What a world is made of, shared by its sources only.
+//
+//   world.cpp          building, the tick, what is asked of a world
+//   timeline.cpp       actions, each done at the start of its tick
+//   hands.cpp          grabbing, moving, releasing
+//   ramps.cpp          fields of the scene that change while it runs
+//   queries.cpp        metrics, points, hashes
+//   saving.cpp         all of it as bytes
+//   publish.cpp        the view for a picture
 #pragma once
 
 #include <optional>
 
 #include "core/parallel.h"
 #include "world/components.h"
+#include "world/hands.h"
 #include "world/island.h"
 #include "world/world.h"
 
 namespace taut::world {
 
+// A field on its way; one that has arrived is kept, as its value is no longer the scene's own.
+struct Ramp {
+    ActionSpec action;
+    std::vector<double> from;
+    std::int64_t start = 0;   // tick
+    std::int64_t length = 0;  // ticks; 0: at once
+
+    bool isRunning(std::int64_t tick) const { return tick < start + length; }
+};
+
+// A point that an action names.
+struct Picked {
+    Island* island = nullptr;
+    const Body* body = nullptr;
+    int point = -1;  // in the island
+};
+
 struct World::Impl {
-    SceneSpec spec;
+    SceneSpec spec;  // as ramps have left it
     core::ThreadLimit threads;
     ecs::Registry registry;
     std::vector<System> systems;
@@ -22,23 +48,76 @@ struct World::Impl {
     std::int64_t tick = 0;
     std::uint64_t hash = 0;
 
+    std::unique_ptr<const SceneSpec> start;      // the scene as it began: what envelopes are made from
+    std::vector<std::unique_ptr<Body>> waiting;  // bodies that an action will spawn
+    std::vector<std::string> spawned;            // targets of the spawn actions so far
+    std::vector<Hand> hands;                     // in the order of grabbing
+    std::vector<Ramp> ramps;                     // one for each key, in the order in which they began
+
     Impl(const SceneSpec& scene, const Options& options);
 
     TickTime now() const { return {tick, ticksPerSecond}; }
     double seconds() const { return static_cast<double>(tick) / ticksPerSecond; }
 
     void addBodies();
-    void addIsland(IslandPlan plan);
-    IslandForces forces();
+    void addIsland(IslandPlan plan, const Envelopes& envelopes, bool hasJoints);
+    IslandForces forces() const;
+    void checkUntied(Body& body) const;
+    void checkAnchors() const;
     void rebuildColliders();
     ecs::Entity addCollider(const ColliderSpec& collider);
     ecs::Entity addBody(std::unique_ptr<Body> body);
     ecs::Entity spawn(Body body);
+    ecs::Entity addAlone(std::unique_ptr<Body> body);
     void placeColliders();
     std::vector<ColliderMotion> movingColliders();
     void undoTick();
     void updateHash();
+    void redrawDamage();
     Island& islandOf(const Body& body) const;
+    std::vector<Body*> allBodies() const;
+
+    // Actions, each at the start of the tick that is now.
+    void perform(const ActionSpec& action);
+    void performDue();
+    void push(const ActionSpec& action);
+    void hold(const ActionSpec& action);
+    void free(const ActionSpec& action);
+    void addMass(const ActionSpec& action);
+    void cut(const ActionSpec& action);
+    void spawnNamed(const ActionSpec& action);
+    void moveCollider(const ActionSpec& action);
+    // The points that it names, each once, ascending by island; only the nearest if it says where. Frozen islands are
+    // left out. Throws core::Error(badContent) if there is none.
+    std::vector<Picked> pick(const ActionSpec& action) const;
+    void closeIslands();
+
+    void grab(const ActionSpec& action);
+    void moveHand(const ActionSpec& action);
+    void release(const ActionSpec& action);
+    Hand& handOf(const ActionSpec& action);
+    void leadHands();
+
+    void startRamp(const ActionSpec& action);
+    // Writes the values at this tick, or at a moment between two, into the scene; only of those that affect `which`.
+    void applyRamps(double moment, RampField::Affects which);
+    void changeForces();
+    void changeSprings();
+    void changeColliders();
+    void changePicture();
+    void takeRampedParts();
+    bool isRamping(RampField::Affects which) const;
+    void takeSprings(Body& body) const;
+
+    Metrics metricsOf(const std::function<bool(const Body&)>& wanted) const;
+
+    void save(core::ByteWriter& bytes) const;
+    void restore(core::ByteReader& bytes);
 };
+
+// The islands of picked points with their points in each, in order.
+std::vector<std::pair<Island*, std::vector<int>>> byIsland(const std::vector<Picked>& points);
+
+[[noreturn]] void failAction(const ActionSpec& action, const std::string& message);
 
 }  // namespace taut::world

@@ -133,6 +133,8 @@ class Planner {
             if (islands_.find(joint.a.body) == root)
                 plan.springs.push_back({pointOf(joint.a), pointOf(joint.b), joint.spec->stiffness, joint.restLength,
                                         joint.spec->dampingTime, mechanics::SpringKind::joint});
+        plan.origins.resize(plan.springs.size());
+        plan.broken.resize(plan.springs.size(), false);
         plan.solver = solverOf(plan);
         return plan;
     }
@@ -165,10 +167,13 @@ class Planner {
         b.lastPoint = static_cast<int>(plan.points.size());
         const int row = model.grid[0] > 0 ? model.grid[0] + 1 : 0;
         if (b.lastPoint > b.firstPoint) plan.ranges.push_back({b.firstPoint, whole ? row : 0});
-        for (mechanics::Spring spring : model.springs) {
+        for (std::size_t i = 0; i < model.springs.size(); ++i) {
+            mechanics::Spring spring = model.springs[i];
             spring.a = b.pointOf[static_cast<std::size_t>(spring.a)];
             spring.b = b.pointOf[static_cast<std::size_t>(spring.b)];
-            if (spring.a != spring.b) plan.springs.push_back(spring);
+            if (spring.a == spring.b) continue;
+            plan.springs.push_back(spring);
+            plan.origins.push_back({static_cast<int>(plan.bodies.size()), static_cast<int>(i)});
         }
         plan.bodies.push_back(&b);
     }
@@ -258,6 +263,27 @@ class Planner {
 std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec) {
     if (bodies.empty()) return {};
     return Planner(bodies, spec).plans();
+}
+
+void takeSpringsFromModels(IslandPlan& plan) {
+    for (std::size_t s = 0; s < plan.springs.size(); ++s) {
+        const SpringOrigin& origin = plan.origins[s];
+        if (origin.body < 0 || plan.broken[s]) continue;
+        const mechanics::Model& model = plan.bodies[static_cast<std::size_t>(origin.body)]->model;
+        plan.springs[s].stiffness = model.springs[static_cast<std::size_t>(origin.spring)].stiffness;
+        plan.springs[s].dampingTime = model.springs[static_cast<std::size_t>(origin.spring)].dampingTime;
+    }
+    // Drag of welded points by mass, as the planner has it.
+    std::vector<double> mass(plan.points.size(), 0.0);
+    for (const Body* body : plan.bodies)
+        for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
+            const auto at = static_cast<std::size_t>(body->pointOf[i]);
+            const double more = body->model.masses[i];
+            double& drag = plan.points[at].dragRate;
+            drag = mass[at] == 0 ? body->model.dragRates[i]
+                                 : (mass[at] * drag + more * body->model.dragRates[i]) / (mass[at] + more);
+            mass[at] += more;
+        }
 }
 
 std::string describeSpring(const IslandPlan& plan, int spring) {

@@ -4,10 +4,27 @@
 #include <span>
 #include <vector>
 
+#include "mechanics/linear_path.h"
 #include "mechanics/mass_spring_system.h"
 #include "world/body.h"
 
 namespace taut::world {
+
+// Where a spring of an island comes from.
+struct SpringOrigin {
+    int body = -1;    // of the plan's bodies; -1: a joint
+    int spring = -1;  // of that body's model
+};
+
+// What a hand has got hold of. Its points keep their places about it.
+struct Grip {
+    std::string hand;
+    bool rigid = false;                      // led exactly; else drawn by springs
+    std::vector<int> points;                 // ascending
+    std::vector<dvec3> offsets;              // (points) [m] from the hand
+    std::vector<double> stiffness, damping;  // (points) [N/m], [kg/s]; not of rigid ones
+    mechanics::LinearPath path;              // of the hand, a line during each tick
+};
 
 // Points in the island's own numbering: body by body, welded points once.
 struct IslandPlan {
@@ -17,11 +34,17 @@ struct IslandPlan {
     std::vector<mechanics::MassSpringSystem<double>::PointMass> points;
     std::vector<mechanics::SpringNetwork<double>::Body> ranges;      // (bodies)
     std::vector<mechanics::Spring> springs;                          // joints last
+    std::vector<SpringOrigin> origins;                               // (springs)
+    std::vector<bool> broken;                                        // (springs) cut or torn; then without stiffness
+    std::vector<Grip> grips;                                         // in the order of grabbing
 };
 
 // The smallest sets of bodies that springs or welds couple. Fills pointOf, firstPoint and lastPoint of every body.
 // Throws core::Error(badContent) where joints name nothing or bodies tied together disagree on their solver.
 std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec);
+
+// Takes stiffness, damping and drag over from the models of the bodies, for instance when those have changed.
+void takeSpringsFromModels(IslandPlan& plan);
 
 // "structural spring 12-13 of cloth.flag" for spring number `spring` of the plan.
 std::string describeSpring(const IslandPlan& plan, int spring);

@@ -15,19 +15,21 @@ using core::ExitCode;
 
 constexpr double mostSubsteps = 1e6;
 
-ode::FastestMode fastestMode(const IslandPlan& plan, const mechanics::StabilityShare& share, double omega) {
+ode::FastestMode fastestMode(const Envelope& envelope, const mechanics::StabilityShare& share, double omega) {
     ode::FastestMode mode;
     mode.omega = omega;
-    for (const mechanics::Spring& spring : plan.springs) mode.tau = std::max(mode.tau, spring.dampingTime);
+    for (const mechanics::Spring& spring : envelope.plan.springs) mode.tau = std::max(mode.tau, spring.dampingTime);
     for (double rate : share.dampingRate) mode.rate = std::max(mode.rate, rate);
-    bool first = true;
-    for (const auto& point : plan.points) {
-        if (point.held) continue;
-        mode.drag = first ? point.dragRate : std::min(mode.drag, point.dragRate);
-        mode.largestDrag = std::max(mode.largestDrag, point.dragRate);
-        first = false;
-    }
+    mode.drag = envelope.leastDrag;
+    mode.largestDrag = envelope.mostDrag;
     return mode;
+}
+
+// Some methods need damping, others bear little of it: the step has to hold with the most and with the least.
+double automaticStep(const ode::MethodInfo& method, const Envelope& envelope, ode::FastestMode mode) {
+    const double most = method.automaticStep(mode);
+    mode.tau = std::min(mode.tau, envelope.leastTau);
+    return std::min(most, method.automaticStep(mode));
 }
 
 void warnOverLimit(const IslandPlan& plan, const ode::MethodInfo& method, StepChoice& choice, double limitHere) {
@@ -49,13 +51,32 @@ void warnOverLimit(const IslandPlan& plan, const ode::MethodInfo& method, StepCh
 
 }  // namespace
 
+double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share) {
+    std::vector<double> inverseMasses;
+    Envelope now;
+    now.leastDrag = HUGE_VAL;
+    for (const auto& point : plan.points) {
+        inverseMasses.push_back(point.held ? 0.0 : 1.0 / point.mass);
+        if (!point.held) now.leastDrag = std::min(now.leastDrag, point.dragRate);
+        if (!point.held) now.mostDrag = std::max(now.mostDrag, point.dragRate);
+    }
+    now.plan.springs = plan.springs;
+    const double omega = mechanics::boundAnywhere({plan.springs, inverseMasses}, share.stiffness).omega;
+    return ode::findMethod(plan.solver.integrator)->automaticStep(fastestMode(now, share, omega));
+}
+
 std::string inSeconds(double t) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g s", t);
     return text;
 }
 
-StepChoice chooseStep(const IslandPlan& plan, const mechanics::StabilityShare& share, double tickSeconds) {
+StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds) {
+    const IslandPlan& plan = envelope.plan;
+    for (std::size_t i = 0; i < envelope.handStiffness.size(); ++i) {
+        share.stiffness[i] += envelope.handStiffness[i];
+        share.dampingRate[i] += envelope.handRate[i];
+    }
     std::vector<double> inverseMasses;
     for (const auto& point : plan.points) inverseMasses.push_back(point.held ? 0.0 : 1.0 / point.mass);
     const mechanics::NetworkView network{plan.springs, inverseMasses};
@@ -68,12 +89,12 @@ StepChoice chooseStep(const IslandPlan& plan, const mechanics::StabilityShare& s
     choice.anywhere = mechanics::boundAnywhere(network, share.stiffness);
     choice.here = mechanics::boundHere(network, share.stiffness, plan.positions);
     if (!choice.anywhere.bySprings)
-        choice.limitingSpring = "volume cells or anchors of " + body.fullName();
+        choice.limitingSpring = "volume cells, anchors or hands of " + body.fullName();
     else if (choice.anywhere.spring >= 0)
         choice.limitingSpring = describeSpring(plan, choice.anywhere.spring);
-    choice.mode = fastestMode(plan, share, choice.anywhere.omega);
-    choice.limit = method->automaticStep(choice.mode);
-    const double limitHere = method->automaticStep(fastestMode(plan, share, choice.here.omega));
+    choice.mode = fastestMode(envelope, share, choice.anywhere.omega);
+    choice.limit = automaticStep(*method, envelope, choice.mode);
+    const double limitHere = automaticStep(*method, envelope, fastestMode(envelope, share, choice.here.omega));
 
     const double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
     if (!(wanted > 0))

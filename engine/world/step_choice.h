@@ -6,7 +6,7 @@
 
 #include "mechanics/stability.h"
 #include "ode/method.h"
-#include "world/island_plan.h"
+#include "world/envelope.h"
 
 namespace taut::world {
 
@@ -20,9 +20,12 @@ struct StepChoice {
     std::vector<std::string> warnings;
 };
 
-// share: what generators other than the springs add. Throws core::Error(badContent) when "auto" has no answer or
-// would need more than a million steps a tick.
-StepChoice chooseStep(const IslandPlan& plan, const mechanics::StabilityShare& share, double tickSeconds);
+// The step that holds for all that the envelope allows. share: what generators other than the springs and hands add.
+// Throws core::Error(badContent) when "auto" has no answer or would need more than a million steps a tick.
+StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds);
+
+// The largest stable step [s] of the island as it is now, in any configuration.
+double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share);
 
 // "3.2e-04 s"
 std::string inSeconds(double t);

@@ -11,7 +11,8 @@
 
 namespace taut::world {
 
-World::Impl::Impl(const SceneSpec& scene, const Options& options) : spec(scene), threads(options.threads) {
+World::Impl::Impl(const SceneSpec& scene, const Options& options)
+    : spec(scene), threads(options.threads), start(std::make_unique<const SceneSpec>(scene)) {
     ticksPerFrame = std::max(1, static_cast<int>(std::ceil(60.0 / spec.run.fps)));
     ticksPerSecond = spec.run.fps * ticksPerFrame;
     const auto add = [&](const char* kind, const std::string& name, auto part) {
@@ -32,11 +33,29 @@ void World::Impl::addBodies() {
     std::vector<Body> built = buildBodies(spec);
     std::vector<Body*> pointers;
     for (Body& body : built) {
+        if (isSpawnedLater(body, spec)) {
+            checkUntied(body);
+            waiting.push_back(std::make_unique<Body>(std::move(body)));
+            continue;
+        }
         const ecs::Entity entity = addBody(std::make_unique<Body>(std::move(body)));
         bodies.push_back(entity);
         pointers.push_back(registry.find<BodyPart>(entity)->body.get());
     }
-    for (IslandPlan& plan : planIslands(pointers, spec)) addIsland(std::move(plan));
+    checkAnchors();
+    const Envelopes envelopes(*start);
+    for (IslandPlan& plan : planIslands(pointers, spec)) addIsland(std::move(plan), envelopes, true);
+}
+
+// A body that comes later cannot be tied to others: islands are made once.
+void World::Impl::checkUntied(Body& body) const {
+    const std::vector<Body*> one{&body};
+    for (const JointSpec& joint : spec.joints)
+        for (const std::string& side : {joint.a, joint.b})
+            if (!matchBodies(one, side).empty())
+                throw core::Error(core::ExitCode::badContent,
+                                  at(joint.source) + "\"" + side + "\" ties " + body.fullName() +
+                                      ", which is spawned later; a spawned body cannot be tied to another");
 }
 
 ecs::Entity World::Impl::addBody(std::unique_ptr<Body> body) {
@@ -47,45 +66,36 @@ ecs::Entity World::Impl::addBody(std::unique_ptr<Body> body) {
     return entity;
 }
 
-// The winds and anchors as they are now, resolved to bodies and points.
-IslandForces World::Impl::forces() {
-    IslandForces forces;
-    forces.gravity = spec.world.gravity;
+std::vector<Body*> World::Impl::allBodies() const {
     std::vector<Body*> all;
-    registry.each<BodyPart>([&](ecs::Entity, BodyPart& part) { all.push_back(part.body.get()); });
-    registry.each<WindPart>([&](ecs::Entity, const WindPart& part) {
-        const WindSpec& wind = part.spec;
-        if (wind.drag == 0.0 && wind.lift == 0.0) return;  // without force
-        WindOn on;
-        on.velocity = wind.velocity;
-        on.settings.airDensity = spec.world.airDensity;
-        on.settings.drag = wind.drag;
-        on.settings.lift = wind.lift;
-        on.settings.gust = {wind.gustAmplitude, wind.gustPeriod, wind.gustLength, wind.gustSeed};
-        const std::vector<std::string> targets = wind.on.empty() ? std::vector<std::string>{"cloth.*"} : wind.on;
-        for (const std::string& target : targets)
-            for (const Body* body : matchBodies(all, target)) on.bodies.push_back(body);
-        forces.winds.push_back(std::move(on));
-    });
-    registry.each<AnchorPart>([&](ecs::Entity, const AnchorPart& part) {
-        const AnchorSpec& anchor = part.spec;
-        bool any = false;
-        for (const Body* body : matchBodies(all, anchor.target)) {
-            AnchorOn on{anchor.at, anchor.stiffness, anchor.damping, body,
-                        selectPoints(body->model, parseTarget(anchor.target).selector)};
-            any = any || !on.points.empty();
-            if (!on.points.empty()) forces.anchors.push_back(std::move(on));
-        }
-        if (!any && tick == 0)  // later it may have gone with its body
-            throw core::Error(core::ExitCode::badContent,
-                              at(anchor.source) + "target = \"" + anchor.target + "\" names no point");
-    });
-    return forces;
+    for (ecs::Entity entity : bodies) all.push_back(registry.find<BodyPart>(entity)->body.get());
+    return all;
 }
 
-void World::Impl::addIsland(IslandPlan plan) {
+// The winds and anchors as they are now, resolved to bodies and points.
+IslandForces World::Impl::forces() const {
+    std::vector<WindSpec> winds;
+    std::vector<AnchorSpec> anchors;
+    registry.each<WindPart>([&](ecs::Entity, const WindPart& part) { winds.push_back(part.spec); });
+    registry.each<AnchorPart>([&](ecs::Entity, const AnchorPart& part) { anchors.push_back(part.spec); });
+    return resolveForces(spec.world, winds, anchors, allBodies());
+}
+
+// That each finds a point, of bodies that are there or wait.
+void World::Impl::checkAnchors() const {
+    std::vector<Body*> all = allBodies();
+    for (const auto& body : waiting) all.push_back(body.get());
+    for (const AnchorSpec& anchor : spec.anchors)
+        if (resolveForces({}, {}, {&anchor, 1}, all).anchors.empty())
+            throw core::Error(core::ExitCode::badContent,
+                              at(anchor.source) + "target = \"" + anchor.target + "\" names no point");
+}
+
+void World::Impl::addIsland(IslandPlan plan, const Envelopes& envelopes, bool hasJoints) {
     plan.solver.precision = spec.solver.precision;
-    islands.push_back(makeIsland(std::move(plan), forces(), ticksPerSecond, seconds()));
+    const IslandForces current = forces();
+    Envelope envelope = envelopes.of(plan, current, hasJoints);
+    islands.push_back(makeIsland(std::move(plan), current, std::move(envelope), ticksPerSecond, seconds()));
 }
 
 ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
@@ -100,23 +110,30 @@ ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
 void World::Impl::rebuildColliders() {
     collision::Colliders colliders;
     registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
-        colliders.add(part.model->shape, part.model->material, placement.to);
+        colliders.add(part.model->shape, {part.spec.friction, part.spec.restitution}, placement.to);
     });
     for (const auto& island : islands) island->setColliders(colliders.clone());
 }
 
 ecs::Entity World::Impl::spawn(Body body) {
     startBody(body);
-    const ecs::Entity entity = addBody(std::make_unique<Body>(std::move(body)));
+    const ecs::Entity entity = addAlone(std::make_unique<Body>(std::move(body)));
+    rebuildColliders();
+    return entity;
+}
+
+// An island of its own.
+ecs::Entity World::Impl::addAlone(std::unique_ptr<Body> body) {
+    const ecs::Entity entity = addBody(std::move(body));
     Body* added = registry.find<BodyPart>(entity)->body.get();
-    SceneSpec alone;  // the joints of the scene do not concern it
-    alone.solver = spec.solver;
-    for (IslandPlan& plan : planIslands(std::vector<Body*>{added}, alone)) addIsland(std::move(plan));
     const auto place = std::find_if(bodies.begin(), bodies.end(), [&](ecs::Entity other) {
         return sortsBefore(*added, *registry.find<BodyPart>(other)->body);
     });
     bodies.insert(place, entity);
-    rebuildColliders();
+    SceneSpec alone;  // the joints of the scene do not concern it
+    alone.solver = spec.solver;
+    const Envelopes envelopes(*start);
+    for (IslandPlan& plan : planIslands(std::vector<Body*>{added}, alone)) addIsland(std::move(plan), envelopes, false);
     return entity;
 }
 
@@ -126,7 +143,15 @@ void World::Impl::placeColliders() {
     registry.each<Placement>([&](ecs::Entity entity, Placement& placement) {
         placement.from = placement.to;
         const ColliderPart* part = registry.find<ColliderPart>(entity);
-        if (part != nullptr && !part->spec.keys.empty()) placement.to = poseAt(part->spec, end);
+        if (part == nullptr) return;
+        if (const auto& move = part->move) {
+            // Once there it may be moved by others.
+            if (tick < move->start + move->length)
+                placement.to = between(move->from, move->to,
+                                       shareOfWay(move->ease, static_cast<double>(tick + 1 - move->start), move->length));
+        } else if (!part->spec.keys.empty()) {
+            placement.to = poseAt(part->spec, end);
+        }
     });
 }
 
@@ -180,9 +205,25 @@ int World::ticksPerFrame() const { return impl_->ticksPerFrame; }
 std::int64_t World::tick() const { return impl_->tick; }
 double World::time() const { return impl_->seconds(); }
 
+// Bodies are drawn anew when more of them has been severed.
+void World::Impl::redrawDamage() {
+    registry.each<BodyPart>([](ecs::Entity, BodyPart& part) {
+        const std::size_t severed = part.body->damage.edges().size();
+        if (severed == part.drawnDamage) return;
+        part.drawnDamage = severed;
+        part.drawing = makeDrawing(*part.body);
+    });
+}
+
 std::optional<Divergence> World::advance() {
     Impl& w = *impl_;
     const TickTime now = w.now();
+    w.performDue();
+    w.changeForces();
+    w.changeSprings();
+    w.changeColliders();
+    w.leadHands();
+    w.closeIslands();
     w.placeColliders();
     for (const System& system : std::vector<System>(w.systems))
         system(*this, static_cast<double>(w.tick + 1) / w.ticksPerSecond, tickSeconds());
@@ -204,18 +245,17 @@ std::optional<Divergence> World::advance() {
             return w.islands[i]->diagnose(*faults[i], now);
         }
     ++w.tick;
+    w.threads.run([&] {
+        core::parallelFor(static_cast<int>(w.islands.size()),
+                          [&](int i) { w.islands[static_cast<std::size_t>(i)]->settle(w.now()); });
+    });
+    w.redrawDamage();
+    w.changePicture();
     w.updateHash();
     return std::nullopt;
 }
 
 std::uint64_t World::stateHash() const { return impl_->hash; }
-
-Metrics World::metrics() const {
-    Metrics metrics;
-    metrics.time = time();
-    for (const auto& island : impl_->islands) island->addMetrics(impl_->now(), metrics);
-    return metrics;
-}
 
 std::vector<IslandInfo> World::islands() const {
     std::vector<IslandInfo> all;

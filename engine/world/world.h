@@ -52,6 +52,7 @@ struct Metrics {                      // at a published tick, velocities synchro
     int invertedCells = 0;      // V/V0 <= 0
     int brokenSprings = 0;      // cut or torn since the start
     double volume = 0;          // [m³] of the cells of blocks
+    double restVolume = 0;      // [m³] of the same cells without force
     double penetration = 0;     // [m] largest depth of a free, colliding point inside a collider
     double minVolumeRatio = 1;  // smallest V/V0
     ode::Work work{};           // of the methods since the start

@@ -1,0 +1,37 @@
+// What has been cut or torn of a body, told in points of its model: which edges, and which triangles and tetrahedra
+// thereby. It knows neither islands nor how it came about.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "mechanics/model.h"
+
+namespace taut::world {
+
+class Damage {
+  public:
+    using Edge = std::pair<int, int>;  // points of the model, the lower first
+
+    bool isEmpty() const { return edges_.empty(); }
+    bool isSevered(int a, int b) const { return edges_.count({a < b ? a : b, a < b ? b : a}) > 0; }
+    // Where it is severed, as a share of the way from a to b; a half where nothing else is known.
+    double share(int a, int b) const;
+    const std::map<Edge, double>& edges() const { return edges_; }  // with the share from the lower point
+    bool isTriangleGone(std::size_t triangle) const { return !triangles_.empty() && triangles_[triangle]; }
+    bool isCellGone(std::size_t cell) const { return !cells_.empty() && cells_[cell]; }
+
+    // Share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
+    void sever(int a, int b, double share);
+    // After severing: bending springs follow the springs that they lie along, and triangles and tetrahedra go whose
+    // corners no spring holds together any more.
+    void assess(const mechanics::Model& model);
+
+  private:
+    std::map<Edge, double> edges_;
+    std::vector<bool> triangles_, cells_;  // (of the model) gone; empty while nothing is severed
+};
+
+}  // namespace taut::world

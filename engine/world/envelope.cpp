@@ -1,0 +1,221 @@
+#include "world/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/error.h"
+#include "world/targets.h"
+
+namespace taut::world {
+namespace {
+
+double size(const std::vector<double>& value) {
+    double sum = 0;
+    for (double v : value) sum += v * v;
+    return sum;
+}
+
+bool changesIslands(const ActionSpec& action) {
+    return action.what == Do::ramp &&
+           (action.field.affects == RampField::Affects::forces || action.field.affects == RampField::Affects::springs);
+}
+
+// The scene with every field that ramps change at the largest value that it takes, or the smallest. A ramp begins
+// somewhere between the values before it and keeps between its ends, so that these are all that count.
+SceneSpec extreme(const SceneSpec& spec, bool largest) {
+    SceneSpec scene = spec;
+    for (const ActionSpec& action : spec.actions) {
+        if (!changesIslands(action)) continue;
+        const double now = size(action.field.read(scene)), later = size(action.value);
+        if (largest ? later > now : later < now) action.field.write(scene, action.value);
+    }
+    return scene;
+}
+
+// One end of what the scene may become.
+struct Side {
+    SceneSpec spec;
+    std::vector<std::shared_ptr<Body>> bodies;
+    std::vector<IslandPlan> plans;  // of the bodies that are there from the start
+
+    explicit Side(SceneSpec scene) : spec(std::move(scene)) {
+        std::vector<Body*> first;
+        for (Body& body : buildBodies(spec)) {
+            bodies.push_back(std::make_shared<Body>(std::move(body)));
+            if (!isSpawnedLater(*bodies.back(), spec)) first.push_back(bodies.back().get());
+        }
+        plans = planIslands(first, spec);
+    }
+
+    // The plan of the same bodies; nothing if the scene does not have them.
+    std::optional<IslandPlan> like(const IslandPlan& plan, bool hasJoints) const {
+        const std::string name = plan.bodies.front()->fullName();
+        if (hasJoints) {
+            for (const IslandPlan& other : plans)
+                if (other.bodies.front()->fullName() == name) return other;
+            return std::nullopt;
+        }
+        for (const auto& body : bodies) {
+            if (body->fullName() != name) continue;
+            SceneSpec alone;
+            alone.solver = spec.solver;
+            return planIslands(std::vector<Body*>{body.get()}, alone).front();
+        }
+        return std::nullopt;
+    }
+};
+
+// Numbers in the island of the points that an action names.
+std::vector<int> pointsOf(const IslandPlan& plan, const std::string& target) {
+    std::vector<int> points;
+    for (const Body* body : matchBodies(plan.bodies, target))
+        for (int i : selectPoints(body->model, parseTarget(target).selector))
+            points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+}
+
+auto& point(IslandPlan& plan, int i) {
+    return plan.points[static_cast<std::size_t>(i)];
+}
+
+void lighten(Envelope& envelope, const SceneSpec& spec) {
+    for (const ActionSpec& action : spec.actions) {
+        if (action.what != Do::addMass || action.mass >= 0) continue;
+        const std::vector<int> points = pointsOf(envelope.plan, action.target);
+        for (int i : points) {
+            double& mass = point(envelope.plan, i).mass;
+            mass += action.near ? action.mass : action.mass / static_cast<double>(points.size());
+            if (!(mass > 0))
+                throw core::Error(core::ExitCode::badContent,
+                                  at(action.source) + "this may leave a point of \"" + action.target +
+                                      "\" without any mass; take away less, or from more points");
+        }
+    }
+}
+
+// Grabs by springs. The mass of a grip is at least that of its points that are free all the time; or, where it is not
+// known which point will be the nearest, that of the lightest.
+void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec) {
+    std::vector<bool> mayBeHeld;
+    for (const auto& p : start.points) mayBeHeld.push_back(p.held);
+    for (const ActionSpec& action : spec.actions)
+        if (action.what == Do::hold || (action.what == Do::grab && action.rigid))
+            for (int i : pointsOf(start, action.target)) mayBeHeld[static_cast<std::size_t>(i)] = true;
+    std::map<std::string, std::vector<GripRates>> hands;  // (points) by id
+    for (const ActionSpec& action : spec.actions) {
+        if (action.what != Do::grab || action.rigid) continue;
+        const std::vector<int> named = pointsOf(envelope.plan, action.target);
+        if (named.empty()) continue;
+        double mass = 0, lightest = HUGE_VAL;
+        for (int i : named) {
+            lightest = std::min(lightest, point(envelope.plan, i).mass);
+            if (!mayBeHeld[static_cast<std::size_t>(i)]) mass += point(envelope.plan, i).mass;
+        }
+        if (action.near || mass == 0) mass = lightest;
+        const GripRates rates = gripRates(action.strength, action.dampingRatio, mass);
+        std::vector<GripRates>& hand = hands[action.id];
+        hand.resize(envelope.plan.points.size());
+        // With a radius any point of the bodies may come near.
+        const std::string bodies = action.target.substr(0, action.target.find('@'));
+        for (int i : action.radius > 0 ? pointsOf(envelope.plan, bodies) : named) {
+            GripRates& most = hand[static_cast<std::size_t>(i)];
+            most.omega2 = std::max(most.omega2, rates.omega2);
+            most.damping = std::max(most.damping, rates.damping);
+        }
+    }
+    for (std::size_t i = 0; i < envelope.plan.points.size(); ++i) {
+        const double mass = envelope.plan.points[i].mass;
+        double stiffness = 0, rate = 0;
+        if (spec.hand.anywhere) {
+            const GripRates one = gripRates(spec.hand.strength, spec.hand.dampingRatio, mass);
+            stiffness += mass * one.omega2;
+            rate += one.damping;
+        }
+        for (const auto& [id, hand] : hands) {
+            stiffness += mass * hand[i].omega2;
+            rate += hand[i].damping;
+        }
+        envelope.handStiffness.push_back(stiffness);
+        envelope.handRate.push_back(rate);
+    }
+}
+
+double largestTau(const IslandPlan& plan) {
+    double tau = 0;
+    for (const mechanics::Spring& spring : plan.springs) tau = std::max(tau, spring.dampingTime);
+    return tau;
+}
+
+// `held` of one plan, drag of another.
+void addDrag(Envelope& envelope, const IslandPlan& of) {
+    for (std::size_t i = 0; i < of.points.size(); ++i) {
+        if (envelope.plan.points[i].held) continue;
+        envelope.leastDrag = std::min(envelope.leastDrag, of.points[i].dragRate);
+        envelope.mostDrag = std::max(envelope.mostDrag, of.points[i].dragRate);
+    }
+}
+
+}  // namespace
+
+struct Envelopes::Impl {
+    const SceneSpec& spec;
+    std::optional<Side> high, low;
+};
+
+GripRates gripRates(double strength, double dampingRatio, double mass) {
+    return {strength / mass, 2.0 * dampingRatio * std::sqrt(strength / mass)};
+}
+
+bool isSpawnedLater(const Body& body, const SceneSpec& spec) {
+    return std::any_of(spec.actions.begin(), spec.actions.end(), [&](const ActionSpec& action) {
+        if (action.what != Do::spawn) return false;
+        const Target target = parseTarget(action.target);
+        return target.kind == kindName(body.kind) &&
+               (matches(target.name, body.name) || matches(target.name, body.base));
+    });
+}
+
+Envelopes::Envelopes(const SceneSpec& spec) : impl_(new Impl{spec, {}, {}}) {
+    if (std::none_of(spec.actions.begin(), spec.actions.end(), changesIslands)) return;
+    impl_->high.emplace(extreme(spec, true));
+    impl_->low.emplace(extreme(spec, false));
+}
+Envelopes::~Envelopes() = default;
+
+Envelope Envelopes::of(const IslandPlan& plan, const IslandForces& forces, bool hasJoints) const {
+    const SceneSpec& spec = impl_->spec;
+    Envelope envelope;
+    envelope.plan = plan;
+    envelope.forces = forces;
+    envelope.isStatic = spec.actions.empty();
+    std::optional<IslandPlan> soft;
+    if (impl_->high) {
+        if (std::optional<IslandPlan> stiff = impl_->high->like(plan, hasJoints)) {
+            const SceneSpec& strong = impl_->high->spec;
+            envelope.plan = std::move(*stiff);
+            envelope.bodies = impl_->high->bodies;
+            envelope.forces = resolveForces(strong.world, strong.winds, strong.anchors, envelope.plan.bodies);
+            soft = impl_->low->like(plan, hasJoints);
+        }
+    }
+    for (const ActionSpec& action : spec.actions)
+        if (action.what == Do::free)
+            for (int i : pointsOf(envelope.plan, action.target)) point(envelope.plan, i).held = false;
+    lighten(envelope, spec);
+    const bool hasHands = spec.hand.anywhere || std::any_of(spec.actions.begin(), spec.actions.end(),
+                                                            [](const ActionSpec& a) { return a.what == Do::grab; });
+    if (hasHands) addHands(envelope, plan, spec);
+
+    envelope.leastTau = largestTau(soft ? *soft : envelope.plan);
+    envelope.leastDrag = HUGE_VAL;
+    addDrag(envelope, envelope.plan);
+    if (soft) addDrag(envelope, *soft);
+    if (envelope.leastDrag == HUGE_VAL) envelope.leastDrag = 0;  // none is free
+    return envelope;
+}
+
+}  // namespace taut::world

@@ -1,0 +1,71 @@
+// What is asked of a world while it stands still between two ticks.
+#include <algorithm>
+
+#include "core/hash.h"
+#include "world/impl.h"
+#include "world/targets.h"
+
+namespace taut::world {
+
+Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted) const {
+    Metrics metrics;
+    metrics.time = seconds();
+    for (const auto& island : islands) island->addMetrics(now(), wanted, metrics);
+    return metrics;
+}
+
+Metrics World::metrics() const {
+    return impl_->metricsOf([](const Body&) { return true; });
+}
+
+Metrics World::metrics(const std::string& bodies) const {
+    const std::vector<Body*> all = impl_->allBodies();
+    const std::vector<Body*> wanted = matchBodies(all, bodies);
+    return impl_->metricsOf(
+        [&](const Body& body) { return std::find(wanted.begin(), wanted.end(), &body) != wanted.end(); });
+}
+
+PointsNow World::points(const std::string& target) const {
+    PointsNow points;
+    const std::vector<Body*> all = impl_->allBodies();
+    std::vector<std::pair<const Island*, std::vector<dvec3>>> velocities;  // of the islands asked so far
+    for (const Body* body : matchBodies(all, target)) {
+        Island& island = impl_->islandOf(*body);
+        auto known =
+            std::find_if(velocities.begin(), velocities.end(), [&](const auto& v) { return v.first == &island; });
+        if (known == velocities.end())
+            known = velocities.insert(velocities.end(), {&island, island.velocities(impl_->now())});
+        for (int i : selectPoints(body->model, parseTarget(target).selector)) {
+            const int point = body->pointOf[static_cast<std::size_t>(i)];
+            points.x.push_back(island.position(point));
+            points.v.push_back(known->second[static_cast<std::size_t>(point)]);
+            points.mass.push_back(island.plan().points[static_cast<std::size_t>(point)].mass);
+        }
+    }
+    return points;
+}
+
+std::vector<BodyHash> World::bodyHashes() const {
+    std::vector<BodyHash> hashes;
+    for (const Body* body : impl_->allBodies()) {
+        core::Hash hash;
+        impl_->islandOf(*body).addToHash(*body, hash);
+        hashes.push_back({body->fullName(), hash.value()});
+    }
+    return hashes;
+}
+
+std::vector<std::uint64_t> World::pointHashes(ecs::Entity entity) const {
+    const BodyPart* part = impl_->registry.find<BodyPart>(entity);
+    TAUT_EXPECTS(part != nullptr);
+    const Island& island = impl_->islandOf(*part->body);
+    std::vector<std::uint64_t> hashes;
+    for (int i : part->body->pointOf) {
+        core::Hash hash;
+        island.addPointToHash(i, hash);
+        hashes.push_back(hash.value());
+    }
+    return hashes;
+}
+
+}  // namespace taut::world

@@ -1,0 +1,154 @@
+// Fields of the scene that change while it runs.
+#include <algorithm>
+
+#include "world/impl.h"
+#include "world/targets.h"
+
+namespace taut::world {
+namespace {
+
+template <class Spec>
+const Spec* named(const std::vector<Spec>& specs, const std::string& name) {
+    const auto found = std::find_if(specs.begin(), specs.end(), [&](const Spec& s) { return s.name == name; });
+    return found == specs.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+// A ramp of a key that is on its way already takes over where that is.
+void World::Impl::startRamp(const ActionSpec& action) {
+    Ramp ramp{action, action.field.read(spec), tick, 0};
+    if (action.over > 0) ramp.length = ticksIn(action.over, ticksPerSecond);
+    const auto old =
+        std::find_if(ramps.begin(), ramps.end(), [&](const Ramp& r) { return r.action.key == action.key; });
+    if (old != ramps.end()) {
+        *old = std::move(ramp);
+        return;
+    }
+    ramps.push_back(std::move(ramp));
+}
+
+void World::Impl::applyRamps(double moment, RampField::Affects which) {
+    for (const Ramp& ramp : ramps) {
+        if (ramp.action.field.affects != which) continue;
+        const double ticks = moment - static_cast<double>(ramp.start);
+        const double share = ramp.length == 0 ? 1.0 : shareOfWay(ramp.action.ease, ticks, ramp.length);
+        std::vector<double> value = ramp.action.value;
+        if (share < 1)
+            for (std::size_t i = 0; i < value.size() && i < ramp.from.size(); ++i)
+                value[i] = ramp.from[i] + share * (value[i] - ramp.from[i]);
+        ramp.action.field.write(spec, value);
+    }
+}
+
+// Whether one of them may be different in the coming tick from what it was in the one before.
+bool World::Impl::isRamping(RampField::Affects which) const {
+    return std::any_of(ramps.begin(), ramps.end(), [&](const Ramp& ramp) {
+        return ramp.action.field.affects == which && tick <= ramp.start + ramp.length;
+    });
+}
+
+// Gravity, flows and places change evenly during the tick; all else stays at its value in the middle.
+void World::Impl::changeForces() {
+    if (!isRamping(RampField::Affects::forces)) return;
+    const auto forcesAt = [&](double moment) {
+        applyRamps(moment, RampField::Affects::forces);
+        takeRampedParts();
+        return forces();
+    };
+    const double begin = static_cast<double>(tick);
+    const IslandForces from = forcesAt(begin), middle = forcesAt(begin + 0.5), to = forcesAt(begin + 1.0);
+    const IslandForces during = between(from, middle, to, seconds(), static_cast<double>(tick + 1) / ticksPerSecond);
+    for (const auto& island : islands) island->setForces(now(), during);
+}
+
+// Takes the springs over that the body would have if it were built from the scene as it is now.
+void World::Impl::takeSprings(Body& body) const {
+    const auto take = [&](const Body& fresh) {
+        for (std::size_t i = 0; i < body.model.springs.size(); ++i) {
+            body.model.springs[i].stiffness = fresh.model.springs[i].stiffness;
+            body.model.springs[i].dampingTime = fresh.model.springs[i].dampingTime;
+        }
+        body.model.dragRates = fresh.model.dragRates;
+        for (std::size_t i = 0; i < body.model.cells.size() && i < fresh.model.cells.size(); ++i)
+            body.model.cells[i].bulkModulus = fresh.model.cells[i].bulkModulus;
+        body.plasticity = fresh.plasticity;
+    };
+    const auto rebuilt = [&](const auto& specs, auto&& build) {
+        if (const auto* found = named(specs, body.base)) {
+            const Body fresh = build(*found);
+            if (fresh.model.springs.size() == body.model.springs.size()) take(fresh);
+        }
+    };
+    switch (body.kind) {
+        case Body::Kind::cloth:
+            return rebuilt(spec.cloths, [&](const ClothSpec& s) { return buildBody(s, spec.materials); });
+        case Body::Kind::rope:
+            return rebuilt(spec.ropes, [](const RopeSpec& s) { return buildBody(s); });
+        case Body::Kind::block:
+            return rebuilt(spec.blocks, [](const BlockSpec& s) { return buildBody(s); });
+        case Body::Kind::net:
+            return rebuilt(spec.nets, [](const NetSpec& s) { return buildBody(s); });
+    }
+}
+
+void World::Impl::changeSprings() {
+    if (!isRamping(RampField::Affects::springs)) return;
+    applyRamps(static_cast<double>(tick) + 0.5, RampField::Affects::springs);
+    const auto concerns = [&](const Body& body) {
+        return std::any_of(ramps.begin(), ramps.end(), [&](const Ramp& ramp) {
+            const std::string& owner = ramp.action.field.owner;
+            if (ramp.action.field.affects != RampField::Affects::springs || tick > ramp.start + ramp.length)
+                return false;
+            if (owner == std::string(kindName(body.kind)) + "." + body.base) return true;
+            const ClothSpec* cloth = body.kind == Body::Kind::cloth ? named(spec.cloths, body.base) : nullptr;
+            return cloth != nullptr && owner == "material." + cloth->material;
+        });
+    };
+    for (const auto& island : islands) {
+        if (island->frozen() != nullptr) continue;
+        bool any = false;
+        for (Body* body : island->plan().bodies) {
+            if (!concerns(*body)) continue;
+            takeSprings(*body);
+            any = true;
+        }
+        if (any) takeSpringsFromModels(island->change(now()));
+    }
+}
+
+void World::Impl::changeColliders() {
+    if (!isRamping(RampField::Affects::colliders)) return;
+    applyRamps(static_cast<double>(tick) + 0.5, RampField::Affects::colliders);
+    takeRampedParts();
+    rebuildColliders();
+}
+
+// What only a picture shows has its value at the time of the picture.
+void World::Impl::changePicture() {
+    if (ramps.empty()) return;
+    applyRamps(static_cast<double>(tick), RampField::Affects::picture);
+    takeRampedParts();
+}
+
+// Entities have specs of their own: what ramps have changed of the scene's goes over to them.
+void World::Impl::takeRampedParts() {
+    if (ramps.empty()) return;
+    registry.each<WindPart>([&](ecs::Entity, WindPart& part) {
+        if (const WindSpec* wind = named(spec.winds, part.spec.name)) part.spec = *wind;
+    });
+    registry.each<AnchorPart>([&](ecs::Entity, AnchorPart& part) {
+        if (const AnchorSpec* anchor = named(spec.anchors, part.spec.name)) part.spec = *anchor;
+    });
+    registry.each<CameraPart>([&](ecs::Entity, CameraPart& part) {
+        if (const CameraSpec* camera = named(spec.cameras, part.spec.name)) part.spec = *camera;
+    });
+    registry.each<ColliderPart>([&](ecs::Entity, ColliderPart& part) {
+        const ColliderSpec* collider = named(spec.colliders, part.spec.name);
+        if (collider == nullptr) return;
+        part.spec.friction = collider->friction;
+        part.spec.restitution = collider->restitution;
+    });
+}
+
+}  // namespace taut::world

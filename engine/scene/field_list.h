@@ -162,9 +162,7 @@ class FieldList {
             [=](Spec& s, const Value& value) {
                 s.*member = vectorOf<Vector>(std::get<std::vector<double>>(value)) * factor;
             },
-            [=](const Spec& s) -> Value {
-                return s.*member ? Value(numbersOf(*(s.*member) / factor)) : Value();
-            });
+            [=](const Spec& s) -> Value { return s.*member ? Value(numbersOf(*(s.*member) / factor)) : Value(); });
         last().components = N;
         return *this;
     }
@@ -238,9 +236,7 @@ class FieldList {
                 for (const double number : std::get<std::vector<double>>(value))
                     (s.*member).push_back(static_cast<int>(number));
             },
-            [=](const Spec& s) -> Value {
-                return std::vector<double>((s.*member).begin(), (s.*member).end());
-            });
+            [=](const Spec& s) -> Value { return std::vector<double>((s.*member).begin(), (s.*member).end()); });
     }
     // What another field may hold.
     FieldList& numbers(const char* key, std::vector<double> Spec::*member, const char* help) {

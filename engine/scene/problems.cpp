@@ -28,7 +28,12 @@ std::string_view lineOf(std::string_view text, int line) {
 // Whether the first byte of a character announces as many bytes as there are.
 bool isWholeCharacter(const std::string& bytes) {
     const auto lead = static_cast<unsigned char>(bytes[0]);
-    const std::size_t length = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+    const std::size_t length = lead < 0x80   ? 1
+                               : lead < 0xC2 ? 0
+                               : lead < 0xE0 ? 2
+                               : lead < 0xF0 ? 3
+                               : lead < 0xF5 ? 4
+                                             : 0;
     return bytes.size() == length;
 }
 

@@ -7,8 +7,8 @@
 
 #include "scene/body_index.h"
 #include "scene/ramp_key.h"
-#include "scene/ticks.h"
 #include "scene/value_reader.h"
+#include "world/ticks.h"
 
 namespace taut::scene {
 
@@ -257,7 +257,7 @@ class Timeline {
     ReadScene& scene_;
     Problems& problems_;
     BodyIndex bodies_;
-    Ticks ticks_;
+    world::Ticks ticks_;
     std::vector<Event> events_;
     std::map<std::string, std::size_t> spawns_;    // body: order of its spawn
     std::map<std::string, const Event*> grabbed_;  // hand: its grab
@@ -266,7 +266,7 @@ class Timeline {
 };
 
 void checkGoldens(const Node& root, const ReadScene& scene, Problems& problems) {
-    const std::int64_t last = Ticks(scene.spec.run).lastFrame;
+    const std::int64_t last = world::Ticks(scene.spec.run).lastFrame;
     for (std::size_t i = 0; i < scene.spec.goldens.size(); ++i) {
         if (scene.faulty.contains(fmt::format("golden[{}]", i))) continue;
         const Node& frames = root.find("golden")->value.items[i].find("frames")->value;

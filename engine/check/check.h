@@ -1,0 +1,67 @@
+// The language of checks: a claim such as "max_strain(cloth.*) < 0.1" as a text, and what a world says to it. It knows
+// no files; whether a scene has the bodies that a claim names is for others to ask.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "world/world.h"
+
+namespace taut::check {
+
+// Why a text is no claim.
+struct Fault : std::runtime_error {
+    Fault(std::size_t where, const std::string& message, std::string help = {})
+        : std::runtime_error(message), at(where), remedy(std::move(help)) {}
+    std::size_t at;      // byte of the text, from 0
+    std::string remedy;  // a short phrase; may be empty
+};
+
+// Bodies or points that a claim speaks of.
+struct Mention {
+    std::size_t at = 0;      // byte of the text
+    std::string target;      // "cloth.*", "cloth.flag@left"
+    bool hasPoints = false;  // it may have a @SELECTOR, and must find points when it is evaluated
+};
+
+// What became of a claim at one moment: of its comparison that fails by most, or is nearest to it.
+struct Outcome {
+    bool holds = false;
+    double value = 0;
+    std::string relation;  // of value to bound: "<"
+    double bound = 0;
+    std::string unit;     // of both; empty if it has none
+    double margin = 0;    // how far the value is inside the bound; negative if it fails, not a number if either is none
+    std::string subject;  // "max_strain(cloth.*)": the part of the claim that has the value
+};
+
+struct Claim;
+class Now;
+
+class Check {
+  public:
+    // Throws Fault, also for a claim that speaks of nothing that changes.
+    static Check parse(std::string_view text);
+
+    const std::vector<Mention>& mentions() const;
+
+    // At a published tick. Throws core::Error(badContent) for a target that finds no points.
+    Outcome evaluate(const world::World& world) const;
+    Outcome evaluate(const Now& now) const;  // shares measurements with other claims
+
+    // Where the value of that moment is found: "cloth.flag@#12 at [0.1, 2.0, 0.3]"; empty: nowhere in particular.
+    std::string where(const Now& now) const;
+
+  private:
+    std::shared_ptr<const Claim> claim_;
+    std::vector<Mention> mentions_;
+};
+
+// Every function, a line or two each, for the manual.
+std::string functionsManual();
+
+}  // namespace taut::check

@@ -1,0 +1,68 @@
+// What claims are built of, and how their parts become numbers. It parses nothing.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "world/world.h"
+
+namespace taut::check {
+
+struct Function;
+
+// A number, or three in x.
+struct Quantity {
+    glm::dvec3 x{0.0};
+};
+
+// The world at one moment, each thing measured once.
+class Now {
+  public:
+    explicit Now(const world::World& world) : world_(world) {}
+    const world::World& world() const { return world_; }
+    const world::Metrics& metrics(const std::string& bodies) const;  // empty: of all
+    // Throws core::Error(badContent) if there are none.
+    const world::PointsNow& points(const std::string& target) const;
+
+  private:
+    const world::World& world_;
+    mutable std::map<std::string, world::Metrics> metrics_;
+    mutable std::map<std::string, world::PointsNow> points_;
+};
+
+enum class Part { number, vector, call, negative, sum, difference, product, quotient, component, target };
+
+struct Expression {
+    Part part = Part::number;
+    std::size_t begin = 0, end = 0;  // bytes of the text
+    bool isVector = false;
+    double number = 0;
+    int axis = 0;                        // of a component
+    std::string target;                  // of a target
+    const Function* function = nullptr;  // of a call
+    std::vector<Expression> inside;      // operands or arguments
+
+    // Whether it speaks of the world.
+    bool isMeasured() const;
+};
+
+Quantity valueOf(const Expression& expression, const Now& now);
+
+// Where the first function inside that has a place finds its value; empty: none has.
+std::string placeOf(const Expression& expression, const Now& now);
+
+// Of an expression that is one function, or a part or a multiple of one; else empty.
+std::string unitOf(const Expression& expression);
+
+enum class Relation { less, lessOrEqual, greater, greaterOrEqual, equal, unequal };
+
+// terms[0] relations[0] terms[1] relations[1] …
+struct Claim {
+    std::string text;
+    std::vector<Expression> terms;
+    std::vector<Relation> relations;
+};
+
+}  // namespace taut::check

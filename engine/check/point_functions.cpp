@@ -1,0 +1,126 @@
+// What is measured at points.
+#include <algorithm>
+#include <cmath>
+
+#include "check/function_table.h"
+#include "check/places.h"
+
+namespace taut::check {
+
+namespace {
+
+using Arguments = std::span<const Expression>;
+using glm::dvec3;
+using world::PointsNow;
+
+const PointsNow& pointsOf(const Now& now, Arguments arguments) {
+    return now.points(arguments[0].target);
+}
+
+template <class Measure>
+double largest(const PointsNow& points, const Measure& measure) {
+    double value = measure(points, 0);
+    for (std::size_t i = 1; i < points.x.size(); ++i) {
+        const double next = measure(points, i);
+        if (!(next <= value)) value = next;  // what is no number stays
+    }
+    return value;
+}
+
+dvec3 weightedMean(const PointsNow& points, const std::vector<dvec3>& values) {
+    dvec3 sum(0.0);
+    double mass = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        sum += points.mass[i] * values[i];
+        mass += points.mass[i];
+    }
+    return sum / mass;
+}
+
+double up(const PointsNow& points, std::size_t i) {
+    return points.x[i].y;
+}
+double down(const PointsNow& points, std::size_t i) {
+    return -points.x[i].y;
+}
+double speed(const PointsNow& points, std::size_t i) {
+    return std::sqrt(glm::dot(points.v[i], points.v[i]));
+}
+
+dvec3 place(const Expression& argument, const Now& now) {
+    if (argument.part != Part::target) return valueOf(argument, now).x;
+    const PointsNow& points = now.points(argument.target);
+    return weightedMean(points, points.x);
+}
+
+template <double (*measure)(const PointsNow&, std::size_t)>
+std::string placeOfLargest(const Now& now, Arguments arguments) {
+    return extremePoint(now, arguments[0].target, measure);
+}
+
+Quantity number(double value) {
+    return {dvec3(value, 0, 0)};
+}
+
+}  // namespace
+
+std::vector<Function> pointFunctions() {
+    return {
+        {"position",
+         {Takes::points},
+         false,
+         true,
+         "m",
+         "The points' centre of mass.",
+         [](const Now& now, Arguments a) -> Quantity { return {place(a[0], now)}; },
+         nullptr},
+        {"velocity",
+         {Takes::points},
+         false,
+         true,
+         "m/s",
+         "Velocity of the points' centre of mass.",
+         [](const Now& now, Arguments a) -> Quantity {
+             const PointsNow& points = pointsOf(now, a);
+             return {weightedMean(points, points.v)};
+         },
+         nullptr},
+        {"distance",
+         {Takes::place, Takes::place},
+         false,
+         false,
+         "m",
+         "How far two places are from each other.",
+         [](const Now& now, Arguments a) {
+             const dvec3 way = place(a[0], now) - place(a[1], now);
+             return number(std::sqrt(glm::dot(way, way)));
+         },
+         nullptr},
+        {"speed",
+         {Takes::points},
+         false,
+         false,
+         "m/s",
+         "Speed of the fastest of the points.",
+         [](const Now& now, Arguments a) { return number(largest(pointsOf(now, a), speed)); },
+         placeOfLargest<speed>},
+        {"height",
+         {Takes::points},
+         false,
+         false,
+         "m",
+         "Height y of the highest of the points.",
+         [](const Now& now, Arguments a) { return number(largest(pointsOf(now, a), up)); },
+         placeOfLargest<up>},
+        {"lowest",
+         {Takes::points},
+         false,
+         false,
+         "m",
+         "Height y of the lowest of the points.",
+         [](const Now& now, Arguments a) { return number(-largest(pointsOf(now, a), down)); },
+         placeOfLargest<down>},
+    };
+}
+
+}  // namespace taut::check

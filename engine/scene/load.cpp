@@ -12,6 +12,7 @@
 #include "scene/overrides.h"
 #include "scene/references.h"
 #include "scene/scene_reader.h"
+#include "scene/state_keys.h"
 #include "scene/suspicions.h"
 #include "scene/text_file.h"
 #include "scene/timeline.h"
@@ -106,7 +107,8 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
 
     reportSuspicions(scene, problems);
     sortByName(scene.spec);
-    return {std::move(scene.spec), problems.warnings()};
+    StateKeys keys(root, scene.spec);
+    return {std::move(scene.spec), problems.warnings(), std::move(keys)};
 }
 
 }  // namespace taut::scene

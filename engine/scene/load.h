@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/state_keys.h"
 #include "world/spec.h"
 
 namespace taut::scene {
@@ -23,6 +24,7 @@ struct LoadOptions {
 struct Loaded {
     world::SceneSpec spec;
     std::vector<std::string> warnings;  // file:line:col: warning: …, with the line and a caret
+    StateKeys keys;                     // of stored states
 };
 
 // Throws core::Error: inputOutput if the file cannot be read; usage for an override without key and value; badContent

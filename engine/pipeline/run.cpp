@@ -22,7 +22,10 @@ double secondsSince(Clock::time_point start) {
 class Player {
   public:
     Player(world::World& world, const RunOptions& options, const RunListener& listener, const std::atomic<bool>& stop)
-        : world_(world), options_(options), listener_(listener), stop_(stop) {}
+        : world_(world), options_(options), listener_(listener), stop_(stop), next_(options.startFrame) {
+        TAUT_EXPECTS(world.tick() == next_ * world.ticksPerFrame());
+        result_.frames = options.before;
+    }
 
     // Simulates up to the next frame; false at the end, on divergence and when stopped.
     bool advance() {
@@ -38,6 +41,7 @@ class Player {
         if (stop_) return !(result_.interrupted = true);
         if (next_ == 0 && listener_.tickDone) listener_.tickDone(0, world_.stateHash());
         current_ = FrameRecord{.frame = next_++, .time = world_.time(), .hash = world_.stateHash()};
+        saveState();  // before the metrics, whose evaluations count as work
         if (options_.metrics) current_.metrics = world_.metrics();
         current_.simulating = secondsSince(start);
         if (listener_.frameSimulated) listener_.frameSimulated(current_);
@@ -84,7 +88,23 @@ class Player {
     RunResult& result() { return result_; }
 
   private:
+    // The state of the current frame waits until the frames before are on disk.
+    void saveState() {
+        const std::int64_t frame = current_.frame, every = options_.checkpointEvery;
+        if (every == 0 || frame % every != 0 || frame == options_.startFrame) return;
+        std::vector<std::byte> state = world_.save();
+        const std::lock_guard lock(mutex_);
+        states_[frame] = std::move(state);
+    }
+
     void finish(const FrameRecord& record) {
+        std::vector<std::byte> state;
+        {
+            const std::lock_guard lock(mutex_);
+            if (auto saved = states_.extract(record.frame)) state = std::move(saved.mapped());
+        }
+        if (!state.empty() && listener_.checkpoint)
+            listener_.checkpoint(record.frame, std::move(state), result_.frames);
         result_.frames.push_back(record);
         if (listener_.frameDone) listener_.frameDone(record);
     }
@@ -95,9 +115,10 @@ class Player {
     const std::atomic<bool>& stop_;
     RunResult result_;
     FrameRecord current_;
-    std::int64_t next_ = 0;
+    std::int64_t next_;
     std::mutex mutex_;
     std::map<std::int64_t, FrameRecord> pending_;  // simulated, not yet on disk
+    std::map<std::int64_t, std::vector<std::byte>> states_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_islands_test.cpp
   world_motion_test.cpp
   world_publish_test.cpp
+  world_saving_test.cpp
   world_step_choice_test.cpp
   world_targets_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::world)

@@ -1,0 +1,176 @@
+// Actions built in code, and a scene in which everything happens that can, for tests of the world.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "support/small_scenes.h"
+#include "world/world.h"
+
+namespace taut::support {
+
+inline world::ActionSpec action(world::Do what, double t, const std::string& target = "") {
+    world::ActionSpec spec;
+    spec.what = what;
+    spec.t = t;
+    spec.target = target;
+    spec.source = {"timeline.toml", 7, 3};
+    return spec;
+}
+
+inline world::ActionSpec grab(double t, const std::string& target, bool rigid = false) {
+    world::ActionSpec spec = action(world::Do::grab, t, target);
+    spec.id = "hand";
+    spec.rigid = rigid;
+    return spec;
+}
+inline world::ActionSpec moveHand(double t, world::dvec3 to, double over, world::Ease ease = world::Ease::smooth) {
+    world::ActionSpec spec = action(world::Do::move, t);
+    spec.id = "hand";
+    spec.to = to;
+    spec.over = over;
+    spec.ease = ease;
+    return spec;
+}
+inline world::ActionSpec release(double t) {
+    world::ActionSpec spec = action(world::Do::release, t);
+    spec.id = "hand";
+    return spec;
+}
+inline world::ActionSpec push(double t, const std::string& target, world::dvec3 impulse) {
+    world::ActionSpec spec = action(world::Do::push, t, target);
+    spec.impulse = impulse;
+    return spec;
+}
+inline world::ActionSpec cutPlane(double t, const std::string& target, world::dvec3 point, world::dvec3 normal) {
+    world::ActionSpec spec = action(world::Do::cut, t, target);
+    spec.planePoint = point;
+    spec.planeNormal = normal;
+    return spec;
+}
+inline world::ActionSpec cutSegment(double t, const std::string& target, world::dvec2 from, world::dvec2 upTo) {
+    world::ActionSpec spec = action(world::Do::cut, t, target);
+    spec.from = from;
+    spec.upTo = upTo;
+    return spec;
+}
+
+// A ramp of a number that `at` finds in the scene.
+template <class At>
+world::ActionSpec ramp(double t, const std::string& key, world::RampField::Affects affects, double value, double over,
+                       world::Ease ease, At at) {
+    world::ActionSpec spec = action(world::Do::ramp, t);
+    spec.key = key;
+    spec.value = {value};
+    spec.over = over;
+    spec.ease = ease;
+    spec.field.affects = affects;
+    spec.field.owner = key.substr(0, key.rfind('.'));
+    spec.field.read = [at](const world::SceneSpec& s) {
+        return std::vector<double>{at(const_cast<world::SceneSpec&>(s))};
+    };
+    spec.field.write = [at](world::SceneSpec& s, const std::vector<double>& v) { at(s) = v.front(); };
+    return spec;
+}
+
+// Half a second of everything: a cloth in the wind that is cut and torn, a rope in a hand, a bar that bends for good,
+// a net led rigidly, a box that is moved, a ball with less and less friction, a rope that appears.
+inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog", bool isDouble = false) {
+    using Affects = world::RampField::Affects;
+    using world::Do;
+    using world::Ease;
+    world::SceneSpec scene;
+    scene.solver.integrator = method;
+    if (method == "implicit-euler") scene.solver.dt = 1.0 / 240;
+    scene.solver.precision = isDouble ? world::Precision::double_ : world::Precision::single_;
+    world::MaterialSpec linen;
+    linen.stretch = 300;
+    linen.dampingTime = 1e-3;
+    linen.plasticity.breakStrain = 0.2;
+    scene.materials["linen"] = linen;
+    scene.cloths = {cloth("sheet", 6)};
+    scene.cloths[0].material = "linen";
+    scene.cloths[0].hold = {"top"};
+    scene.ropes = {rope("late", {3, 2, 0}, {4, 2, 0}, 5), rope("line", {-2, 2, 0}, {-1, 2, 0}, 8)};
+    for (world::RopeSpec& r : scene.ropes) {
+        r.hold = {"start"};
+        r.dampingTime = 1e-3;
+        r.stretch = 400;
+    }
+    world::BlockSpec bar;
+    bar.name = "bar";
+    bar.size = {0.6, 0.1, 0.1};
+    bar.cells = {6, 1, 1};
+    bar.position = {0, 1.0, 2};
+    bar.hold = {"left"};
+    bar.plasticity.yieldStrain = 0.05;
+    bar.dampingTime = 2e-3;
+    scene.blocks = {bar};
+    world::WindSpec wind;
+    wind.name = "breeze";
+    wind.velocity = {3, 0, 1};
+    wind.gustAmplitude = 1;
+    scene.winds = {wind};
+    world::ColliderSpec box;
+    box.name = "box";
+    box.shape = "box";
+    box.size = {0.4, 0.4, 0.4};
+    box.position = {0.5, 1.4, -0.6};
+    scene.colliders = {ball("ball", {-1.2, 1.2, 0}, 0.4), box};
+    world::AnchorSpec anchor;
+    anchor.name = "peg";
+    anchor.target = "rope.line@end";
+    anchor.at = {-1, 2, 0};
+    anchor.stiffness = 30;
+    anchor.damping = 0.1;
+    scene.anchors = {anchor};
+
+    world::ActionSpec rigid = grab(0.05, "block.bar@right", true);
+    rigid.id = "vice";
+    world::ActionSpec bend = moveHand(0.05, {0.2, 0.85, 2}, 0.2);
+    bend.id = "vice";
+    world::ActionSpec letGo = release(0.4);
+    letGo.id = "vice";
+    world::ActionSpec slide = action(Do::move, 0.1, "collider.box");
+    slide.to = world::dvec3{0.5, 1.4, 0.1};
+    slide.rotation = world::dvec3{0, 0.5, 0};
+    slide.over = 0.3;
+    world::ActionSpec weight = action(Do::addMass, 0.2, "rope.line@50%");
+    weight.mass = 0.3;
+    world::ActionSpec pull = grab(0.1, "cloth.sheet@bottom-right");
+    pull.radius = 0.2;
+    pull.strength = 60;
+    scene.actions = {
+        rigid,
+        bend,
+        ramp(0.05, "anchor.peg.stiffness", Affects::forces, 60, 0.1, Ease::linear,
+             [](world::SceneSpec& s) -> double& { return s.anchors[0].stiffness; }),
+        pull,
+        slide,
+        moveHand(0.12, {1.3, 0.9, 0.3}, 0.25),
+        ramp(0.1, "world.gravity", Affects::forces, -4.0, 0.2, Ease::smooth,
+             [](world::SceneSpec& s) -> double& { return s.world.gravity.y; }),
+        ramp(0.1, "wind.breeze.velocity", Affects::forces, 9.0, 0.3, Ease::in,
+             [](world::SceneSpec& s) -> double& { return s.winds[0].velocity.x; }),
+        ramp(0.15, "wind.breeze.gust", Affects::forces, 3.0, 0.1, Ease::out,
+             [](world::SceneSpec& s) -> double& { return s.winds[0].gustAmplitude; }),
+        ramp(0.1, "material.linen.stretch", Affects::springs, 600, 0.2, Ease::linear,
+             [](world::SceneSpec& s) -> double& { return s.materials["linen"].stretch; }),
+        ramp(0.1, "collider.ball.friction", Affects::colliders, 0.0, 0.3, Ease::linear,
+             [](world::SceneSpec& s) -> double& { return s.colliders[0].friction; }),
+        ramp(0.1, "light.intensity", Affects::picture, 1.0, 0.3, Ease::linear,
+             [](world::SceneSpec& s) -> double& { return s.light.intensity; }),
+        push(0.15, "rope.line", {0, 0, 0.5}),
+        action(Do::free, 0.2, "cloth.sheet@top-left"),
+        weight,
+        cutSegment(0.2, "cloth.sheet", {0.3, 0.45}, {1.1, 0.45}),
+        action(Do::hold, 0.25, "rope.line@end"),
+        action(Do::spawn, 0.25, "rope.late"),
+        release(0.35),
+        letGo,
+        action(Do::free, 0.4, "rope.line@end"),
+    };
+    return scene;
+}
+
+}  // namespace taut::support

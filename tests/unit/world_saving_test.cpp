@@ -1,0 +1,225 @@
+// A world as bytes: what is restored goes on bit for bit, and damaged bytes are refused.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/error.h"
+#include "ode/method_table.h"
+#include "support/timelines.h"
+#include "world/components.h"
+
+namespace taut::world {
+namespace {
+
+constexpr int ticks = 30;  // half a second
+
+void expectSamePicture(const view::FrameView& a, const view::FrameView& b) {
+    ASSERT_EQ(a.surfaces.size(), b.surfaces.size());
+    for (std::size_t i = 0; i < a.surfaces.size(); ++i) {
+        EXPECT_EQ(a.surfaces[i].geometry->positions, b.surfaces[i].geometry->positions);
+        EXPECT_EQ(a.surfaces[i].topology->triangles, b.surfaces[i].topology->triangles);
+        EXPECT_EQ(a.surfaces[i].transform, b.surfaces[i].transform);
+    }
+    EXPECT_EQ(a.light.colour, b.light.colour);
+    EXPECT_EQ(a.marks.lines.size(), b.marks.lines.size());
+    EXPECT_EQ(a.marks.dots.size(), b.marks.dots.size());  // contacts among them
+}
+
+void expectSameWorld(World& a, World& b) {
+    EXPECT_EQ(a.tick(), b.tick());
+    EXPECT_EQ(a.stateHash(), b.stateHash());
+    EXPECT_EQ(a.warnings(), b.warnings());
+    EXPECT_EQ(a.handPlace("hand"), b.handPlace("hand"));
+    const ode::Work before = a.work(), same = b.work();
+    EXPECT_EQ(before.evaluations, same.evaluations);
+    EXPECT_EQ(before.iterations, same.iterations);
+    const Metrics m = a.metrics(), n = b.metrics();
+    EXPECT_EQ(m.kinetic, n.kinetic);
+    EXPECT_EQ(m.elastic, n.elastic);
+    EXPECT_EQ(m.contacts, n.contacts);
+    EXPECT_EQ(m.brokenSprings, n.brokenSprings);
+    EXPECT_EQ(m.penetration, n.penetration);
+    expectSamePicture(a.view(true), b.view(true));
+}
+
+class Saving : public testing::TestWithParam<std::tuple<std::string_view, bool>> {};
+
+TEST_P(Saving, ARestoredWorldGoesOnBitForBitFromAnyTick) {
+    const auto& [method, isDouble] = GetParam();
+    const SceneSpec scene = support::everythingHappens(std::string(method), isDouble);
+    World through(scene);
+    std::vector<std::vector<std::byte>> saved;
+    std::vector<std::uint64_t> hashes;
+    for (int i = 0; i < ticks; ++i) {
+        saved.push_back(through.save());
+        hashes.push_back(through.stateHash());
+        ASSERT_FALSE(through.advance()) << i;
+    }
+    for (int from = 0; from < ticks; from += 3) {
+        SCOPED_TRACE(from);
+        World restored(scene);
+        restored.restore(saved[static_cast<std::size_t>(from)]);
+        for (int i = from; i < ticks; ++i) {
+            ASSERT_EQ(restored.stateHash(), hashes[static_cast<std::size_t>(i)]) << i;
+            ASSERT_FALSE(restored.advance());
+        }
+        EXPECT_EQ(restored.stateHash(), through.stateHash());
+    }
+}
+
+std::string nameOfCase(const testing::TestParamInfo<std::tuple<std::string_view, bool>>& parameter) {
+    std::string name(std::get<0>(parameter.param));
+    for (char& c : name)
+        if (c == '-') c = '_';
+    return name + (std::get<1>(parameter.param) ? "_double" : "_single");
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMethod, Saving,
+                         testing::Combine(testing::Values("euler", "symplectic-euler", "heun", "midpoint", "rk4",
+                                                          "velocity-verlet", "leapfrog", "implicit-euler"),
+                                          testing::Bool()),
+                         nameOfCase);
+
+TEST(SavingWhole, WhatIsRestoredShowsAndTellsTheSame) {
+    const SceneSpec scene = support::everythingHappens();
+    World through(scene);
+    for (int i = 0; i < 20; ++i) ASSERT_FALSE(through.advance());
+    World restored(scene);
+    restored.restore(through.save());
+    expectSameWorld(through, restored);
+    EXPECT_GT(through.metrics().brokenSprings, 0);  // or nothing of the cut would have been at stake
+}
+
+TEST(SavingWhole, ActionsThatWaitForTheNextTickAreSavedWithTheRest) {
+    const SceneSpec scene = support::everythingHappens();
+    World through(scene);
+    for (int i = 0; i < 5; ++i) ASSERT_FALSE(through.advance());
+    through.apply(support::push(0, "rope.line", {0.1, 0.2, 0.3}));
+    through.apply(support::action(Do::hold, 0, "rope.line@25%"));
+    World restored(scene);
+    restored.restore(through.save());
+    expectSameWorld(through, restored);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_FALSE(through.advance());
+        ASSERT_FALSE(restored.advance());
+    }
+    expectSameWorld(through, restored);
+}
+
+TEST(SavingWhole, AFrozenBodyStaysFrozenWithItsDiagnosis) {
+    SceneSpec scene;
+    scene.ropes = {support::rope("calm", {5, 3, 0}, {6, 3, 0}, 8)};
+    ClothSpec wild = support::cloth("wild", 10);
+    wild.hold = {"left"};
+    wild.jitter = 1e-3;
+    wild.solver.integrator = "euler";
+    wild.solver.dt = 1.0 / 240.0;
+    scene.cloths = {wild};
+    scene.solver.onDivergence = OnDivergence::freeze;
+    World through(scene);
+    while (through.frozen().empty()) ASSERT_FALSE(through.advance());
+    World restored(scene);
+    restored.restore(through.save());
+    expectSameWorld(through, restored);
+    ASSERT_EQ(restored.frozen().size(), 1U);
+    EXPECT_EQ(restored.frozen()[0].divergence.message, through.frozen()[0].divergence.message);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_FALSE(through.advance());
+        ASSERT_FALSE(restored.advance());
+    }
+    expectSameWorld(through, restored);
+}
+
+// What is still to come may be another story, as long as the steps are the same.
+TEST(SavingWhole, LaterActionsMayDiffer) {
+    const SceneSpec scene = support::everythingHappens();
+    SceneSpec other = scene;
+    for (ActionSpec& action : other.actions)
+        if (action.what == Do::release) action.t += 0.05;
+    World through(scene), otherwise(other);
+    for (int i = 0; i < 20; ++i) {
+        ASSERT_FALSE(through.advance());
+        ASSERT_FALSE(otherwise.advance());
+    }
+    World restored(other);
+    restored.restore(through.save());
+    for (int i = 20; i < ticks; ++i) {
+        ASSERT_FALSE(otherwise.advance());
+        ASSERT_FALSE(restored.advance());
+    }
+    EXPECT_EQ(restored.stateHash(), otherwise.stateHash());
+}
+
+std::string refusal(const SceneSpec& scene, std::span<const std::byte> bytes) {
+    World world(scene);
+    try {
+        world.restore(bytes);
+    } catch (const core::Error& error) {
+        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(SavingWhole, BytesOfAnotherSceneAreRefusedByName) {
+    SceneSpec scene;
+    scene.ropes = {support::rope("line", {0, 2, 0}, {1, 2, 0}, 8)};
+    World world(scene);
+    ASSERT_FALSE(world.advance());
+    const std::vector<std::byte> bytes = world.save();
+    EXPECT_EQ(refusal(scene, bytes), "");
+
+    SceneSpec other = scene;
+    other.ropes[0].name = "string";
+    EXPECT_NE(refusal(other, bytes).find("bodies"), std::string::npos) << refusal(other, bytes);
+    other = scene;
+    other.ropes[0].segments = 9;
+    EXPECT_NE(refusal(other, bytes), "");
+    other = scene;
+    other.run.fps = 50;
+    EXPECT_NE(refusal(other, bytes).find("frame rate"), std::string::npos);
+    other = scene;
+    other.solver.safety = 0.2;
+    EXPECT_NE(refusal(other, bytes).find("steps of rope.line"), std::string::npos) << refusal(other, bytes);
+    other = scene;
+    other.solver.precision = Precision::double_;
+    EXPECT_NE(refusal(other, bytes), "");
+    other = scene;
+    other.ropes.push_back(support::rope("more", {0, 3, 0}, {1, 3, 0}, 8));
+    EXPECT_NE(refusal(other, bytes), "");
+}
+
+// Refused, or restored to something that can be asked and advanced; the sanitised build looks for worse.
+TEST(SavingWhole, DamagedBytesAreRefusedOrRestoredAndNeverMore) {
+    const SceneSpec scene = support::everythingHappens();
+    World world(scene);
+    for (int i = 0; i < 20; ++i) ASSERT_FALSE(world.advance());
+    const std::vector<std::byte> whole = world.save();
+    std::mt19937 random(11);
+    int refused = 0, restored = 0;
+    for (int round = 0; round < 300; ++round) {
+        std::vector<std::byte> bytes = whole;
+        if (round % 3 == 0) {
+            bytes.resize(random() % bytes.size());
+        } else {
+            for (unsigned i = 0; i < 1 + random() % 3; ++i) {
+                // Every other time near the start, where what is not numbers of the state is.
+                const std::size_t reach = round % 2 == 0 ? bytes.size() : std::min<std::size_t>(1500, bytes.size());
+                bytes[random() % reach] = static_cast<std::byte>(random());
+            }
+        }
+        World damaged(scene);
+        try {
+            damaged.restore(bytes);
+            ++restored;
+            if (!damaged.advance()) (void)damaged.metrics();
+        } catch (const core::Error&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 100);  // every shortened one
+    EXPECT_GT(restored, 20);  // numbers of the state cannot tell that they were others
+}
+
+}  // namespace
+}  // namespace taut::world

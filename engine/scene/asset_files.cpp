@@ -22,9 +22,10 @@ struct Asset {
 };
 using Assets = std::map<std::string, Asset>;
 
-std::vector<path> placesFor(const path& name, const path& sceneFolder, const std::vector<path>& assetFolders) {
+std::vector<path> placesFor(const path& name, const std::vector<path>& folders, const std::vector<path>& assetFolders) {
     if (name.is_absolute()) return {name};
-    std::vector<path> places{sceneFolder / name};
+    std::vector<path> places;
+    for (const path& folder : folders) places.push_back(folder / name);
     for (const path& folder : assetFolders) {
         places.push_back(folder / name);
         places.push_back(folder / "models" / name);
@@ -47,7 +48,8 @@ void setMesh(Spec& spec, const Assets& meshes) {
 
 }  // namespace
 
-void loadAssets(const path& sceneFolder, const std::vector<path>& assetFolders, ReadScene& scene, Problems& problems) {
+void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vector<path>& assetFolders,
+                ReadScene& scene, Problems& problems) {
     Assets meshes, textures;
     for (const Reference& reference : scene.references) {
         const bool isMesh = reference.role == Role::mesh;
@@ -57,7 +59,10 @@ void loadAssets(const path& sceneFolder, const std::vector<path>& assetFolders, 
 
         Asset asset;
         std::vector<std::string> searched;
-        for (const path& place : placesFor(reference.text, sceneFolder, assetFolders)) {
+        std::vector<path> folders{sceneFolder};
+        if (!scene.spec.base.empty() && baseFolder != sceneFolder)
+            folders.insert(reference.place.origin < 0 ? folders.begin() : folders.end(), baseFolder);
+        for (const path& place : placesFor(reference.text, folders, assetFolders)) {
             std::error_code code;
             searched.push_back(place.string());
             if (!asset.found.empty() || !std::filesystem::is_regular_file(place, code)) continue;

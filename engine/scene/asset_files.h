@@ -9,8 +9,9 @@
 namespace taut::scene {
 
 // Replaces paths in the spec by those found and fills in the meshes. A relative path is looked for in the folder of
-// the scene, then in each asset folder, its `models` and its `textures`. Reports what is missing or unusable.
-void loadAssets(const std::filesystem::path& sceneFolder, const std::vector<std::filesystem::path>& assetFolders,
-                ReadScene& scene, Problems& problems);
+// the file that names it, then in that of the other one (see Place),  then in each asset folder, its `models` and its
+// `textures`. Reports what is missing or unusable.
+void loadAssets(const std::filesystem::path& sceneFolder, const std::filesystem::path& baseFolder,
+                const std::vector<std::filesystem::path>& assetFolders, ReadScene& scene, Problems& problems);
 
 }  // namespace taut::scene

@@ -58,6 +58,14 @@ Section fileSection() {
     schema.write = [](void*, const Value&) {};
     schema.read = [](const void*) -> Value { return {}; };
     section.fields.insert(section.fields.begin(), schema);
+    Field base = schema;
+    base.key = "scene";
+    base.kind = FieldKind::text;
+    base.range = anyNumber;
+    base.required = false;
+    base.help =
+        "A scene that this file builds on, beside it or a shipped one: tables are merged, all else is replaced.";
+    section.fields.push_back(base);
     return section;
 }
 

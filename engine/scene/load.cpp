@@ -8,7 +8,9 @@
 #include "core/error.h"
 #include "scene/asset_files.h"
 #include "scene/body_size.h"
+#include "scene/claims.h"
 #include "scene/document.h"
+#include "scene/merge.h"
 #include "scene/overrides.h"
 #include "scene/references.h"
 #include "scene/scene_reader.h"
@@ -75,6 +77,32 @@ void sortByName(world::SceneSpec& spec) {
                      [](const world::ActionSpec& a, const world::ActionSpec& b) { return a.t < b.t; });
 }
 
+Node treeOf(std::string_view text, int origin, Problems& problems) {
+    try {
+        return documentTree(text, origin);
+    } catch (const SyntaxError& error) {
+        problems.addError(error.place, error.what());
+        throw core::Error(core::ExitCode::badContent, problems.errors());
+    }
+}
+
+// Lays the document over the scene that it names, if it names one, and says which.
+std::filesystem::path layOnBase(Node& root, const std::string& fileName, const LoadOptions& options,
+                                Problems& problems) {
+    BaseFile base = baseFileOf(root, fileName, options.assetFolders, maxFileSize, problems);
+    throwIfAny(problems);
+    if (base.path.empty()) return {};
+    problems.setBase(base.text, base.path.string());
+    Node below = treeOf(base.text, -1, problems);
+    if (const Member* scene = below.find("scene")) {
+        problems.addError(scene->place, "a scene that another builds on must not build on a third",
+                          "name that one in the first file");
+        throwIfAny(problems);
+    }
+    root = merged(std::move(below), root);
+    return base.path;
+}
+
 }  // namespace
 
 Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options) {
@@ -86,21 +114,21 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     for (const std::string& override : options.overrides) labels.push_back(overrideLabel(override));
     Problems problems(text, fileName, labels);
 
-    Node root;
-    try {
-        root = documentTree(text, 0);
-    } catch (const SyntaxError& error) {
-        problems.addError(error.place, error.what());
-        throwIfAny(problems);
-    }
+    Node root = treeOf(text, 0, problems);
+    const std::filesystem::path base = layOnBase(root, fileName, options, problems);
     const std::vector<Section> sections = sceneSections();
     for (std::size_t i = 0; i < options.overrides.size(); ++i) {
         applyOverride(options.overrides[i], static_cast<int>(i) + 1, sections, root, problems);
     }
-    ReadScene scene = readScene(root, sections, fileName, labels, problems);
-    loadAssets(std::filesystem::path(fileName).parent_path(), options.assetFolders, scene, problems);
+    if (const Member* member = root.find("scene"); member != nullptr && member->value.place.origin > 0)
+        problems.addError(member->value.place, "the scene that a file builds on cannot be set");
+    ReadScene scene = readScene(root, sections, fileName, problems);
+    scene.spec.base = base.string();
+    loadAssets(std::filesystem::path(fileName).parent_path(), base.parent_path(), options.assetFolders, scene,
+               problems);
     checkReferences(scene, problems);
     checkTimeline(root, sections, scene, problems);
+    checkClaims(root, scene, problems);
     throwIfAny(problems);
     checkSize(scene, options.memoryLimit > 0 ? options.memoryLimit : memoryLimit(), problems);
     throwIfAny(problems);

@@ -1,6 +1,7 @@
 // The manual of the scene format, made from the field table.
 #include <fmt/format.h>
 
+#include "check/check.h"
 #include "scene/field.h"
 #include "scene/load.h"
 #include "scene/problems.h"
@@ -61,6 +62,7 @@ std::string manual() {
         "Ramps\n"
         "  do = \"ramp\" changes a number or a list of numbers from its value at that moment:\n\n";
     for (const std::string& line : rampableKeys(sceneSections())) out += "  " + line + "\n";
+    out += "\nChecks\n" + check::functionsManual();
     out.pop_back();
     return out;
 }

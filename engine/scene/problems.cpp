@@ -37,6 +37,18 @@ bool isWholeCharacter(const std::string& bytes) {
     return bytes.size() == length;
 }
 
+// Bytes of the first character of a text that is not empty.
+std::size_t characterLength(std::string_view text) {
+    std::size_t length = 1;
+    while (length < text.size() && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) ++length;
+    return length;
+}
+
+// The file comes first, then the one that it builds on, then the overrides.
+int order(Place place) {
+    return place.origin < 0 ? 1 : place.origin == 0 ? 0 : place.origin + 1;
+}
+
 // The source line fit to print, and the caret's indent in characters.
 std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
     // Split into characters; a byte that continues one belongs to the character before.
@@ -77,6 +89,35 @@ std::string lowerCase(std::string_view word) {
 Problems::Problems(std::string_view text, std::string fileName, std::vector<std::string> labels)
     : text_(text), fileName_(std::move(fileName)), labels_(std::move(labels)) {}
 
+void Problems::setBase(std::string text, std::string fileName) {
+    baseText_ = std::move(text);
+    baseName_ = std::move(fileName);
+}
+
+const std::string& Problems::fileOf(Place place) const {
+    if (place.origin > 0) return labels_[static_cast<std::size_t>(place.origin) - 1];
+    return place.origin < 0 ? baseName_ : fileName_;
+}
+
+Place Problems::placeInside(Place place, std::string_view value, std::size_t byte) const {
+    if (place.origin > 0) return place;
+    // To the quotes, a character of several bytes counting as one.
+    std::string_view line = lineOf(textOf(place), place.line);
+    for (int skipped = 1; !line.empty() && skipped < place.column; ++skipped) line.remove_prefix(characterLength(line));
+    const char quote = line.empty() ? '\0' : line.front();
+    const std::size_t quotes = line.starts_with(std::string(3, quote)) && !value.empty() ? 3 : 1;
+    line.remove_prefix(std::min(quotes, line.size()));
+    place.column += static_cast<int>(quotes);
+    for (std::size_t at = 0; at < byte && at < value.size() && !line.empty();) {
+        const bool isEscape = quote == '"' && line.front() == '\\' && line.size() > 1;
+        const std::size_t written = !isEscape ? characterLength(line) : line[1] == 'u' ? 6 : line[1] == 'U' ? 10 : 2;
+        place.column += static_cast<int>(isEscape ? written : 1);
+        line.remove_prefix(std::min(written, line.size()));
+        at += characterLength(value.substr(at));
+    }
+    return place;
+}
+
 void Problems::addError(Place place, std::string message, std::string remedy) {
     errors_.push_back({place, printable(std::move(message)), printable(std::move(remedy))});
 }
@@ -106,8 +147,8 @@ std::vector<std::string> Problems::warnings() const {
 
 std::vector<Problems::Problem> Problems::sorted(std::vector<Problem> problems) {
     std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
-        return std::tie(a.place.origin, a.place.line, a.place.column) <
-               std::tie(b.place.origin, b.place.line, b.place.column);
+        const int first = order(a.place), second = order(b.place);
+        return std::tie(first, a.place.line, a.place.column) < std::tie(second, b.place.line, b.place.column);
     });
     return problems;
 }
@@ -115,13 +156,12 @@ std::vector<Problems::Problem> Problems::sorted(std::vector<Problem> problems) {
 std::string Problems::print(const Problem& problem, std::string_view severity) const {
     const Place place = problem.place;
     if (place.origin > 0) {
-        const std::string& label = labels_[static_cast<std::size_t>(place.origin) - 1];
         const std::string remedy = problem.remedy.empty() ? "" : "; " + problem.remedy;
-        return fmt::format("{}: {}: {}{}", label, severity, problem.message, remedy);
+        return fmt::format("{}: {}: {}{}", fileOf(place), severity, problem.message, remedy);
     }
-    const auto [line, caret] = excerpt(lineOf(text_, place.line), place.column);
+    const auto [line, caret] = excerpt(lineOf(textOf(place), place.line), place.column);
     const std::string remedy = problem.remedy.empty() ? "" : " " + problem.remedy;
-    return fmt::format("{}:{}:{}: {}: {}\n  {}\n  {}^{}", fileName_, place.line, place.column, severity,
+    return fmt::format("{}:{}:{}: {}: {}\n  {}\n  {}^{}", fileOf(place), place.line, place.column, severity,
                        problem.message, line, std::string(caret, ' '), remedy);
 }
 

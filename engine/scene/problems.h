@@ -14,13 +14,23 @@ class Problems {
     // The text is kept by reference. labels[k - 1] names override k, e.g. "--set cloth.flag.cells".
     Problems(std::string_view text, std::string fileName, std::vector<std::string> labels);
 
+    // The file that the first one builds on, for places of origin -1.
+    void setBase(std::string text, std::string fileName);
+
+    // The file, or what the override is called.
+    const std::string& fileOf(Place place) const;
+
+    // The place of a byte of a text value that is written at `place`.
+    Place placeInside(Place place, std::string_view value, std::size_t byte) const;
+
     // A remedy is a short phrase printed beside the caret: what to write instead.
     void addError(Place place, std::string message, std::string remedy = {});
     void addWarning(Place place, std::string message, std::string remedy = {});
 
     int errorCount() const { return static_cast<int>(errors_.size()); }
 
-    // Sorted: the file from top to bottom, then the overrides in their order. At most 200.
+    // Sorted: the file from top to bottom, then the one that it builds on, then the overrides in their order. At most
+    // 200.
     std::string errors() const;  // joined by newlines
     std::vector<std::string> warnings() const;
 
@@ -32,8 +42,10 @@ class Problems {
     static std::vector<Problem> sorted(std::vector<Problem> problems);
     std::string print(const Problem& problem, std::string_view severity) const;
 
+    std::string_view textOf(Place place) const { return place.origin < 0 ? std::string_view(baseText_) : text_; }
+
     std::string_view text_;
-    std::string fileName_;
+    std::string fileName_, baseText_, baseName_;
     std::vector<std::string> labels_;
     std::vector<Problem> errors_, warnings_;
 };

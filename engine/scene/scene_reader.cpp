@@ -18,9 +18,8 @@ bool isName(const std::string& name) {
 
 class SceneReader {
   public:
-    SceneReader(const std::vector<Section>& sections, const std::string& fileName,
-                const std::vector<std::string>& labels, Problems& problems, ReadScene& out)
-        : sections_(sections), fileName_(fileName), labels_(labels), problems_(problems), out_(out) {}
+    SceneReader(const std::vector<Section>& sections, Problems& problems, ReadScene& out)
+        : sections_(sections), problems_(problems), out_(out) {}
 
     void read(const Node& root) {
         const Section& file =
@@ -45,8 +44,8 @@ class SceneReader {
 
   private:
     world::Source sourceOf(Place place) const {
-        if (place.origin > 0) return {labels_[static_cast<std::size_t>(place.origin) - 1], 0, 0};
-        return {fileName_, place.line, place.column};
+        if (place.origin > 0) return {problems_.fileOf(place), 0, 0};
+        return {problems_.fileOf(place), place.line, place.column};
     }
 
     void reportUnknownSection(const Section& file, const Member& member) {
@@ -234,8 +233,6 @@ class SceneReader {
     }
 
     const std::vector<Section>& sections_;
-    const std::string& fileName_;
-    const std::vector<std::string>& labels_;
     Problems& problems_;
     ReadScene& out_;
     std::string owner_;
@@ -244,10 +241,10 @@ class SceneReader {
 }  // namespace
 
 ReadScene readScene(const Node& root, const std::vector<Section>& sections, const std::string& fileName,
-                    const std::vector<std::string>& labels, Problems& problems) {
+                    Problems& problems) {
     ReadScene out;
     out.spec.file = fileName;
-    SceneReader(sections, fileName, labels, problems, out).read(root);
+    SceneReader(sections, problems, out).read(root);
     return out;
 }
 

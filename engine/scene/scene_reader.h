@@ -28,8 +28,8 @@ struct ReadScene {
     std::map<std::string, Place> owners;  // where "cloth.flag" or "joint[0]" begins
 };
 
-// `labels` are what the overrides are called, also in world::Source.
+// Files and overrides in world::Source are called as `problems` calls them.
 ReadScene readScene(const Node& root, const std::vector<Section>& sections, const std::string& fileName,
-                    const std::vector<std::string>& labels, Problems& problems);
+                    Problems& problems);
 
 }  // namespace taut::scene

@@ -265,23 +265,10 @@ class Timeline {
     std::map<std::string, Span> spans_;
 };
 
-void checkGoldens(const Node& root, const ReadScene& scene, Problems& problems) {
-    const std::int64_t last = world::Ticks(scene.spec.run).lastFrame;
-    for (std::size_t i = 0; i < scene.spec.goldens.size(); ++i) {
-        if (scene.faulty.contains(fmt::format("golden[{}]", i))) continue;
-        const Node& frames = root.find("golden")->value.items[i].find("frames")->value;
-        for (const Node& frame : frames.items) {
-            if (frame.whole <= last) continue;
-            problems.addError(frame.place, fmt::format("frame {} is past the end: the last is {}", frame.whole, last));
-        }
-    }
-}
-
 }  // namespace
 
 void checkTimeline(const Node& root, const std::vector<Section>& sections, ReadScene& scene, Problems& problems) {
     Timeline(root, sections, scene, problems).check();
-    checkGoldens(root, scene, problems);
 }
 
 }  // namespace taut::scene

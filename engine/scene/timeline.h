@@ -7,7 +7,7 @@
 
 namespace taut::scene {
 
-// Reports every fault of the actions and goldens, and resolves the keys of ramps. `root` is the document that the
+// Reports every fault of the actions, and resolves the keys of ramps. `root` is the document that the
 // scene was read from. Expects the meshes to be loaded.
 void checkTimeline(const Node& root, const std::vector<Section>& sections, ReadScene& scene, Problems& problems);
 

@@ -344,6 +344,7 @@ struct PictureSpec {
 
 struct SceneSpec {
     std::string file;
+    std::string base;  // the file that it builds on; empty: none
     std::string title;
     WorldSpec world;
     SolverSpec solver;

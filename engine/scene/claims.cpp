@@ -1,0 +1,109 @@
+#include "scene/claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "check/check.h"
+#include "scene/body_index.h"
+#include "world/ticks.h"
+
+namespace taut::scene {
+
+namespace {
+
+class Claims {
+  public:
+    Claims(const Node& root, ReadScene& scene, Problems& problems)
+        : root_(root), scene_(scene), problems_(problems), bodies_(scene.spec, scene.faulty), ticks_(scene.spec.run) {}
+
+    void check() {
+        for (std::size_t i = 0; i < scene_.spec.checks.size(); ++i) {
+            if (scene_.faulty.contains(fmt::format("check[{}]", i))) continue;
+            const Node& item = root_.find("check")->value.items[i];
+            checkTimes(item);
+            checkClaim(scene_.spec.checks[i], item.find("that")->value);
+        }
+    }
+
+  private:
+    void checkTimes(const Node& item) {
+        for (const char* key : {"at", "from", "to"}) {
+            const Member* member = item.find(key);
+            if (member == nullptr || ticks_.at(member->value.number) <= ticks_.last()) continue;
+            problems_.addError(member->value.place,
+                               fmt::format("{} s is past the end: the last frame shows {:.6g} s", member->value.number,
+                                           ticks_.secondsOf(ticks_.last())),
+                               "set seconds in [run]");
+        }
+    }
+
+    void checkClaim(world::CheckSpec& spec, const Node& that) {
+        const Place first = problems_.placeInside(that.place, that.text, 0);
+        spec.source = {problems_.fileOf(first), std::max(first.line, 0), std::max(first.column, 0)};
+        if (first.origin > 0) spec.source = {problems_.fileOf(first), 0, 0};
+        try {
+            const check::Check claim = check::Check::parse(spec.that);
+            for (const check::Mention& mention : claim.mentions()) checkMention(spec, that, mention);
+        } catch (const check::Fault& fault) {
+            problems_.addError(problems_.placeInside(that.place, that.text, fault.at), fault.what(), fault.remedy);
+        }
+    }
+
+    void checkMention(const world::CheckSpec& spec, const Node& that, const check::Mention& mention) {
+        const Place place = problems_.placeInside(that.place, that.text, mention.at);
+        const auto fault = mention.hasPoints ? bodies_.targetFault(mention.target) : bodies_.bodyFault(mention.target);
+        if (fault) return problems_.addError(place, fault->message, fault->remedy);
+        if (!mention.hasPoints) return;
+        // Points must be there whenever they are asked for.
+        const double begin = spec.at ? *spec.at : spec.from.value_or(0.0);
+        std::optional<double> birth;
+        for (const std::string& name : bodies_.names(mention.target)) {
+            const std::optional<double> t = birthOf(name);
+            if (!t) return;
+            birth = birth ? std::min(*birth, *t) : *t;
+        }
+        if (!birth || ticks_.at(*birth) < ticks_.at(begin)) return;
+        problems_.addError(place,
+                           fmt::format("{} is not there at {} s: it is spawned at {} s", mention.target, begin, *birth),
+                           "give the check a later from");
+    }
+
+    // When a body is spawned; nothing if it is there from the start.
+    std::optional<double> birthOf(const std::string& body) const {
+        for (const world::ActionSpec& action : scene_.spec.actions) {
+            if (action.what != world::Do::spawn) continue;
+            const std::vector<std::string> names = bodies_.names(action.target);
+            if (std::find(names.begin(), names.end(), body) != names.end()) return action.t;
+        }
+        return std::nullopt;
+    }
+
+    const Node& root_;
+    ReadScene& scene_;
+    Problems& problems_;
+    BodyIndex bodies_;
+    world::Ticks ticks_;
+};
+
+void checkGoldens(const Node& root, const ReadScene& scene, Problems& problems) {
+    const std::int64_t last = world::Ticks(scene.spec.run).lastFrame;
+    for (std::size_t i = 0; i < scene.spec.goldens.size(); ++i) {
+        if (scene.faulty.contains(fmt::format("golden[{}]", i))) continue;
+        const Node& frames = root.find("golden")->value.items[i].find("frames")->value;
+        for (const Node& frame : frames.items) {
+            if (frame.whole <= last) continue;
+            problems.addError(frame.place, fmt::format("frame {} is past the end: the last is {}", frame.whole, last));
+        }
+    }
+}
+
+}  // namespace
+
+void checkClaims(const Node& root, ReadScene& scene, Problems& problems) {
+    Claims(root, scene, problems).check();
+    checkGoldens(root, scene, problems);
+}
+
+}  // namespace taut::scene

@@ -1,0 +1,101 @@
+#include "scene/merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "core/error.h"
+#include "scene/text_file.h"
+
+namespace taut::scene {
+
+namespace {
+
+using std::filesystem::path;
+
+bool isSame(const path& a, const path& b) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(a, b, ignored);
+}
+
+bool isFile(const path& file) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored);
+}
+
+// Names of the scene files in a folder, sorted, for suggestions.
+void addScenesIn(const path& folder, const path& but, std::vector<std::string>& names) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        if (entry.path().extension() == ".toml" && !isSame(entry.path(), but))
+            names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+}
+
+}  // namespace
+
+Node merged(Node base, const Node& over) {
+    if (base.kind != NodeKind::table || over.kind != NodeKind::table) return over;
+    for (const Member& member : over.members) {
+        Member* below = base.find(member.key);
+        if (below == nullptr) {
+            base.members.push_back(member);
+        } else {
+            const bool isTable = below->value.kind == NodeKind::table && member.value.kind == NodeKind::table;
+            below->value = merged(std::move(below->value), member.value);
+            if (!isTable) below->place = member.place;
+        }
+    }
+    return base;
+}
+
+BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<path>& assetFolders,
+                    std::uint64_t maxBytes, Problems& problems) {
+    const Member* member = root.find("scene");
+    if (member == nullptr || member->value.kind != NodeKind::text) return {};  // a wrong type is reported by the reader
+    const Node& value = member->value;
+    const bool isControlFree =
+        std::all_of(value.text.begin(), value.text.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7F; });
+    if (value.text.empty() || !isControlFree) {
+        problems.addError(value.place, "scene must be the name of a scene or of a file");
+        return {};
+    }
+    std::vector<path> folders{sceneFile.parent_path()};
+    for (const path& folder : assetFolders) folders.push_back(folder / "scenes");
+
+    bool namesItself = false;
+    std::vector<std::string> searched, known;
+    for (const path& folder : folders) {
+        for (const std::string& ending : {std::string(), std::string(".toml")}) {
+            const path file = folder / (value.text + ending);
+            if (ending.empty() != (file.extension() == ".toml")) continue;
+            searched.push_back(file.string());
+            if (!isFile(file)) continue;
+            if (isSame(file, sceneFile)) {
+                namesItself = true;
+                continue;
+            }
+            try {
+                return {file, textFile(file, maxBytes)};
+            } catch (const core::Error& error) {
+                problems.addError(value.place, fmt::format("cannot read this scene: {}", error.what()));
+                return {};
+            }
+        }
+        addScenesIn(folder, sceneFile, known);
+    }
+    if (namesItself) {
+        problems.addError(value.place, "this scene names itself");
+        return {};
+    }
+    std::string name = value.text;
+    if (name.ends_with(".toml")) name.resize(name.size() - 5);
+    std::string remedy = suggestion(name, known);
+    if (remedy.empty()) remedy = fmt::format("looked for {}", joined(searched));
+    problems.addError(value.place, fmt::format("there is no scene \"{}\"", value.text), remedy);
+    return {};
+}
+
+}  // namespace taut::scene

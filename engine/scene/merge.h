@@ -1,0 +1,27 @@
+// Lays what a scenario says over the scene that it names. It knows trees of keys, not what they mean.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/document.h"
+#include "scene/problems.h"
+
+namespace taut::scene {
+
+// The tree of `base` with that of `over` laid on: tables deeply, everything else replaced. Places stay those of the
+// file that says it; a table that both have begins where the base has it.
+Node merged(Node base, const Node& over);
+
+struct BaseFile {
+    std::filesystem::path path;  // empty: the scene names none, or there was a fault
+    std::string text;
+};
+
+// The file that `scene = "…"` in a document names: beside the scene, or a shipped one in the `scenes` of an asset
+// folder, with or without ".toml"; never the scene file itself. Reports what is wrong with the name or the file.
+BaseFile baseFileOf(const Node& root, const std::filesystem::path& sceneFile,
+                    const std::vector<std::filesystem::path>& assetFolders, std::uint64_t maxBytes, Problems& problems);
+
+}  // namespace taut::scene

@@ -1,11 +1,15 @@
 list(APPEND TAUT_UNIT_TESTS
+  world_actions_test.cpp
   world_bodies_test.cpp
   world_components_test.cpp
   world_divergence_test.cpp
+  world_envelope_test.cpp
   world_freeze_test.cpp
+  world_hands_test.cpp
   world_islands_test.cpp
   world_motion_test.cpp
   world_publish_test.cpp
+  world_ramps_test.cpp
   world_saving_test.cpp
   world_step_choice_test.cpp
   world_targets_test.cpp)

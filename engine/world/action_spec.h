@@ -14,6 +14,9 @@ namespace taut::world {
 
 struct SceneSpec;
 
+// How hands of somebody who plays live are called, from its first letter on; HandSpec::anywhere allows for them.
+inline constexpr const char* liveHand = "mouse";
+
 enum class Do { grab, move, release, push, hold, free, cut, addMass, ramp, spawn };
 
 // A number or a vector of the scene that a ramp changes while it runs.

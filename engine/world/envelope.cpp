@@ -82,6 +82,13 @@ auto& point(IslandPlan& plan, int i) {
     return plan.points[static_cast<std::size_t>(i)];
 }
 
+// Whether [hand] anywhere allows for this grab already, so that a scene that was played live has the steps that it had
+// then: a grip has at least the mass of each of its points.
+bool isAllowedAnywhere(const ActionSpec& grab, const HandSpec& hand) {
+    return hand.anywhere && grab.id.starts_with(liveHand) && grab.strength <= hand.strength &&
+           grab.dampingRatio <= hand.dampingRatio;
+}
+
 void lighten(Envelope& envelope, const SceneSpec& spec) {
     for (const ActionSpec& action : spec.actions) {
         if (action.what != Do::addMass || action.mass >= 0) continue;
@@ -107,7 +114,7 @@ void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec
             for (int i : pointsOf(start, action.target)) mayBeHeld[static_cast<std::size_t>(i)] = true;
     std::map<std::string, std::vector<GripRates>> hands;  // (points) by id
     for (const ActionSpec& action : spec.actions) {
-        if (action.what != Do::grab || action.rigid) continue;
+        if (action.what != Do::grab || action.rigid || isAllowedAnywhere(action, spec.hand)) continue;
         const std::vector<int> named = pointsOf(envelope.plan, action.target);
         if (named.empty()) continue;
         double mass = 0, lightest = HUGE_VAL;

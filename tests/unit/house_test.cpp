@@ -34,6 +34,7 @@ const std::map<std::string, Folders> allowed = {
     {"regression",
      {"core", "view", "image", "mechanics", "collision", "render", "ecs", "ode", "world", "check", "scene", "pipeline",
       "report"}},
+    {"live", {"core", "ecs", "mechanics", "ode", "collision", "view", "image", "render", "world", "scene"}},
 };
 
 struct Include {

@@ -1,0 +1,80 @@
+#include "live/hand.h"
+
+#include <cmath>
+#include <utility>
+
+namespace taut::live {
+namespace {
+
+constexpr int placeDecimals = 3;  // [m]: to the millimetre
+constexpr int timeDecimals = 6;   // [s]: far finer than a tick
+
+glm::dvec3 rounded(const glm::dvec3& place) {
+    return {live::rounded(place.x, placeDecimals), live::rounded(place.y, placeDecimals),
+            live::rounded(place.z, placeDecimals)};
+}
+
+}  // namespace
+
+double rounded(double value, int decimals) {
+    double scale = 1.0;
+    for (int i = 0; i < decimals; ++i) scale *= 10.0;
+    const double result = std::round(value * scale) / scale;  // the number nearest to its decimals, as a reader has it
+    return result == 0.0 ? 0.0 : result;                      // no minus zero
+}
+
+world::ActionSpec Hand::action(world::Do what, std::int64_t tick) const {
+    world::ActionSpec action;
+    action.what = what;
+    action.id = id_;
+    action.t = live::rounded(static_cast<double>(tick) / ticksPerSecond_, timeDecimals);
+    return action;
+}
+
+void Hand::grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place) {
+    if (isHolding_) wantsRelease_ = true;
+    world::ActionSpec grab = action(world::Do::grab, 0);
+    grab.target = std::move(target);
+    grab.radius = live::rounded(radius, placeDecimals);
+    grab.strength = strength;
+    grab.dampingRatio = dampingRatio;
+    grab_ = std::move(grab);
+    goal_.reset();
+    last_ = rounded(place);
+}
+
+void Hand::leadTo(glm::dvec3 place) {
+    goal_ = rounded(place);
+}
+
+void Hand::release() {
+    grab_.reset();  // a click shorter than a tick
+    if (isHolding_) wantsRelease_ = true;
+}
+
+std::vector<world::ActionSpec> Hand::deedsAt(std::int64_t tick) {
+    std::vector<world::ActionSpec> deeds;
+    if (wantsRelease_) {
+        deeds.push_back(action(world::Do::release, tick));
+        wantsRelease_ = isHolding_ = false;
+    }
+    if (grab_) {
+        world::ActionSpec grab = *std::exchange(grab_, std::nullopt);
+        grab.t = action(world::Do::grab, tick).t;
+        deeds.push_back(std::move(grab));
+        isHolding_ = true;
+        free_ = tick;
+    }
+    if (isHolding_ && goal_ && *goal_ != last_ && tick >= free_) {
+        world::ActionSpec move = action(world::Do::move, tick);
+        move.to = goal_;
+        move.over = live::rounded(moveTicks / ticksPerSecond_, timeDecimals);
+        move.ease = world::Ease::linear;
+        deeds.push_back(std::move(move));
+        last_ = *goal_;
+        free_ = tick + moveTicks;
+    }
+    return deeds;
+}
+
+}  // namespace taut::live

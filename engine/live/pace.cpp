@@ -1,0 +1,18 @@
+#include "live/pace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace taut::live {
+
+int Pace::due(double wall, double speed, int most) {
+    TAUT_EXPECTS(wall >= 0.0 && speed >= 0.0 && most >= 0);
+    waiting_ += wall * speed / tickSeconds_;
+    const double whole = std::floor(waiting_);
+    waiting_ -= whole;
+    return static_cast<int>(std::min(whole, static_cast<double>(most)));
+}
+
+}  // namespace taut::live

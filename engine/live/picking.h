@@ -1,0 +1,43 @@
+// What lies under the mouse: rays through a picture, and the point of a body that a hand would take. It knows neither
+// the mouse nor the world.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "view/frame_view.h"
+
+namespace taut::live {
+
+struct Ray {
+    glm::dvec3 from{0.0}, along{0.0, 0.0, -1.0};  // [m], unit
+};
+
+// Through a place of the picture, as shares of width and height from the top left; `aspect` is width / height.
+Ray rayThrough(const view::Camera& camera, glm::dvec2 place, double aspect);
+
+// Where the ray meets the plane through `point` parallel to the picture; the point itself when it never does.
+glm::dvec3 onPicturePlane(const Ray& ray, const view::Camera& camera, glm::dvec3 point);
+
+// The points of a body that may be taken.
+struct BodyPoints {
+    std::string name;                   // "cloth.curtain", the name of its surfaces too
+    std::vector<int> points;            // (points) their numbers in the order of authoring
+    std::vector<glm::dvec3> positions;  // (points) [m]
+};
+
+struct Picked {
+    std::string body;
+    int point = 0;  // in the order of authoring
+    glm::dvec3 position{0.0};
+};
+
+// The point nearest to the ray. Where the ray meets a body, one of that body; elsewhere one within `reach` [m for each
+// metre of distance] of the ray that nothing opaque hides. None when a collider is in the way, or nothing is near.
+std::optional<Picked> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
+                           double reach);
+
+}  // namespace taut::live

@@ -1,0 +1,155 @@
+#include "live/recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "scene/document.h"
+
+namespace taut::live {
+namespace {
+
+constexpr std::array names{"grab", "move", "release", "push", "hold", "free", "cut", "add-mass", "ramp", "spawn"};
+constexpr std::array eases{"linear", "smooth", "in", "out", "hold"};
+constexpr double degree = 57.29577951308232;  // [1/rad]
+
+std::string quoted(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result + "\"";
+}
+
+std::string vectorText(const glm::dvec3& v) {
+    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+
+std::string numbersText(const std::vector<double>& values) {
+    return values.size() == 1 ? fmt::format("{}", values.front()) : fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+// A moment as a file has it: the tick's, so that nothing is left to rounding.
+double momentOf(std::int64_t tick, double ticksPerSecond) {
+    return rounded(static_cast<double>(tick) / ticksPerSecond, 6);
+}
+
+struct Entry {
+    std::int64_t tick;
+    const world::ActionSpec* action;
+};
+
+// What happens, by tick: what the hand did at a tick comes before what the scene does then, as it did when played.
+std::vector<Entry> entriesOf(const Recording& recording) {
+    std::vector<Entry> entries;
+    for (const Deed& deed : recording.deeds) entries.push_back({deed.tick, &deed.action});
+    for (const world::ActionSpec& action : recording.timeline)
+        entries.push_back({static_cast<std::int64_t>(std::floor(action.t * recording.ticksPerSecond + 0.5)), &action});
+    std::erase_if(entries, [&](const Entry& entry) { return entry.tick >= recording.endTick; });
+    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.tick < b.tick; });
+    return entries;
+}
+
+std::string claimsText(const Recording& recording) {
+    std::string text = "\n# Proposed checks, from what was measured; take those that should hold.\n";
+    if (recording.hasClaims) text += "check = []\ngolden = []\n";
+    text += "# check = [\n";
+    for (const auto& [body, strain] : recording.strains) {
+        const double bound = rounded(std::max(1e-3, 1.3 * strain), 3);
+        text += fmt::format("#   {{ that = \"max_strain({}) < {}\" }},  # measured {:.3g}\n", body, bound, strain);
+    }
+    return text + "# ]\n";
+}
+
+}  // namespace
+
+std::string actionText(const world::ActionSpec& action, double t) {
+    std::string text = fmt::format("{{ t = {}, do = \"{}\"", t, names[static_cast<std::size_t>(action.what)]);
+    const auto add = [&](const char* key, const std::string& value) { text += fmt::format(", {} = {}", key, value); };
+    const auto addNumber = [&](const char* key, double value) { add(key, fmt::format("{}", value)); };
+    if (!action.id.empty()) add("id", quoted(action.id));
+    if (!action.target.empty()) add("target", quoted(action.target));
+    if (!action.key.empty()) add("key", quoted(action.key));
+    if (action.near) add("near", vectorText(*action.near));
+    if (action.radius > 0.0) addNumber("radius", action.radius);
+    if (action.what == world::Do::grab) {
+        if (action.rigid) add("rigid", "true");
+        addNumber("strength_N_per_m", action.strength);
+        addNumber("damping_ratio", action.dampingRatio);
+    }
+    if (action.to) add("to", vectorText(*action.to));
+    if (action.what == world::Do::ramp) add("to", numbersText(action.value));
+    if (action.rotation) add("rotation_deg", vectorText(*action.rotation * degree));
+    if (action.what == world::Do::move || action.what == world::Do::ramp) {
+        addNumber("over_s", action.over);
+        add("ease", quoted(eases[static_cast<std::size_t>(action.ease)]));
+    }
+    if (action.what == world::Do::push) add("impulse_Ns", vectorText(action.impulse));
+    if (action.what == world::Do::addMass) addNumber("mass_kg", action.mass);
+    if (action.planePoint && action.planeNormal)
+        add("plane", fmt::format("[{}, {}]", vectorText(*action.planePoint), vectorText(*action.planeNormal)));
+    if (action.from && action.upTo)
+        add("segment",
+            fmt::format("[[{}, {}], [{}, {}]]", action.from->x, action.from->y, action.upTo->x, action.upTo->y));
+    return text + " }";
+}
+
+std::string overrideLine(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    std::string key = text.substr(0, equals);
+    std::erase_if(key, [](char c) { return c == ' ' || c == '\t'; });
+    const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
+    for (std::size_t begin = 0; begin <= key.size();) {
+        const std::size_t end = std::min(key.find('.', begin), key.size());
+        if (key.substr(begin, end - begin).find_first_not_of("0123456789") == std::string::npos) return "";
+        begin = end + 1;
+    }
+    const std::string line =
+        fmt::format("{} = {}", key, value.substr(std::min(value.find_first_not_of(" \t"), value.size())));
+    try {
+        scene::documentTree(line, 0);
+        return line;
+    } catch (const scene::SyntaxError&) {
+        return fmt::format("{} = {}", key, quoted(value));
+    }
+}
+
+std::string scenarioText(const Recording& recording) {
+    const double last = static_cast<double>(recording.endTick) / static_cast<double>(recording.ticksPerFrame);
+    std::string text = fmt::format("# Recorded by taut play: {} frames, state hash {:016x} at tick {}.\n", last + 1.0,
+                                   recording.hash, recording.endTick);
+    text += fmt::format("schema = 1\nscene = {}\n", quoted(recording.scene));
+
+    // The last word on each key.
+    std::vector<std::pair<std::string, std::string>> lines;  // key, line
+    std::string beside;
+    for (const std::string& change : recording.overrides) {
+        const std::string line = overrideLine(change);
+        if (line.empty()) {
+            beside +=
+                fmt::format("# It was played with --set '{}', which this file cannot say: render it so too.\n", change);
+            continue;
+        }
+        const std::string key = line.substr(0, line.find(" = "));
+        std::erase_if(lines, [&](const auto& other) { return other.first == key; });
+        lines.emplace_back(key, line);
+    }
+    for (const char* own : {"hand.anywhere", "run.fps", "run.seconds"})
+        std::erase_if(lines, [&](const auto& other) { return other.first == own; });
+    for (const auto& [key, line] : lines) text += line + "\n";
+    text += beside;
+    text += fmt::format("hand.anywhere = true\nrun.fps = {}\nrun.seconds = {}\n", recording.run.fps,
+                        rounded((last + 1.0) / recording.run.fps, 6));
+
+    text += "at = [\n";
+    for (const Entry& entry : entriesOf(recording))
+        text += "  " + actionText(*entry.action, momentOf(entry.tick, recording.ticksPerSecond)) + ",\n";
+    return text + "]\n" + claimsText(recording);
+}
+
+}  // namespace taut::live

@@ -1,0 +1,40 @@
+// What was done by hand since the start of a run, as a scenario file that does the same. It knows neither the world nor
+// where the file goes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "live/hand.h"
+#include "world/spec.h"
+
+namespace taut::live {
+
+struct Recording {
+    std::string scene;                   // as the file names it: a path beside it, or a shipped scene
+    std::vector<std::string> overrides;  // "solver.dt=1e-4": what was changed besides
+    world::RunSpec run;
+    double ticksPerSecond = 60.0;
+    int ticksPerFrame = 1;
+    std::int64_t endTick = 0;                 // of a frame; every deed is earlier
+    std::uint64_t hash = 0;                   // of the state then, chained over ticks
+    std::vector<world::ActionSpec> timeline;  // the scene's own
+    std::vector<Deed> deeds;                  // ascending
+    bool hasClaims = false;                   // the scene has checks or goldens of its own
+
+    // Of each body the largest strain that was seen.
+    std::vector<std::pair<std::string, double>> strains;
+};
+
+// The file's text, TOML. Overrides of an element of a list cannot be said in a file: they become comments.
+std::string scenarioText(const Recording& recording);
+
+// An action as an element of `at`, at t [s].
+std::string actionText(const world::ActionSpec& action, double t);
+
+// "solver.dt = 1e-4" for "solver.dt=1e-4", a plain word in quotes; empty for an element of a list.
+std::string overrideLine(const std::string& text);
+
+}  // namespace taut::live

@@ -1,0 +1,63 @@
+// A world that is played: ticks on a thread of their own while the last picture is drawn, a hand that grabs, and all
+// that it did since the start. It knows neither windows nor GL.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "live/hand.h"
+#include "live/picking.h"
+#include "live/recording.h"
+#include "view/frame_view.h"
+#include "world/world.h"
+
+namespace taut::live {
+
+class Session {
+  public:
+    // Builds the world, with hands allowed anywhere. Throws core::Error(badContent).
+    Session(world::SceneSpec spec, int threads);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    // Begins that many ticks and returns at once; fewer are done when they take longer than `budget` [s] of wall time,
+    // but at least one, if any. Nothing else may be called until wait().
+    void begin(int ticks, double budget);
+    // Until what was begun is done.
+    void wait();
+
+    const world::World& world() const;
+    const world::SceneSpec& spec() const { return spec_; }
+    std::int64_t tick() const;
+    const world::Metrics& metrics() const;  // of this tick
+
+    // The last two ticks, the same one twice after a start.
+    const view::FrameView& before() const;
+    const view::FrameView& now() const;
+    void showMarks(bool shown);  // springs coloured by strain, points and contacts
+
+    Hand& hand();
+    const std::vector<Deed>& deeds() const;  // of the hand since the start
+    // What may be grabbed, where it is now: free points only.
+    std::vector<BodyPoints> bodies() const;
+
+    // Why nothing moves any more, once it diverged.
+    const std::optional<world::Divergence>& divergence() const;
+    // What went wrong with an action since the last call.
+    std::vector<std::string> takeFaults();
+
+    // Goes on to the next frame, and by a tick at least if the hand did something that no tick has followed yet, and
+    // tells what happened since the start. `scene` and `overrides` are left to the caller. Not once it diverged.
+    Recording record();
+
+  private:
+    struct Impl;
+    world::SceneSpec spec_;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace taut::live

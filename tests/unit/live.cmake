@@ -1,0 +1,7 @@
+list(APPEND TAUT_UNIT_TESTS
+  live_hand_test.cpp
+  live_pace_test.cpp
+  live_picking_test.cpp
+  live_recording_test.cpp
+  live_session_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::live taut::scene taut::world)

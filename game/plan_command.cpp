@@ -76,6 +76,11 @@ int plan(const PlanFlags& flags) {
     const std::filesystem::path file = sceneFile(flags.scene);
     const std::string text = image::fileContent(file);
     const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
+    if (flags.write && !spec.base.empty())
+        throw core::Error(core::ExitCode::usage,
+                          fmt::format("{}: --write needs a scene that is one file; this one builds on {}: plan that, or "
+                                      "leave --write out and copy the values",
+                                      file.string(), spec.base));
     if (!flags.json.empty()) image::prepareFolderOf(flags.json);
 
     const Interruption interruption;

@@ -65,18 +65,15 @@ BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<p
     std::vector<path> folders{sceneFile.parent_path()};
     for (const path& folder : assetFolders) folders.push_back(folder / "scenes");
 
+    const std::string fileName = value.text.ends_with(".toml") ? value.text : value.text + ".toml";
     bool namesItself = false;
     std::vector<std::string> searched, known;
     for (const path& folder : folders) {
-        for (const std::string& ending : {std::string(), std::string(".toml")}) {
-            const path file = folder / (value.text + ending);
-            if (ending.empty() != (file.extension() == ".toml")) continue;
-            searched.push_back(file.string());
-            if (!isFile(file)) continue;
-            if (isSame(file, sceneFile)) {
-                namesItself = true;
-                continue;
-            }
+        const path file = folder / fileName;
+        searched.push_back(file.string());
+        if (isFile(file) && isSame(file, sceneFile)) {
+            namesItself = true;
+        } else if (isFile(file)) {
             try {
                 return {file, textFile(file, maxBytes)};
             } catch (const core::Error& error) {
@@ -90,9 +87,7 @@ BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<p
         problems.addError(value.place, "this scene names itself");
         return {};
     }
-    std::string name = value.text;
-    if (name.ends_with(".toml")) name.resize(name.size() - 5);
-    std::string remedy = suggestion(name, known);
+    std::string remedy = suggestion(fileName.substr(0, fileName.size() - 5), known);
     if (remedy.empty()) remedy = fmt::format("looked for {}", joined(searched));
     problems.addError(value.place, fmt::format("there is no scene \"{}\"", value.text), remedy);
     return {};

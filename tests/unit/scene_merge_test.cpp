@@ -1,0 +1,144 @@
+// A scenario that builds on a scene: what is merged, and which file a message names.
+#include "unit/scene_support.h"
+
+namespace taut::scene {
+namespace {
+
+using glm::dvec3;
+
+constexpr const char* yard =
+    "schema = 1\n"
+    "title = \"a yard\"\n"
+    "[run]\nfps = 30\nseconds = 2\n"
+    "[rope.line]\nends = [[0, 1, 0], [1, 1, 0]]\nsegments = 8\nhold = [\"ends\"]\n"
+    "finish = { weave = 0.5, roughness = 0.25 }\n"
+    "[camera.main]\neye = [0, 1, 5]\n";
+
+TEST(SceneMerge, TablesAreMergedDeeplyAndAllElseIsReplaced) {
+    const AssetFolder folder;
+    folder.write("yard.toml", yard);
+    const Loaded loaded = folder.load(
+        "schema = 1\nscene = \"yard.toml\"\nrun = { seconds = 3 }\n"
+        "[rope.line]\nhold = [\"start\"]\nfinish = { weave = 0.75 }\n"
+        "[rope.other]\nends = [[0, 2, 0], [1, 2, 0]]\n");
+    const world::SceneSpec& scene = loaded.spec;
+    EXPECT_EQ(scene.title, "a yard");
+    EXPECT_EQ(scene.run.fps, 30.0);
+    EXPECT_EQ(scene.run.seconds, 3.0);
+    ASSERT_EQ(scene.ropes.size(), 2U);
+    EXPECT_EQ(scene.ropes[0].segments, 8);
+    EXPECT_EQ(scene.ropes[0].hold, std::vector<std::string>{"start"});
+    EXPECT_EQ(scene.ropes[0].finish.weave, 0.75);
+    EXPECT_EQ(scene.ropes[0].finish.roughness, 0.25);
+    EXPECT_EQ(scene.ropes[1].start, dvec3(0, 2, 0));
+    EXPECT_EQ(scene.cameras[0].eye, dvec3(0, 1, 5));
+    EXPECT_EQ(scene.file, (folder / "s.toml").string());
+    EXPECT_EQ(scene.base, (folder / "yard.toml").string());
+    EXPECT_EQ(scene.ropes[0].source.file, scene.base);
+    EXPECT_EQ(scene.ropes[0].source.line, 6);
+    EXPECT_EQ(scene.ropes[1].source.file, scene.file);
+    EXPECT_EQ(scene.ropes[1].source.line, 7);
+}
+
+TEST(SceneMerge, OverridesComeOnTop) {
+    const AssetFolder folder;
+    folder.write("yard.toml", yard);
+    LoadOptions options;
+    options.overrides = {"rope.line.segments=16", "run.seconds=4"};
+    const world::SceneSpec scene =
+        folder.load("schema = 1\nscene = \"yard\"\n[rope.line]\nsegments = 12\n", options).spec;
+    EXPECT_EQ(scene.ropes[0].segments, 16);
+    EXPECT_EQ(scene.run.seconds, 4.0);
+}
+
+TEST(SceneMerge, AShippedSceneIsFoundAlsoByAFileOfItsName) {
+    const AssetFolder folder, assets;
+    std::filesystem::create_directory(assets / "scenes");
+    assets.write("scenes/s.toml", yard);
+    LoadOptions options;
+    options.assetFolders = {assets / ""};
+    for (const char* name : {"s", "s.toml"}) {
+        folder.write("s.toml", "schema = 1\nscene = \"" + std::string(name) + "\"\n");
+        const world::SceneSpec scene = loadScene(folder / "s.toml", options).spec;
+        EXPECT_EQ(scene.ropes.at(0).segments, 8) << name;
+        EXPECT_EQ(scene.base, (assets / "" / "scenes/s.toml").string()) << name;
+    }
+}
+
+TEST(SceneMerge, FilesOfTheSceneAreFoundBesideIt) {
+    const AssetFolder folder;
+    std::filesystem::create_directory(folder / "below");
+    folder.write("below/sail.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    folder.write("below/sail.toml", "schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"sail.obj\"\n");
+    const world::SceneSpec scene = folder.load("schema = 1\nscene = \"below/sail.toml\"\n").spec;
+    ASSERT_NE(scene.cloths.at(0).meshData, nullptr);
+    EXPECT_EQ(scene.cloths[0].meshData->positions.size(), 3U);
+}
+
+// The message that a scene over another leads to.
+std::string messageOver(const std::string& base, const std::string& text, const LoadOptions& options = {}) {
+    const AssetFolder folder;
+    folder.write("yard.toml", base);
+    return folder.messageOf("schema = 1\nscene = \"yard.toml\"\n" + text, options);
+}
+
+TEST(SceneMerge, AMessageNamesTheFileThatIsWrong) {
+    // One mistake in each file and one on the command line.
+    LoadOptions options;
+    options.overrides = {"run.fps=fast"};
+    EXPECT_EQ(messageOver("schema = 1\n[rope.line]\nends = [[0, 1, 0], [1, 1, 0]]\nsegmets = 8\n",
+                          "[run]\nseconds = -1\n", options),
+              "s.toml:4:11: error: seconds must be between 0.001 and 1e+06 s, not -1\n"
+              "  seconds = -1\n"
+              "            ^\n"
+              "yard.toml:4:1: error: [rope.line] has no key \"segmets\"\n"
+              "  segmets = 8\n"
+              "  ^ did you mean \"segments\"?\n"
+              "--set run.fps: error: fps must be a number [1/s], not \"fast\"");
+}
+
+TEST(SceneMerge, ASceneThatIsNotTomlIsReportedWhereItIsNot) {
+    EXPECT_EQ(messageOver("schema = 1\n[run\n", ""),
+              "yard.toml:2:5: error: table header: expected ']', saw '\\n'\n"
+              "  [run\n"
+              "      ^");
+}
+
+TEST(SceneMerge, AChainOfScenesIsRefused) {
+    EXPECT_EQ(messageOver("schema = 1\nscene = \"s.toml\"\n", ""),
+              "yard.toml:2:1: error: a scene that another builds on must not build on a third\n"
+              "  scene = \"s.toml\"\n"
+              "  ^ name that one in the first file");
+}
+
+TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {
+    const AssetFolder folder;
+    folder.write("yard.toml", yard);
+    const auto messageOf = [&](const std::string& name) {
+        folder.write("s.toml", "schema = 1\nscene = " + name + "\n");
+        try {
+            loadScene(folder / "s.toml", {});
+        } catch (const core::Error& error) {
+            EXPECT_EQ(error.code(), core::ExitCode::badContent);
+            return folder.withoutFolder(error.what());
+        }
+        return std::string();
+    };
+    const std::string start = "s.toml:2:9: error: ";
+    EXPECT_EQ(messageOf("\"yart\""),
+              start + "there is no scene \"yart\"\n  scene = \"yart\"\n          ^ did you mean \"yard\"?");
+    EXPECT_EQ(messageOf("\"wood.toml\""),
+              start + "there is no scene \"wood.toml\"\n  scene = \"wood.toml\"\n          ^ looked for wood.toml");
+    EXPECT_EQ(messageOf("\"s\""), start + "this scene names itself\n  scene = \"s\"\n          ^");
+    EXPECT_EQ(messageOf("\"\""), start + "scene must be the name of a scene or of a file\n  scene = \"\"\n          ^");
+    EXPECT_EQ(messageOf("7"), start + "scene must be a text, not 7\n  scene = 7\n          ^");
+}
+
+TEST(SceneMerge, TheSceneCannotBeSet) {
+    LoadOptions options;
+    options.overrides = {"scene=yard"};
+    EXPECT_EQ(messageOver(yard, "", options), "--set scene: error: the scene that a file builds on cannot be set");
+}
+
+}  // namespace
+}  // namespace taut::scene

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "game/commands.h"
+#include "game/continuation.h"
 #include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
@@ -38,6 +39,7 @@ struct RenderFlags {
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
     std::vector<std::string> overrides;
+    ContinuationFlags continuation;
     bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
     bool overlay = false;
 };
@@ -68,20 +70,32 @@ void checkFlags(const RenderFlags& flags) {
     if (flags.output.empty() && !flags.noPictures)
         fail("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
     if (flags.output.empty() && flags.metrics) fail("--metrics writes a file beside the output: add -o");
+    if (flags.continuation.isWanted() && flags.output.empty() && flags.continuation.folder.empty())
+        fail("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
+    if (flags.continuation.resume && (!flags.video.empty() || image::isVideoPath(flags.output)))
+        fail("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
+    if (flags.continuation.from && !flags.frames.empty()) fail("--from and --frames exclude each other");
 }
 
 pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec& spec) {
     const std::int64_t count = pipeline::frameCount(spec.run);
-    const FrameRange range = flags.frames.empty() ? FrameRange{} : frameRange(flags.frames);
+    FrameRange range = flags.frames.empty() ? FrameRange{} : frameRange(flags.frames);
+    if (flags.continuation.from) range.first = *flags.continuation.from;
     const std::int64_t last = range.last.value_or(count - 1);
     if (range.first >= count || last >= count)
-        throw core::Error(core::ExitCode::usage, fmt::format("--frames {}: the scene has frames 0-{}; --seconds makes "
-                                                             "it longer",
-                                                             flags.frames, count - 1));
-    return {.firstFrame = range.first,
-            .lastFrame = last,
-            .debugView = flags.debug,
-            .metrics = flags.metrics || flags.overlay || !flags.quiet};
+        throw core::Error(
+            core::ExitCode::usage,
+            fmt::format("{}: the scene has frames 0-{}; --seconds makes it longer",
+                        flags.frames.empty() ? fmt::format("--from {}", range.first) : "--frames " + flags.frames,
+                        count - 1));
+    pipeline::RunOptions options;
+    options.firstFrame = range.first;
+    options.lastFrame = last;
+    options.debugView = flags.debug;
+    options.checkpointEvery = flags.continuation.every;
+    // Who goes on from a checkpoint may want the figures of the frames before it.
+    options.metrics = flags.metrics || flags.overlay || !flags.quiet || options.checkpointEvery > 0;
+    return options;
 }
 
 std::unique_ptr<render::Renderer> makeRenderer(const RenderFlags& flags, const world::PictureSpec& picture) {
@@ -103,7 +117,9 @@ std::unique_ptr<render::Renderer> makeRenderer(const RenderFlags& flags, const w
 // Everything that was asked for, or null; asks before it overwrites.
 std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pipeline::RunOptions& options,
                                               double fps) {
-    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
+    const Overwrite overwrite = flags.yes || flags.continuation.resume ? Overwrite::yes
+                                : flags.no                             ? Overwrite::no
+                                                                       : Overwrite::ask;
     std::vector<std::unique_ptr<image::FrameSink>> sinks;
     for (const std::string& output : {flags.output, flags.video}) {
         if (output.empty()) continue;
@@ -119,6 +135,11 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pi
                 throw core::Error(core::ExitCode::inputOutput,
                                   fmt::format("{} exists already", sink->companion(record).string()));
     return sink;
+}
+
+std::filesystem::path checkpointFolder(const RenderFlags& flags, const image::FrameSink* sink) {
+    if (!flags.continuation.folder.empty()) return flags.continuation.folder;
+    return sink != nullptr ? sink->companion("checkpoints") : std::filesystem::path();
 }
 
 ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps) {
@@ -168,8 +189,9 @@ void printSummary(const RenderFlags& flags, const pipeline::RunResult& result) {
 
 int render(const RenderFlags& flags) {
     checkFlags(flags);
-    const world::SceneSpec spec = readScene(flags.scene, allOverrides(flags));
-    const pipeline::RunOptions options = runOptions(flags, spec);
+    const scene::Loaded scene = readSceneWithKeys(flags.scene, allOverrides(flags));
+    const world::SceneSpec& spec = scene.spec;
+    pipeline::RunOptions options = runOptions(flags, spec);
     const Interruption interruption;
 
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, options, spec.run.fps);
@@ -177,6 +199,10 @@ int render(const RenderFlags& flags) {
     world::World world(spec, {.threads = flags.threads});
     const std::vector<std::string> foreseen = world.warnings();
     printWarnings(foreseen);
+
+    const std::filesystem::path states = checkpointFolder(flags, sink.get());
+    const RunKeys keys = runKeys(scene.keys, flags.debug, flags.overlay, world);
+    goOn(flags.continuation, states, keys, flags.noPictures ? "" : flags.output, options, world);
 
     pipeline::Draw draw;
     std::unique_ptr<render::Renderer> renderer;
@@ -187,6 +213,8 @@ int render(const RenderFlags& flags) {
     std::unique_ptr<pipeline::Overlay> overlay;
     if (flags.overlay && draw) {
         overlay = std::make_unique<pipeline::Overlay>(fontFile(), pipeline::smallestStep(world));
+        for (const pipeline::FrameRecord& record : options.before)
+            if (record.metrics) overlay->add(pipeline::momentOf(record.frame * world.ticksPerFrame(), *record.metrics));
         draw = [&](const view::FrameView& view) {
             image::Image picture = renderer->draw(view);
             overlay->paint(picture, view.time);
@@ -197,8 +225,9 @@ int render(const RenderFlags& flags) {
     pipeline::RunResult result;
     {
         Progress progress(progressFacts(world, options, spec.run.fps), flags.quiet);
-        result = pipeline::play(world, options, draw, flags.noPictures ? nullptr : sink.get(),
-                                listenerFor(flags, options, progress, overlay.get(), world.ticksPerFrame()),
+        pipeline::RunListener listener = listenerFor(flags, options, progress, overlay.get(), world.ticksPerFrame());
+        if (options.checkpointEvery > 0) keepCheckpoints(states, keys, listener);
+        result = pipeline::play(world, options, draw, flags.noPictures ? nullptr : sink.get(), listener,
                                 interruption.flag());
     }
     if (sink) {
@@ -249,6 +278,7 @@ void addRender(CLI::App& app, Action& chosen) {
     command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene")->required();
     addOutputFlags(*command, *flags);
     addPictureFlags(*command, *flags);
+    addContinuationFlags(*command, flags->continuation);
     command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
         ->check(CLI::Range(1, 1024));
     command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
@@ -258,6 +288,7 @@ void addRender(CLI::App& app, Action& chosen) {
         "Examples:\n"
         "  taut render flag -o flag.mp4\n"
         "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
+        "  taut render show -o out/show --checkpoint-every 60 --resume\n"
         "  taut render drape -o late.mp4 --frames 120-179 --set material.linen.bend_N_per_m=4");
     command->callback([&chosen, flags] { chosen = [flags] { return render(*flags); }; });
 }

@@ -37,12 +37,16 @@ std::filesystem::path sceneFile(const std::string& argument) {
 }
 
 world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides) {
+    return readSceneWithKeys(argument, overrides).spec;
+}
+
+scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides) {
     scene::LoadOptions options;
     options.overrides = overrides;
     if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
     scene::Loaded loaded = scene::loadScene(sceneFile(argument), options);
     printWarnings(loaded.warnings);
-    return std::move(loaded.spec);
+    return loaded;
 }
 
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/load.h"
 #include "world/spec.h"
 
 namespace taut::game {
@@ -16,6 +17,9 @@ std::filesystem::path sceneFile(const std::string& argument);
 // Reads the scene with overrides ("key=value") and prints its warnings to standard error. Throws core::Error, also for
 // a scene that needs more memory than the machine can give.
 world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides);
+
+// The same with the keys of its states.
+scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides);
 
 // Puts `content` in the place of a scene file that still holds `expected`; a link stays one, permissions stay. Throws
 // core::Error(inputOutput), also when someone else has changed the file meanwhile.

@@ -1,0 +1,101 @@
+#include "game/continuation.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "image/frame_sequence.h"
+#include "pipeline/checkpoint.h"
+
+namespace taut::game {
+namespace {
+
+// The first frame of the run without a picture on disk; one past the last when all are there.
+std::int64_t firstMissing(const std::string& output, const pipeline::RunOptions& options) {
+    if (output.empty()) return options.lastFrame;
+    std::int64_t frame = options.firstFrame;
+    for (std::int64_t there : image::FramePattern(output).framesThere())
+        if (there == frame) ++frame;
+    return frame;
+}
+
+}  // namespace
+
+void addContinuationFlags(CLI::App& command, ContinuationFlags& flags) {
+    command.add_option("--checkpoint-every", flags.every, "Keep the state every so many frames, to go on from")
+        ->type_name("FRAMES")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
+    command
+        .add_option("--checkpoints", flags.folder,
+                    "Where states are kept; `checkpoints` beside the output if not given")
+        ->type_name("FOLDER");
+    command.add_flag("--resume", flags.resume, "Go on where the frames on disk end, from the last state kept before");
+    command
+        .add_option_function<std::int64_t>(
+            "--from", [&flags](const std::int64_t& frame) { flags.from = frame; },
+            "Draw from this frame on, from the last state kept before it")
+        ->type_name("FRAME")
+        ->check(CLI::NonNegativeNumber);
+}
+
+RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const world::World& world) {
+    core::Hash steps;  // chosen with an eye on the whole timeline
+    for (const world::IslandInfo& island : world.islands()) {
+        steps.add(island.name);
+        steps.add(island.step);
+    }
+    core::Hash picture;
+    picture.add(scene.picture());
+    picture.add(static_cast<std::uint64_t>(debug));
+    picture.add(static_cast<std::uint64_t>(overlay));
+    const auto state = [scene, stepsKey = steps.value(), ticks = world.ticksPerFrame()](std::int64_t frame) {
+        core::Hash hash;
+        hash.add(scene.stateAt(frame * ticks));
+        hash.add(stepsKey);
+        return hash.value();
+    };
+    return {state, picture.value()};
+}
+
+void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
+          const std::string& output, pipeline::RunOptions& options, world::World& world) {
+    if (!flags.resume && !flags.from) return;
+    const std::int64_t goal = flags.from ? *flags.from : std::min(firstMissing(output, options), options.lastFrame);
+    std::vector<std::string> refused;
+    std::optional<pipeline::Checkpoint> checkpoint =
+        pipeline::CheckpointFolder(folder).latest(goal, keys.state, refused);
+    for (const std::string& line : refused) fmt::print(stderr, "note: {}\n", line);
+    if (!checkpoint) {
+        fmt::print(stderr, "note: {} has no state to go on from; starting with frame 0\n", folder.string());
+        return;
+    }
+    if (flags.resume && !output.empty() && checkpoint->frame > options.firstFrame &&
+        checkpoint->picture != keys.picture)
+        throw core::Error(
+            core::ExitCode::badContent,
+            fmt::format("the pictures before frame {} were drawn with other settings of size, camera, light "
+                        "or look; draw all of them again with -y and without --resume, or the rest with "
+                        "--from {}",
+                        checkpoint->frame, checkpoint->frame));
+    world.restore(checkpoint->world);
+    fmt::print(stderr, "note: going on with frame {}\n", checkpoint->frame);
+    options.startFrame = checkpoint->frame;
+    options.before = std::move(checkpoint->records);
+    options.firstFrame = std::max(options.firstFrame, options.startFrame);
+}
+
+void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, pipeline::RunListener& listener) {
+    listener.checkpoint = [folder, keys](std::int64_t frame, std::vector<std::byte> state,
+                                         const std::vector<pipeline::FrameRecord>& before) {
+        const pipeline::CheckpointFolder checkpoints(folder);
+        pipeline::writeCheckpoint(checkpoints.pathOf(frame),
+                                  {frame, keys.state(frame), keys.picture, std::move(state), before});
+    };
+}
+
+}  // namespace taut::game

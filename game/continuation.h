@@ -1,0 +1,47 @@
+// Where a run keeps its state and where it goes on from one that was kept. It knows no command.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "pipeline/run.h"
+#include "scene/state_keys.h"
+#include "world/world.h"
+
+namespace CLI {
+class App;
+}
+
+namespace taut::game {
+
+struct ContinuationFlags {
+    std::int64_t every = 0;            // [frames] between two checkpoints; 0: none are kept
+    std::string folder;                // of the checkpoints; empty: `checkpoints` beside the output
+    bool resume = false;               // go on where the frames on disk end
+    std::optional<std::int64_t> from;  // draw from this frame on
+    bool isWanted() const { return every > 0 || resume || from; }
+};
+
+void addContinuationFlags(CLI::App& command, ContinuationFlags& flags);
+
+// What a state and a picture have been made by, so that they are not taken for those of another scene.
+struct RunKeys {
+    std::function<std::uint64_t(std::int64_t frame)> state;  // of the state that goes on with that frame
+    std::uint64_t picture = 0;
+};
+RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const world::World& world);
+
+// Puts the world where the run is to go on, and says so in the options: for --from the last checkpoint at or before
+// that frame, for --resume the last before the first frame that `pictures` lacks (null: none are drawn). Without any
+// the run starts at frame 0. Prints what it does and what it had to pass over. Throws core::Error(badContent) when the
+// pictures on disk were made with other settings.
+void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
+          const std::string& output, pipeline::RunOptions& options, world::World& world);
+
+// Lets the listener write every checkpoint of the run into the folder.
+void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, pipeline::RunListener& listener);
+
+}  // namespace taut::game

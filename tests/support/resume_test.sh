@@ -1,0 +1,80 @@
+#!/bin/sh
+# Kills a run at twenty moments, goes on from its last checkpoint, and compares every picture and every state hash with
+# those of a run that was left alone. Called with the path of taut.
+set -eu
+taut=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Everything that a state can hold: contacts, a moving collider, a hand, a cut, a change of stiffness, a body that comes
+# later.
+cat >"$work/scene.toml" <<'END'
+schema = 1
+run = { fps = 30, seconds = 2.0 }
+picture = { size = [160, 90], samples = 1, shadow_size = 256 }
+at = [
+  { t = 0.2, do = "grab", id = "hand", target = "cloth.sheet@bottom-left", radius = 0.1 },
+  { t = 0.3, do = "move", id = "hand", to = [-0.2, 0.7, 0.5], over_s = 0.8 },
+  { t = 0.5, do = "spawn", target = "block.crate" },
+  { t = 0.7, do = "cut", target = "cloth.sheet", segment = [[0.55, 1.0], [0.55, 0.4]] },
+  { t = 0.9, do = "ramp", key = "material.linen.stretch_N_per_m", to = 500.0, over_s = 0.5 },
+  { t = 1.2, do = "release", id = "hand" },
+]
+[material.linen]
+stretch_N_per_m = 300.0
+[cloth.sheet]
+size = [1.0, 1.0]
+cells = [12, 12]
+origin = [-0.5, 1.5, 0.0]
+material = "linen"
+hold = ["top-left", "top-right"]
+[block.crate]
+size = [0.3, 0.3, 0.3]
+cells = [2, 2, 2]
+position = [0.0, 1.9, 0.1]
+[collider.ground]
+shape = "plane"
+[collider.ball]
+shape = "sphere"
+radius = 0.2
+keys = [{ t = 0.0, position = [0.2, 1.0, -0.6] }, { t = 1.5, position = [0.2, 1.0, 0.4] }]
+[wind.breeze]
+velocity = [0.0, 0.0, 2.0]
+gust = { amplitude = 1.0 }
+END
+
+render() {
+    folder=$1
+    shift
+    "$taut" render "$work/scene.toml" -o "$folder" --quiet --metrics "$@"
+}
+hashes() { grep '"hash"' "$1/run.json"; }
+
+start=$(date +%s%N)
+render "$work/whole" --checkpoint-every 5
+duration=$((($(date +%s%N) - start) / 1000000))  # [ms]
+
+killed=0
+round=0
+while [ "$round" -lt 20 ]; do
+    round=$((round + 1))
+    folder=$work/run$round
+    # Spread over the run by the golden ratio; the same moments each time, as far as clocks go.
+    moment=$((duration * (618 * round % 1000) / 1000))
+    # shellcheck disable=SC2086
+    "$taut" render "$work/scene.toml" -o "$folder" --quiet --metrics --checkpoint-every 5 &
+    run=$!
+    sleep "$((moment / 1000)).$(printf %03d $((moment % 1000)))"
+    if kill -9 "$run" 2>/dev/null; then killed=$((killed + 1)); fi
+    wait "$run" 2>/dev/null || true
+    render "$folder" --checkpoint-every 5 --resume -y
+    for picture in "$work"/whole/*.png; do
+        cmp "$picture" "$folder/$(basename "$picture")" || { echo "after a kill at $moment ms"; exit 1; }
+    done
+    [ "$(ls "$folder"/*.png | wc -l)" -eq 60 ] || { echo "$folder has not 60 pictures"; exit 1; }
+    [ "$(hashes "$folder")" = "$(hashes "$work/whole")" ] || { echo "other hashes after a kill at $moment ms"; exit 1; }
+    cmp "$work/whole/metrics.csv" "$folder/metrics.csv" || { echo "other metrics after a kill at $moment ms"; exit 1; }
+    rm -rf "$folder"
+done
+echo "killed $killed of 20 runs"
+[ "$killed" -ge 12 ] || { echo "too few runs were killed before their end"; exit 1; }

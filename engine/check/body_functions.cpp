@@ -43,7 +43,7 @@ int contacts(const Metrics& m) {
     return m.contacts;
 }
 double volume(const Metrics& m) {
-    return m.volume / m.restVolume;
+    return m.restVolume > 0 ? m.volume / m.restVolume : 1.0;  // of nothing nothing is missing
 }
 double cellVolume(const Metrics& m) {
     return m.minVolumeRatio;
@@ -82,7 +82,7 @@ std::vector<Function> bodyFunctions() {
          bodyOfLargest<contacts>},
         {"penetration", bodies, true, false, "m", "Largest depth of a free point inside a collider.",
          measured<penetration>, bodyOfLargest<penetration>},
-        {"volume", bodies, true, false, "", "Volume of blocks over that at rest.", measured<volume>, nullptr},
+        {"volume", bodies, true, false, "", "Volume of blocks over that at rest; 1 of none.", measured<volume>, nullptr},
         {"cell_volume", bodies, true, false, "", "The same of the cell of a block that has shrunk most.",
          measured<cellVolume>, bodyOfLargest<shrinking>},
         {"inverted", bodies, true, false, "", "Number of cells of blocks that are turned inside out.",

@@ -100,7 +100,7 @@ Section atSection() {
             .only(onPoints)
             .number("radius", &ActionSpec::radius, "m", Range{0.0, 1e6},
                     "Points of the same bodies within this distance of such a point too.")
-            .only(onPoints)
+            .only({"grab"})
             .flag("rigid", &ActionSpec::rigid, "Whether the points are led exactly; else springs draw them.")
             .only({"grab"})
             .number("strength_N_per_m", &ActionSpec::strength, "N/m", positive, "Of the whole hand, shared by mass.")

@@ -1,0 +1,5 @@
+list(APPEND TAUT_UNIT_TESTS
+  check_functions_test.cpp
+  check_language_test.cpp
+  check_watcher_test.cpp)
+list(APPEND TAUT_UNIT_LINKS taut::check taut::scene taut::world)

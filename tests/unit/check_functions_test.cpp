@@ -1,0 +1,155 @@
+// Every function of the language in a small scene whose answer is known from theory.
+#include <cmath>
+
+#include "check/function_table.h"
+#include "unit/check_support.h"
+
+namespace taut::check {
+namespace {
+
+constexpr double rounding = 1e-12;  // a few dozen roundings of numbers near 10
+
+std::string placeIn(const world::World& world, const std::string& expression) {
+    return Check::parse(expression + " < 0").where(Now(world));
+}
+
+TEST(CheckFunctions, PlacesAreCentresOfMass) {
+    const world::World world(sceneOf(balls));
+    EXPECT_NEAR(valueIn(world, "position(net.balls@a).x"), 1.0, rounding);
+    EXPECT_NEAR(valueIn(world, "position(net.balls@b).y"), 2.0, rounding);
+    EXPECT_NEAR(valueIn(world, "position(net.balls@a).z"), 3.0, rounding);
+    // (1·1 + 3·5 + 1·0)/5
+    EXPECT_NEAR(valueIn(world, "position(net.balls).x"), 16.0 / 5, rounding);
+    EXPECT_NEAR(valueIn(world, "distance(net.balls@a, net.balls@b)"), 4.0, rounding);
+    EXPECT_NEAR(valueIn(world, "distance([1, -1, 7], net.balls@a)"), 5.0, rounding);
+    EXPECT_NEAR(valueIn(world, "length(position(net.balls@b) - position(net.balls@a))"), 4.0, rounding);
+}
+
+TEST(CheckFunctions, HighestAndLowestPointsAreNamed) {
+    const world::World world(sceneOf("[rope.r]\nends = [[0, 1, 0], [0, 3, 0]]\nsegments = 4\n"));
+    EXPECT_NEAR(valueIn(world, "height(rope.r)"), 3.0, rounding);
+    EXPECT_NEAR(valueIn(world, "lowest(rope.*)"), 1.0, rounding);
+    EXPECT_NEAR(valueIn(world, "height(rope.r@50%)"), 2.0, rounding);
+    EXPECT_EQ(placeIn(world, "height(rope.r)"), "rope.r@#4 at [0, 3, 0]");
+    EXPECT_EQ(placeIn(world, "lowest(rope.*)"), "rope.r@#0 at [0, 1, 0]");
+    EXPECT_EQ(placeIn(world, "height(rope.r@ends)"), "rope.r@ends, point 2 of 2 at [0, 3, 0]");
+    EXPECT_EQ(placeIn(world, "height(rope.r@start)"), "rope.r@start at [0, 1, 0]");
+}
+
+// A push of (2, 0, 0) N s on 1 kg and of (0, 3, 0) N s on 3 kg.
+TEST(CheckFunctions, MotionFollowsFromImpulses) {
+    world::World world(sceneOf("[world]\ngravity = [0, 0, 0]\n" + balls +
+                               "[[at]]\nt = 0\ndo = \"push\"\ntarget = \"net.balls@a\"\nimpulse_Ns = [2, 0, 0]\n"
+                               "[[at]]\nt = 0\ndo = \"push\"\ntarget = \"net.balls@b\"\nimpulse_Ns = [0, 3, 0]\n"));
+    play(world, 1);
+    EXPECT_NEAR(valueIn(world, "speed(net.balls)"), 2.0, rounding);
+    EXPECT_NEAR(valueIn(world, "velocity(net.balls@b).y"), 1.0, rounding);
+    EXPECT_EQ(placeIn(world, "speed(net.balls)").substr(0, 12), "net.balls@#0");
+    EXPECT_NEAR(valueIn(world, "momentum.x"), 2.0, rounding);
+    EXPECT_NEAR(valueIn(world, "momentum(net.balls).y"), 3.0, rounding);
+    EXPECT_NEAR(valueIn(world, "length(momentum)"), std::sqrt(13.0), rounding);
+    // L = Σ x × p about the origin: (1, 2, 3) × (2, 0, 0) = (0, 6, -4) and (5, 2, 3) × (0, 3, 0) = (-9, 0, 15).
+    EXPECT_NEAR(valueIn(world, "angular_momentum(net.balls).x"), -9.0, rounding);
+    EXPECT_NEAR(valueIn(world, "angular_momentum(net.balls).y"), 6.0, rounding);
+    EXPECT_NEAR(valueIn(world, "angular_momentum(net.balls).z"), 11.0, rounding);
+    EXPECT_NEAR(valueIn(world, "kinetic_energy"), 0.5 * 1 * 4 + 0.5 * 3 * 1, rounding);
+    EXPECT_NEAR(valueIn(world, "time"), 1.0 / 60, rounding);
+}
+
+// A spring of 100 N/m drawn from 2 to 3 m, 1 kg at 5 m and 4 kg at 2 m.
+TEST(CheckFunctions, EnergiesAndStrainsAreThoseOfASpring) {
+    const world::World world(
+        sceneOf("[net.n]\npoints = [{ name = \"a\", position = [0, 5, 0], mass_kg = 1 },"
+                "{ name = \"b\", position = [0, 2, 0], mass_kg = 4 }]\n"
+                "springs = [{ a = \"a\", b = \"b\", stiffness_N_per_m = 100, rest_length_m = 2 }]\n"
+                "[rope.slack]\nends = [[0, 0, 0], [1, 0, 0]]\n"));
+    EXPECT_NEAR(valueIn(world, "max_strain(net.n)"), 0.5, rounding);
+    EXPECT_NEAR(valueIn(world, "max_strain(rope.slack)"), 0.0, rounding);
+    EXPECT_EQ(placeIn(world, "max_strain"), "net.n");
+    EXPECT_NEAR(valueIn(world, "elastic_energy(net.n)"), 50.0, rounding);
+    EXPECT_NEAR(valueIn(world, "potential_energy(net.*)"), 9.81 * (5 + 8), 1e-11);  // numbers near 100
+    EXPECT_NEAR(valueIn(world, "energy(net.n)"), 50.0 + 9.81 * 13, 1e-11);
+}
+
+// A block whose upper face is led down by a half.
+TEST(CheckFunctions, VolumesAreSharesOfThoseAtRest) {
+    const std::string block =
+        "[world]\ngravity = [0, 0, 0]\n[block.b]\nsize = [1, 1, 1]\ncells = [2, 1, 1]\nposition = [0, 0.5, 0]\n"
+        "hold = [\"bottom\"]\n";
+    world::World world(sceneOf(block +
+                               "[[at]]\nt = 0\ndo = \"grab\"\nid = \"h\"\nrigid = true\ntarget = \"block.b@top\"\n"
+                               "[[at]]\nt = 0\ndo = \"move\"\nid = \"h\"\nto = [0, 0.5, 0]\n"));
+    EXPECT_NEAR(valueIn(world, "volume(block.b)"), 1.0, rounding);
+    EXPECT_NEAR(valueIn(world, "cell_volume(block.b)"), 1.0, rounding);
+    EXPECT_EQ(valueIn(world, "inverted(block.*)"), 0.0);
+    play(world, 1);
+    EXPECT_NEAR(valueIn(world, "volume(block.b)"), 0.5, rounding);
+    EXPECT_NEAR(valueIn(world, "cell_volume"), 0.5, rounding);
+}
+
+TEST(CheckFunctions, CellsTurnedInsideOutAreCounted) {
+    world::World world(sceneOf(
+        "[world]\ngravity = [0, 0, 0]\n[block.b]\nsize = [1, 1, 1]\ncells = [1, 1, 1]\nposition = [0, 0.5, 0]\n"
+        "hold = [\"bottom\"]\n[[at]]\nt = 0\ndo = \"grab\"\nid = \"h\"\nrigid = true\ntarget = \"block.b@top\"\n"
+        "[[at]]\nt = 0\ndo = \"move\"\nid = \"h\"\nto = [0, -1, 0]\n"));
+    play(world, 1);
+    EXPECT_EQ(valueIn(world, "inverted(block.b)"), 6.0);  // every one of the six tetrahedra of a cell
+    EXPECT_EQ(placeIn(world, "inverted"), "block.b");
+}
+
+// A rope of ten segments, cut at two places.
+TEST(CheckFunctions, TornSpringsAreCounted) {
+    world::World world(
+        sceneOf("[world]\ngravity = [0, 0, 0]\n[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\nsegments = 10\n"
+                "[[at]]\nt = 0\ndo = \"cut\"\ntarget = \"rope.r\"\nplane = [[0.25, 0, 0], [1, 0, 0]]\n"
+                "[[at]]\nt = 0.1\ndo = \"cut\"\ntarget = \"rope.r\"\nplane = [[0.75, 0, 0], [1, 0, 0]]\n"));
+    EXPECT_EQ(valueIn(world, "torn(rope.r)"), 0.0);
+    play(world, 1);
+    EXPECT_EQ(valueIn(world, "torn(rope.r)"), 1.0);
+    play(world, 6);
+    EXPECT_EQ(valueIn(world, "torn"), 2.0);
+}
+
+// Points at rest on the ground: as many contacts as points, none of them deep.
+TEST(CheckFunctions, ContactsAndTheirDepthAreThoseOfABodyOnTheGround) {
+    world::World world(
+        sceneOf("[material.m]\n[cloth.c]\nmaterial = \"m\"\nsize = [1, 1]\ncells = [2, 2]\norigin = [0, 0.005, 0]\n"
+                "down = [0, 0, 1]\nthickness = 0.005\n[collider.ground]\nshape = \"plane\"\n"));
+    play(world, 30);
+    EXPECT_EQ(valueIn(world, "contacts(cloth.c)"), 9.0);
+    EXPECT_LE(valueIn(world, "penetration(cloth.c)"), 1e-6);  // of a state in metres to rounding of the contact
+}
+
+TEST(CheckFunctions, DepthInsideAColliderIsMeasured) {
+    const world::World world(
+        sceneOf("[net.n]\npoints = [{ name = \"p\", position = [0, -0.25, 0] }]\nthickness = 0\n"
+                "[collider.ground]\nshape = \"plane\"\n"));
+    EXPECT_NEAR(valueIn(world, "penetration(net.n)"), 0.25, rounding);
+}
+
+TEST(CheckFunctions, NumbersAreComputedLikeNumbers) {
+    const world::World world(sceneOf(balls));
+    EXPECT_NEAR(valueIn(world, "2 + 3 * 4 - 6 / 4 + time"), 12.5, rounding);
+    EXPECT_NEAR(valueIn(world, "-(2 + 3) * -(4 - 1) + time"), 15.0, rounding);
+    EXPECT_NEAR(valueIn(world, "abs(1 - 4) + abs(2) + time"), 5.0, rounding);
+    EXPECT_NEAR(valueIn(world, "length([2, 3, 6] / 7 * 2) + time"), 2.0, rounding);
+    EXPECT_NEAR(valueIn(world, "8 / 4 / 2 + time"), 1.0, rounding);
+    EXPECT_NEAR(valueIn(world, "(position(net.balls@a) + 2 * [1, 1, 1]).z"), 5.0, rounding);
+    EXPECT_TRUE(std::isnan(valueIn(world, "(time - time) / 0")));
+}
+
+TEST(CheckFunctions, EveryOneStandsInTheManualWithAHelp) {
+    const std::string manual = functionsManual();
+    for (const Function& function : functionTable()) {
+        EXPECT_NE(manual.find("  " + function.signature() + " "), std::string::npos) << function.name;
+        EXPECT_NE(manual.find(function.help), std::string::npos) << function.name;
+        EXPECT_TRUE(function.help.ends_with('.')) << function.name;
+        EXPECT_EQ(std::count_if(functionTable().begin(), functionTable().end(),
+                                [&](const Function& f) { return f.name == function.name; }),
+                  1)
+            << function.name;
+    }
+}
+
+}  // namespace
+}  // namespace taut::check

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "view/tube.h"
+#include "world/skin_pieces.h"
 
 namespace taut::world {
 namespace {
@@ -12,33 +13,70 @@ namespace {
 constexpr int tubeSides = 10;
 constexpr int tubeSubdivisions = 2;
 
-float linear(double c) { return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4)); }
+float linear(double c) {
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
 
+// A rope, or the pieces of one that has been cut. Each piece goes on straight beyond its last point up to the cut.
 class RopeDrawing final : public BodyDrawing {
   public:
     explicit RopeDrawing(const Body& body)
         : name_(body.fullName()), radius_(static_cast<float>(body.radius)), finish_(finishOf(body.common.finish)) {
+        const mechanics::Model& model = body.model;
         double length = 0;
-        for (const mechanics::Spring& s : body.model.springs)
+        for (const mechanics::Spring& s : model.springs)
             if (s.kind == mechanics::SpringKind::structural) length += s.restLength;
-        topology_ = std::make_shared<view::Topology>(view::tubeTopology(
-            body.model.pointCount(), tubeSubdivisions, tubeSides, static_cast<float>(length), radius_));
+        const int last = model.pointCount() - 1;
+        const auto perSegment = static_cast<float>(length / last);
+        Piece piece;
+        for (int i = 0; i <= last; ++i) {
+            const bool isSevered = i < last && body.damage.isSevered(i, i + 1);
+            if (i < last && !isSevered) continue;
+            piece.last = i;
+            piece.after = isSevered ? static_cast<float>(body.damage.share(i, i + 1)) : 0.0F;
+            addPiece(piece, perSegment);
+            piece = {};
+            piece.first = i + 1;
+            piece.before = isSevered ? static_cast<float>(body.damage.share(i + 1, i)) : 0.0F;
+        }
     }
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
-        view::Surface surface;
-        surface.name = name_;
-        surface.topology = topology_;
-        surface.geometry = std::make_shared<view::Geometry>(
-            view::tubeGeometry(positions, tubeSubdivisions, tubeSides, radius_));
-        surface.finish = finish_;
-        surfaces.push_back(std::move(surface));
+        for (const Piece& piece : pieces_) {
+            std::vector<glm::vec3> line;
+            const auto at = [&](int i) { return positions[static_cast<std::size_t>(i)]; };
+            if (piece.before > 0)
+                line.push_back(at(piece.first) + piece.before * (at(piece.first) - at(piece.first + 1)));
+            for (int i = piece.first; i <= piece.last; ++i) line.push_back(at(i));
+            if (piece.after > 0) line.push_back(at(piece.last) + piece.after * (at(piece.last) - at(piece.last - 1)));
+            view::Surface surface;
+            surface.name = name_;
+            surface.topology = piece.topology;
+            surface.geometry =
+                std::make_shared<view::Geometry>(view::tubeGeometry(line, tubeSubdivisions, tubeSides, radius_));
+            surface.finish = finish_;
+            surfaces.push_back(std::move(surface));
+        }
     }
 
   private:
+    struct Piece {
+        int first = 0, last = 0;      // points
+        float before = 0, after = 0;  // segments more at its ends
+        std::shared_ptr<const view::Topology> topology;
+    };
+    void addPiece(Piece piece, float perSegment) {
+        if (piece.last == piece.first) return;  // a point without a segment: it has no direction
+        const int points = piece.last - piece.first + 1 + (piece.before > 0 ? 1 : 0) + (piece.after > 0 ? 1 : 0);
+        const float segments = static_cast<float>(piece.last - piece.first) + piece.before + piece.after;
+        piece.topology = std::make_shared<view::Topology>(
+            view::tubeTopology(points, tubeSubdivisions, tubeSides, perSegment * segments, radius_));
+        pieces_.push_back(std::move(piece));
+    }
+
     std::string name_;
     float radius_;
     std::shared_ptr<const view::Finish> finish_;
-    std::shared_ptr<const view::Topology> topology_;
+    std::vector<Piece> pieces_;
 };
 
 // The block's own axes, so that a pattern lies along its edges however it starts.
@@ -53,15 +91,31 @@ struct BlockAxes {
         static constexpr const char* ends[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
         for (int a = 0; a < 3; ++a) axes[a] = glm::normalize(centre(ends[a][1]) - centre(ends[a][0]));
     }
-    // The two coordinates along a side, from the positions before anything moves [m].
-    glm::vec2 across(const mechanics::Model& model, int point, int side) const {
-        const glm::dvec3 x = transpose(axes) * model.positions[static_cast<std::size_t>(point)];
+    // The two coordinates along a side of a place where it is before anything moves [m].
+    glm::vec2 across(const glm::dvec3& rest, int side) const {
+        const glm::dvec3 x = transpose(axes) * rest;
         if (side < 2) return {x.z, x.y};
         if (side < 4) return {x.x, x.z};
         return {x.x, x.y};
     }
+    // The side that a face with this normal is most like.
+    int sideLike(const glm::dvec3& normal) const {
+        const glm::dvec3 n = glm::abs(transpose(axes) * normal);
+        return n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 2 : 4;
+    }
     glm::dmat3 axes{1.0};  // columns
 };
+
+Skin wholeSkin(const mechanics::Model& model) {
+    Skin skin;
+    for (int i = 0; i < model.pointCount(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        skin.vertices.push_back({{{i, 1.0F}}, model.positions[k], model.uv[k]});
+    }
+    for (std::size_t t = 0; t < model.triangles.size(); ++t)
+        skin.triangles.push_back({model.triangles[t], static_cast<int>(t)});
+    return skin;
+}
 
 // Cloth, and the skin of a block. A block's faces get vertices of their own, so that its edges stay edges.
 class SkinDrawing final : public BodyDrawing {
@@ -69,16 +123,24 @@ class SkinDrawing final : public BodyDrawing {
     explicit SkinDrawing(const Body& body)
         : name_(body.fullName()), twoSided_(body.kind == Body::Kind::cloth), finish_(finishOf(body.common.finish)) {
         auto topology = std::make_shared<view::Topology>();
-        const BlockAxes axes = twoSided_ ? BlockAxes{} : BlockAxes(body.model);
-        std::map<std::pair<int, int>, std::uint32_t> vertexOf;  // (point, side of the block)
-        for (const std::array<int, 3>& triangle : body.model.triangles) {
-            const int side = twoSided_ ? 0 : sideOf(body.model, triangle);
-            for (int point : triangle) {
-                const auto [entry, isNew] =
-                    vertexOf.try_emplace({point, side}, static_cast<std::uint32_t>(points_.size()));
+        const mechanics::Model& model = body.model;
+        const Skin skin = body.damage.isEmpty() ? wholeSkin(model) : skinOf(body);
+        const BlockAxes axes = twoSided_ ? BlockAxes{} : BlockAxes(model);
+        std::map<std::pair<int, int>, std::uint32_t> vertexOf;  // (vertex of the skin, side of the block)
+        for (const SkinTriangle& triangle : skin.triangles) {
+            // The faces of cuts are sides of their own.
+            const bool isCut = triangle.source < 0;
+            const int side = twoSided_ ? 0
+                             : isCut   ? sidesOfBlock + axes.sideLike(normalOf(skin, triangle))
+                                       : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
+            for (int v : triangle.vertices) {
+                const SkinVertex& vertex = skin.vertices[static_cast<std::size_t>(v)];
+                const auto [entry, isNew] = vertexOf.try_emplace({v, side}, static_cast<std::uint32_t>(points_.size()));
                 if (isNew) {
-                    points_.push_back(point);
-                    topology->uv.push_back(twoSided_ ? along(body.model, point) : axes.across(body.model, point, side));
+                    if (vertex.terms.size() > 1) beyond_.push_back({points_.size(), vertex});
+                    points_.push_back(vertex.terms.front().point);
+                    topology->uv.push_back(twoSided_ ? along(model, vertex.uv)
+                                                     : axes.across(vertex.rest, side % sidesOfBlock));
                 }
                 topology->triangles.push_back(entry->second);
             }
@@ -89,6 +151,7 @@ class SkinDrawing final : public BodyDrawing {
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
         auto geometry = std::make_shared<view::Geometry>();
         for (int point : points_) geometry->positions.push_back(positions[static_cast<std::size_t>(point)]);
+        for (const auto& [vertex, terms] : beyond_) geometry->positions[vertex] = terms.at(positions);
         geometry->normals.resize(points_.size());
         view::smoothNormals(geometry->positions, topology_->triangles, geometry->normals);
         view::Surface surface;
@@ -101,10 +164,18 @@ class SkinDrawing final : public BodyDrawing {
     }
 
   private:
+    static constexpr int sidesOfBlock = 6;
+
+    static glm::dvec3 normalOf(const Skin& skin, const SkinTriangle& triangle) {
+        const auto at = [&](std::size_t i) {
+            return skin.vertices[static_cast<std::size_t>(triangle.vertices[i])].rest;
+        };
+        return glm::cross(at(1) - at(0), at(2) - at(0));
+    }
     // Which of the six sides of a block a triangle lies on, by the groups of its corners.
     static int sideOf(const mechanics::Model& model, const std::array<int, 3>& triangle) {
         static constexpr const char* sides[] = {"left", "right", "bottom", "top", "back", "front"};
-        for (int side = 0; side < 6; ++side) {
+        for (int side = 0; side < sidesOfBlock; ++side) {
             const std::vector<int>& group = model.groups.at(sides[side]);
             if (std::all_of(triangle.begin(), triangle.end(),
                             [&](int p) { return std::binary_search(group.begin(), group.end(), p); }))
@@ -113,15 +184,16 @@ class SkinDrawing final : public BodyDrawing {
         return 0;
     }
     // Pictures are laid with v upwards; a grid counts it downwards from its top.
-    static glm::vec2 along(const mechanics::Model& model, int point) {
-        const glm::vec2 uv(model.uv[static_cast<std::size_t>(point)]);
+    static glm::vec2 along(const mechanics::Model& model, const glm::dvec2& material) {
+        const glm::vec2 uv(material);
         return model.grid[0] > 0 ? glm::vec2(uv.x, -uv.y) : uv;
     }
 
     std::string name_;
     bool twoSided_;
     std::shared_ptr<const view::Finish> finish_;
-    std::vector<int> points_;  // (vertices) point of the model
+    std::vector<int> points_;                                 // (vertices) point of the model
+    std::vector<std::pair<std::size_t, SkinVertex>> beyond_;  // vertices at a cut, beyond any point
     std::shared_ptr<const view::Topology> topology_;
 };
 
@@ -131,6 +203,7 @@ class NetDrawing final : public BodyDrawing {
     explicit NetDrawing(const Body& body)
         : name_(body.fullName()), radius_(static_cast<float>(body.radius)), finish_(finishOf(body.common.finish)) {
         for (const mechanics::Spring& s : body.model.springs) {
+            if (body.damage.isSevered(s.a, s.b)) continue;
             rods_.push_back({s.a, s.b});
             rodTopology_.push_back(std::make_shared<view::Topology>(
                 view::tubeTopology(2, 1, tubeSides, static_cast<float>(std::max(s.restLength, 1e-3)), radius_)));
@@ -178,7 +251,9 @@ class NetDrawing final : public BodyDrawing {
 
 }  // namespace
 
-glm::vec3 linearColour(const dvec3& srgb) { return {linear(srgb.x), linear(srgb.y), linear(srgb.z)}; }
+glm::vec3 linearColour(const dvec3& srgb) {
+    return {linear(srgb.x), linear(srgb.y), linear(srgb.z)};
+}
 
 std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
     static constexpr std::pair<const char*, view::Pattern> patterns[] = {{"plain", view::Pattern::plain},
@@ -203,10 +278,13 @@ std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
 
 std::unique_ptr<BodyDrawing> makeDrawing(const Body& body) {
     switch (body.kind) {
-        case Body::Kind::rope: return std::make_unique<RopeDrawing>(body);
-        case Body::Kind::net: return std::make_unique<NetDrawing>(body);
+        case Body::Kind::rope:
+            return std::make_unique<RopeDrawing>(body);
+        case Body::Kind::net:
+            return std::make_unique<NetDrawing>(body);
         case Body::Kind::cloth:
-        case Body::Kind::block: break;
+        case Body::Kind::block:
+            break;
     }
     return std::make_unique<SkinDrawing>(body);
 }

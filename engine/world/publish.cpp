@@ -21,11 +21,13 @@ glm::vec3 strainColour(double strain) {
 
 void addMarks(const Island& island, view::Marks& marks) {
     const IslandPlan& plan = island.plan();
-    for (const mechanics::Spring& s : plan.springs) {
-        if (s.kind == mechanics::SpringKind::bend) continue;  // they lie on top of the structural ones
+    for (std::size_t i = 0; i < plan.springs.size(); ++i) {
+        const mechanics::Spring& s = plan.springs[i];
+        if (s.kind == mechanics::SpringKind::bend || plan.broken[i]) continue;  // bend: on top of the structural ones
         const dvec3 a = island.position(s.a), b = island.position(s.b);
         const double l = std::sqrt(glm::dot(b - a, b - a));
-        marks.lines.push_back({glm::vec3(a), glm::vec3(b), strainColour(s.restLength > 0 ? l / s.restLength - 1.0 : 0.0)});
+        marks.lines.push_back(
+            {glm::vec3(a), glm::vec3(b), strainColour(s.restLength > 0 ? l / s.restLength - 1.0 : 0.0)});
     }
     for (std::size_t i = 0; i < plan.points.size(); ++i) {
         const glm::vec3 at(island.position(static_cast<int>(i)));
@@ -67,7 +69,7 @@ view::FrameView World::view(bool debug) const {
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
         if (part.spec.visible && part.model->isGround && !view.ground) {
             view.ground = view::Ground{};
-            view.ground->height = static_cast<float>(part.spec.position.y);
+            view.ground->height = static_cast<float>(placement.to.position.y);
             view.ground->colour = linearColour(part.spec.finish.colour);
         }
         for (const ColliderModel::Piece& piece : part.model->pieces)

@@ -2,6 +2,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_actions_test.cpp
   world_bodies_test.cpp
   world_components_test.cpp
+  world_cutting_test.cpp
   world_divergence_test.cpp
   world_envelope_test.cpp
   world_freeze_test.cpp

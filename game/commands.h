@@ -18,8 +18,11 @@ void addCheck(CLI::App& app, Action& chosen);
 void addDoctor(CLI::App& app, Action& chosen);
 void addInfo(CLI::App& app, Action& chosen);
 void addPlan(CLI::App& app, Action& chosen);
+void addRecord(CLI::App& app, Action& chosen);
 void addRender(CLI::App& app, Action& chosen);
+void addReplay(CLI::App& app, Action& chosen);
 void addSchema(CLI::App& app, Action& chosen);
 void addSheet(CLI::App& app, Action& chosen);
+void addTest(CLI::App& app, Action& chosen);
 
 }  // namespace taut::game

@@ -20,7 +20,8 @@
 namespace taut::game {
 namespace {
 
-constexpr std::array commands{addRender, addCheck, addInfo, addChart, addAtlas, addPlan, addSheet, addSchema, addDoctor};
+constexpr std::array commands{addRender, addCheck,  addInfo,   addChart, addAtlas,  addPlan,
+                              addTest,   addRecord, addReplay, addSheet, addSchema, addDoctor};
 
 int codeOf(core::ExitCode code) {
     return static_cast<int>(code);
@@ -105,8 +106,8 @@ int runProgram(int argc, const char* const* argv) {
     app.set_help_flag("-h,--help", "Print this help");
     app.require_subcommand(0, 1);
     app.footer(
-        "Exit codes: 0 ok, 2 usage, 3 bad content, 4 diverged, 5 need not met, 6 input or output,\n"
-        "7 nothing to draw with, 130 and 143 interrupted.");
+        "Exit codes: 0 ok, 1 a check or golden failed, 2 usage, 3 bad content, 4 diverged, 5 need not met,\n"
+        "6 input or output, 7 nothing to draw with, 8 golden missing, 130 and 143 interrupted.");
     Action chosen;
     for (const auto add : commands) add(app, chosen);
 

@@ -19,7 +19,7 @@ class Player {
           drawer_(drawer),
           options_(options),
           world_(scenario.spec, {.threads = options.threads}),
-          checks_(scenario.spec, world_) {
+          checks_(scenario.spec) {
         played_.tape = blankTape();
     }
 
@@ -38,7 +38,8 @@ class Player {
     }
 
     Played result() {
-        played_.checks = checks_.results();
+        const bool ended = world_.tick() >= lastFrame() * world_.ticksPerFrame();
+        played_.checks = reported(checks_.results(), !ended);
         played_.warnings = world_.warnings();
         return std::move(played_);
     }
@@ -61,17 +62,18 @@ class Player {
     }
 
     void picture(const GoldenRequest& request) {
-        PlayedPicture picture{request, world_.time(), world_.stateHash(), {}, {}, ""};
+        PlayedPicture picture{request, world_.time(), world_.stateHash(), {}, {}, {}, ""};
         if (request.restart && options_.savesStates) picture.savedState = world_.save();
         try {
             const auto stored = request.restart && options_.storedState ? options_.storedState(request) : std::nullopt;
             if (stored) {
                 world::World world(scenario_.spec, {.threads = options_.threads});
                 world.restore(*stored);
-                picture.picture = drawn(world, request);
+                picture.view = viewOf(world, request);
             } else {
-                picture.picture = drawn(world_, request);
+                picture.view = viewOf(world_, request);
             }
+            picture.picture = drawer_.draw(picture.view, scenario_.spec.picture, request.size);
             played_.renderer = drawer_.renderer();
         } catch (const core::Error& error) {
             if (error.code() == core::ExitCode::noRenderer) throw;
@@ -80,21 +82,20 @@ class Player {
         played_.pictures.push_back(std::move(picture));
     }
 
-    image::Image drawn(world::World& world, const GoldenRequest& request) {
+    static view::FrameView viewOf(world::World& world, const GoldenRequest& request) {
         view::FrameView view = world.view(request.debug);
         if (!request.camera.empty())
             world.registry().each<world::CameraPart>([&](ecs::Entity, const world::CameraPart& part) {
                 if (part.spec.name == request.camera) view.camera = world::cameraAt(part.spec, world.time());
             });
-        if (options_.changeView) options_.changeView(view);
-        return drawer_.draw(view, scenario_.spec.picture, request.size);
+        return view;
     }
 
     const Scenario& scenario_;
     Drawer& drawer_;
     const PlayOptions& options_;
     world::World world_;
-    ScenarioChecks checks_;
+    check::Watcher checks_;
     Played played_;
 };
 

@@ -23,6 +23,7 @@ struct PlayedPicture {
     GoldenRequest request;
     double time = 0;                    // [s]
     std::uint64_t stateHash = 0;        // of the chain at this frame
+    view::FrameView view;               // what was drawn
     image::Image picture;               // empty: not drawn, see fault
     std::vector<std::byte> savedState;  // of a restart picture, when asked for: World::save() at this frame
     std::string fault;                  // why it could not be drawn
@@ -46,7 +47,6 @@ struct PlayOptions {
     std::optional<std::int64_t> lastFrame{};  // at most
     // The state that a restart picture is drawn from; none: not stored, so it is drawn from the one just computed.
     std::function<std::optional<std::vector<std::byte>>(const GoldenRequest&)> storedState{};
-    std::function<void(view::FrameView&)> changeView{};  // before it is drawn
 };
 
 // Throws core::Error(badContent) for a scene that cannot be built, noRenderer, and what drawing throws.

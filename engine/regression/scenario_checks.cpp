@@ -2,28 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace taut::regression {
+namespace {
 
-struct ScenarioChecks::Impl {
-    const world::SceneSpec& spec;
-};
-
-ScenarioChecks::ScenarioChecks(const world::SceneSpec& spec, const world::World&)
-    : impl_(std::make_unique<Impl>(Impl{spec})) {}
-ScenarioChecks::~ScenarioChecks() = default;
-
-void ScenarioChecks::look(const world::World&) {}
-
-std::vector<report::TestCheck> ScenarioChecks::results() const {
-    std::vector<report::TestCheck> results;
-    for (const world::CheckSpec& check : impl_->spec.checks) {
-        report::TestCheck result;
-        result.verdict = report::Verdict::skipped;
-        result.that = check.that;
-        result.source = fmt::format("{}:{}", check.source.file, check.source.line);
-        results.push_back(std::move(result));
+report::TestCheck reported(const check::Result& result, bool broken) {
+    report::TestCheck check;
+    check.that = result.that;
+    check.span = result.span;
+    check.source =
+        fmt::format("{}:{}", std::filesystem::path(result.source.file).filename().string(), result.source.line);
+    const std::optional<check::Sighting>& shown = result.first ? result.first : result.worst;
+    if (shown) {
+        check.value = check::quantityText(shown->outcome.value, shown->outcome.unit);
+        check.bound = check::quantityText(shown->outcome.bound, shown->outcome.unit);
+        check.when = check::momentText(*shown);
+        check.where = shown->where;
     }
-    return results;
+    if (result.passed) return check;
+    // What did not fail and was not seen to its end says nothing.
+    check.verdict = broken && !result.first ? report::Verdict::skipped : report::Verdict::failed;
+    if (check.verdict == report::Verdict::failed) check.reason = result.reason;
+    return check;
+}
+
+}  // namespace
+
+std::vector<report::TestCheck> reported(const std::vector<check::Result>& results, bool broken) {
+    std::vector<report::TestCheck> checks;
+    for (const check::Result& result : results) checks.push_back(reported(result, broken));
+    return checks;
 }
 
 }  // namespace taut::regression

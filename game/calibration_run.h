@@ -1,0 +1,24 @@
+// The calibration of golden pictures as a command runs it: with processes of their own for other numbers of threads. It
+// knows neither goldens nor reports.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "regression/calibration.h"
+
+namespace taut::game {
+
+struct CalibrationRequest {
+    const std::vector<regression::Scenario>& scenarios;
+    regression::DrawingOptions drawing;
+    image::Tolerance tolerance;
+    std::string gl;  // as in the flag --gl; empty: the first that works
+    bool quiet = false;
+};
+
+// Throws core::Error(inputOutput) when a process of its own fails.
+std::vector<report::CalibrationRow> runCalibration(const CalibrationRequest& request, const std::atomic<bool>& stop);
+
+}  // namespace taut::game

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "game/commands.h"
+#include "game/folders.h"
+#include "game/interruption.h"
+#include "game/lab.h"
+#include "game/messages.h"
+#include "game/scene_file.h"
+#include "image/whole_file.h"
+#include "pipeline/run.h"
+#include "regression/tape.h"
+#include "scene/load.h"
+
+namespace taut::game {
+namespace {
+
+struct RecordFlags {
+    std::string scene, output;
+    std::vector<std::string> overrides;
+    double seconds = 0.0;
+    int threads = 0;
+    bool yes = false, noPoints = false, quiet = false;
+};
+
+// The tape keeps the text that it plays, so that it can be played again when the file has changed.
+world::SceneSpec readRecorded(const std::filesystem::path& file, const RecordFlags& flags, regression::Tape& tape) {
+    std::error_code ignored;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(file, ignored);
+    tape.origin.scene = whole.string();
+    tape.origin.text = image::fileContent(file);
+    tape.origin.overrides = flags.overrides;
+    if (flags.seconds > 0.0) tape.origin.overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
+    scene::LoadOptions options;
+    options.overrides = tape.origin.overrides;
+    if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
+    scene::Loaded loaded = scene::loadSceneText(tape.origin.text, tape.origin.scene, options);
+    printWarnings(loaded.warnings);
+    return std::move(loaded.spec);
+}
+
+int record(const RecordFlags& flags) {
+    const std::filesystem::path output = flags.output;
+    std::error_code ignored;
+    if (!flags.yes && std::filesystem::exists(output, ignored))
+        throw core::Error(core::ExitCode::inputOutput,
+                          fmt::format("{} exists already; -y overwrites it", output.string()));
+    regression::Tape tape = regression::blankTape();
+    const world::SceneSpec spec = readRecorded(sceneFile(flags.scene), flags, tape);
+    image::prepareFolderOf(output);
+
+    const Interruption interruption;
+    const core::ThreadLimit limit(flags.threads);
+    world::World world(spec, {.threads = flags.threads});
+    const std::int64_t last = (pipeline::frameCount(spec.run) - 1) * world.ticksPerFrame();
+    LabProgress progress("record", flags.quiet, interruption.flag());
+    std::optional<world::Divergence> divergence;
+    regression::addTick(tape, world, !flags.noPoints);
+    while (world.tick() < last && !interruption.flag() && !divergence) {
+        divergence = world.advance();
+        if (divergence) break;
+        regression::addTick(tape, world, !flags.noPoints);
+        progress.show(static_cast<double>(world.tick()) / static_cast<double>(last),
+                      fmt::format("{:.2f} s", world.time()));
+    }
+    regression::writeTape(output, tape);
+    fmt::print("{}: {} ticks, {:.4g} s, last hash {:016x}\n", output.string(), tape.ticks(),
+               static_cast<double>(tape.ticks()) * tape.tickSeconds, tape.chain.back());
+    if (divergence) throw core::Error(core::ExitCode::diverged, divergence->message);
+    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+}
+
+}  // namespace
+
+void addRecord(CLI::App& app, Action& chosen) {
+    const auto flags = std::make_shared<RecordFlags>();
+    CLI::App* command = app.add_subcommand("record", "Keep the state of every tick as hashes, for taut replay");
+    command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene")->required();
+    command->add_option("-o,--output", flags->output, "The tape to write, e.g. run.tape")->required();
+    command->add_flag("-y,--yes", flags->yes, "Overwrite what exists");
+    command->add_flag("--no-points", flags->noPoints, "Hashes of bodies only: a small tape that names no point");
+    command->add_option("--seconds", flags->seconds, "Length of scene time")
+        ->check(numberWithin(leastSeconds, mostSeconds));
+    command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command->add_flag("--quiet", flags->quiet, "No progress");
+    command->callback([&chosen, flags] { chosen = [flags] { return record(*flags); }; });
+}
+
+}  // namespace taut::game

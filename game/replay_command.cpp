@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "game/commands.h"
+#include "game/folders.h"
+#include "game/interruption.h"
+#include "game/lab.h"
+#include "game/messages.h"
+#include "game/scene_file.h"
+#include "image/whole_file.h"
+#include "regression/tape.h"
+#include "regression/tape_compare.h"
+#include "scene/load.h"
+
+namespace taut::game {
+namespace {
+
+struct ReplayFlags {
+    std::string tape, other, scene;
+    int threads = 0;
+    bool verify = false, quiet = false;
+};
+
+bool hasPoints(const regression::Tape& tape) {
+    return !tape.points.empty();
+}
+
+void printFacts(const std::string& name, const regression::Tape& tape) {
+    const regression::TapeOrigin& origin = tape.origin;
+    fmt::print("{}\n  {} ticks of {:.6g} s, {} a picture, hashes of {} bodies{}\n", name, tape.ticks(),
+               tape.tickSeconds, tape.ticksPerFrame, tape.casts.front().names.size(),
+               hasPoints(tape) ? " and of their points" : "");
+    if (!origin.scene.empty()) fmt::print("  scene {}\n", origin.scene);
+    for (const std::string& override_ : origin.overrides) fmt::print("  --set {}\n", override_);
+    fmt::print("  by {}, {}, {}\n  last hash {:016x}\n", origin.program, origin.compiler, origin.simd,
+               tape.chain.back());
+}
+
+// What a tape was made from, or the scene that is to be held against it.
+world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape) {
+    scene::LoadOptions options;
+    options.overrides = tape.origin.overrides;
+    if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
+    if (!flags.scene.empty()) {
+        scene::Loaded loaded = scene::loadScene(sceneFile(flags.scene), options);
+        printWarnings(loaded.warnings);
+        return std::move(loaded.spec);
+    }
+    if (tape.origin.text.empty())
+        throw core::Error(
+            core::ExitCode::usage,
+            fmt::format("{}: this tape holds no scene (it is the golden of a scenario): say which to play "
+                        "with --scene",
+                        flags.tape));
+    std::error_code error;
+    if (!std::filesystem::exists(tape.origin.scene, error) || image::fileContent(tape.origin.scene) != tape.origin.text)
+        printWarnings({fmt::format("note: {} is not what it was; the text on the tape is played", tape.origin.scene)});
+    return scene::loadSceneText(tape.origin.text, tape.origin.scene, options).spec;
+}
+
+// Plays until the tape ends or the chain differs.
+regression::Tape played(const ReplayFlags& flags, const regression::Tape& tape, const Interruption& interruption) {
+    const core::ThreadLimit limit(flags.threads);
+    world::World world(sceneOf(flags, tape), {.threads = flags.threads});
+    regression::Tape now = regression::blankTape();
+    LabProgress progress("replay", flags.quiet, interruption.flag());
+    regression::addTick(now, world, hasPoints(tape));
+    const auto differs = [&] {
+        const auto at = static_cast<std::size_t>(world.tick());
+        return at >= tape.chain.size() || now.chain[at] != tape.chain[at];
+    };
+    while (world.tick() < tape.ticks() && !interruption.flag() && !differs()) {
+        if (const auto divergence = world.advance())
+            throw core::Error(core::ExitCode::diverged, fmt::format("at tick {} of the tape's {}\n{}", world.tick(),
+                                                                    tape.ticks(), divergence->message));
+        regression::addTick(now, world, hasPoints(tape));
+        progress.show(static_cast<double>(world.tick()) / static_cast<double>(tape.ticks()),
+                      fmt::format("{:.2f} s", world.time()));
+    }
+    return now;
+}
+
+int verdict(const ReplayFlags& flags, const regression::Tape& tape, const regression::Tape& now) {
+    auto difference = regression::firstDifference(tape, now);
+    if (!difference) {
+        fmt::print("the same state at all {} ticks, to the last bit\n", tape.ticks());
+        return static_cast<int>(core::ExitCode::ok);
+    }
+    fmt::print("{}\n", regression::describe(*difference));
+    const auto by = [](const regression::TapeOrigin& origin) {
+        return fmt::format("{}, {}, {}", origin.program, origin.compiler, origin.simd);
+    };
+    fmt::print("  {}: by {}\n  {}: by {}\n", flags.tape, by(tape.origin),
+               flags.other.empty() ? "now" : flags.other.c_str(), by(now.origin));
+    if (difference->fault == regression::TapeFault::state && difference->point < 0)
+        fmt::print("  which point it is, two tapes with points can tell (taut record without --no-points)\n");
+    return static_cast<int>(core::ExitCode::checkFailed);
+}
+
+int replay(const ReplayFlags& flags) {
+    const regression::Tape tape = regression::readTape(flags.tape);
+    if (!flags.verify) {
+        if (!flags.scene.empty()) throw core::Error(core::ExitCode::usage, "--scene goes with --verify");
+        printFacts(flags.tape, tape);
+        return static_cast<int>(core::ExitCode::ok);
+    }
+    if (!flags.other.empty()) {
+        if (!flags.scene.empty())
+            throw core::Error(core::ExitCode::usage, "--verify with a second tape plays nothing: leave --scene out");
+        return verdict(flags, tape, regression::readTape(flags.other));
+    }
+    const Interruption interruption;
+    const regression::Tape now = played(flags, tape, interruption);
+    if (interruption.exitCode()) return static_cast<int>(*interruption.exitCode());
+    return verdict(flags, tape, now);
+}
+
+}  // namespace
+
+void addReplay(CLI::App& app, Action& chosen) {
+    const auto flags = std::make_shared<ReplayFlags>();
+    CLI::App* command = app.add_subcommand("replay", "Tell what a tape holds, or where another run differs from it");
+    command->add_option("TAPE", flags->tape, "What taut record wrote")->required();
+    command
+        ->add_option("--verify", flags->other,
+                     "Simulate again, or read the tape OTHER, and name the first tick, body and point that differ")
+        ->type_name("[OTHER]")
+        ->expected(0, 1);
+    command->add_option("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
+    command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
+        ->check(CLI::Range(1, 1024));
+    command->add_flag("--quiet", flags->quiet, "No progress");
+    CLI::Option* verify = command->get_option("--verify");
+    command->callback([&chosen, flags, verify] {
+        flags->verify = verify->count() > 0;
+        chosen = [flags] { return replay(*flags); };
+    });
+}
+
+}  // namespace taut::game

@@ -1,0 +1,318 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "game/calibration_run.h"
+#include "game/commands.h"
+#include "game/folders.h"
+#include "game/interruption.h"
+#include "game/live_line.h"
+#include "game/messages.h"
+#include "game/scene_file.h"
+#include "game/shell_word.h"
+#include "game/suggestion.h"
+#include "image/whole_file.h"
+#include "pipeline/machine.h"
+#include "pipeline/self_test.h"
+#include "regression/goldens.h"
+#include "regression/suite.h"
+#include "report/junit.h"
+#include "report/test_page.h"
+
+namespace taut::game {
+namespace {
+
+struct TestFlags {
+    std::vector<std::string> paths, filters, updates;
+    std::string output = "out/test", goldens, junit, why, gl;
+    int threads = 0;
+    bool quiet = false, calibrate = false;
+};
+
+using Clock = std::chrono::steady_clock;
+
+// '*' stands for any letters.
+bool matches(std::string_view pattern, std::string_view name) {
+    if (pattern.empty()) return name.empty();
+    if (pattern[0] != '*') return !name.empty() && pattern[0] == name[0] && matches(pattern.substr(1), name.substr(1));
+    return matches(pattern.substr(1), name) || (!name.empty() && matches(pattern, name.substr(1)));
+}
+
+// A file or folder as named, or a shipped scenario or scene of that name.
+std::filesystem::path scenarioPath(const std::string& argument) {
+    std::error_code ignored;
+    if (std::filesystem::exists(argument, ignored) || argument.find('/') != std::string::npos) return argument;
+    const std::filesystem::path shipped = assetFolder() / "scenarios" / (argument + ".toml");
+    if (std::filesystem::is_regular_file(shipped, ignored)) return shipped;
+    return sceneFile(argument);
+}
+
+regression::GoldenFolder goldenFolder(const TestFlags& flags, const std::vector<std::filesystem::path>& paths) {
+    if (!flags.goldens.empty()) return {flags.goldens};
+    std::error_code ignored;
+    const std::filesystem::path& first = paths.front();
+    return {(std::filesystem::is_directory(first, ignored) ? first : first.parent_path()) / "golden"};
+}
+
+std::vector<std::string> namesOf(const std::vector<regression::Scenario>& scenarios) {
+    std::vector<std::string> names;
+    for (const regression::Scenario& scenario : scenarios) names.push_back(scenario.name);
+    return names;
+}
+
+// Keeps what --filter or --update names; throws core::Error(usage) for a name that fits nothing.
+void choose(const TestFlags& flags, std::vector<regression::Scenario>& scenarios) {
+    const bool updates = !flags.updates.empty();
+    const std::vector<std::string>& wanted = updates ? flags.updates : flags.filters;
+    if (wanted.empty()) return;
+    const auto fits = [&](const std::string& word, const std::string& name) {
+        return updates ? word == name : matches(word, name);
+    };
+    const std::vector<std::string> names = namesOf(scenarios);
+    for (const std::string& word : wanted)
+        if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return fits(word, name); })) {
+            const std::string hint = didYouMean(word, names);
+            throw core::Error(
+                core::ExitCode::usage,
+                fmt::format("{}: there is no scenario '{}'{}", updates ? "--update" : "--filter", word,
+                            hint.empty() ? "; there are " + fmt::format("{}", fmt::join(names, ", ")) : hint));
+        }
+    std::erase_if(scenarios, [&](const regression::Scenario& scenario) {
+        return std::none_of(wanted.begin(), wanted.end(),
+                            [&](const std::string& word) { return fits(word, scenario.name); });
+    });
+}
+
+void checkFlags(const TestFlags& flags) {
+    const auto fail = [](const char* message) { throw core::Error(core::ExitCode::usage, message); };
+    const bool hasWhy = flags.why.find_first_not_of(" \t\r\n") != std::string::npos;
+    if (!flags.updates.empty() && !hasWhy)
+        fail("--update changes what counts as right: say why with --why \"…\"; the manifest keeps it");
+    if (flags.updates.empty() && !flags.why.empty()) fail("--why goes with --update NAME");
+    if (!flags.updates.empty() && !flags.filters.empty())
+        fail("--update names the scenarios itself: leave --filter out");
+    if (!flags.updates.empty() && flags.calibrate) fail("--calibrate changes no golden: leave --update out");
+}
+
+regression::DrawingOptions drawingOptions(const TestFlags& flags, int threads) {
+    // The software renderer reads from the environment how many threads it may use.
+    ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+    regression::DrawingOptions options;
+    options.shaders = shaderFolder();
+    options.font = fontFile();
+    if (!flags.gl.empty())
+        std::erase_if(options.backends, [&](render::Backend backend) { return pipeline::nameOf(backend) != flags.gl; });
+    return options;
+}
+
+struct Run {
+    std::vector<std::filesystem::path> paths;
+    std::vector<regression::Scenario> scenarios;
+    regression::SuiteOptions suite;
+    regression::Manifest manifest;
+};
+
+Run prepare(const TestFlags& flags) {
+    checkFlags(flags);
+    Run run;
+    for (const std::string& path : flags.paths) run.paths.push_back(scenarioPath(path));
+    scene::LoadOptions load;
+    if (const std::filesystem::path assets = assetFolder(); !assets.empty()) load.assetFolders.push_back(assets);
+    run.scenarios = regression::readScenarios(regression::scenarioFiles(run.paths), load);
+    choose(flags, run.scenarios);
+    run.suite.goldens = goldenFolder(flags, run.paths);
+    run.manifest = regression::readManifest(run.suite.goldens);
+
+    const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const int threads = flags.threads > 0 ? flags.threads : machine;
+    run.suite.sideBySide = std::clamp(static_cast<int>(run.scenarios.size()), 1, threads);
+    run.suite.threadsEach = std::max(1, threads / run.suite.sideBySide);
+    run.suite.drawing = drawingOptions(flags, run.suite.threadsEach);
+    return run;
+}
+
+// The command that makes what a scenario does its golden.
+std::string acceptCommand(const TestFlags& flags, const std::string& name) {
+    std::string command = "taut test";
+    for (const std::string& path : flags.paths) command += " " + shellWord(path);
+    if (!flags.goldens.empty()) command += " --goldens " + shellWord(flags.goldens);
+    if (!flags.gl.empty()) command += " --gl " + flags.gl;
+    return command + fmt::format(" --update {} --why \"…\"", shellWord(name));
+}
+
+bool isAcceptable(const report::TestScenario& scenario) {
+    const auto differs = [](report::Verdict verdict) {
+        return verdict == report::Verdict::failed || verdict == report::Verdict::missing;
+    };
+    return differs(scenario.state.verdict) ||
+           std::any_of(scenario.pictures.begin(), scenario.pictures.end(),
+                       [&](const auto& picture) { return differs(picture.verdict); });
+}
+
+void writePictures(const std::filesystem::path& folder, const report::TestScenario& scenario) {
+    const auto write = [&](const std::string& name, const std::vector<std::byte>& bytes) {
+        if (bytes.empty()) return;
+        const std::filesystem::path path = folder / scenario.name / name;
+        image::prepareFolderOf(path);
+        image::WholeFile file(path);
+        file.write(std::span<const std::byte>(bytes));
+        file.commit();
+    };
+    for (const report::TestPicture& picture : scenario.pictures) {
+        write(picture.key + ".png", picture.actual);
+        if (picture.verdict == report::Verdict::failed) write(picture.key + "-difference.png", picture.difference);
+    }
+}
+
+int exitCodeOf(report::Verdict verdict) {
+    switch (verdict) {
+        case report::Verdict::diverged:
+            return static_cast<int>(core::ExitCode::diverged);
+        case report::Verdict::failed:
+            return static_cast<int>(core::ExitCode::checkFailed);
+        case report::Verdict::missing:
+            return static_cast<int>(core::ExitCode::goldenMissing);
+        case report::Verdict::passed:
+        case report::Verdict::skipped:
+            break;
+    }
+    return static_cast<int>(core::ExitCode::ok);
+}
+
+report::TestReport blankReport(const Run& run) {
+    const pipeline::Machine machine = pipeline::machine();
+    report::TestReport report;
+    report.program = machine.program;
+    report.compiler = machine.compiler;
+    report.machine = fmt::format("{}, {}", machine.processor, machine.simd);
+    const image::Tolerance& tolerance = run.manifest.tolerance;
+    report.tolerance = fmt::format(
+        "A picture is right when at most {:.4g} % of its pixels are off by more than {}/255 in any channel, and no "
+        "tile "
+        "of 16 × 16 pixels by more than {:.3g}/255 in the mean. A state is right to the last bit.",
+        100.0 * tolerance.share, tolerance.channel, tolerance.tileMean);
+    return report;
+}
+
+int finish(const TestFlags& flags, const report::TestReport& report, const std::filesystem::path& page) {
+    image::writeWholeFile(page, report::testPage(report));
+    if (!flags.junit.empty()) image::writeWholeFile(flags.junit, report::junitXml(report));
+    fmt::print("{}{}{}", report::testTable(report), report::testFailures(report), report::calibrationTable(report));
+    fmt::print("\n{}; {}\n", report::testSummary(report), page.string());
+    return exitCodeOf(report::verdictOf(report));
+}
+
+int test(const TestFlags& flags) {
+    Run run = prepare(flags);
+    const std::filesystem::path page = std::filesystem::path(flags.output) / "report.html";
+    image::prepareFolderOf(page);
+    if (!flags.junit.empty()) image::prepareFolderOf(flags.junit);
+
+    const Interruption interruption;
+    const core::ThreadLimit limit(flags.threads);
+    const auto start = Clock::now();
+    report::TestReport report = blankReport(run);
+    {
+        LiveLine line(flags.quiet);
+        const int count = static_cast<int>(run.scenarios.size());
+        run.suite.scenarioDone = [&](int done, const report::TestScenario& scenario) {
+            if (line.isDue(done == count))
+                line.show(fmt::format("{} of {}  {}: {}", done, count, scenario.name, nameOf(scenario.verdict)));
+        };
+        report.scenarios =
+            regression::runSuite(run.scenarios, run.suite, run.manifest, report.renderer, interruption.flag());
+    }
+    if (flags.calibrate && !interruption.flag())
+        report.calibration = runCalibration(
+            {run.scenarios, run.suite.drawing, run.manifest.tolerance, flags.gl, flags.quiet}, interruption.flag());
+    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    for (report::TestScenario& scenario : report.scenarios) {
+        if (isAcceptable(scenario)) scenario.accept = acceptCommand(flags, scenario.name);
+        writePictures(flags.output, scenario);
+    }
+    if (interruption.exitCode()) report.notes.push_back("Interrupted: scenarios that had not ended are left out.");
+    const int code = finish(flags, report, page);
+    return interruption.exitCode() ? static_cast<int>(*interruption.exitCode()) : code;
+}
+
+// What became of a scenario that cannot be made a golden.
+void refuseToUpdate(const regression::Scenario& scenario, const regression::Played& played) {
+    if (played.divergence) throw core::Error(core::ExitCode::diverged, played.divergence->message);
+    for (const report::TestCheck& check : played.checks)
+        if (check.verdict == report::Verdict::failed)
+            throw core::Error(core::ExitCode::checkFailed,
+                              fmt::format("{}: a check fails, so nothing of it becomes golden\n{}: {}", scenario.name,
+                                          check.source, check.reason));
+    for (const regression::PlayedPicture& picture : played.pictures)
+        if (!picture.fault.empty())
+            throw core::Error(
+                core::ExitCode::checkFailed,
+                fmt::format("{}: picture {} cannot be drawn: {}", scenario.name, picture.request.key(), picture.fault));
+}
+
+int update(const TestFlags& flags) {
+    Run run = prepare(flags);
+    const Interruption interruption;
+    const core::ThreadLimit limit(flags.threads);
+    regression::Drawer drawer(run.suite.drawing);
+    for (const regression::Scenario& scenario : run.scenarios) {
+        printWarnings(scenario.warnings);
+        const regression::Played played = regression::playScenario(
+            scenario, drawer, {.threads = flags.threads, .savesStates = true}, interruption.flag());
+        if (played.interrupted) return static_cast<int>(*interruption.exitCode());
+        refuseToUpdate(scenario, played);
+        const std::vector<std::string> changes =
+            regression::updateGoldens(scenario, played, run.suite.goldens, run.manifest, flags.why);
+        for (const std::string& change : changes) fmt::print("{}\n", change);
+        if (changes.empty()) fmt::print("{}: nothing differs from its goldens\n", scenario.name);
+    }
+    return static_cast<int>(core::ExitCode::ok);
+}
+
+}  // namespace
+
+void addTest(CLI::App& app, Action& chosen) {
+    const auto flags = std::make_shared<TestFlags>();
+    CLI::App* command = app.add_subcommand("test", "Play scenarios and compare their states and pictures with goldens");
+    command->add_option("SCENARIOS", flags->paths, "Scenario files, folders of them, or names of shipped ones")
+        ->required();
+    command->add_option("-o,--output", flags->output, "The folder for report.html and the pictures of this run")
+        ->capture_default_str();
+    command->add_option("--goldens", flags->goldens,
+                        "The folder of goldens; the first folder's 'golden' when left out");
+    command->add_option("--junit", flags->junit, "Write the results as JUnit XML too")->type_name("FILE");
+    command->add_option("--filter", flags->filters, "Only scenarios of this name, * for any letters; repeatable")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command->add_option("--update", flags->updates, "Make what this scenario does its golden; repeatable, with --why")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command->add_option("--why", flags->why, "The reason for an update, kept in the manifest")->type_name("TEXT");
+    command->add_option("--gl", flags->gl, "What draws; the first that works when not given")
+        ->check(CLI::IsMember({"osmesa", "egl"}));
+    command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
+        ->check(CLI::Range(1, 1024));
+    command->add_flag("--calibrate", flags->calibrate,
+                      "Measure what the thresholds of pictures let through: noise, and mistakes made on purpose");
+    command->add_flag("--quiet", flags->quiet, "No progress");
+    command->footer(
+        "Examples:\n"
+        "  taut test assets/scenarios --goldens tests/golden --junit out/test/junit.xml\n"
+        "  taut test my --update flag --why \"the wind blows from the left now\"\n"
+        "Exit codes: 0 all right, 1 a check or golden failed, 4 a scenario diverged, 8 a golden is missing.");
+    command->callback([&chosen, flags] {
+        chosen = [flags] { return flags->updates.empty() && flags->why.empty() ? test(*flags) : update(*flags); };
+    });
+}
+
+}  // namespace taut::game

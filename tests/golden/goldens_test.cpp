@@ -1,0 +1,84 @@
+// What the goldens of this folder are kept by. That the scenarios do what their goldens say is a test of its own, `taut
+// test assets/scenarios`.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "image/compare.h"
+#include "regression/manifest.h"
+#include "render/renderer.h"
+#include "scene/load.h"
+#include "world/world.h"
+
+namespace taut {
+namespace {
+
+const std::filesystem::path source = TAUT_SOURCE_DIR;
+const regression::GoldenFolder folder{source / "tests/golden"};
+
+TEST(Goldens, ThereAreSomeOfEveryShippedSceneAndScenario) {
+    const regression::Manifest manifest = regression::readManifest(folder);
+    for (const char* kind : {"scenes", "scenarios"})
+        for (const auto& entry : std::filesystem::directory_iterator(source / "assets" / kind)) {
+            if (entry.path().extension() != ".toml") continue;
+            const auto known = manifest.scenarios.find(entry.path().stem());
+            ASSERT_NE(known, manifest.scenarios.end()) << entry.path();
+            EXPECT_TRUE(known->second.state) << entry.path();
+        }
+}
+
+TEST(Goldens, AreNamedInTheManifestAndHaveAReason) {
+    const regression::Manifest manifest = regression::readManifest(folder);
+    std::set<std::filesystem::path> named;
+    for (const auto& [scenario, goldens] : manifest.scenarios) {
+        if (goldens.state) {
+            named.insert(folder.tape(scenario));
+            EXPECT_GT(goldens.state->why.size(), 10U) << scenario;
+        }
+        for (const auto& [key, picture] : goldens.pictures) {
+            named.insert(folder.picture(scenario, key));
+            named.insert(folder.stored(scenario, key));  // of those that start from one
+            EXPECT_TRUE(std::filesystem::exists(folder.picture(scenario, key))) << scenario << " " << key;
+            EXPECT_GT(picture.why.size(), 10U) << scenario << " " << key;
+        }
+    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path)) {
+        const std::string extension = entry.path().extension();
+        if (extension == ".png" || extension == ".tape" || extension == ".state") {
+            EXPECT_TRUE(named.contains(entry.path())) << entry.path();
+        }
+    }
+}
+
+// What the tolerance is for: a shadow switched off, a camera moved by a pixel, a colour off by a shade must fail.
+class Mutant : public testing::TestWithParam<const char*> {};
+
+TEST_P(Mutant, IsFound) {
+    scene::LoadOptions load;
+    load.overrides = {"picture.size=[640, 360]"};
+    load.assetFolders = {source / "assets"};
+    const world::SceneSpec spec = scene::loadScene(source / "assets/scenes/drape.toml", load).spec;
+    const world::World world(spec);
+    view::FrameView view = world.view(false);
+    render::RendererOptions options;
+    options.width = 640;
+    options.height = 360;
+    options.shaders = source / "shaders";
+    const image::Image right = render::Renderer(options).draw(view);
+    const std::string mutant = GetParam();
+    options.shadows = mutant != "shadow";
+    if (mutant == "light") view.light.direction = {0.0F, -1.0F, 0.0F};
+    if (mutant == "camera") view.camera.target.x += glm::length(view.camera.eye - view.camera.target) * 0.002F;
+    if (mutant == "field") view.camera.fieldOfView *= 1.005F;
+    if (mutant == "ambient") view.light.sky *= 1.05F;
+    if (mutant == "missing") view.surfaces.pop_back();
+    render::Renderer renderer(options);
+    EXPECT_FALSE(image::compare(right, renderer.draw(view), regression::readManifest(folder).tolerance).within)
+        << mutant;
+}
+
+INSTANTIATE_TEST_SUITE_P(Goldens, Mutant, testing::Values("light", "camera", "field", "ambient", "missing", "shadow"));
+
+}  // namespace
+}  // namespace taut

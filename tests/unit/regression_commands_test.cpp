@@ -1,0 +1,187 @@
+// `taut test`, `taut record` and `taut replay` as a person calls them: exit codes and what is said.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "regression_support.h"
+
+namespace taut {
+namespace {
+
+using test::acceptRun;
+using test::goldenText;
+using test::has;
+using test::Outcome;
+using test::run;
+using test::springText;
+using test::TemporaryFolder;
+using test::testRun;
+
+TEST(TestCommand, AMissingGoldenHasItsOwnCodeAndTheCommandThatMakesIt) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "spring.toml", springText("100.0", goldenText));
+    const Outcome missing = testRun(folder);
+    EXPECT_EQ(missing.code, 8) << missing.err;
+    EXPECT_TRUE(has(missing.out, "no golden picture is kept for this frame yet")) << missing.out;
+    EXPECT_TRUE(has(missing.out, "--update spring --why \"…\"")) << missing.out;
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/report.html"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/spring/000003.png"));
+
+    const Outcome made = acceptRun(folder, "spring", "The first of its kind.");
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_TRUE(has(made.out, "golden/spring/state.tape: state, 27 ticks")) << made.out;
+    const Outcome passed = testRun(folder, {"--junit", (folder / "junit.xml").string()});
+    EXPECT_EQ(passed.code, 0) << passed.out;
+    EXPECT_TRUE(has(passed.out, "same, 27 ticks")) << passed.out;
+    EXPECT_TRUE(has(test::contentOf(folder / "junit.xml"), "failures=\"0\""));
+}
+
+TEST(TestCommand, AChangedStateFailsWithTickAndBody) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "spring.toml", springText());
+    EXPECT_EQ(acceptRun(folder, "spring", "The first of its kind.").code, 0);
+    test::writeText(folder / "spring.toml", springText("99.0"));
+    const Outcome changed = testRun(folder);
+    EXPECT_EQ(changed.code, 1);
+    EXPECT_TRUE(has(changed.out, "net.spring differs first")) << changed.out;
+}
+
+// Two scenarios, the second one without golden: the graver failure decides.
+TEST(TestCommand, AFailureComesBeforeAMissingGolden) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.toml", springText());
+    test::writeText(folder / "b.toml", springText());
+    EXPECT_EQ(acceptRun(folder, "a", "The first of its kind.").code, 0);
+    EXPECT_EQ(testRun(folder).code, 8);
+    EXPECT_EQ(testRun(folder, {"--filter", "a"}).code, 0);
+    EXPECT_EQ(testRun(folder, {"--filter", "*a*"}).code, 0);
+    test::writeText(folder / "a.toml", springText("99.0"));
+    EXPECT_EQ(testRun(folder).code, 1);
+    // Explicit Euler far beyond its limit.
+    test::writeText(folder / "c.toml", springText("1e7", "[solver]\nintegrator = \"euler\"\ndt = 0.01\n"));
+    const Outcome diverged = testRun(folder);
+    EXPECT_EQ(diverged.code, 4) << diverged.out;
+    EXPECT_TRUE(has(diverged.out, "diverged !")) << diverged.out;
+    EXPECT_EQ(acceptRun(folder, "c", "It flies apart.").code, 4);
+}
+
+TEST(TestCommand, AFailedCheckSaysValueBoundAndMoment) {
+    const TemporaryFolder folder;
+    const std::string check = "[[check]]\nthat = \"position(net.spring@#1).y > 0.95\"\n";
+    test::writeText(folder / "spring.toml", springText("100.0", check));
+    const Outcome failed = testRun(folder);
+    EXPECT_EQ(failed.code, 1) << failed.out << failed.err;
+    EXPECT_TRUE(has(failed.out, "0/1 !")) << failed.out;
+    EXPECT_TRUE(has(failed.out, "0.95")) << failed.out;
+    const Outcome refused = acceptRun(folder, "spring", "The first of its kind.");
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_TRUE(has(refused.err, "a check fails, so nothing of it becomes golden")) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "golden"));
+}
+
+struct Refusal {
+    const char* what;
+    std::vector<std::string> arguments;  // FOLDER stands for the folder
+    int code;
+    const char* said;
+};
+
+TEST(TestCommand, RefusesWhatCannotBeMeant) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "spring.toml", springText());
+    std::filesystem::create_directories(folder / "empty");
+    std::filesystem::create_directories(folder / "twice");
+    std::filesystem::create_directories(folder / "bad");
+    std::filesystem::create_directories(folder / "json/golden");
+    test::writeText(folder / "twice/spring.toml", springText());
+    test::writeText(folder / "bad/spring.toml", "schema = 1\n[run]\nfps = -1\n");
+    test::writeText(folder / "json/spring.toml", springText());
+    test::writeText(folder / "json/golden/manifest.json", "{");
+    test::writeText(folder / "file", "");
+    const std::vector<Refusal> cases = {
+        {"nothing to test", {}, 2, "SCENARIOS"},
+        {"a folder that is not there", {"FOLDER/none"}, 6, "there is no such file or folder"},
+        {"a folder without scenarios", {"FOLDER/empty"}, 6, "there is no scenario in this folder"},
+        {"two of one name", {"FOLDER", "FOLDER/twice"}, 2, "two scenarios are called spring"},
+        {"a bad scenario", {"FOLDER/bad"}, 3, "spring.toml:3:"},
+        {"a bad manifest", {"FOLDER/json"}, 3, "this is no JSON"},
+        {"an update without reason", {"FOLDER", "--update", "spring"}, 2, "say why with --why"},
+        {"an empty reason", {"FOLDER", "--update", "spring", "--why", " "}, 2, "say why with --why"},
+        {"a reason for nothing", {"FOLDER", "--why", "x"}, 2, "--why goes with --update"},
+        {"an unknown name", {"FOLDER", "--update", "sprng", "--why", "x"}, 2, "did you mean spring?"},
+        {"a filter that fits nothing", {"FOLDER", "--filter", "sprinf"}, 2, "did you mean spring?"},
+        {"both ways of choosing", {"FOLDER", "--update", "spring", "--why", "x", "--filter", "a"}, 2, "leave --filter"},
+        {"calibrating an update", {"FOLDER", "--update", "spring", "--why", "x", "--calibrate"}, 2, "leave --update"},
+        {"nowhere to write", {"FOLDER", "-o", "FOLDER/file/out"}, 6, "file"},
+        {"no place for JUnit", {"FOLDER", "-o", "FOLDER/out", "--junit", "FOLDER/file/j.xml"}, 6, "file"},
+        {"goldens that are a file",
+         {"FOLDER", "--goldens", "FOLDER/file", "--update", "spring", "--why", "x"},
+         6,
+         "file"},
+    };
+    for (Refusal row : cases) {
+        SCOPED_TRACE(row.what);
+        for (std::string& argument : row.arguments)
+            if (argument.starts_with("FOLDER")) argument.replace(0, 6, folder.path().string());
+        row.arguments.insert(row.arguments.begin(), "test");
+        const Outcome outcome = run(row.arguments);
+        EXPECT_EQ(outcome.code, row.code) << outcome.out << outcome.err;
+        EXPECT_TRUE(has(outcome.err, row.said)) << outcome.err;
+    }
+}
+
+TEST(Replay, VerifiesARunAgainstItself) {
+    const TemporaryFolder folder;
+    const std::string tape = (folder / "a.tape").string(), scene = (folder / "s.toml").string();
+    test::writeText(scene, springText());
+    const Outcome recorded = run({"record", scene, "-o", tape, "--quiet"});
+    EXPECT_EQ(recorded.code, 0) << recorded.err;
+    EXPECT_TRUE(has(recorded.out, "27 ticks")) << recorded.out;
+    EXPECT_EQ(run({"record", scene, "-o", tape, "--quiet"}).code, 6);  // exists already
+    EXPECT_EQ(run({"record", scene, "-o", tape, "--quiet", "-y"}).code, 0);
+    const Outcome same = run({"replay", tape, "--verify", "--quiet", "--threads", "1"});
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_TRUE(has(same.out, "the same state at all 27 ticks")) << same.out;
+    EXPECT_TRUE(has(run({"replay", tape}).out, "27 ticks")) << run({"replay", tape}).out;
+}
+
+TEST(Replay, NamesWhatDiffersFromAnotherTapeOrScene) {
+    const TemporaryFolder folder;
+    const std::string a = (folder / "a.tape").string(), b = (folder / "b.tape").string();
+    const std::string scene = (folder / "s.toml").string(), other = (folder / "t.toml").string();
+    test::writeText(scene, springText());
+    test::writeText(other, springText("99.0"));
+    EXPECT_EQ(run({"record", scene, "-o", a, "--quiet"}).code, 0);
+    EXPECT_EQ(run({"record", other, "-o", b, "--quiet"}).code, 0);
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"replay", a, "--verify", b, "--quiet"},
+                                                      {"replay", a, "--verify", "--scene", other, "--quiet"}}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, 1) << outcome.err;
+        EXPECT_TRUE(has(outcome.out, "net.spring differs first, at point 1")) << outcome.out;
+    }
+    // The tape keeps the text that it played: a change of the file is said and does not count.
+    test::writeText(scene, springText("99.0"));
+    const Outcome changed = run({"replay", a, "--verify", "--quiet"});
+    EXPECT_EQ(changed.code, 0) << changed.out;
+    EXPECT_TRUE(has(changed.err, "is not what it was")) << changed.err;
+}
+
+TEST(Replay, RefusesWhatItCannotPlay) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "spring.toml", springText());
+    test::writeText(folder / "foreign", "something else");
+    EXPECT_EQ(acceptRun(folder, "spring", "The first of its kind.").code, 0);
+    const std::string golden = (folder / "golden/spring/state.tape").string();
+    EXPECT_EQ(run({"replay", (folder / "none").string()}).code, 6);
+    EXPECT_EQ(run({"replay", (folder / "foreign").string(), "--verify"}).code, 3);
+    EXPECT_EQ(run({"replay", golden, "--verify", (folder / "foreign").string()}).code, 3);
+    const Outcome noScene = run({"replay", golden, "--verify"});
+    EXPECT_EQ(noScene.code, 2);
+    EXPECT_TRUE(has(noScene.err, "--scene")) << noScene.err;
+    EXPECT_EQ(run({"replay", golden, "--verify", "--scene", (folder / "spring.toml").string(), "--quiet"}).code, 0);
+    EXPECT_EQ(run({"replay", golden, "--scene", "x"}).code, 2);
+    EXPECT_EQ(run({"replay", golden, "--verify", golden, "--scene", "x"}).code, 2);
+}
+
+}  // namespace
+}  // namespace taut

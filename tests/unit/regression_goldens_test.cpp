@@ -1,0 +1,145 @@
+// What an update changes and what it leaves, and which test notices what.
+#include "regression/goldens.h"
+
+#include <gtest/gtest.h>
+
+#include "image/png.h"
+#include "image/read.h"
+#include "regression_support.h"
+
+namespace taut::regression {
+namespace {
+
+using test::acceptRun;
+using test::goldenText;
+using test::has;
+using test::Outcome;
+using test::springText;
+using test::TemporaryFolder;
+using test::testRun;
+
+const std::string restartText = "[[golden]]\nframes = [6]\nrestart = true\nsize = [96, 54]\n";
+
+// A scenario with goldens of its own.
+void begin(const TemporaryFolder& folder, const std::string& golden) {
+    test::writeText(folder / "spring.toml", springText("100.0", golden));
+    const Outcome made = acceptRun(folder, "spring", "The first of its kind.");
+    ASSERT_EQ(made.code, 0) << made.err;
+    ASSERT_EQ(testRun(folder).code, 0);
+}
+
+TEST(GoldenUpdate, LeavesWhatAgreesToTheLastByteWithItsReason) {
+    const TemporaryFolder folder;
+    begin(folder, goldenText);
+    const std::string tape = test::contentOf(folder / "golden/spring/state.tape");
+    const Outcome again = acceptRun(folder, "spring", "Another reason.");
+    EXPECT_EQ(again.code, 0);
+    EXPECT_TRUE(has(again.out, "nothing differs from its goldens")) << again.out;
+    EXPECT_EQ(test::contentOf(folder / "golden/spring/state.tape"), tape);
+    EXPECT_FALSE(has(test::contentOf(folder / "golden/manifest.json"), "Another reason."));
+}
+
+TEST(GoldenUpdate, ChangesOnlyThePictureThatDiffers) {
+    const TemporaryFolder folder;
+    begin(folder, goldenText);
+    const auto first = folder / "golden/spring/000003.png", second = folder / "golden/spring/000006.png";
+    const std::string kept = test::contentOf(first);
+    image::writePng(second, test::testPicture(96, 54));
+    const Outcome failed = testRun(folder);
+    EXPECT_EQ(failed.code, 1);
+    EXPECT_TRUE(has(failed.out, "picture 000006: ")) << failed.out;
+    EXPECT_TRUE(has(failed.out, "1/2 !")) << failed.out;
+    EXPECT_EQ(acceptRun(folder, "spring", "Now it is right.").code, 0);
+    EXPECT_EQ(test::contentOf(first), kept);
+    EXPECT_EQ(testRun(folder).code, 0);
+    const Manifest manifest = readManifest({folder / "golden"});
+    const GoldenScenario& goldens = manifest.scenarios.at("spring");
+    EXPECT_EQ(goldens.pictures.at("000003").why, "The first of its kind.");
+    EXPECT_EQ(goldens.pictures.at("000006").why, "Now it is right.");
+    EXPECT_EQ(goldens.state->why, "The first of its kind.");
+    EXPECT_FALSE(goldens.pictures.at("000003").renderer.empty());
+}
+
+TEST(GoldenUpdate, DropsWhatIsAskedForNoMore) {
+    const TemporaryFolder folder;
+    begin(folder, goldenText);
+    test::writeText(folder / "spring.toml", springText("100.0", "[[golden]]\nframes = [3]\nsize = [96, 54]\n"));
+    const Outcome noted = testRun(folder);
+    EXPECT_EQ(noted.code, 0) << noted.out;
+    EXPECT_TRUE(has(noted.out, "000006 is asked for no more")) << noted.out;
+    EXPECT_EQ(acceptRun(folder, "spring", "One is enough.").code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "golden/spring/000006.png"));
+    EXPECT_EQ(readManifest({folder / "golden"}).scenarios.at("spring").pictures.size(), 1U);
+}
+
+TEST(Goldens, DamagedAndMissingFilesFailAloneAndSayWhich) {
+    const TemporaryFolder folder;
+    begin(folder, goldenText);
+    test::writeText(folder / "golden/spring/000003.png", "no picture");
+    std::filesystem::remove(folder / "golden/spring/000006.png");
+    const Outcome outcome = testRun(folder);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_TRUE(has(outcome.out, "000003.png")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "the manifest names a picture that is not there")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "same, 27 ticks")) << outcome.out;
+    EXPECT_EQ(acceptRun(folder, "spring", "Made again.").code, 0);
+    test::writeText(folder / "golden/spring/state.tape", "no tape");
+    const Outcome tape = testRun(folder);
+    EXPECT_EQ(tape.code, 1);
+    EXPECT_TRUE(has(tape.out, "this is no tape of taut")) << tape.out;
+}
+
+TEST(Goldens, OfAnotherSizeDiffer) {
+    const TemporaryFolder folder;
+    begin(folder, goldenText);
+    test::writeText(folder / "spring.toml", springText("100.0", "[[golden]]\nframes = [3, 6]\nsize = [64, 54]\n"));
+    const Outcome outcome = testRun(folder);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_TRUE(has(outcome.out, "has 64x54 pixels, its golden 96x54")) << outcome.out;
+}
+
+// A picture that starts from a stored state tells of pictures: another stiffness is a matter of the state's test alone.
+TEST(GoldenRestart, APictureTestFailsForPicturesAndAStateTestForStates) {
+    const TemporaryFolder folder;
+    begin(folder, restartText);
+    EXPECT_TRUE(std::filesystem::exists(folder / "golden/spring/000006.state"));
+    test::writeText(folder / "spring.toml", springText("30.0", restartText));
+    const Outcome state = testRun(folder);
+    EXPECT_EQ(state.code, 1);
+    EXPECT_TRUE(has(state.out, "differs !")) << state.out;
+    EXPECT_TRUE(has(state.out, "1/1")) << state.out;
+
+    test::writeText(folder / "spring.toml", springText("100.0", restartText + "[light]\nintensity = 1.0\n"));
+    const Outcome picture = testRun(folder);
+    EXPECT_EQ(picture.code, 1);
+    EXPECT_TRUE(has(picture.out, "same, 27 ticks")) << picture.out;
+    EXPECT_TRUE(has(picture.out, "0/1 !")) << picture.out;
+}
+
+// Without a restart the picture follows the state.
+TEST(GoldenRestart, OtherwiseThePictureTellsThatTheStateDiffersToo) {
+    const TemporaryFolder folder;
+    begin(folder, goldenText);
+    test::writeText(folder / "spring.toml", springText("30.0", goldenText));
+    const Outcome outcome = testRun(folder);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_TRUE(has(outcome.out, "the state that it shows differs too")) << outcome.out;
+}
+
+TEST(GoldenRestart, AStateThatDoesNotFitOrIsNotThereIsSaid) {
+    const TemporaryFolder folder;
+    begin(folder, restartText);
+    const auto state = folder / "golden/spring/000006.state";
+    const std::string whole = test::contentOf(state);
+    test::writeText(state, whole.substr(0, whole.size() / 2));
+    const Outcome damaged = testRun(folder);
+    EXPECT_EQ(damaged.code, 1);
+    EXPECT_TRUE(has(damaged.out, "000006.state")) << damaged.out;
+    std::filesystem::remove(state);
+    EXPECT_EQ(testRun(folder).code, 8);
+    EXPECT_EQ(acceptRun(folder, "spring", "Made again.").code, 0);
+    EXPECT_EQ(testRun(folder).code, 0);
+}
+
+}  // namespace
+}  // namespace taut::regression

@@ -1,0 +1,76 @@
+#include "regression/scenario.h"
+
+#include <gtest/gtest.h>
+
+#include "regression_support.h"
+
+namespace taut::regression {
+namespace {
+
+using test::has;
+using test::TemporaryFolder;
+
+TEST(ScenarioFiles, OfAFolderAreItsTomlFilesByName) {
+    const TemporaryFolder folder;
+    for (const char* name : {"b.toml", "a.toml", "notes.txt"}) test::writeText(folder / name, "");
+    std::filesystem::create_directory(folder / "golden.toml");
+    const auto files = scenarioFiles({folder.path()});
+    EXPECT_EQ(files, (std::vector<std::filesystem::path>{folder / "a.toml", folder / "b.toml"}));
+    // A file that is named once more is not played once more.
+    EXPECT_EQ(scenarioFiles({folder.path(), folder / "b.toml"}).size(), 2U);
+}
+
+TEST(ScenarioFiles, WhatIsNotThereOrNotToldApartIsRefused) {
+    const TemporaryFolder folder;
+    const auto missing = [&](const std::string& name) {
+        return test::messageOf(core::ExitCode::inputOutput, [&] { scenarioFiles({folder / name}); });
+    };
+    EXPECT_TRUE(has(missing("none"), "none: there is no such file or folder of scenarios"));
+    std::filesystem::create_directory(folder / "empty");
+    EXPECT_TRUE(has(missing("empty"), "empty: there is no scenario in this folder"));
+    std::filesystem::create_directory(folder / "other");
+    for (const char* name : {"same.toml", "other/same.toml"}) test::writeText(folder / name, "");
+    const std::string twice = test::messageOf(core::ExitCode::usage, [&] {
+        scenarioFiles({folder.path(), folder / "other"});
+    });
+    EXPECT_TRUE(has(twice, "two scenarios are called same")) << twice;
+}
+
+TEST(Scenarios, AllFaultsAreSaidAtOnce) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.toml", "schema = 1\n[run]\nfps = -3\n");
+    test::writeText(folder / "b.toml", "schema = 1\n[run]\nsecond = 3\n");
+    const std::string said = test::messageOf(core::ExitCode::badContent, [&] {
+        readScenarios({folder / "a.toml", folder / "b.toml"}, {});
+    });
+    EXPECT_TRUE(has(said, "a.toml:3:")) << said;
+    EXPECT_TRUE(has(said, "b.toml:3:")) << said;
+}
+
+TEST(GoldenRequests, AreByFrameWithANameForEach) {
+    world::SceneSpec spec;
+    spec.run = {20.0, 1.0};
+    spec.cameras.push_back({.name = "side", .source = {}, .keys = {}, .orbitPeriod = {}});
+    spec.goldens.push_back({{}, {7, 3}, false, false, "", {64, 36}});
+    spec.goldens.push_back({{}, {3}, false, true, "", {64, 36}});
+    spec.goldens.push_back({{}, {3}, true, true, "side", {64, 36}});
+    std::vector<std::string> keys;
+    for (const GoldenRequest& request : goldenRequests(spec)) keys.push_back(request.key());
+    EXPECT_EQ(keys, (std::vector<std::string>{"000003", "000003-debug", "000003-side-debug", "000007"}));
+}
+
+TEST(GoldenRequests, ThatCannotBeMeantAreRefused) {
+    world::SceneSpec spec;
+    spec.run = {20.0, 1.0};
+    const auto said = [&](std::vector<int> frames, const std::string& camera = "") {
+        spec.goldens = {{{"s.toml", 9, 1}, std::move(frames), false, false, camera, {64, 36}}};
+        return test::messageOf(core::ExitCode::badContent, [&] { goldenRequests(spec); });
+    };
+    EXPECT_TRUE(has(said({20}), "s.toml:9:1: error: there is no frame 20: the run has frames 0 to 19"));
+    EXPECT_TRUE(has(said({-1}), "there is no frame -1"));
+    EXPECT_TRUE(has(said({4, 4}), "frame 4 is asked for twice"));
+    EXPECT_TRUE(has(said({4}, "top"), "there is no camera 'top'"));
+}
+
+}  // namespace
+}  // namespace taut::regression

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "image/frame_sequence.h"
+#include "image/whole_file.h"
 #include "pipeline/checkpoint.h"
 
 namespace taut::game {
@@ -90,6 +91,7 @@ void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, c
 }
 
 void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, pipeline::RunListener& listener) {
+    image::prepareFolderOf(pipeline::CheckpointFolder(folder).pathOf(0));
     listener.checkpoint = [folder, keys](std::int64_t frame, std::vector<std::byte> state,
                                          const std::vector<pipeline::FrameRecord>& before) {
         const pipeline::CheckpointFolder checkpoints(folder);

@@ -41,7 +41,7 @@ RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const w
 void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
           const std::string& output, pipeline::RunOptions& options, world::World& world);
 
-// Lets the listener write every checkpoint of the run into the folder.
+// Lets the listener write every checkpoint of the run into the folder, which is made. Throws core::Error(inputOutput).
 void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, pipeline::RunListener& listener);
 
 }  // namespace taut::game

@@ -48,10 +48,11 @@ render() {
     shift
     "$taut" render "$work/scene.toml" -o "$folder" --quiet --metrics "$@"
 }
-hashes() { grep '"hash"' "$1/run.json"; }
+hashes() { sed -n "/state_hash/,/]/p" "$1/run.json"; }
 
 start=$(date +%s%N)
 render "$work/whole" --checkpoint-every 5
+[ "$(hashes "$work/whole" | wc -l)" -gt 60 ] || { echo "run.json has no hashes"; exit 1; }
 duration=$((($(date +%s%N) - start) / 1000000))  # [ms]
 
 killed=0
@@ -61,7 +62,6 @@ while [ "$round" -lt 20 ]; do
     folder=$work/run$round
     # Spread over the run by the golden ratio; the same moments each time, as far as clocks go.
     moment=$((duration * (618 * round % 1000) / 1000))
-    # shellcheck disable=SC2086
     "$taut" render "$work/scene.toml" -o "$folder" --quiet --metrics --checkpoint-every 5 &
     run=$!
     sleep "$((moment / 1000)).$(printf %03d $((moment % 1000)))"

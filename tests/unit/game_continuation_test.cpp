@@ -1,0 +1,129 @@
+// Going on from a stored state: the same states as without a stop, and never from a state of another scene.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/unit/program_support.h"
+
+namespace taut::game {
+namespace {
+
+using test::has;
+using test::Outcome;
+
+const std::string scene = R"(schema = 1
+run = { fps = 60, seconds = 0.5 }
+at = [ { t = 0.1, do = "push", target = "cloth.sheet@bottom", impulse_Ns = [0, 0, 0.02] },
+       { t = 0.4, do = "free", target = "cloth.sheet@top-left" } ]
+[cloth.sheet]
+cells = [5, 5]
+hold = ["top-left", "top-right"]
+[collider.ground]
+shape = "plane"
+normal = [0, 1, 0]
+)";
+
+class Continuation : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(testing::TempDir()) / "taut_continuation" /
+                  testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+        write(scene);
+        whole_ = play({"--checkpoint-every", "10"});
+        ASSERT_EQ(whole_.code, 0) << whole_.err;
+    }
+
+    void write(const std::string& text) { std::ofstream(folder_ / "scene.toml") << text; }
+
+    Outcome play(std::vector<std::string> more) {
+        std::vector<std::string> all = {
+            "render",         (folder_ / "scene.toml").string(), "--no-pictures", "--hash", "--quiet", "--checkpoints",
+            states().string()};
+        all.insert(all.end(), more.begin(), more.end());
+        return test::run(all);
+    }
+    std::filesystem::path states() const { return folder_ / "states"; }
+    std::filesystem::path state(const char* number) const {
+        return states() / (std::string("checkpoint_") + number + ".taut");
+    }
+
+    // The lines of frames `first` and later.
+    static std::string from(const std::string& hashes, int first) {
+        return hashes.substr(hashes.find("\n" + std::to_string(first) + " ") + 1);
+    }
+
+    std::filesystem::path folder_;
+    Outcome whole_;
+};
+
+TEST_F(Continuation, GivesTheStatesOfARunThatNeverStopped) {
+    EXPECT_TRUE(std::filesystem::exists(state("000010")));
+    EXPECT_TRUE(std::filesystem::exists(state("000020")));
+    const Outcome rest = play({"--from", "25"});
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    EXPECT_TRUE(has(rest.err, "going on with frame 20")) << rest.err;
+    EXPECT_EQ(rest.out, from(whole_.out, 25));
+    EXPECT_EQ(play({"--from", "10"}).out, from(whole_.out, 10));
+}
+
+// The action at 0.4 s is frame 24's: frame 20 does not know of it, and the step is that of either scene.
+TEST_F(Continuation, ReusesWhatIsBeforeAChangeOfTheTimeline) {
+    std::string changed = scene;
+    changed.replace(changed.find("t = 0.4"), 7, "t = 0.45");
+    write(changed);
+    const Outcome rest = play({"--from", "20"});
+    EXPECT_TRUE(has(rest.err, "going on with frame 20")) << rest.err;
+    EXPECT_NE(rest.out, from(whole_.out, 20));
+    std::filesystem::remove_all(states());
+    EXPECT_EQ(rest.out, play({"--from", "20"}).out) << "as computed from the start";
+}
+
+TEST_F(Continuation, DoesNotGoOnFromAnotherScene) {
+    for (const char* change :
+         {"world.gravity=[0,-9,0]", "cloth.sheet.cells=[5,6]", "solver.integrator=rk4", "at.0.t=0.12"}) {
+        const Outcome rest = play({"--from", "29", "--set", change});
+        EXPECT_EQ(rest.code, 0) << rest.err;
+        EXPECT_TRUE(has(rest.err, "checkpoint_000020.taut: this checkpoint is of another scene")) << change << rest.err;
+        EXPECT_TRUE(has(rest.err, "starting with frame 0")) << change;
+    }
+}
+
+TEST_F(Continuation, PassesOverADamagedState) {
+    std::filesystem::resize_file(state("000020"), std::filesystem::file_size(state("000020")) - 5);
+    const Outcome rest = play({"--from", "20"});
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    EXPECT_TRUE(has(rest.err, "checkpoint_000020.taut: this checkpoint is damaged or cut short")) << rest.err;
+    EXPECT_TRUE(has(rest.err, "going on with frame 10")) << rest.err;
+    EXPECT_EQ(rest.out, from(whole_.out, 20));
+
+    std::fstream file(state("000010"), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(8);
+    file.put(9);  // the version
+    file.close();
+    const Outcome again = play({"--from", "20"});
+    EXPECT_TRUE(has(again.err, "format 9, and this taut reads format 1: it was written by a newer one")) << again.err;
+    EXPECT_EQ(again.out, from(whole_.out, 20));
+}
+
+TEST_F(Continuation, SaysWhatCannotBe) {
+    EXPECT_EQ(play({"--from", "30"}).code, 2) << "the scene ends with frame 29";
+    EXPECT_EQ(play({"--from", "3", "--frames", "3-4"}).code, 2);
+    const Outcome video =
+        test::run({"render", (folder_ / "scene.toml").string(), "-o", (folder_ / "a.mp4").string(), "--resume"});
+    EXPECT_EQ(video.code, 2);
+    EXPECT_TRUE(has(video.err, "a video cannot be continued")) << video.err;
+    const Outcome nowhere =
+        test::run({"render", (folder_ / "scene.toml").string(), "--no-pictures", "--checkpoint-every", "5"});
+    EXPECT_EQ(nowhere.code, 2);
+    EXPECT_TRUE(has(nowhere.err, "--checkpoints FOLDER")) << nowhere.err;
+    std::ofstream(folder_ / "file") << "no folder";
+    const Outcome unwritable = test::run({"render", (folder_ / "scene.toml").string(), "--no-pictures",
+                                          "--checkpoint-every", "5", "--checkpoints", (folder_ / "file").string()});
+    EXPECT_EQ(unwritable.code, 6) << unwritable.err;
+}
+
+}  // namespace
+}  // namespace taut::game

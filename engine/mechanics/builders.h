@@ -61,7 +61,8 @@ struct MeshClothShape {
     ClothMaterial material;                     // shear is not used: triangles carry it
 };
 // Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch; bend springs across inner edges.
-// Groups: boundary, all, and top, bottom, left, right: the points within 1 % of the size of that extreme.
+// Groups: boundary, all, and top, bottom, left, right: the points within 1 % of the size of that extreme; top-left,
+// top-right, bottom-left, bottom-right: the one point furthest into that corner, width and height counted alike.
 // Throws core::Error(badContent) naming what is wrong: no triangle, an edge of three triangles, a zero area.
 Model buildMeshCloth(const MeshClothShape& shape);
 

@@ -107,6 +107,20 @@ void addGroups(Model& model, const std::map<Edge, EdgeUse>& edges, const dvec3& 
         if (p.y <= low.y + near.y) model.groups["bottom"].push_back(i);
         if (p.y >= high.y - near.y) model.groups["top"].push_back(i);
     }
+    const auto corner = [&](const char* name, double x, double y) {
+        const auto reach = [&](int i) {
+            const dvec3& p = model.positions[static_cast<std::size_t>(i)];
+            return x * (p.x - low.x) * (high.y - low.y) + y * (p.y - low.y) * (high.x - low.x);
+        };
+        int furthest = 0;
+        for (int i = 1; i < model.pointCount(); ++i)
+            if (reach(i) > reach(furthest)) furthest = i;
+        model.groups[name] = {furthest};
+    };
+    corner("top-left", -1.0, 1.0);
+    corner("top-right", 1.0, 1.0);
+    corner("bottom-left", -1.0, -1.0);
+    corner("bottom-right", 1.0, -1.0);
 }
 
 void addSprings(Model& model, const std::map<Edge, EdgeUse>& edges, const ClothMaterial& material) {

@@ -20,7 +20,8 @@ const std::vector<std::string> surfaceKinds{"cloth", "block"};
 const std::vector<std::string> ropeGroups{"start", "end", "ends"};
 const std::vector<std::string> gridGroups{"left",      "right",       "top",          "bottom",  "top-left",
                                           "top-right", "bottom-left", "bottom-right", "corners", "edges"};
-const std::vector<std::string> meshGroups{"boundary", "top", "bottom", "left", "right"};
+const std::vector<std::string> meshGroups{"boundary", "top",       "bottom",      "left",        "right",
+                                          "top-left", "top-right", "bottom-left", "bottom-right"};
 const std::vector<std::string> blockGroups{"left", "right", "bottom", "top", "back", "front", "corners"};
 
 std::string_view withoutSelector(std::string_view target) {

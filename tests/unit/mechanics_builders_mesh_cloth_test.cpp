@@ -112,6 +112,10 @@ TEST(MeshClothBuilder, GroupsAreWhereTheirNamesSay) {
     EXPECT_EQ(model.groups.at("bottom"), (std::vector<int>{1, 2}));
     EXPECT_EQ(model.groups.at("left"), (std::vector<int>{0, 1}));
     EXPECT_EQ(model.groups.at("right"), (std::vector<int>{2, 3}));
+    EXPECT_EQ(model.groups.at("top-left"), std::vector<int>{0});
+    EXPECT_EQ(model.groups.at("bottom-left"), std::vector<int>{1});
+    EXPECT_EQ(model.groups.at("bottom-right"), std::vector<int>{2});
+    EXPECT_EQ(model.groups.at("top-right"), std::vector<int>{3});
 }
 
 TEST(MeshClothBuilder, MakesUvFromTheTwoLongestAxes) {

@@ -11,6 +11,7 @@
 #include "game/lab.h"
 #include "game/shell_word.h"
 #include "image/frame_sequence.h"
+#include "image/whole_file.h"
 
 namespace taut::game {
 namespace {
@@ -24,12 +25,15 @@ std::string drawApart(const std::string& gl, const regression::Scenario& scenari
         shellWord(std::filesystem::read_symlink("/proc/self/exe").string()), shellWord(scenario.file.string()),
         shellWord(frames.string()), golden.frame, golden.size.x, golden.size.y, threads, golden.debug ? " --debug" : "",
         golden.camera.empty() ? "" : " --camera " + shellWord(golden.camera), gl.empty() ? "" : " --gl " + gl);
+    const std::filesystem::path complaints = png.parent_path() / "said.txt";  // warnings, known from elsewhere
+    command += " 2>" + shellWord(complaints.string());
     FILE* pipe = ::popen(command.c_str(), "r");
     std::array<char, 256> text{};
     std::string said;
     while (pipe != nullptr && std::fgets(text.data(), text.size(), pipe) != nullptr) said += text.data();
     if (pipe == nullptr || ::pclose(pipe) != 0)
-        throw core::Error(core::ExitCode::inputOutput, fmt::format("this failed: {}", command));
+        throw core::Error(core::ExitCode::inputOutput,
+                          fmt::format("this failed: {}\n{}", command, image::fileContent(complaints)));
     std::filesystem::rename(image::FramePattern(frames).pathOf(golden.frame), png);
     const std::size_t space = said.find(' ');
     return space == std::string::npos ? "" : said.substr(space + 1, 16);

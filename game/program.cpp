@@ -20,7 +20,7 @@
 namespace taut::game {
 namespace {
 
-constexpr std::array commands{addRender, addCheck,  addInfo,   addChart, addAtlas,  addPlan,
+constexpr std::array commands{addRender, addPlay,   addCheck,  addInfo,  addChart,  addAtlas, addPlan,
                               addTest,   addRecord, addReplay, addSheet, addSchema, addDoctor};
 
 int codeOf(core::ExitCode code) {
@@ -32,9 +32,11 @@ void printShortHelp() {
         "taut plays scenes of ropes, cloth and soft bodies and renders them without a display.\n\n"
         "  taut render flag -o flag.mp4                 a video of a shipped scene\n"
         "  taut render my.toml -o out/frame_######.png  a picture file a frame\n"
+        "  taut play curtain                            a window: pull the cloth with the mouse, record what you do\n"
         "  taut info flag                               what a scene builds, its time step and its cost\n"
         "  taut chart cloth-corners                     error against cost of every method, as pictures and CSV\n"
         "  taut check my.toml                           whether a scene file is right\n"
+        "  taut test scenarios                          whether scenarios do what their goldens say\n"
         "  taut doctor                                  whether everything needed is installed\n"
         "  taut schema > taut.schema.json               the scene format, for editors\n\n"
         "taut --help lists the commands, taut COMMAND --help their flags.\n");

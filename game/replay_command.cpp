@@ -62,7 +62,7 @@ world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape)
                         flags.tape));
     std::error_code error;
     if (!std::filesystem::exists(tape.origin.scene, error) || image::fileContent(tape.origin.scene) != tape.origin.text)
-        printWarnings({fmt::format("note: {} is not what it was; the text on the tape is played", tape.origin.scene)});
+        printWarnings({fmt::format("{} is not what it was; the text on the tape is played", tape.origin.scene)});
     return scene::loadSceneText(tape.origin.text, tape.origin.scene, options).spec;
 }
 

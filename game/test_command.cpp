@@ -150,13 +150,13 @@ std::string acceptCommand(const TestFlags& flags, const std::string& name) {
     return command + fmt::format(" --update {} --why \"…\"", shellWord(name));
 }
 
+// Whether --update would make goldens of it: something differs from them, and no check fails.
 bool isAcceptable(const report::TestScenario& scenario) {
-    const auto differs = [](report::Verdict verdict) {
-        return verdict == report::Verdict::failed || verdict == report::Verdict::missing;
+    const auto differs = [](const auto& item) {
+        return item.verdict == report::Verdict::failed || item.verdict == report::Verdict::missing;
     };
-    return differs(scenario.state.verdict) ||
-           std::any_of(scenario.pictures.begin(), scenario.pictures.end(),
-                       [&](const auto& picture) { return differs(picture.verdict); });
+    return std::none_of(scenario.checks.begin(), scenario.checks.end(), differs) &&
+           (differs(scenario.state) || std::any_of(scenario.pictures.begin(), scenario.pictures.end(), differs));
 }
 
 void writePictures(const std::filesystem::path& folder, const report::TestScenario& scenario) {
@@ -204,6 +204,20 @@ report::TestReport blankReport(const Run& run) {
     return report;
 }
 
+// Goldens of scenarios that are gone; said when all of the folders' scenarios were looked for.
+std::vector<std::string> orphans(const TestFlags& flags, const Run& run) {
+    std::vector<std::string> notes;
+    std::error_code ignored;
+    for (const std::filesystem::path& path : run.paths)
+        if (!flags.filters.empty() || !std::filesystem::is_directory(path, ignored)) return notes;
+    const std::vector<std::string> names = namesOf(run.scenarios);
+    for (const auto& [name, goldens] : run.manifest.scenarios)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            notes.push_back(fmt::format("{}: there are goldens of '{}', and no such scenario",
+                                        run.suite.goldens.manifest().string(), name));
+    return notes;
+}
+
 int finish(const TestFlags& flags, const report::TestReport& report, const std::filesystem::path& page) {
     image::writeWholeFile(page, report::testPage(report));
     if (!flags.junit.empty()) image::writeWholeFile(flags.junit, report::junitXml(report));
@@ -222,6 +236,8 @@ int test(const TestFlags& flags) {
     const core::ThreadLimit limit(flags.threads);
     const auto start = Clock::now();
     report::TestReport report = blankReport(run);
+    report.notes = orphans(flags, run);
+    printWarnings(report.notes);
     {
         LiveLine line(flags.quiet);
         const int count = static_cast<int>(run.scenarios.size());

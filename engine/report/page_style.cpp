@@ -59,6 +59,7 @@ body.only-failing .scenario.is-good { display: none; }
 table { border-collapse: collapse; width: 100%; font-size: 14px; }
 th { text-align: left; font-weight: 600; color: var(--quiet); font-size: 12px; padding: 4px 12px 4px 0; }
 td { padding: 6px 12px 6px 0; border-top: 1px solid var(--line); vertical-align: top; }
+td code, td.mono { white-space: nowrap; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .reason { border-left: 3px solid currentColor; padding: 8px 12px; border-radius: 0 8px 8px 0; background: var(--faint); margin: 10px 0 0; white-space: pre-wrap; overflow-wrap: anywhere; font-size: 14px; }
 .reason > span { color: var(--text); }

@@ -18,6 +18,7 @@ void addCheck(CLI::App& app, Action& chosen);
 void addDoctor(CLI::App& app, Action& chosen);
 void addInfo(CLI::App& app, Action& chosen);
 void addPlan(CLI::App& app, Action& chosen);
+void addPlay(CLI::App& app, Action& chosen);
 void addRecord(CLI::App& app, Action& chosen);
 void addRender(CLI::App& app, Action& chosen);
 void addReplay(CLI::App& app, Action& chosen);

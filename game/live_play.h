@@ -1,0 +1,93 @@
+// A scene played in a window: events become what the session, the camera and the recorder do, and every turn of the
+// loop draws a picture while the next ticks are computed. It knows neither the command line nor SDL.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/play_screen.h"
+#include "game/window.h"
+#include "live/orbit.h"
+#include "live/pace.h"
+#include "live/session.h"
+#include "pipeline/overlay.h"
+#include "render/renderer.h"
+
+namespace taut::game {
+
+struct PlaySettings {
+    std::string scene;                   // as given
+    std::vector<std::string> overrides;  // "key=value"
+    int width = 640, height = 360;       // [px]
+    int samples = 0, shadowSize = 0;     // 0: those of the scene
+    int threads = 0;                     // 0: all of the machine
+    double seconds = 0.0;                // [s] of wall time after which it ends; 0: when the user ends it
+    bool records = false;                // from the start
+    std::filesystem::path record;        // the file to write; empty: named after the scene, in the current folder
+    bool isQuiet = false;                // says on standard error only what went wrong
+    bool isVerbose = false;              // prints every action on standard error
+};
+
+class LivePlay {
+  public:
+    // Throws core::Error of the scene, noRenderer without a display.
+    explicit LivePlay(PlaySettings settings);
+
+    // Until the user ends it, the time is over or `stop` is set. Writes what is being recorded then.
+    void run(const std::atomic<bool>& stop);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void rebuild(std::vector<std::string> overrides, const std::string& said);
+    void handle(const WindowEvent& event);
+    void press(const std::string& key, bool isRepeat);
+    void beginDrag(const WindowEvent& event);
+    void drag(const WindowEvent& event);
+    void lead();
+    void nextMethod();
+    void changeStep(double factor);
+    void toggleRecording();
+    void writeRecording();
+    void slower();
+    void say(const std::string& text);
+    void report();
+    int ticksDue(double wall);
+    void drawPicture(const view::FrameView& view);
+    view::Camera camera() const;
+    std::vector<std::string> marks() const;
+    void printSummary(double seconds) const;
+
+    PlaySettings settings_;
+    std::vector<std::string> changes_;  // overrides by keys, after those of the settings
+    std::unique_ptr<Window> window_;
+    std::unique_ptr<render::Renderer> renderer_;
+    std::unique_ptr<live::Session> session_;
+    std::unique_ptr<pipeline::Overlay> overlay_;
+    live::Pace pace_{1.0};
+    live::Orbit orbit_;
+    PlayScreen screen_;
+
+    enum class Dragging { nothing, point, view };
+    Dragging dragging_ = Dragging::nothing;
+    glm::dvec2 mouse_{0.5};     // [shares of the picture]
+    glm::dvec3 held_{0.0};      // [m] where the mouse leads the point that it holds
+    glm::dvec3 offset_{0.0};    // [m] from the ray's place to that point
+    view::Camera shownCamera_;  // of the scene, in the picture that is shown
+
+    bool isOver_ = false, isPaused_ = false, showsMarks_ = false, showsOverlay_ = true, isRecording_ = false;
+    bool hasChanged_ = true;  // since the last picture
+    int steps_ = 0;           // single ticks asked for
+    int slowness_ = 0;        // motion is 2 to the power of this slower
+    bool saidDivergence_ = false;
+    std::size_t printed_ = 0;  // deeds
+    std::int64_t pictures_ = 0, ticks_ = 0;
+    double rate_ = 0.0;  // [pictures/s] lately
+};
+
+}  // namespace taut::game

@@ -1,0 +1,191 @@
+// What keys and the mouse do.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <system_error>
+
+#include "game/folders.h"
+#include "game/live_play.h"
+#include "game/scene_file.h"
+#include "image/whole_file.h"
+#include "live/recording.h"
+#include "scene/method_names.h"
+
+namespace taut::game {
+namespace {
+
+constexpr double turnPerWidth = 4.0;  // [rad] for a drag from edge to edge
+constexpr double zoomPerNotch = 0.88;
+constexpr double reach = 0.03;       // [m for each metre of distance] beside a body
+constexpr double gripShare = 0.025;  // of a body's diagonal: how far around the point a hand takes others too
+constexpr int slowest = 4;           // 1/16
+
+double diagonalOf(const live::BodyPoints& body) {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const glm::dvec3& p : body.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return body.positions.empty() ? 0.0 : glm::length(high - low);
+}
+
+// The first of NAME.toml, NAME-1.toml, … that is not there yet.
+std::filesystem::path freeName(const std::filesystem::path& wish) {
+    std::filesystem::path name = wish;
+    for (int i = 1; std::filesystem::exists(name); ++i)
+        name = wish.parent_path() / fmt::format("{}-{}.toml", wish.stem().string(), i);
+    return name;
+}
+
+// How a file in `folder` names the scene: a shipped one by its name, another by the way from there.
+std::string referenceTo(const std::filesystem::path& scene, const std::filesystem::path& folder) {
+    std::error_code ignored;
+    const auto whole = [&](const std::filesystem::path& path) {
+        return std::filesystem::weakly_canonical(path, ignored);
+    };
+    const std::filesystem::path real = whole(scene), from = whole(folder.empty() ? "." : folder);
+    for (const char* shipped : {"scenes", "scenarios"})
+        if (real.parent_path() == whole(assetFolder() / shipped))
+            return std::filesystem::exists(from / real.filename()) ? real.string() : real.filename().string();
+    return std::filesystem::relative(real, from, ignored).string();
+}
+
+}  // namespace
+
+void LivePlay::handle(const WindowEvent& event) {
+    using What = WindowEvent::What;
+    hasChanged_ = hasChanged_ || event.what != What::motion || dragging_ != Dragging::nothing;
+    switch (event.what) {
+        case What::quit:
+            isOver_ = true;
+            return;
+        case What::key:
+            return press(event.key, event.isRepeat);
+        case What::press:
+            mouse_ = event.place;
+            if (dragging_ != Dragging::nothing) return;
+            return event.isLeft ? beginDrag(event) : void(dragging_ = Dragging::view);
+        case What::motion:
+            return drag(event);
+        case What::release:
+            if (dragging_ == Dragging::point && event.isLeft) {
+                session_->hand().release();
+                say("let go");
+            }
+            if (event.isLeft == (dragging_ == Dragging::point)) dragging_ = Dragging::nothing;
+            return;
+        case What::wheel:
+            return orbit_.zoom(std::pow(zoomPerNotch, event.amount), camera());
+        case What::exposed:
+            return;
+    }
+}
+
+void LivePlay::press(const std::string& key, bool isRepeat) {
+    if (isRepeat && key != ".") return;
+    const auto is = [&](std::initializer_list<const char*> names) {
+        return std::find(names.begin(), names.end(), key) != names.end();
+    };
+    if (is({"q", "escape"})) isOver_ = true;
+    if (is({"space"})) isPaused_ = !isPaused_;
+    if (is({"."})) {
+        isPaused_ = true;
+        ++steps_;
+    }
+    if (is({"s"})) slowness_ = slowness_ == slowest ? 0 : slowness_ + 1;
+    if (is({"["})) slowness_ = std::min(slowness_ + 1, slowest);
+    if (is({"]"})) slowness_ = std::max(slowness_ - 1, 0);
+    if (is({"backspace"})) rebuild(changes_, "from the start");
+    if (is({"m"})) nextMethod();
+    if (is({"+", "=", "keypad +"})) changeStep(0.5);
+    if (is({"-", "keypad -"})) changeStep(2.0);
+    if (is({"d"})) session_->showMarks(showsMarks_ = !showsMarks_);
+    if (is({"o"})) showsOverlay_ = !showsOverlay_;
+    if (is({"c"})) orbit_.follow();
+    if (is({"r"})) toggleRecording();
+    if (is({"h", "f1"})) screen_.toggleHelp();
+}
+
+void LivePlay::beginDrag(const WindowEvent& event) {
+    const live::Ray ray = live::rayThrough(camera(), event.place, 1.0 * settings_.width / settings_.height);
+    const std::vector<live::BodyPoints> bodies = session_->bodies();
+    const std::optional<live::Picked> picked = live::pick(ray, session_->now().surfaces, bodies, reach);
+    if (!picked) return;
+    const auto body = std::find_if(bodies.begin(), bodies.end(),
+                                   [&](const live::BodyPoints& other) { return other.name == picked->body; });
+    const std::string target = fmt::format("{}@#{}", picked->body, picked->point);
+    const world::HandSpec& hand = session_->spec().hand;
+    session_->hand().grab(target, gripShare * diagonalOf(*body), hand.strength, hand.dampingRatio, picked->position);
+    held_ = picked->position;
+    offset_ = picked->position - live::onPicturePlane(ray, camera(), picked->position);
+    dragging_ = Dragging::point;
+    say("holding " + target);
+}
+
+void LivePlay::drag(const WindowEvent& event) {
+    const glm::dvec2 by = event.place - mouse_;
+    mouse_ = event.place;
+    if (dragging_ == Dragging::view)
+        orbit_.turn(turnPerWidth * by.x, turnPerWidth * by.y * settings_.height / settings_.width, camera());
+}
+
+// The mouse leads what it holds in the plane parallel to the picture, also when it rests and the camera moves.
+void LivePlay::lead() {
+    if (dragging_ != Dragging::point) return;
+    const live::Ray ray = live::rayThrough(camera(), mouse_, 1.0 * settings_.width / settings_.height);
+    const glm::dvec3 place = live::onPicturePlane(ray, camera(), held_ - offset_) + offset_;
+    held_ = place;
+    session_->hand().leadTo(place);
+}
+
+void LivePlay::nextMethod() {
+    const std::vector<std::string> names = scene::methodNames();
+    const auto now = std::find(names.begin(), names.end(), session_->spec().solver.integrator);
+    const std::string next = now == names.end() || now + 1 == names.end() ? names.front() : *(now + 1);
+    std::vector<std::string> changes = changes_;
+    std::erase_if(changes, [](const std::string& change) { return change.starts_with("solver.integrator="); });
+    changes.push_back(fmt::format("solver.integrator=\"{}\"", next));
+    rebuild(std::move(changes), "from the start with " + next);
+}
+
+void LivePlay::changeStep(double factor) {
+    const double tick = session_->world().tickSeconds();
+    const double substeps = std::max(1.0, std::round(tick / pipeline::smallestStep(session_->world()).step));
+    const double wanted = std::max(1.0, std::round(substeps / factor));
+    std::vector<std::string> changes = changes_;
+    std::erase_if(changes, [](const std::string& change) { return change.starts_with("solver.dt="); });
+    changes.push_back(fmt::format("solver.dt={:.6g}", 1.00001 * tick / wanted));  // at most; rounded to whole substeps
+    rebuild(std::move(changes), fmt::format("from the start with h = {:.3g} ms", 1e3 * tick / wanted));
+}
+
+void LivePlay::toggleRecording() {
+    if (isRecording_) return writeRecording();
+    isRecording_ = true;
+    say(session_->tick() == 0 ? "recording; r writes the file"
+                              : "recording, all since the start of this run; r writes");
+}
+
+void LivePlay::writeRecording() {
+    isRecording_ = false;
+    if (session_->divergence()) return say("a run that diverged is not recorded");
+    dragging_ = Dragging::nothing;
+    live::Recording recording = session_->record();
+    report();
+    if (session_->divergence()) return say("a run that diverged is not recorded");
+    const std::filesystem::path scene = sceneFile(settings_.scene);
+    const std::filesystem::path file = freeName(
+        settings_.record.empty() ? std::filesystem::path(scene.stem().string() + "-played.toml") : settings_.record);
+    recording.scene = referenceTo(scene, file.parent_path());
+    recording.overrides = settings_.overrides;
+    recording.overrides.insert(recording.overrides.end(), changes_.begin(), changes_.end());
+    image::writeWholeFile(file, live::scenarioText(recording));
+    const std::string what = fmt::format("{}: {} actions, state hash {:016x} at tick {}", file.string(),
+                                         recording.deeds.size(), recording.hash, recording.endTick);
+    fmt::print("{}\n", what);
+    std::fflush(stdout);
+    say("wrote " + file.string());
+}
+
+}  // namespace taut::game

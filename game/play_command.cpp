@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "game/commands.h"
+#include "game/flags.h"
+#include "game/interruption.h"
+#include "game/lab.h"
+#include "game/live_play.h"
+
+namespace taut::game {
+namespace {
+
+struct PlayFlags {
+    PlaySettings settings;
+    std::string size, quality = "normal", record;
+};
+
+struct Quality {
+    int samples, shadowSize;  // 0: those of the scene
+};
+
+Quality qualityNamed(const std::string& name) {
+    if (name == "draft") return {1, 512};
+    if (name == "normal") return {1, 1024};
+    return {0, 0};
+}
+
+int play(const PlayFlags& flags) {
+    PlaySettings settings = flags.settings;
+    if (!flags.size.empty()) {
+        const Size size = pictureSize(flags.size);
+        settings.width = size.width;
+        settings.height = size.height;
+    }
+    const Quality quality = qualityNamed(flags.quality);
+    settings.samples = quality.samples;
+    settings.shadowSize = quality.shadowSize;
+    settings.records = !flags.record.empty();
+    settings.record = flags.record;
+    if (settings.records && settings.record.extension() != ".toml")
+        throw core::Error(core::ExitCode::usage, "--record: the name must end in .toml");
+    const Interruption interruption;
+    const core::ThreadLimit threads(settings.threads);
+    std::unique_ptr<LivePlay> live;
+    try {
+        live = std::make_unique<LivePlay>(settings);
+    } catch (const core::Error& error) {
+        if (error.code() != core::ExitCode::noRenderer) throw;
+        throw core::Error(core::ExitCode::noRenderer, fmt::format("{}.\nWithout a window: taut render {} -o play.mp4",
+                                                                  error.what(), settings.scene));
+    }
+    live->run(interruption.flag());
+    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+}
+
+}  // namespace
+
+void addPlay(CLI::App& app, Action& chosen) {
+    const auto flags = std::make_shared<PlayFlags>();
+    PlaySettings& settings = flags->settings;
+    CLI::App* command = app.add_subcommand("play", "Play a scene in a window: pull, look around, record");
+    command->add_option("SCENE", settings.scene, "A scene file, or the name of a shipped scene")->required();
+    command->add_option("--size", flags->size, "Size of the picture in pixels; 640x360 when not given")
+        ->type_name("WxH");
+    command
+        ->add_option("--quality", flags->quality,
+                     "draft: coarse shadows; normal: no anti-aliasing; full: as the scene has it")
+        ->check(CLI::IsMember({"draft", "normal", "full"}));
+    command->add_option("--seconds", settings.seconds, "End by itself after this time, and tell the pictures a second")
+        ->check(numberWithin(leastSeconds, mostSeconds));
+    command->add_option("--record", flags->record, "Record from the start into this scenario file")->type_name("FILE");
+    command->add_option("--threads", settings.threads, "Threads to use; all of the machine when not given")
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--set", settings.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    auto* quiet = command->add_flag("--quiet", settings.isQuiet, "Warnings and errors only");
+    command->add_flag("--verbose", settings.isVerbose, "Print every action as it is done")->excludes(quiet);
+    command->footer(
+        "In the window h shows the keys. R records: the session becomes a scenario file, which\n"
+        "taut render and taut test play again to the same state.\n"
+        "Examples:\n"
+        "  taut play curtain\n"
+        "  taut play flag --size 1280x720 --quality full --record pulled.toml");
+    command->callback([&chosen, flags] { chosen = [flags] { return play(*flags); }; });
+}
+
+}  // namespace taut::game

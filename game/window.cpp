@@ -1,0 +1,132 @@
+#include "game/window.h"
+
+#include <SDL2/SDL.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+
+#include "core/error.h"
+
+namespace taut::game {
+namespace {
+
+[[noreturn]] void failWithoutWindow(const char* what) {
+    throw core::Error(core::ExitCode::noRenderer, std::string(what) + " (" + SDL_GetError() + ")");
+}
+
+std::string nameOf(SDL_Keycode key) {
+    std::string name = SDL_GetKeyName(key);
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    return name;
+}
+
+// Without a display SDL would try drivers that show their windows nowhere; who asks for one by name gets it.
+bool isThereADisplay() {
+    const auto isSet = [](const char* variable) {
+        const char* value = std::getenv(variable);
+        return value != nullptr && *value != '\0';
+    };
+    return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY") || isSet("SDL_VIDEODRIVER");
+}
+
+}  // namespace
+
+struct Window::Impl {
+    int width, height;
+    SDL_Window* window = nullptr;
+    SDL_Renderer* renderer = nullptr;
+    SDL_Texture* texture = nullptr;
+
+    ~Impl() {
+        if (texture != nullptr) SDL_DestroyTexture(texture);
+        if (renderer != nullptr) SDL_DestroyRenderer(renderer);
+        if (window != nullptr) SDL_DestroyWindow(window);
+        SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    }
+
+    glm::dvec2 placeOf(int x, int y) const {
+        return {(x + 0.5) / static_cast<double>(width), (y + 0.5) / static_cast<double>(height)};
+    }
+
+    std::optional<WindowEvent> read(const SDL_Event& event) const {
+        using What = WindowEvent::What;
+        WindowEvent result;
+        switch (event.type) {
+            case SDL_QUIT:
+                return result;
+            case SDL_KEYDOWN:
+                result.what = What::key;
+                result.key = nameOf(event.key.keysym.sym);
+                result.isRepeat = event.key.repeat != 0;
+                return result;
+            case SDL_MOUSEBUTTONDOWN:
+            case SDL_MOUSEBUTTONUP:
+                result.what = event.type == SDL_MOUSEBUTTONDOWN ? What::press : What::release;
+                result.isLeft = event.button.button == SDL_BUTTON_LEFT;
+                result.place = placeOf(event.button.x, event.button.y);
+                return result;
+            case SDL_MOUSEMOTION:
+                result.what = What::motion;
+                result.place = placeOf(event.motion.x, event.motion.y);
+                return result;
+            case SDL_MOUSEWHEEL:
+                result.what = What::wheel;
+                result.amount = event.wheel.y;
+                return result;
+            case SDL_WINDOWEVENT:
+                if (event.window.event != SDL_WINDOWEVENT_EXPOSED) return std::nullopt;
+                result.what = What::exposed;
+                return result;
+            default:
+                return std::nullopt;
+        }
+    }
+};
+
+Window::Window(const std::string& title, int width, int height) : impl_(new Impl{width, height}) {
+    // The pictures are drawn by the processor; so are they shown, with no need of another driver.
+    SDL_SetHintWithPriority(SDL_HINT_RENDER_DRIVER, "software", SDL_HINT_DEFAULT);
+    SDL_SetHintWithPriority(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0", SDL_HINT_DEFAULT);
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    if (!isThereADisplay()) throw core::Error(core::ExitCode::noRenderer, "there is no display to open a window on");
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) failWithoutWindow("the display takes no window");
+    impl_->window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
+                                     SDL_WINDOW_RESIZABLE);
+    if (impl_->window == nullptr) failWithoutWindow("a window cannot be opened");
+    impl_->renderer = SDL_CreateRenderer(impl_->window, -1, 0);
+    if (impl_->renderer == nullptr) failWithoutWindow("nothing can be shown in a window");
+    SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
+    impl_->texture =
+        SDL_CreateTexture(impl_->renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STREAMING, width, height);
+    if (impl_->texture == nullptr) failWithoutWindow("a window takes no pictures");
+    // Places of the mouse are told in pixels of the picture, whatever the size of the window.
+    SDL_RenderSetLogicalSize(impl_->renderer, width, height);
+}
+Window::~Window() = default;
+
+std::vector<WindowEvent> Window::events() {
+    std::vector<WindowEvent> all;
+    for (SDL_Event event; SDL_PollEvent(&event) != 0;)
+        if (std::optional<WindowEvent> read = impl_->read(event)) all.push_back(std::move(*read));
+    return all;
+}
+
+void Window::show(const image::Image& picture) {
+    TAUT_EXPECTS(picture.isWhole() && picture.width == impl_->width && picture.height == impl_->height);
+    void* pixels = nullptr;
+    int pitch = 0;
+    if (SDL_LockTexture(impl_->texture, nullptr, &pixels, &pitch) != 0) failWithoutWindow("a picture cannot be shown");
+    const std::size_t row = static_cast<std::size_t>(picture.width) * 3;
+    for (int y = 0; y < picture.height; ++y)
+        std::memcpy(static_cast<std::uint8_t*>(pixels) + static_cast<std::ptrdiff_t>(y) * pitch,
+                    picture.rgb.data() + static_cast<std::size_t>(y) * row, row);
+    SDL_UnlockTexture(impl_->texture);
+    SDL_RenderClear(impl_->renderer);
+    SDL_RenderCopy(impl_->renderer, impl_->texture, nullptr, nullptr);
+    SDL_RenderPresent(impl_->renderer);
+}
+
+}  // namespace taut::game

@@ -80,12 +80,12 @@ glm::mat4 matrixOf(const collision::Pose& pose) {
     return m;
 }
 
-std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec) {
+std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, bool mayTurn) {
     auto model = std::make_shared<ColliderModel>();
     model->shape = shapeOf(spec);
     model->material = {spec.friction, spec.restitution};
     model->isGround = spec.shape == "plane" && spec.normal.y > 0 && spec.normal.x == 0 && spec.normal.z == 0 &&
-                      spec.rotation == dvec3(0.0) && spec.keys.empty();
+                      spec.rotation == dvec3(0.0) && spec.keys.empty() && !mayTurn;
     if (spec.visible && !model->isGround) addPieces(spec, spec.finish, glm::mat4(1.0F), *model);
     try {  // a shape that Bullet cannot take is found here, where its line is known
         collision::Colliders().add(model->shape, model->material, poseAt(spec, 0.0));

@@ -37,8 +37,9 @@ struct ColliderModel {
     };
     std::vector<Piece> pieces;
 };
-// Throws core::Error(badContent) with file, line and column for a shape that cannot be built.
-std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec);
+// A plane that mayTurn is drawn as a board, not as the floor. Throws core::Error(badContent) with file, line and column
+// for a shape that cannot be built.
+std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, bool mayTurn = false);
 
 glm::mat4 matrixOf(const collision::Pose& pose);
 

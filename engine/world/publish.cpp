@@ -95,8 +95,10 @@ view::FrameView World::view(bool debug) const {
         addLabels(label, subjects, view.labels);
     }
     view.showMarks = debug;
-    if (debug)
-        for (const auto& island : w.islands) addMarks(*island, view.marks);
+    if (!debug) return view;
+    for (const auto& island : w.islands) addMarks(*island, view.marks);
+    for (const Hand& hand : w.hands)
+        view.marks.dots.push_back({glm::vec3(hand.placeAt(w.tick)), glm::vec3(1.0F, 0.35F, 0.05F), 5.0F});
     return view;
 }
 

@@ -190,6 +190,7 @@ void World::Impl::moveCollider(const ActionSpec& action) {
 }
 
 void World::Impl::closeIslands() {
+    if (std::none_of(islands.begin(), islands.end(), [](const auto& island) { return island->isOpen(); })) return;
     threads.run([&] {
         core::parallelFor(static_cast<int>(islands.size()),
                           [&](int i) { islands[static_cast<std::size_t>(i)]->close(now()); });

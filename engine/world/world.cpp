@@ -101,7 +101,12 @@ void World::Impl::addIsland(IslandPlan plan, const Envelopes& envelopes, bool ha
 ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
     const ecs::Entity entity = registry.create();
     registry.add(entity, Identity{"collider", collider.name});
-    registry.add(entity, ColliderPart{collider, makeColliderModel(collider)});
+    const bool mayTurn = std::any_of(start->actions.begin(), start->actions.end(), [&](const ActionSpec& action) {
+        const Target target = parseTarget(action.target);
+        return action.what == Do::move && action.rotation && target.kind == "collider" &&
+               matches(target.name, collider.name);
+    });
+    registry.add(entity, ColliderPart{collider, makeColliderModel(collider, mayTurn)});
     const collision::Pose pose = poseAt(collider, seconds());
     registry.add(entity, Placement{pose, pose});
     return entity;
@@ -147,8 +152,9 @@ void World::Impl::placeColliders() {
         if (const auto& move = part->move) {
             // Once there it may be moved by others.
             if (tick < move->start + move->length)
-                placement.to = between(move->from, move->to,
-                                       shareOfWay(move->ease, static_cast<double>(tick + 1 - move->start), move->length));
+                placement.to =
+                    between(move->from, move->to,
+                            shareOfWay(move->ease, static_cast<double>(tick + 1 - move->start), move->length));
         } else if (!part->spec.keys.empty()) {
             placement.to = poseAt(part->spec, end);
         }
@@ -160,8 +166,8 @@ std::vector<ColliderMotion> World::Impl::movingColliders() {
     std::vector<ColliderMotion> moving;
     int number = 0;
     registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart&, Placement& placement) {
-        const bool moves = placement.from.position != placement.to.position ||
-                           placement.from.rotation != placement.to.rotation;
+        const bool moves =
+            placement.from.position != placement.to.position || placement.from.rotation != placement.to.rotation;
         if (moves || placement.moved) moving.push_back({number, placement.from, placement.to});
         placement.moved = moves;
         ++number;
@@ -200,10 +206,18 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-double World::tickSeconds() const { return 1.0 / impl_->ticksPerSecond; }
-int World::ticksPerFrame() const { return impl_->ticksPerFrame; }
-std::int64_t World::tick() const { return impl_->tick; }
-double World::time() const { return impl_->seconds(); }
+double World::tickSeconds() const {
+    return 1.0 / impl_->ticksPerSecond;
+}
+int World::ticksPerFrame() const {
+    return impl_->ticksPerFrame;
+}
+std::int64_t World::tick() const {
+    return impl_->tick;
+}
+double World::time() const {
+    return impl_->seconds();
+}
 
 // Bodies are drawn anew when more of them has been severed.
 void World::Impl::redrawDamage() {
@@ -255,7 +269,9 @@ std::optional<Divergence> World::advance() {
     return std::nullopt;
 }
 
-std::uint64_t World::stateHash() const { return impl_->hash; }
+std::uint64_t World::stateHash() const {
+    return impl_->hash;
+}
 
 std::vector<IslandInfo> World::islands() const {
     std::vector<IslandInfo> all;
@@ -283,18 +299,30 @@ std::vector<std::string> World::warnings() const {
     return all;
 }
 
-ecs::Registry& World::registry() { return impl_->registry; }
-void World::addSystem(System system) { impl_->systems.push_back(std::move(system)); }
+ecs::Registry& World::registry() {
+    return impl_->registry;
+}
+void World::addSystem(System system) {
+    impl_->systems.push_back(std::move(system));
+}
 
 ecs::Entity World::spawn(const ColliderSpec& spec) {
     const ecs::Entity entity = impl_->addCollider(spec);
     impl_->rebuildColliders();
     return entity;
 }
-ecs::Entity World::spawn(const ClothSpec& spec) { return impl_->spawn(buildBody(spec, impl_->spec.materials)); }
-ecs::Entity World::spawn(const RopeSpec& spec) { return impl_->spawn(buildBody(spec)); }
-ecs::Entity World::spawn(const BlockSpec& spec) { return impl_->spawn(buildBody(spec)); }
-ecs::Entity World::spawn(const NetSpec& spec) { return impl_->spawn(buildBody(spec)); }
+ecs::Entity World::spawn(const ClothSpec& spec) {
+    return impl_->spawn(buildBody(spec, impl_->spec.materials));
+}
+ecs::Entity World::spawn(const RopeSpec& spec) {
+    return impl_->spawn(buildBody(spec));
+}
+ecs::Entity World::spawn(const BlockSpec& spec) {
+    return impl_->spawn(buildBody(spec));
+}
+ecs::Entity World::spawn(const NetSpec& spec) {
+    return impl_->spawn(buildBody(spec));
+}
 
 void World::destroy(ecs::Entity entity) {
     Impl& w = *impl_;

@@ -206,6 +206,17 @@ TEST(Actions, AMovedColliderTurnsFromWhereItsKeyframesHaveBroughtIt) {
     EXPECT_NEAR(pose[0].x, std::cos(1.2), 1e-6);
 }
 
+TEST(Actions, AFloorThatWillTiltIsDrawnAsABoard) {
+    SceneSpec scene;
+    scene.colliders = {support::ground()};
+    EXPECT_TRUE(World(scene).view(false).ground);
+    ActionSpec tilt = action(Do::move, 0.1, "collider.ground");
+    tilt.rotation = dvec3(0, 0, 0.2);
+    scene.actions = {tilt};
+    EXPECT_FALSE(World(scene).view(false).ground);
+    EXPECT_EQ(World(scene).view(false).surfaces.size(), 1U);
+}
+
 // Over no time a collider is moved within a tick: swept, as if it had flown, and nothing is thrown.
 TEST(Actions, AColliderThatIsSentAtOnceDoesNotTearClothApart) {
     SceneSpec scene;

@@ -67,11 +67,13 @@ std::vector<world::ActionSpec> Hand::deedsAt(std::int64_t tick) {
     }
     if (isHolding_ && goal_ && *goal_ != last_ && tick >= free_) {
         world::ActionSpec move = action(world::Do::move, tick);
-        move.to = goal_;
+        const glm::dvec3 way = *goal_ - last_;
+        const double most = fastest * moveTicks / ticksPerSecond_, length = glm::length(way);
+        last_ = length > most ? rounded(last_ + way * (most / length)) : *goal_;
+        move.to = last_;
         move.over = live::rounded(moveTicks / ticksPerSecond_, timeDecimals);
         move.ease = world::Ease::linear;
         deeds.push_back(std::move(move));
-        last_ = *goal_;
         free_ = tick + moveTicks;
     }
     return deeds;

@@ -23,7 +23,8 @@ double rounded(double value, int decimals);
 
 class Hand {
   public:
-    static constexpr int moveTicks = 3;  // a move takes them all, and no other begins before its end
+    static constexpr int moveTicks = 3;     // a move takes them all, and no other begins before its end
+    static constexpr double fastest = 5.0;  // [m/s] of the scene's time: where motion is slow, a mouse is not
 
     Hand(std::string id, double ticksPerSecond) : id_(std::move(id)), ticksPerSecond_(ticksPerSecond) {}
 

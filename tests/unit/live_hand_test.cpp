@@ -33,13 +33,26 @@ TEST(Hand, MovesAtMostEveryThirdTickAndOnlyWhenLedElsewhere) {
 TEST(Hand, WhatItDoesIsRoundedAsAFileHasIt) {
     Hand hand("mouse", 72.0);
     hand.grab("cloth.a@#3", 0.123456, 200.0, 0.3, {0.0, 0.0, 0.0});
-    hand.leadTo({0.12345678, -0.0001, 1.0 / 3.0});
+    hand.leadTo({0.12345678, -0.0001, 1.0 / 9.0});
     const auto deeds = hand.deedsAt(7);
     ASSERT_EQ(deeds.size(), 2U);
     EXPECT_EQ(deeds[0].radius, 0.123);
     EXPECT_EQ(deeds[0].t, 0.097222);  // 7/72
-    EXPECT_EQ(*deeds[1].to, glm::dvec3(0.123, 0.0, 0.333));
+    EXPECT_EQ(*deeds[1].to, glm::dvec3(0.123, 0.0, 0.111));
     EXPECT_EQ(deeds[1].over, 0.041667);  // 3/72
+}
+
+TEST(Hand, IsNoFasterThanAnArm) {
+    Hand hand("mouse", 60.0);
+    hand.grab("cloth.a@#3", 0.1, 200.0, 0.3, {0.0, 0.0, 0.0});
+    hand.leadTo({1.0, 0.0, 0.0});
+    std::vector<double> places;
+    for (std::int64_t tick = 0; tick < 30; ++tick)
+        for (const world::ActionSpec& deed : hand.deedsAt(tick))
+            if (deed.to) {
+                places.push_back(deed.to->x);
+            }
+    EXPECT_EQ(places, (std::vector{0.25, 0.5, 0.75, 1.0}));  // 5 m/s for three ticks each
 }
 
 TEST(Hand, LetsGoBeforeItTakesAgain) {

@@ -1,5 +1,6 @@
 list(APPEND TAUT_UNIT_TESTS
   check_functions_test.cpp
   check_language_test.cpp
+  check_mangled_test.cpp
   check_watcher_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::check taut::scene taut::world)

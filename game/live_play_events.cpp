@@ -39,6 +39,17 @@ std::filesystem::path freeName(const std::filesystem::path& wish) {
     return name;
 }
 
+// The scene that a scenario builds on, found as the loader finds it; the file itself when `base` is empty.
+std::filesystem::path baseOf(const std::filesystem::path& scene, const std::string& base) {
+    if (base.empty()) return scene;
+    const std::string name = base.ends_with(".toml") ? base : base + ".toml";
+    const std::filesystem::path beside = scene.parent_path() / name;
+    std::error_code ignored;
+    const bool isBeside =
+        std::filesystem::is_regular_file(beside, ignored) && !std::filesystem::equivalent(beside, scene, ignored);
+    return isBeside ? beside : assetFolder() / "scenes" / name;
+}
+
 // How a file in `folder` names the scene: a shipped one by its name, another by the way from there.
 std::string referenceTo(const std::filesystem::path& scene, const std::filesystem::path& folder) {
     std::error_code ignored;
@@ -46,9 +57,8 @@ std::string referenceTo(const std::filesystem::path& scene, const std::filesyste
         return std::filesystem::weakly_canonical(path, ignored);
     };
     const std::filesystem::path real = whole(scene), from = whole(folder.empty() ? "." : folder);
-    for (const char* shipped : {"scenes", "scenarios"})
-        if (real.parent_path() == whole(assetFolder() / shipped))
-            return std::filesystem::exists(from / real.filename()) ? real.string() : real.filename().string();
+    if (real.parent_path() == whole(assetFolder() / "scenes"))
+        return std::filesystem::exists(from / real.filename()) ? real.string() : real.filename().string();
     return std::filesystem::relative(real, from, ignored).string();
 }
 
@@ -177,9 +187,10 @@ void LivePlay::writeRecording() {
     const std::filesystem::path scene = sceneFile(settings_.scene);
     const std::filesystem::path file = freeName(
         settings_.record.empty() ? std::filesystem::path(scene.stem().string() + "-played.toml") : settings_.record);
-    recording.scene = referenceTo(scene, file.parent_path());
-    recording.overrides = settings_.overrides;
-    recording.overrides.insert(recording.overrides.end(), changes_.begin(), changes_.end());
+    const live::ScenarioParts parts = live::partsOf(image::fileContent(scene));
+    recording.scene = referenceTo(baseOf(scene, parts.scene), file.parent_path());
+    for (const auto& changes : {parts.changes, settings_.overrides, changes_})
+        recording.overrides.insert(recording.overrides.end(), changes.begin(), changes.end());
     image::writeWholeFile(file, live::scenarioText(recording));
     const std::string what = fmt::format("{}: {} actions, state hash {:016x} at tick {}", file.string(),
                                          recording.deeds.size(), recording.hash, recording.endTick);

@@ -6,8 +6,9 @@
 namespace taut::live {
 namespace {
 
-constexpr int placeDecimals = 3;  // [m]: to the millimetre
-constexpr int timeDecimals = 6;   // [s]: far finer than a tick
+constexpr int placeDecimals = 3;    // [m]: to the millimetre
+constexpr double leastWay = 0.002;  // [m]
+constexpr int timeDecimals = 6;     // [s]: far finer than a tick
 
 glm::dvec3 rounded(const glm::dvec3& place) {
     return {live::rounded(place.x, placeDecimals), live::rounded(place.y, placeDecimals),
@@ -44,7 +45,7 @@ void Hand::grab(std::string target, double radius, double strength, double dampi
 }
 
 void Hand::leadTo(glm::dvec3 place) {
-    goal_ = rounded(place);
+    if (glm::length(place - goal_.value_or(last_)) > leastWay) goal_ = rounded(place);
 }
 
 void Hand::release() {

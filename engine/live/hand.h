@@ -34,7 +34,7 @@ class Hand {
     // What the hand is to do next. grab: target "cloth.curtain@#12" and the points within `radius` [m] of it, by
     // springs of `strength` [N/m] in all and that damping ratio; `place` [m] is where that point is.
     void grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place);
-    void leadTo(glm::dvec3 place);
+    void leadTo(glm::dvec3 place);  // a way of less than 2 mm is none
     void release();
 
     // What happens at the start of this tick, in this order. To be asked once for every tick, in ascending order.

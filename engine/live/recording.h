@@ -34,6 +34,15 @@ std::string scenarioText(const Recording& recording);
 // An action as an element of `at`, at t [s].
 std::string actionText(const world::ActionSpec& action, double t);
 
+// What a scenario file says over the scene that it names: a recording of it names that scene too, as no file builds on
+// one that builds on another. Without its timeline, checks and goldens.
+struct ScenarioParts {
+    std::string scene;                 // empty: the text is a scene of its own
+    std::vector<std::string> changes;  // "solver.dt=1e-4", …
+};
+// Throws scene::SyntaxError.
+ScenarioParts partsOf(const std::string& scenario);
+
 // "solver.dt = 1e-4" for "solver.dt=1e-4", a plain word in quotes; empty for an element of a list.
 std::string overrideLine(const std::string& text);
 

@@ -44,12 +44,12 @@ struct RunOptions {
 // Hears of progress; every function may be left empty. They are called from several threads, never two at a time for
 // the same function, and in ascending order.
 struct RunListener {
-    std::function<void(const FrameRecord&)> frameSimulated;  // before its picture is drawn
-    std::function<void(const FrameRecord&)> frameDone;
-    std::function<void(std::int64_t tick, std::uint64_t hash)> tickDone;
+    std::function<void(const FrameRecord&)> frameSimulated{};  // before its picture is drawn
+    std::function<void(const FrameRecord&)> frameDone{};
+    std::function<void(std::int64_t tick, std::uint64_t hash)> tickDone{};
     // The state that goes on with `frame`, and the records of the frames before: they are on disk.
     std::function<void(std::int64_t frame, std::vector<std::byte> state, const std::vector<FrameRecord>& before)>
-        checkpoint;
+        checkpoint{};
 };
 
 struct RunResult {

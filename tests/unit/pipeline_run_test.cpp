@@ -97,8 +97,8 @@ TEST(Play, ListenerHearsEachFrameAndTickInOrder) {
     world::World world(pendulum());
     RecordingSink sink;
     std::vector<std::int64_t> frames, ticks;
-    const RunListener listener{[&](const FrameRecord& record) { frames.push_back(record.frame); },
-                               [&](std::int64_t tick, std::uint64_t) { ticks.push_back(tick); }};
+    const RunListener listener{.frameDone = [&](const FrameRecord& record) { frames.push_back(record.frame); },
+                               .tickDone = [&](std::int64_t tick, std::uint64_t) { ticks.push_back(tick); }};
     play(world, {.lastFrame = 5}, smallPicture, &sink, listener, never);
     EXPECT_EQ(frames, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5}));
     ASSERT_EQ(static_cast<int>(ticks.size()), 5 * world.ticksPerFrame() + 1);
@@ -109,10 +109,9 @@ TEST(Play, StoppingKeepsWholeFramesAndFinishesTheOutput) {
     world::World world(pendulum());
     RecordingSink sink;
     std::atomic<bool> stop = false;
-    const RunListener listener{[&](const FrameRecord& record) {
-                                   if (record.frame == 2) stop = true;
-                               },
-                               {}};
+    const RunListener listener{.frameDone = [&](const FrameRecord& record) {
+        if (record.frame == 2) stop = true;
+    }};
     const RunResult result = play(world, {.lastFrame = 100000}, smallPicture, &sink, listener, stop);
     EXPECT_TRUE(result.interrupted);
     EXPECT_TRUE(sink.finished);

@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "image/read.h"
+#include "image_support.h"
+#include "program_support.h"
+
+namespace taut::game {
+namespace {
+
+using test::has;
+using test::Outcome;
+using test::run;
+using test::TemporaryFolder;
+
+std::string scene(const TemporaryFolder& folder) {
+    const auto path = folder / "spring.toml";
+    test::writeText(path, R"(schema = 1
+[run]
+fps = 20
+seconds = 0.2
+[picture]
+size = [640, 360]
+samples = 1
+shadow_size = 256
+[net.spring]
+points = [ { name = "nail", position = [0, 2, 0], hold = true }, { name = "bob", position = [0, 1, 0] } ]
+springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]
+)");
+    return path.string();
+}
+
+TEST(PlayCommand, WithoutADisplaySaysHowToDoWithout) {
+    const TemporaryFolder folder;
+    for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"}) ::unsetenv(variable);
+    const Outcome outcome = run({"play", scene(folder)});
+    EXPECT_EQ(outcome.code, 7);
+    EXPECT_TRUE(has(outcome.err, "taut render " + scene(folder))) << outcome.err;
+}
+
+TEST(PlayCommand, AWrongSceneIsSaidBeforeAWindowIsMissed) {
+    EXPECT_EQ(run({"play", "no-such-scene"}).code, 6);
+    EXPECT_EQ(run({"play", "curtain", "--record", "pulled.mp4"}).code, 2);
+    EXPECT_EQ(run({"play", "curtain", "--quality", "best"}).code, 2);
+}
+
+// The figures cover a corner; everything else, and every picture without the flag, is as it was.
+TEST(RenderCommand, TheOverlayChangesItsCornerOnly) {
+    const TemporaryFolder folder;
+    const std::string file = scene(folder);
+    ASSERT_EQ(run({"render", file, "-o", (folder / "plain_######.png").string(), "--quiet"}).code, 0);
+    ASSERT_EQ(run({"render", file, "-o", (folder / "over_######.png").string(), "--quiet", "--overlay"}).code, 0);
+    const image::Image plain = image::readImage(folder / "plain_000003.png");
+    const image::Image over = image::readImage(folder / "over_000003.png");
+    ASSERT_EQ(plain.rgb.size(), over.rgb.size());
+    std::size_t inside = 0, outside = 0;
+    for (std::size_t i = 0; i < plain.rgb.size(); ++i) {
+        if (plain.rgb[i] == over.rgb[i]) continue;
+        const std::size_t x = i / 3 % 640, y = i / 3 / 640;
+        ++(x < 320 && y < 180 ? inside : outside);
+    }
+    EXPECT_GT(inside, 50000U);  // 215 · 155 pixels, three channels, nearly all darker
+    EXPECT_EQ(outside, 0U);
+}
+
+}  // namespace
+}  // namespace taut::game

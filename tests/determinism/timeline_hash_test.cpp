@@ -38,7 +38,7 @@ TEST_P(TimelineHash, IsTheSameForEveryInstructionSet) {
         }
 }
 
-// Recorded with g++ 12; clang 14 has the same. They change with the scene of tests/support/timelines.h.
+// Recorded with g++ 12. They change with the scene of tests/support/timelines.h only.
 TEST_P(TimelineHash, IsAsRecorded) {
     EXPECT_EQ(hashes(GetParam(), 2, core::instructionSet()).back(),
               GetParam() ? 0xd0ff9922c197d350ULL : 0x26ae1f1c6b9e3aeaULL);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <thread>
 
@@ -17,7 +18,15 @@ class Suite {
   public:
     Suite(const std::vector<Scenario>& scenarios, const SuiteOptions& options, const Manifest& manifest,
           const std::atomic<bool>& stop)
-        : scenarios_(scenarios), options_(options), manifest_(manifest), stop_(stop), results_(scenarios.size()) {}
+        : scenarios_(scenarios), options_(options), manifest_(manifest), stop_(stop), results_(scenarios.size()) {
+        std::vector<double> costs;
+        for (const Scenario& scenario : scenarios)
+            costs.push_back(world::estimate(scenario.spec).springs * scenario.spec.run.seconds);
+        order_.resize(scenarios.size());
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        std::stable_sort(order_.begin(), order_.end(),
+                         [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+    }
 
     void run() {
         const int count = std::clamp(options_.sideBySide, 1, std::max(1, static_cast<int>(scenarios_.size())));
@@ -39,9 +48,9 @@ class Suite {
   private:
     void work() {
         Drawer drawer(options_.drawing);
-        for (int i = next_++; i < static_cast<int>(scenarios_.size()) && !stop_ && !failed_; i = next_++) {
+        for (std::size_t i = next_++; i < order_.size() && !stop_ && !failed_; i = next_++) {
             try {
-                play(static_cast<std::size_t>(i), drawer);
+                play(order_[i], drawer);
             } catch (...) {
                 const std::lock_guard lock(mutex_);
                 if (!failure_) failure_ = std::current_exception();
@@ -75,7 +84,8 @@ class Suite {
     const Manifest& manifest_;
     const std::atomic<bool>& stop_;
     std::vector<std::optional<report::TestScenario>> results_;
-    std::atomic<int> next_ = 0;
+    std::vector<std::size_t> order_;  // the longest first, so that none is left alone at the end
+    std::atomic<std::size_t> next_ = 0;
     std::atomic<bool> failed_ = false;
     int done_ = 0;
     std::string rendererName_;

@@ -123,9 +123,9 @@ std::string scenarioPart(const TestScenario& scenario) {
     text += viewerPart(scenario) + checksTable(scenario) + statePart(scenario.state);
     if (!scenario.accept.empty())
         text += fmt::format(
-            "<h3>Where this is meant</h3>\n<div class=\"command\"><code>{}</code><button class=\"copy\">Copy</button>"
+            "<h3>{}</h3>\n<div class=\"command\"><code>{}</code><button class=\"copy\">Copy</button>"
             "</div>\n",
-            htmlText(scenario.accept));
+            acceptHeading(scenario), htmlText(scenario.accept));
     if (!scenario.notes.empty()) text += "<h3>Notes</h3>\n";
     for (const std::string& note : scenario.notes)
         text += fmt::format("<p class=\"quiet small\">{}</p>\n", htmlText(note));

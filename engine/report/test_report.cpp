@@ -67,6 +67,12 @@ std::string nameOf(Verdict verdict) {
     return "skipped";
 }
 
+std::string acceptHeading(const TestScenario& scenario) {
+    const bool fails = std::any_of(scenario.checks.begin(), scenario.checks.end(),
+                                   [](const TestCheck& check) { return check.verdict == Verdict::failed; });
+    return fails ? "Where this is meant, once its checks hold" : "Where this is meant";
+}
+
 Verdict worse(Verdict a, Verdict b) {
     return rank(a) < rank(b) ? b : a;
 }
@@ -100,7 +106,7 @@ std::string testFailures(const TestReport& report) {
         for (const TestPicture& picture : scenario.pictures)
             if (!picture.reason.empty()) addLine(text, fmt::format("picture {}: {}", picture.key, picture.reason));
         for (const std::string& note : scenario.notes) addLine(text, fmt::format("note: {}", note));
-        if (!scenario.accept.empty()) addLine(text, fmt::format("where this is meant: {}", scenario.accept));
+        if (!scenario.accept.empty()) addLine(text, fmt::format("{}: {}", acceptHeading(scenario), scenario.accept));
     }
     return text;
 }

@@ -88,6 +88,9 @@ struct TestReport {
 
 std::string nameOf(Verdict verdict);  // "passed"
 
+// What stands before the command that accepts it: "Where this is meant", and that its checks come first if one fails.
+std::string acceptHeading(const TestScenario& scenario);
+
 // The worse of two: diverged, failed, missing, skipped, passed.
 Verdict worse(Verdict a, Verdict b);
 

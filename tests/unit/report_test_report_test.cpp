@@ -49,7 +49,7 @@ TEST(TestReport, TheTableHasALineForEveryScenarioAndTheSummaryCountsThem) {
 TEST(TestReport, FailuresAreToldWithTheirPlaceAndTheCommandThatAcceptsThem) {
     const std::string text = testFailures(mixedReport());
     for (const char* part : {"bad.toml:7: 5 is not below 3", "state: tick 7 differs", "picture 000010: too many pixels",
-                             "where this is meant: taut test s --update bad", "rope.a diverged\n    at point 3"})
+                             "Where this is meant, once its checks hold: taut test s --update bad", "rope.a diverged\n    at point 3"})
         EXPECT_TRUE(has(text, part)) << part << " in\n" << text;
     EXPECT_FALSE(has(text, "good")) << text;
 }

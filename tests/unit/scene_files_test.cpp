@@ -60,8 +60,7 @@ TEST(SceneFiles, WhatIsNoTextIsReported) {
     const AssetFolder folder;
     EXPECT_EQ(folder.messageOf(std::string("schema = 1\n\0\0", 13)),
               "s.toml:2:1: error: this is not a text file: it holds a zero byte\n  ??\n  ^");
-    EXPECT_EQ(folder.messageOf("\xFF\xFEs\1c\1"),
-              "s.toml:1:1: error: this is UTF-16; a scene is UTF-8\n  ??s?c?\n  ^");
+    EXPECT_EQ(folder.messageOf("\xFF\xFEs\1c\1"), "s.toml:1:1: error: this is UTF-16; a scene is UTF-8\n  ??s?c?\n  ^");
     EXPECT_EQ(folder.messageOf("title = \"\xC3(\"\n").substr(0, 16), "s.toml:1:9: erro");
     EXPECT_EQ(folder.messageOf("\x89PNG\r\n\x1A\n").substr(0, 15), "s.toml:1:1: err");
 }
@@ -174,15 +173,19 @@ TEST(SceneFiles, BodiesAreSortedByNameAndTiesKeepTheirOrder) {
     EXPECT_EQ(scene.masses[1].target, "rope.a@end");
 }
 
-TEST(SceneFiles, TheShippedScenesLoad) {
+TEST(SceneFiles, TheShippedScenesAndScenariosLoad) {
     const std::filesystem::path assets = std::filesystem::path(TAUT_SOURCE_DIR) / "assets";
     LoadOptions options;
     options.assetFolders = {assets};
-    for (const auto& entry : std::filesystem::directory_iterator(assets / "scenes")) {
-        if (entry.path().extension() != ".toml") continue;
-        SCOPED_TRACE(entry.path().string());
+    std::vector<std::filesystem::path> files;
+    for (const char* folder : {"scenes", "scenarios"}) {
+        for (const auto& entry : std::filesystem::directory_iterator(assets / folder)) files.push_back(entry.path());
+    }
+    for (const std::filesystem::path& file : files) {
+        if (file.extension() != ".toml") continue;
+        SCOPED_TRACE(file.string());
         Loaded loaded;
-        ASSERT_NO_THROW(loaded = loadScene(entry.path(), options));
+        ASSERT_NO_THROW(loaded = loadScene(file, options));
         EXPECT_EQ(loaded.warnings, std::vector<std::string>());
         EXPECT_FALSE(loaded.spec.title.empty());
     }

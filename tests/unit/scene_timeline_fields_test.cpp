@@ -180,6 +180,22 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
     }
 }
 
+TEST(SceneTimeline, MomentsOffTheTicksAreWarnedOf) {
+    const AssetFolder folder;
+    const std::string rope = "[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\n";
+    const auto warningsOf = [&](const std::string& t) {
+        return folder
+            .load("schema = 1\nat = [{ t = " + t + ", do = \"hold\", target = \"rope.r\" }]\n" + rope +
+                  "[[check]]\nthat = \"time >= 0\"\nat = " + t + "\n")
+            .warnings;
+    };
+    EXPECT_EQ(warningsOf("0.51666"), std::vector<std::string>());  // 31 ticks but for 0.04 % of one
+    const std::vector<std::string> warnings = warningsOf("0.515");
+    ASSERT_EQ(warnings.size(), 2U);
+    for (const std::string& warning : warnings)
+        EXPECT_NE(warning.find("0.515 s is not on a tick of 1/60 s: 0.516666667 s is taken"), std::string::npos);
+}
+
 TEST(SceneTimeline, TheManualNamesWhatARampMayChange) {
     const std::string text = manual();
     EXPECT_NE(text.find("  wind.NAME      velocity, gust.amplitude, drag, lift\n"), std::string::npos);

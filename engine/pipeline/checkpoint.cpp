@@ -29,6 +29,7 @@ void eachNumber(Metrics& m, const Visit& visit) {
     visit(m.invertedCells);
     visit(m.brokenSprings);
     visit(m.volume);
+    visit(m.restVolume);
     visit(m.penetration);
     visit(m.minVolumeRatio);
     visit(m.work.evaluations);

@@ -16,8 +16,10 @@ const std::string scene = R"(schema = 1
 run = { fps = 60, seconds = 0.5 }
 at = [ { t = 0.1, do = "push", target = "cloth.sheet@bottom", impulse_Ns = [0, 0, 0.02] },
        { t = 0.4, do = "free", target = "cloth.sheet@top-left" } ]
+[material.linen]
 [cloth.sheet]
 cells = [5, 5]
+material = "linen"
 hold = ["top-left", "top-right"]
 [collider.ground]
 shape = "plane"

@@ -14,8 +14,10 @@ at = [
   { t = 1.0, do = "push", target = "cloth.flag@bottom", impulse_Ns = [0, 0, 0.1] },
   { t = 2.0, do = "free", target = "cloth.flag@left" },
 ]
+[material.nylon]
 [cloth.flag]
 cells = [4, 4]
+material = "nylon"
 hold = ["left"]
 [collider.ground]
 shape = "plane"
@@ -37,9 +39,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 TEST(StateKeys, DoNotSeeLayout) {
     const StateKeys a = keysOf(base);
-    const StateKeys b = keysOf(
-        replaced(replaced(base, "cells = [4, 4]\nhold = [\"left\"]", "hold = [ \"left\" ] # held\ncells = [4,4]"),
-                 "t = 1.0", "t = 1"));
+    const StateKeys b = keysOf(replaced(replaced(base, "cells = [4, 4]\nmaterial = \"nylon\"\nhold = [\"left\"]",
+                                                 "hold = [ \"left\" ] # held\nmaterial=\"nylon\"\ncells = [4,4]"),
+                                        "t = 1.0", "t = 1"));
     EXPECT_EQ(a.stateAt(240), b.stateAt(240));
     EXPECT_EQ(a.picture(), b.picture());
 }
@@ -79,7 +81,7 @@ TEST(StateKeys, SeeAnActionFromItsTickOn) {
 
 // A body that is spawned at the end is missing at the start already.
 TEST(StateKeys, SeeASpawnFromTheStart) {
-    const std::string more = base + "[rope.late]\n";
+    const std::string more = base + "[rope.late]\nends = [[0, 1, 0], [1, 1, 0]]\n";
     const StateKeys a = keysOf(more);
     const StateKeys b =
         keysOf(replaced(more, "at = [", "at = [\n  { t = 3.0, do = \"spawn\", target = \"rope.late\" },"));

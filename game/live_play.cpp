@@ -19,7 +19,7 @@ namespace taut::game {
 namespace {
 
 constexpr int mostTicks = 8;               // a picture
-constexpr double tickBudget = 1.0 / 30;    // [s] of wall time for the ticks of a picture, beyond the first
+constexpr double tickBudget = 0.037;       // [s] of wall time for the ticks of a picture: 25 pictures a second
 constexpr double leastPicture = 1.0 / 60;  // [s] no display shows more
 constexpr double idlePause = 0.012;        // [s] between looks for events while nothing changes
 

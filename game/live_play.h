@@ -23,7 +23,7 @@ namespace taut::game {
 struct PlaySettings {
     std::string scene;                   // as given
     std::vector<std::string> overrides;  // "key=value"
-    int width = 640, height = 360;       // [px]
+    int width = 512, height = 288;       // [px]
     int samples = 0, shadowSize = 0;     // 0: those of the scene
     int threads = 0;                     // 0: all of the machine
     double seconds = 0.0;                // [s] of wall time after which it ends; 0: when the user ends it

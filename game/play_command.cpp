@@ -64,7 +64,7 @@ void addPlay(CLI::App& app, Action& chosen) {
     PlaySettings& settings = flags->settings;
     CLI::App* command = app.add_subcommand("play", "Play a scene in a window: pull, look around, record");
     command->add_option("SCENE", settings.scene, "A scene file, or the name of a shipped scene")->required();
-    command->add_option("--size", flags->size, "Size of the picture in pixels; 640x360 when not given")
+    command->add_option("--size", flags->size, "Size of the picture in pixels; 512x288 when not given; the window can be drawn larger")
         ->type_name("WxH");
     command
         ->add_option("--quality", flags->quality,

@@ -108,7 +108,9 @@ struct Session::Impl {
         for (int done = 0; done < ticks && !divergence;) {
             tickOnce();
             ++done;
-            const bool isLate = std::chrono::duration<double>(Clock::now() - start).count() > seconds;
+            // Another tick as long as those before would pass the budget.
+            const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+            const bool isLate = spent + spent / done > seconds;
             if (done + 2 > ticks || isLate || divergence) before = std::exchange(now, look());
             if (isLate) break;
         }

@@ -24,8 +24,8 @@ class Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    // Begins that many ticks and returns at once; fewer are done when they take longer than `budget` [s] of wall time,
-    // but at least one, if any. Nothing else may be called until wait().
+    // Begins that many ticks and returns at once; fewer are done when they would take longer than `budget` [s] of wall
+    // time, but at least one, if any. Nothing else may be called until wait().
     void begin(int ticks, double budget);
     // Until what was begun is done.
     void wait();

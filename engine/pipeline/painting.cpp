@@ -5,34 +5,18 @@
 #include <vector>
 
 #include "core/error.h"
+#include "image/srgb_curve.h"
 
 namespace taut::pipeline {
 namespace {
 
-// Bytes of the sRGB curve (IEC 61966-2-1) to light and back; the way back is exact for every byte.
-class Curve {
-  public:
-    Curve() {
-        for (std::size_t i = 0; i < 256; ++i) {
-            const double c = static_cast<double>(i) / 255.0;
-            light_[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-        }
-        for (std::size_t i = 0; i < 255; ++i) middle_[i] = 0.5F * (light_[i] + light_[i + 1]);
-    }
-    float light(std::uint8_t byte) const { return light_[byte]; }
-    glm::vec3 light(Ink ink) const { return {light_[ink.red], light_[ink.green], light_[ink.blue]}; }
-    std::uint8_t byte(float light) const {
-        return static_cast<std::uint8_t>(std::upper_bound(middle_.begin(), middle_.end(), light) - middle_.begin());
-    }
-
-  private:
-    std::array<float, 256> light_{};
-    std::array<float, 255> middle_{};
-};
-
-const Curve& curve() {
-    static const Curve made;
+const image::SrgbCurve& curve() {
+    static const image::SrgbCurve made;
     return made;
+}
+
+glm::vec3 lightOf(Ink ink) {
+    return {curve().light(ink.red), curve().light(ink.green), curve().light(ink.blue)};
 }
 
 struct Pixels {
@@ -78,7 +62,7 @@ std::array<std::array<std::uint8_t, 256>, 3> Painting::mixed(const glm::vec3& li
 }
 
 void Painting::plate(const Box& box, float radius, Ink ink, float strength) {
-    const glm::vec3 light = curve().light(ink);
+    const glm::vec3 light = lightOf(ink);
     const auto inside = mixed(light, strength);
     const glm::vec2 middle = 0.5F * (box.low + box.high), half = 0.5F * (box.high - box.low) - radius;
     const Pixels pixels = pixelsOf({box.low - 1.0F, box.high + 1.0F}, picture_);
@@ -121,7 +105,7 @@ void Painting::line(std::span<const glm::vec2> corners, float width, Ink ink, fl
             }
         }
     }
-    const glm::vec3 light = curve().light(ink);
+    const glm::vec3 light = lightOf(ink);
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x)
             lay(all.left + x, all.top + y, light,
@@ -135,7 +119,7 @@ void Painting::text(glm::vec2 at, Side side, std::string_view text, float pixels
     if (side == Side::right) at.x -= letters.advance;
     const int left = static_cast<int>(std::lround(at.x)) + letters.left;
     const int top = static_cast<int>(std::lround(at.y)) + letters.top;
-    const glm::vec3 light = curve().light(ink);
+    const glm::vec3 light = lightOf(ink);
     for (int y = 0; y < letters.height; ++y)
         for (int x = 0; x < letters.width; ++x)
             lay(left + x, top + y, light,

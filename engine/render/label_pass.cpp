@@ -1,8 +1,9 @@
 #include "render/label_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "image/srgb_curve.h"
 
 namespace taut::render {
 
@@ -13,26 +14,6 @@ constexpr glm::vec3 rimColour(0.006F);  // linear; the plate has it too
 constexpr float farthest = 1e5F;        // [px] beyond it nothing can reach into a picture
 constexpr float smallestType = 4.0F;    // [px] below it nobody reads
 constexpr float largestType = 2000.0F;  // [px]
-
-// Bytes of the sRGB curve (IEC 61966-2-1) to light and back; the way back is exact for every byte.
-class Curve {
-  public:
-    Curve() {
-        for (std::size_t i = 0; i < 256; ++i) {
-            const double c = static_cast<double>(i) / 255.0;
-            light_[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-        }
-        for (std::size_t i = 0; i < 255; ++i) middle_[i] = 0.5F * (light_[i] + light_[i + 1]);
-    }
-    float light(std::uint8_t byte) const { return light_[byte]; }
-    std::uint8_t byte(float light) const {
-        return static_cast<std::uint8_t>(std::upper_bound(middle_.begin(), middle_.end(), light) - middle_.begin());
-    }
-
-  private:
-    std::array<float, 256> light_{};
-    std::array<float, 255> middle_{};
-};
 
 // A picture that takes colours over its pixels, in light as lights add.
 class Canvas {
@@ -50,7 +31,7 @@ class Canvas {
 
   private:
     image::Image& picture_;
-    Curve curve_;
+    image::SrgbCurve curve_;
 };
 
 struct PixelPlace {

@@ -1,6 +1,5 @@
 // The actions of a scene, each done at the start of its tick.
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
 #include "world/cutting.h"
@@ -8,13 +7,10 @@
 #include "world/motion.h"
 #include "world/rotation.h"
 #include "world/targets.h"
+#include "world/ticks.h"
 
 namespace taut::world {
 namespace {
-
-std::int64_t tickOf(const ActionSpec& action, double ticksPerSecond) {
-    return static_cast<std::int64_t>(std::floor(action.t * ticksPerSecond + 0.5));
-}
 
 double distance2(const dvec3& a, const dvec3& b) {
     return glm::dot(b - a, b - a);
@@ -37,8 +33,9 @@ std::vector<std::pair<Island*, std::vector<int>>> byIsland(const std::vector<Pic
 }
 
 void World::Impl::performDue() {
+    const Ticks ticks(start->run);
     for (const ActionSpec& action : start->actions)
-        if (tickOf(action, ticksPerSecond) == tick) perform(action);
+        if (ticks.at(action.t) == tick) perform(action);
 }
 
 void World::Impl::perform(const ActionSpec& action) {

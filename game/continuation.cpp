@@ -72,6 +72,12 @@ void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, c
         pipeline::CheckpointFolder(folder).latest(goal, keys.state, refused);
     for (const std::string& line : refused) fmt::print(stderr, "note: {}\n", line);
     if (!checkpoint) {
+        if (flags.resume && !flags.mayOverwrite && !output.empty() &&
+            !image::FramePattern(output).framesThere().empty())
+            throw core::Error(core::ExitCode::inputOutput,
+                              fmt::format("{} has no state of this run to go on from, and there are frames already; -y "
+                                          "draws all of them again",
+                                          folder.string()));
         fmt::print(stderr, "note: {} has no state to go on from; starting with frame 0\n", folder.string());
         return;
     }

@@ -22,6 +22,7 @@ struct ContinuationFlags {
     std::string folder;                // of the checkpoints; empty: `checkpoints` beside the output
     bool resume = false;               // go on where the frames on disk end
     std::optional<std::int64_t> from;  // draw from this frame on
+    bool mayOverwrite = false;         // frames that no state goes on from may be drawn again
     bool isWanted() const { return every > 0 || resume || from; }
 };
 
@@ -36,8 +37,9 @@ RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const w
 
 // Puts the world where the run is to go on, and says so in the options: for --from the last checkpoint at or before
 // that frame, for --resume the last before the first frame that `pictures` lacks (null: none are drawn). Without any
-// the run starts at frame 0. Prints what it does and what it had to pass over. Throws core::Error(badContent) when the
-// pictures on disk were made with other settings.
+// the run starts at frame 0. Prints what it does and what it had to pass over. Throws core::Error: badContent
+// when the pictures on disk were made with other settings, inputOutput when no state goes on from them and they may not
+// be overwritten.
 void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
           const std::string& output, pipeline::RunOptions& options, world::World& world);
 

@@ -74,6 +74,7 @@ void checkFlags(const RenderFlags& flags) {
         fail("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
     if (flags.continuation.resume && (!flags.video.empty() || image::isVideoPath(flags.output)))
         fail("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
+    if (flags.continuation.resume && flags.no) fail("--resume replaces frames: it does not go with -n");
     if (flags.continuation.from && !flags.frames.empty()) fail("--from and --frames exclude each other");
 }
 
@@ -176,12 +177,14 @@ void writeRecords(const image::FrameSink& sink, const RenderFlags& flags, const 
     if (flags.metrics) image::writeWholeFile(sink.companion("metrics.csv"), pipeline::metricsCsv(result));
 }
 
-// What came out, in a line.
-void printSummary(const RenderFlags& flags, const pipeline::RunResult& result) {
-    const auto pictures = std::count_if(result.frames.begin(), result.frames.end(),
-                                        [](const pipeline::FrameRecord& frame) { return frame.pictured; });
-    std::string text = fmt::format("{} of {} simulated frames drawn", pictures, result.frames.size());
-    if (flags.noPictures) text = fmt::format("{} frames simulated", result.frames.size());
+// What came out, in a line; the first `before` frames are those of an earlier run.
+void printSummary(const RenderFlags& flags, const pipeline::RunResult& result, std::size_t before) {
+    const auto first = result.frames.begin() + static_cast<std::ptrdiff_t>(before);
+    const auto pictures =
+        std::count_if(first, result.frames.end(), [](const pipeline::FrameRecord& frame) { return frame.pictured; });
+    const std::size_t simulated = result.frames.size() - before;
+    std::string text = fmt::format("{} of {} simulated frames drawn", pictures, simulated);
+    if (flags.noPictures) text = fmt::format("{} frames simulated", simulated);
     if (!flags.output.empty()) text += fmt::format(", in {}", flags.output);
     if (!flags.video.empty()) text += fmt::format(" and {}", flags.video);
     fmt::print(stderr, "{}, {:.1f} s{}\n", text, result.seconds, result.interrupted ? " (interrupted)" : "");
@@ -202,7 +205,9 @@ int render(const RenderFlags& flags) {
 
     const std::filesystem::path states = checkpointFolder(flags, sink.get());
     const RunKeys keys = runKeys(scene.keys, flags.debug, flags.overlay, world);
-    goOn(flags.continuation, states, keys, flags.noPictures ? "" : flags.output, options, world);
+    ContinuationFlags continuation = flags.continuation;
+    continuation.mayOverwrite = flags.yes;
+    goOn(continuation, states, keys, flags.noPictures ? "" : flags.output, options, world);
 
     pipeline::Draw draw;
     std::unique_ptr<render::Renderer> renderer;
@@ -238,7 +243,7 @@ int render(const RenderFlags& flags) {
     std::vector<std::string> met = world.warnings();  // such as a block squashed flat on the way
     std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
     printWarnings(met);
-    if (!flags.quiet) printSummary(flags, result);
+    if (!flags.quiet) printSummary(flags, result, options.before.size());
     if (result.divergence) throw core::Error(core::ExitCode::diverged, result.divergence->message);
     return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
 }

@@ -19,8 +19,10 @@ std::filesystem::path sceneFile(const std::string& argument) {
     if (std::filesystem::is_regular_file(given, ignored)) return given;
     const bool hasFolder = argument.find('/') != std::string::npos;
     const std::string name = given.extension() == ".toml" ? given.stem().string() : argument;
-    const std::filesystem::path shipped = assetFolder() / "scenes" / (name + ".toml");
-    if (!hasFolder && !name.empty() && std::filesystem::is_regular_file(shipped, ignored)) return shipped;
+    for (const char* folder : {"scenes", "scenarios"}) {
+        const std::filesystem::path shipped = assetFolder() / folder / (name + ".toml");
+        if (!hasFolder && !name.empty() && std::filesystem::is_regular_file(shipped, ignored)) return shipped;
+    }
 
     if (std::filesystem::is_directory(given, ignored))
         throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: this is a folder, not a scene file", argument));

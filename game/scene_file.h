@@ -10,8 +10,8 @@
 
 namespace taut::game {
 
-// A file as named, or, for a bare name, the shipped scene of that name. Throws core::Error(inputOutput), with the
-// nearest shipped scene when it was a bare name.
+// A file as named, or, for a bare name, the shipped scene or else scenario of that name. Throws
+// core::Error(inputOutput), with the nearest shipped scene when it was a bare name.
 std::filesystem::path sceneFile(const std::string& argument);
 
 // Reads the scene with overrides ("key=value") and prints its warnings to standard error. Throws core::Error, also for

@@ -225,6 +225,22 @@ int finish(const TestFlags& flags, const report::TestReport& report, const std::
     return exitCodeOf(report::verdictOf(report));
 }
 
+// What had not ended when the run was interrupted has not passed.
+void addUnplayed(const std::vector<regression::Scenario>& scenarios, report::TestReport& report) {
+    for (const regression::Scenario& scenario : scenarios) {
+        const bool isThere =
+            std::ranges::any_of(report.scenarios, [&](const auto& s) { return s.name == scenario.name; });
+        if (isThere) continue;
+        report::TestScenario unplayed;
+        unplayed.name = scenario.name;
+        unplayed.title = scenario.spec.title;
+        unplayed.file = scenario.file.string();
+        unplayed.verdict = report::Verdict::failed;
+        unplayed.faults.push_back("interrupted before its end");
+        report.scenarios.push_back(std::move(unplayed));
+    }
+}
+
 int test(const TestFlags& flags) {
     Run run = prepare(flags);
     const std::filesystem::path page = std::filesystem::path(flags.output) / "report.html";
@@ -255,7 +271,7 @@ int test(const TestFlags& flags) {
         if (isAcceptable(scenario)) scenario.accept = acceptCommand(flags, scenario.name);
         writePictures(flags.output, scenario);
     }
-    if (interruption.exitCode()) report.notes.push_back("Interrupted: scenarios that had not ended are left out.");
+    if (interruption.exitCode()) addUnplayed(run.scenarios, report);
     const int code = finish(flags, report, page);
     return interruption.exitCode() ? static_cast<int>(*interruption.exitCode()) : code;
 }

@@ -61,13 +61,13 @@ std::vector<Entry> entriesOf(const Recording& recording) {
 
 std::string claimsText(const Recording& recording) {
     std::string text = "\n# Proposed checks, from what was measured; take those that should hold.\n";
-    if (recording.hasClaims) text += "check = []\ngolden = []\n";
-    text += "# check = [\n";
+    if (recording.hasClaims) text += "golden = []\n";
+    text += "check = [\n";
     for (const auto& [body, strain] : recording.strains) {
         const double bound = rounded(std::max(1e-3, 1.3 * strain), 3);
-        text += fmt::format("#   {{ that = \"max_strain({}) < {}\" }},  # measured {:.3g}\n", body, bound, strain);
+        text += fmt::format("  # {{ that = \"max_strain({}) < {}\" }},  # measured {:.3g}\n", body, bound, strain);
     }
-    return text + "# ]\n";
+    return text + "]\n";
 }
 
 std::string keyText(const std::string& key) {

@@ -94,7 +94,7 @@ class Timeline {
     }
 
     void checkEvent(const Event& event) {
-        if (event.tick >= ticks_.last())
+        if (event.tick >= ticks_.last() && !isLengthOverridden(root_))
             error(event, "t",
                   fmt::format("{} s is past the end: the last frame shows {:.6g} s", event.action->t,
                               ticks_.secondsOf(ticks_.last())),
@@ -269,6 +269,12 @@ class Timeline {
 
 void checkTimeline(const Node& root, const std::vector<Section>& sections, ReadScene& scene, Problems& problems) {
     Timeline(root, sections, scene, problems).check();
+}
+
+bool isLengthOverridden(const Node& root) {
+    const Member* run = root.find("run");
+    const Member* seconds = run != nullptr ? run->value.find("seconds") : nullptr;
+    return seconds != nullptr && seconds->value.place.origin > 0;
 }
 
 }  // namespace taut::scene

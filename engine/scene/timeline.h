@@ -11,4 +11,7 @@ namespace taut::scene {
 // scene was read from. Expects the meshes to be loaded.
 void checkTimeline(const Node& root, const std::vector<Section>& sections, ReadScene& scene, Problems& problems);
 
+// Whether the run's length was overridden: then what lies past the end is not a slip, it is left out.
+bool isLengthOverridden(const Node& root);
+
 }  // namespace taut::scene

@@ -110,4 +110,4 @@ for file in sheet-played sheet-played-1; do
 done
 grep -q 'do = "push"' sheet-played.toml || fail "the scene's own timeline is lost"
 grep -q '^solver.integrator' sheet-played-1.toml || fail "the method is lost"
-grep -q '^# *{ that = "max_strain(cloth.sheet) < ' sheet-played.toml || fail "no check is proposed"
+grep -q '^ *# { that = "max_strain(cloth.sheet) < ' sheet-played.toml || fail "no check is proposed"

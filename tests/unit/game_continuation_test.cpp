@@ -110,6 +110,21 @@ TEST_F(Continuation, PassesOverADamagedState) {
     EXPECT_EQ(again.out, from(whole_.out, 20));
 }
 
+// Pictures of another scene are not replaced unasked.
+TEST_F(Continuation, ResumingKeepsThePicturesOfAnotherScene) {
+    const std::filesystem::path frames = folder_ / "frames";
+    std::filesystem::create_directories(frames);
+    std::ofstream(frames / "frame_000000.png") << "a picture";
+    const std::vector<std::string> command = {
+        "render", (folder_ / "scene.toml").string(), "-o", frames.string(), "--quiet", "--resume"};
+    const Outcome refused = test::run(command);
+    EXPECT_EQ(refused.code, 6);
+    EXPECT_TRUE(has(refused.err, "-y draws all of them again")) << refused.err;
+    std::vector<std::string> never = command;
+    never.emplace_back("-n");
+    EXPECT_EQ(test::run(never).code, 2);
+}
+
 TEST_F(Continuation, SaysWhatCannotBe) {
     EXPECT_EQ(play({"--from", "30"}).code, 2) << "the scene ends with frame 29";
     EXPECT_EQ(play({"--from", "3", "--frames", "3-4"}).code, 2);

@@ -110,7 +110,7 @@ TEST(Recording, TheFileIsAScenarioWithTheLastWordOnEachKey) {
     EXPECT_TRUE(tree.find("hand")->value.find("anywhere")->value.flag);
     EXPECT_EQ(tree.find("run")->value.find("seconds")->value.number, 1.5);  // frames 0 … 89
     EXPECT_NE(text.find("# It was played with --set 'camera.main.keys.0.t=0'"), std::string::npos);
-    EXPECT_NE(text.find("#   { that = \"max_strain(cloth.curtain) < 0.079\" },  # measured 0.061"), std::string::npos);
+    EXPECT_NE(text.find("  # { that = \"max_strain(cloth.curtain) < 0.079\" },  # measured 0.061"), std::string::npos);
 }
 
 TEST(Recording, AScenarioIsTakenApartIntoItsSceneAndItsChanges) {

@@ -140,5 +140,26 @@ TEST(SceneMerge, TheSceneCannotBeSet) {
     EXPECT_EQ(messageOver(yard, "", options), "--set scene: error: the scene that a file builds on cannot be set");
 }
 
+// A scenario can be looked at for a second: what lies past an end that was set by hand is left out, not wrong.
+TEST(Merge, AnOverriddenLengthMakesNothingLate) {
+    const std::string text = R"(schema = 1
+run = { seconds = 4.0 }
+at = [ { t = 3.0, do = "push", target = "rope.line@end", impulse_Ns = [0, 0, 1] } ]
+[rope.line]
+ends = [[0, 1, 0], [1, 1, 0]]
+[[check]]
+that = "speed(rope.line) < 100"
+at = 3.5
+[[golden]]
+frames = [200]
+)";
+    LoadOptions options;
+    options.overrides = {"run.seconds=1"};
+    EXPECT_EQ(loadSceneText(text, "s.toml", options).spec.actions.size(), 1U);
+    std::string shorter = text;
+    shorter.replace(shorter.find("4.0"), 3, "1.0");
+    EXPECT_THROW(loadSceneText(shorter, "s.toml", {}), core::Error);
+}
+
 }  // namespace
 }  // namespace taut::scene

@@ -41,7 +41,7 @@ void addContinuationFlags(CLI::App& command, ContinuationFlags& flags) {
             "--from", [&flags](const std::int64_t& frame) { flags.from = frame; },
             "Draw from this frame on, from the last state kept before it")
         ->type_name("FRAME")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
 }
 
 RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const world::World& world) {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "game/commands.h"
+#include "game/flags.h"
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/scene_file.h"

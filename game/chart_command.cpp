@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "game/chart_refinement.h"
 #include "game/commands.h"
+#include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"

@@ -1,5 +1,7 @@
 #include "game/flags.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <string_view>
 
@@ -45,6 +47,16 @@ Size pictureSize(const std::string& text) {
             return {*width, *height};
     }
     throw core::Error(core::ExitCode::usage, "--size " + text + ": expected a size in pixels like 1280x720");
+}
+
+std::function<std::string(const std::string&)> numberWithin(double least, double most) {
+    return [least, most](const std::string& text) -> std::string {
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool isNumber = error == std::errc() && end == text.data() + text.size();
+        if (isNumber && value >= least && value <= most) return "";  // false for nan
+        return fmt::format("expected a number from {:g} to {:g}, not {}", least, most, text);
+    };
 }
 
 }  // namespace taut::game

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <system_error>
 
@@ -27,16 +26,6 @@ void checkMethods(const std::vector<std::string>& wanted) {
                               fmt::format("there is no method '{}'{}", name,
                                           hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
         }
-}
-
-std::function<std::string(const std::string&)> numberWithin(double least, double most) {
-    return [least, most](const std::string& text) -> std::string {
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool isNumber = error == std::errc() && end == text.data() + text.size();
-        if (isNumber && value >= least && value <= most) return "";  // false for nan
-        return fmt::format("expected a number from {:g} to {:g}, not {}", least, most, text);
-    };
 }
 
 std::vector<std::pair<std::string, std::string>> machineFacts(const pipeline::Machine& machine) {

@@ -20,13 +20,6 @@ namespace taut::game {
 // Throws core::Error(usage), with a suggestion, when there is no method of one of the names.
 void checkMethods(const std::vector<std::string>& wanted);
 
-// A check for a flag: empty when its text is a number in least … most, else what is wrong. Unlike CLI::Range it lets
-// neither nan nor numbers of hundreds of digits through.
-std::function<std::string(const std::string&)> numberWithin(double least, double most);
-
-// What `--seconds` takes: more motion, or less, than anybody waits for is a slip of the hand.
-inline constexpr double leastSeconds = 1e-3, mostSeconds = 86400.0;  // [s]
-
 // Name and value of everything that measured times depend on.
 std::vector<std::pair<std::string, std::string>> machineFacts(const pipeline::Machine& machine);
 std::string programText(const pipeline::Machine& machine);  // version and commit

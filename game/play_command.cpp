@@ -8,7 +8,6 @@
 #include "game/commands.h"
 #include "game/flags.h"
 #include "game/interruption.h"
-#include "game/lab.h"
 #include "game/live_play.h"
 
 namespace taut::game {

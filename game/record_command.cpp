@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "game/commands.h"
+#include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"

@@ -263,8 +263,9 @@ void addOutputFlags(CLI::App& command, RenderFlags& flags) {
 
 void addPictureFlags(CLI::App& command, RenderFlags& flags) {
     command.add_option("--frames", flags.frames, "Draw these frames only: 0-119, 60, or 60-")->type_name("A-B");
-    command.add_option("--fps", flags.fps, "Pictures a second of scene time")->check(CLI::Range(1e-3, 1e6));
-    command.add_option("--seconds", flags.seconds, "Length of scene time")->check(CLI::Range(1e-3, 1e6));
+    command.add_option("--fps", flags.fps, "Pictures a second of scene time")->check(numberWithin(1e-3, 1e6));
+    command.add_option("--seconds", flags.seconds, "Length of scene time")
+        ->check(numberWithin(leastSeconds, mostSeconds));
     command.add_option("--size", flags.size, "Size of the pictures in pixels")->type_name("WxH");
     command.add_option("--camera", flags.camera, "Look through this camera of the scene")->type_name("NAME");
     command.add_option("--gl", flags.gl, "What draws; the first that works when not given")

@@ -218,9 +218,10 @@ std::vector<std::string> orphans(const TestFlags& flags, const Run& run) {
 }
 
 int finish(const TestFlags& flags, const report::TestReport& report, const std::filesystem::path& page) {
+    // First what a full disk cannot take away.
+    fmt::print("{}{}{}", report::testTable(report), report::testFailures(report), report::calibrationTable(report));
     image::writeWholeFile(page, report::testPage(report));
     if (!flags.junit.empty()) image::writeWholeFile(flags.junit, report::junitXml(report));
-    fmt::print("{}{}{}", report::testTable(report), report::testFailures(report), report::calibrationTable(report));
     fmt::print("\n{}; {}\n", report::testSummary(report), page.string());
     return exitCodeOf(report::verdictOf(report));
 }

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "report/test_page.h"
+
 namespace taut::report {
 namespace {
 
@@ -47,18 +49,6 @@ std::string escaped(const std::string& text) {
             continue;
         }
         switch (text[at]) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
             case '\n':
                 out += "&#10;";
                 break;
@@ -69,7 +59,7 @@ std::string escaped(const std::string& text) {
                 out += "&#9;";
                 break;
             default:
-                out.append(text, at, length);
+                out += htmlText(text.substr(at, length));
         }
         at += length;
     }

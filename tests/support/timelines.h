@@ -1,6 +1,8 @@
 // Actions built in code, and a scene in which everything happens that can, for tests of the world.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
@@ -8,6 +10,13 @@
 #include "world/world.h"
 
 namespace taut::support {
+
+inline void run(world::World& world, int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+        const auto divergence = world.advance();
+        ASSERT_FALSE(divergence) << divergence->message;
+    }
+}
 
 inline world::ActionSpec action(world::Do what, double t, const std::string& target = "") {
     world::ActionSpec spec;

@@ -12,6 +12,7 @@ namespace taut::world {
 namespace {
 
 using support::action;
+using support::run;
 
 // Masses of 1 and 3 kg on a spring in empty space.
 SceneSpec dumbbell() {
@@ -39,13 +40,6 @@ SceneSpec lone(const std::string& method = "leapfrog") {
     net.springs = {{"m", "wall", 1e-9, 5.0, std::nullopt, {}}};
     scene.nets = {net};
     return scene;
-}
-
-void run(World& world, int ticks) {
-    for (int i = 0; i < ticks; ++i) {
-        const auto divergence = world.advance();
-        ASSERT_FALSE(divergence) << divergence->message;
-    }
 }
 
 std::string errorOf(const SceneSpec& scene, int ticks = 3) {

@@ -10,14 +10,9 @@
 namespace taut::world {
 namespace {
 
-constexpr double g = 9.81;
+using support::run;
 
-void run(World& world, int ticks) {
-    for (int i = 0; i < ticks; ++i) {
-        const auto divergence = world.advance();
-        ASSERT_FALSE(divergence) << divergence->message;
-    }
-}
+constexpr double g = 9.81;
 
 SceneSpec sheet(int cells = 6) {
     SceneSpec scene;

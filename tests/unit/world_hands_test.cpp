@@ -9,6 +9,8 @@
 namespace taut::world {
 namespace {
 
+using support::run;
+
 constexpr double g = 9.81;
 
 // A mass of 2 kg that nothing but gravity acts on: its spring, to a wall, is without force to speak of.
@@ -23,13 +25,6 @@ SceneSpec lone(const std::string& method = "leapfrog", double stiffness = 1e-9) 
     net.springs = {{"m", "wall", stiffness, 1.0, 5e-3, {}}};
     scene.nets = {net};
     return scene;
-}
-
-void run(World& world, int ticks) {
-    for (int i = 0; i < ticks; ++i) {
-        const auto divergence = world.advance();
-        ASSERT_FALSE(divergence) << divergence->message;
-    }
 }
 
 TEST(Hands, ASpringHandLetsItsLoadSagByWeightOverStrength) {

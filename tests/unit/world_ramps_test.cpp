@@ -9,18 +9,12 @@
 namespace taut::world {
 namespace {
 
+using support::run;
 using Affects = RampField::Affects;
 constexpr double g = 9.81;
 
 double& gravityOf(SceneSpec& s) {
     return s.world.gravity.y;
-}
-
-void run(World& world, int ticks) {
-    for (int i = 0; i < ticks; ++i) {
-        const auto divergence = world.advance();
-        ASSERT_FALSE(divergence) << divergence->message;
-    }
 }
 
 SceneSpec lone(double stiffness = 1e-9) {

@@ -8,7 +8,10 @@ target_compile_options(taut_options INTERFACE
   # Same bits everywhere: no fused multiply-add unless the source says so, never fast-math.
   # The two others change no value; without them loops with a square root do not vectorise.
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
-target_include_directories(taut_options INTERFACE ${PROJECT_SOURCE_DIR}/engine)
+# Headers are included as "taut/FOLDER/FILE.h", in the checkout as where they are installed.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/engine ${PROJECT_BINARY_DIR}/include/taut SYMBOLIC)
+target_include_directories(taut_options INTERFACE ${PROJECT_BINARY_DIR}/include)
 
 # taut_library(core SOURCES a.cpp LINK taut::ode): the library of one folder, known as taut::core.
 function(taut_library name)

@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/commands.h"
 #include "game/flags.h"
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/scene_file.h"
-#include "pipeline/machine.h"
-#include "study/atlas_chart.h"
-#include "study/atlas_text.h"
-#include "study/phase_plane.h"
-#include "study/stability_map.h"
-#include "study/threshold.h"
+#include "taut/pipeline/machine.h"
+#include "taut/study/atlas_chart.h"
+#include "taut/study/atlas_text.h"
+#include "taut/study/phase_plane.h"
+#include "taut/study/stability_map.h"
+#include "taut/study/threshold.h"
 
 namespace taut::game {
 namespace {

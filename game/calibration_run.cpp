@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/lab.h"
 #include "game/shell_word.h"
-#include "image/frame_sequence.h"
-#include "image/whole_file.h"
+#include "taut/image/frame_sequence.h"
+#include "taut/image/whole_file.h"
 
 namespace taut::game {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "regression/calibration.h"
+#include "taut/regression/calibration.h"
 
 namespace taut::game {
 

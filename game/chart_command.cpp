@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/chart_refinement.h"
 #include "game/commands.h"
 #include "game/flags.h"
@@ -17,14 +17,14 @@
 #include "game/lab.h"
 #include "game/scene_file.h"
 #include "game/suggestion.h"
-#include "ode/method_table.h"
-#include "pipeline/machine.h"
-#include "study/growth_table.h"
-#include "study/problems.h"
-#include "study/scene_subject.h"
-#include "study/work_precision.h"
-#include "study/work_precision_chart.h"
-#include "study/work_precision_text.h"
+#include "taut/ode/method_table.h"
+#include "taut/pipeline/machine.h"
+#include "taut/study/growth_table.h"
+#include "taut/study/problems.h"
+#include "taut/study/scene_subject.h"
+#include "taut/study/work_precision.h"
+#include "taut/study/work_precision_chart.h"
+#include "taut/study/work_precision_text.h"
 
 namespace taut::game {
 namespace {

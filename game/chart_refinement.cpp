@@ -4,8 +4,8 @@
 
 #include "game/interruption.h"
 #include "game/lab.h"
-#include "study/refinement.h"
-#include "study/refinement_chart.h"
+#include "taut/study/refinement.h"
+#include "taut/study/refinement_chart.h"
 
 namespace taut::game {
 

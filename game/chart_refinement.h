@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "study/refinement_text.h"
+#include "taut/study/refinement_text.h"
 
 namespace taut::game {
 

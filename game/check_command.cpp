@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/commands.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

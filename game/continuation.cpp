@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/error.h"
-#include "core/hash.h"
-#include "image/frame_sequence.h"
-#include "image/whole_file.h"
-#include "pipeline/checkpoint.h"
+#include "taut/core/error.h"
+#include "taut/core/hash.h"
+#include "taut/image/frame_sequence.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/checkpoint.h"
 
 namespace taut::game {
 namespace {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/run.h"
-#include "scene/state_keys.h"
-#include "world/world.h"
+#include "taut/pipeline/run.h"
+#include "taut/scene/state_keys.h"
+#include "taut/world/world.h"
 
 namespace CLI {
 class App;

@@ -5,16 +5,16 @@
 #include <memory>
 #include <string>
 
-#include "core/error.h"
-#include "core/instruction_set.h"
+#include "taut/core/error.h"
+#include "taut/core/instruction_set.h"
 #include "game/commands.h"
 #include "game/folders.h"
-#include "image/video_writer.h"
-#include "image/whole_file.h"
-#include "pipeline/machine.h"
-#include "pipeline/self_test.h"
-#include "render/font.h"
-#include "report/gnuplot.h"
+#include "taut/image/video_writer.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/machine.h"
+#include "taut/pipeline/self_test.h"
+#include "taut/render/font.h"
+#include "taut/report/gnuplot.h"
 
 namespace taut::game {
 namespace {

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::game {
 namespace {

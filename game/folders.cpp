@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "core/error.h"
-#include "render/font.h"
+#include "taut/core/error.h"
+#include "taut/render/font.h"
 
 namespace taut::game {
 namespace {

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/commands.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
-#include "ode/method_table.h"
-#include "pipeline/run.h"
-#include "world/world.h"
+#include "taut/ode/method_table.h"
+#include "taut/pipeline/run.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <optional>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::game {
 

@@ -6,13 +6,13 @@
 #include <system_error>
 
 #include "commit.h"
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/messages.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
-#include "image/whole_file.h"
-#include "ode/method_table.h"
-#include "report/gnuplot.h"
+#include "taut/image/whole_file.h"
+#include "taut/ode/method_table.h"
+#include "taut/report/gnuplot.h"
 
 namespace taut::game {
 

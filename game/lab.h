@@ -12,8 +12,8 @@
 
 #include "game/interruption.h"
 #include "game/live_line.h"
-#include "pipeline/machine.h"
-#include "report/chart.h"
+#include "taut/pipeline/machine.h"
+#include "taut/report/chart.h"
 
 namespace taut::game {
 

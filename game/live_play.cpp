@@ -7,13 +7,13 @@
 #include <thread>
 #include <utility>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "live/between.h"
-#include "pipeline/self_test.h"
-#include "scene/method_names.h"
+#include "taut/live/between.h"
+#include "taut/pipeline/self_test.h"
+#include "taut/scene/method_names.h"
 
 namespace taut::game {
 namespace {

@@ -12,11 +12,11 @@
 
 #include "game/play_screen.h"
 #include "game/window.h"
-#include "live/orbit.h"
-#include "live/pace.h"
-#include "live/session.h"
-#include "pipeline/overlay.h"
-#include "render/renderer.h"
+#include "taut/live/orbit.h"
+#include "taut/live/pace.h"
+#include "taut/live/session.h"
+#include "taut/pipeline/overlay.h"
+#include "taut/render/renderer.h"
 
 namespace taut::game {
 

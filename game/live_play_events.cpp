@@ -9,9 +9,9 @@
 #include "game/folders.h"
 #include "game/live_play.h"
 #include "game/scene_file.h"
-#include "image/whole_file.h"
-#include "live/recording.h"
-#include "scene/method_names.h"
+#include "taut/image/whole_file.h"
+#include "taut/live/recording.h"
+#include "taut/scene/method_names.h"
 
 namespace taut::game {
 namespace {

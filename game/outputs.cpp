@@ -7,9 +7,9 @@
 #include <iostream>
 #include <system_error>
 
-#include "core/error.h"
-#include "image/frame_sequence.h"
-#include "image/video_writer.h"
+#include "taut/core/error.h"
+#include "taut/image/frame_sequence.h"
+#include "taut/image/video_writer.h"
 
 namespace taut::game {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "image/frame_sink.h"
+#include "taut/image/frame_sink.h"
 
 namespace taut::game {
 

@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "commit.h"
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/commands.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/live_line.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
-#include "image/whole_file.h"
-#include "pipeline/machine.h"
-#include "scene/load.h"
-#include "scene/splice.h"
-#include "study/plan.h"
-#include "study/plan_text.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/machine.h"
+#include "taut/scene/load.h"
+#include "taut/scene/splice.h"
+#include "taut/study/plan.h"
+#include "taut/study/plan_text.h"
 
 namespace taut::game {
 namespace {

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "core/error.h"
-#include "core/parallel.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 #include "game/commands.h"
 #include "game/flags.h"
 #include "game/interruption.h"

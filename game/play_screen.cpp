@@ -3,8 +3,8 @@
 #include <array>
 #include <utility>
 
-#include "pipeline/overlay.h"
-#include "pipeline/painting.h"
+#include "taut/pipeline/overlay.h"
+#include "taut/pipeline/painting.h"
 
 namespace taut::game {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
-#include "render/text_picture.h"
+#include "taut/image/image.h"
+#include "taut/render/text_picture.h"
 
 namespace taut::game {
 

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/commands.h"
 #include "game/folders.h"
 #include "game/messages.h"

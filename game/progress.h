@@ -7,7 +7,7 @@
 #include <string>
 
 #include "game/live_line.h"
-#include "pipeline/run.h"
+#include "taut/pipeline/run.h"
 
 namespace taut::game {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/parallel.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 #include "game/commands.h"
 #include "game/flags.h"
 #include "game/folders.h"
@@ -15,10 +15,10 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "image/whole_file.h"
-#include "pipeline/run.h"
-#include "regression/tape.h"
-#include "scene/load.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/run.h"
+#include "taut/regression/tape.h"
+#include "taut/scene/load.h"
 
 namespace taut::game {
 namespace {

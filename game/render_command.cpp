@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/parallel.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 #include "game/commands.h"
 #include "game/continuation.h"
 #include "game/flags.h"
@@ -21,13 +21,13 @@
 #include "game/outputs.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
-#include "image/several_sinks.h"
-#include "image/video_writer.h"
-#include "image/whole_file.h"
-#include "pipeline/overlay.h"
-#include "pipeline/run.h"
-#include "pipeline/run_record.h"
-#include "pipeline/self_test.h"
+#include "taut/image/several_sinks.h"
+#include "taut/image/video_writer.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/overlay.h"
+#include "taut/pipeline/run.h"
+#include "taut/pipeline/run_record.h"
+#include "taut/pipeline/self_test.h"
 
 namespace taut::game {
 namespace {

@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "core/parallel.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 #include "game/commands.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "image/whole_file.h"
-#include "regression/tape.h"
-#include "regression/tape_compare.h"
-#include "scene/load.h"
+#include "taut/image/whole_file.h"
+#include "taut/regression/tape.h"
+#include "taut/regression/tape_compare.h"
+#include "taut/scene/load.h"
 
 namespace taut::game {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <system_error>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/suggestion.h"
-#include "image/whole_file.h"
-#include "scene/load.h"
+#include "taut/image/whole_file.h"
+#include "taut/scene/load.h"
 
 namespace taut::game {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/load.h"
-#include "world/spec.h"
+#include "taut/scene/load.h"
+#include "taut/world/spec.h"
 
 namespace taut::game {
 

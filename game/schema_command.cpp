@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/commands.h"
-#include "scene/load.h"
+#include "taut/scene/load.h"
 
 namespace taut::game {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/commands.h"
-#include "image/png.h"
-#include "report/contact_sheet.h"
+#include "taut/image/png.h"
+#include "taut/report/contact_sheet.h"
 
 namespace taut::game {
 namespace {

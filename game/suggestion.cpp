@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/edit_distance.h"
+#include "taut/core/edit_distance.h"
 
 namespace taut::game {
 

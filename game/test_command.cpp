@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/error.h"
-#include "core/parallel.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 #include "game/calibration_run.h"
 #include "game/commands.h"
 #include "game/folders.h"
@@ -21,13 +21,13 @@
 #include "game/scene_file.h"
 #include "game/shell_word.h"
 #include "game/suggestion.h"
-#include "image/whole_file.h"
-#include "pipeline/machine.h"
-#include "pipeline/self_test.h"
-#include "regression/goldens.h"
-#include "regression/suite.h"
-#include "report/junit.h"
-#include "report/test_page.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/machine.h"
+#include "taut/pipeline/self_test.h"
+#include "taut/regression/goldens.h"
+#include "taut/regression/suite.h"
+#include "taut/report/junit.h"
+#include "taut/report/test_page.h"
 
 namespace taut::game {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <optional>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::game {
 namespace {

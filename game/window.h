@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "taut/image/image.h"
 
 namespace taut::game {
 

@@ -1,6 +1,6 @@
 // What is measured of whole bodies.
-#include "check/function_table.h"
-#include "check/places.h"
+#include "taut/check/function_table.h"
+#include "taut/check/places.h"
 
 namespace taut::check {
 

@@ -1,10 +1,10 @@
-#include "check/check.h"
+#include "taut/check/check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "check/evaluation.h"
-#include "check/parser.h"
+#include "taut/check/evaluation.h"
+#include "taut/check/parser.h"
 
 namespace taut::check {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

@@ -1,11 +1,11 @@
-#include "check/evaluation.h"
+#include "taut/check/evaluation.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "check/function_table.h"
-#include "core/error.h"
+#include "taut/check/function_table.h"
+#include "taut/core/error.h"
 
 namespace taut::check {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

@@ -1,8 +1,8 @@
-#include "check/function_table.h"
+#include "taut/check/function_table.h"
 
 #include <fmt/format.h>
 
-#include "check/check.h"
+#include "taut/check/check.h"
 
 namespace taut::check {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "check/evaluation.h"
+#include "taut/check/evaluation.h"
 
 namespace taut::check {
 

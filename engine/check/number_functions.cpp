@@ -1,7 +1,7 @@
 // The moment, and what is done with numbers.
 #include <cmath>
 
-#include "check/function_table.h"
+#include "taut/check/function_table.h"
 
 namespace taut::check {
 

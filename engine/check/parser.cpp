@@ -1,4 +1,4 @@
-#include "check/parser.h"
+#include "taut/check/parser.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "check/function_table.h"
-#include "core/edit_distance.h"
+#include "taut/check/function_table.h"
+#include "taut/core/edit_distance.h"
 
 namespace taut::check {
 

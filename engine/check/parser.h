@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "check/check.h"
-#include "check/evaluation.h"
+#include "taut/check/check.h"
+#include "taut/check/evaluation.h"
 
 namespace taut::check {
 

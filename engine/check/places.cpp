@@ -1,4 +1,4 @@
-#include "check/places.h"
+#include "taut/check/places.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "world/targets.h"
+#include "taut/world/targets.h"
 
 namespace taut::check {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "check/evaluation.h"
+#include "taut/check/evaluation.h"
 
 namespace taut::check {
 

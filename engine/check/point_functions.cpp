@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check/function_table.h"
-#include "check/places.h"
+#include "taut/check/function_table.h"
+#include "taut/check/places.h"
 
 namespace taut::check {
 

@@ -1,12 +1,12 @@
-#include "check/watcher.h"
+#include "taut/check/watcher.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "check/evaluation.h"
-#include "core/error.h"
-#include "world/ticks.h"
+#include "taut/check/evaluation.h"
+#include "taut/core/error.h"
+#include "taut/world/ticks.h"
 
 namespace taut::check {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "check/check.h"
-#include "world/spec.h"
-#include "world/world.h"
+#include "taut/check/check.h"
+#include "taut/world/spec.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

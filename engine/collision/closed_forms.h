@@ -1,7 +1,7 @@
 // Signed distances in closed form: exact everywhere, inside and outside. The axis of capsule, cylinder and cone is y.
 #pragma once
 
-#include "collision/geometry.h"
+#include "taut/collision/geometry.h"
 
 namespace taut::collision {
 

@@ -1,9 +1,9 @@
-#include "collision/colliders.h"
+#include "taut/collision/colliders.h"
 
 #include <string>
 
-#include "collision/impl.h"
-#include "core/error.h"
+#include "taut/collision/impl.h"
+#include "taut/core/error.h"
 
 namespace taut::collision {
 

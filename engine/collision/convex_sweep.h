@@ -1,7 +1,7 @@
 // A path against a convex shape that is given by its signed distance.
 #pragma once
 
-#include "collision/geometry.h"
+#include "taut/collision/geometry.h"
 
 namespace taut::collision {
 

@@ -1,4 +1,4 @@
-#include "collision/cull.h"
+#include "taut/collision/cull.h"
 
 #include <cstring>
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "collision/geometry.h"
+#include "taut/collision/geometry.h"
 
 namespace taut::collision {
 

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 
-#include "collision/colliders.h"
+#include "taut/collision/colliders.h"
 
 namespace taut::collision {
 

@@ -1,4 +1,4 @@
-#include "collision/hull.h"
+#include "taut/collision/hull.h"
 
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "collision/convex_sweep.h"
-#include "core/error.h"
+#include "taut/collision/convex_sweep.h"
+#include "taut/core/error.h"
 
 namespace taut::collision {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collision/solid.h"
+#include "taut/collision/solid.h"
 
 namespace taut::collision {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "collision/triangle_mesh.h"
-#include "core/error.h"
+#include "taut/collision/triangle_mesh.h"
+#include "taut/core/error.h"
 
 namespace taut::collision {
 

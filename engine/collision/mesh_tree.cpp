@@ -1,4 +1,4 @@
-#include "collision/mesh_tree.h"
+#include "taut/collision/mesh_tree.h"
 
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btOptimizedBvh.h>

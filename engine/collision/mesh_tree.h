@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "collision/geometry.h"
+#include "taut/collision/geometry.h"
 
 namespace taut::collision {
 

@@ -1,10 +1,10 @@
 #include <array>
 #include <type_traits>
 
-#include "collision/convex_sweep.h"
-#include "collision/cull.h"
-#include "collision/impl.h"
-#include "collision/response.h"
+#include "taut/collision/convex_sweep.h"
+#include "taut/collision/cull.h"
+#include "taut/collision/impl.h"
+#include "taut/collision/response.h"
 
 namespace taut::collision {
 

@@ -1,7 +1,7 @@
 // What a touch does to a point: projection, the normal impulse with restitution, Coulomb's friction. Knows no shapes.
 #pragma once
 
-#include "collision/geometry.h"
+#include "taut/collision/geometry.h"
 
 namespace taut::collision {
 

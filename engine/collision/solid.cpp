@@ -1,8 +1,8 @@
-#include "collision/solid.h"
+#include "taut/collision/solid.h"
 
 #include <string>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::collision {
 

@@ -5,10 +5,10 @@
 #include <variant>
 #include <vector>
 
-#include "collision/closed_forms.h"
-#include "collision/geometry.h"
-#include "collision/hull.h"
-#include "collision/triangle_mesh.h"
+#include "taut/collision/closed_forms.h"
+#include "taut/collision/geometry.h"
+#include "taut/collision/hull.h"
+#include "taut/collision/triangle_mesh.h"
 
 namespace taut::collision {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "collision/geometry.h"
-#include "collision/mesh_tree.h"
+#include "taut/collision/geometry.h"
+#include "taut/collision/mesh_tree.h"
 
 namespace taut::collision {
 

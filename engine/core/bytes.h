@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::core {
 

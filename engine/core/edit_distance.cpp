@@ -1,4 +1,4 @@
-#include "core/edit_distance.h"
+#include "taut/core/edit_distance.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "core/error.h"
+#include "taut/core/error.h"
 
 #include <cstdio>
 #include <cstdlib>

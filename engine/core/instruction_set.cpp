@@ -1,10 +1,10 @@
-#include "core/instruction_set.h"
+#include "taut/core/instruction_set.h"
 
 #include <atomic>
 #include <cstdlib>
 #include <string>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::core {
 namespace {

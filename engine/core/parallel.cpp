@@ -1,4 +1,4 @@
-#include "core/parallel.h"
+#include "taut/core/parallel.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>

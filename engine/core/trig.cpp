@@ -1,4 +1,4 @@
-#include "core/trig.h"
+#include "taut/core/trig.h"
 
 #include <cmath>
 #include <cstdint>

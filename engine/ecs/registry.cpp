@@ -1,4 +1,4 @@
-#include "ecs/registry.h"
+#include "taut/ecs/registry.h"
 
 namespace taut::ecs {
 

@@ -11,7 +11,7 @@
 #include <typeindex>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::ecs {
 

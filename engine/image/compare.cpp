@@ -1,11 +1,11 @@
-#include "image/compare.h"
+#include "taut/image/compare.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::image {
 namespace {

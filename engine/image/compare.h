@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "image/image.h"
+#include "taut/image/image.h"
 
 namespace taut::image {
 

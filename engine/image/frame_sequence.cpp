@@ -1,13 +1,13 @@
-#include "image/frame_sequence.h"
+#include "taut/image/frame_sequence.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "core/error.h"
-#include "image/png.h"
-#include "image/whole_file.h"
+#include "taut/core/error.h"
+#include "taut/image/png.h"
+#include "taut/image/whole_file.h"
 
 namespace taut::image {
 

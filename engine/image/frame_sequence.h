@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "image/frame_sink.h"
+#include "taut/image/frame_sink.h"
 
 namespace taut::image {
 

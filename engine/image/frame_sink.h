@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "image/image.h"
+#include "taut/image/image.h"
 
 namespace taut::image {
 

@@ -1,4 +1,4 @@
-#include "image/png.h"
+#include "taut/image/png.h"
 
 #include <libdeflate.h>
 
@@ -7,8 +7,8 @@
 #include <memory>
 #include <new>
 
-#include "core/error.h"
-#include "image/whole_file.h"
+#include "taut/core/error.h"
+#include "taut/image/whole_file.h"
 
 namespace {
 

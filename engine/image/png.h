@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "image/image.h"
+#include "taut/image/image.h"
 
 namespace taut::image {
 

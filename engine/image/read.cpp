@@ -1,4 +1,4 @@
-#include "image/read.h"
+#include "taut/image/read.h"
 
 #define STBI_NO_STDIO
 #define STBI_ONLY_JPEG
@@ -14,8 +14,8 @@
 #include <memory>
 #include <string>
 
-#include "core/error.h"
-#include "image/whole_file.h"
+#include "taut/core/error.h"
+#include "taut/image/whole_file.h"
 
 namespace taut::image {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "image/image.h"
+#include "taut/image/image.h"
 
 namespace taut::image {
 

@@ -1,8 +1,8 @@
-#include "image/resize.h"
+#include "taut/image/resize.h"
 
 #include <new>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 #define STB_IMAGE_RESIZE_STATIC
 #define STB_IMAGE_RESIZE_IMPLEMENTATION

@@ -1,7 +1,7 @@
 // A picture in another size. It knows no files.
 #pragma once
 
-#include "image/image.h"
+#include "taut/image/image.h"
 
 namespace taut::image {
 

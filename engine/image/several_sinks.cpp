@@ -1,8 +1,8 @@
-#include "image/several_sinks.h"
+#include "taut/image/several_sinks.h"
 
 #include <utility>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::image {
 

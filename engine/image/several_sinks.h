@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "image/frame_sink.h"
+#include "taut/image/frame_sink.h"
 
 namespace taut::image {
 

@@ -1,4 +1,4 @@
-#include "image/video_writer.h"
+#include "taut/image/video_writer.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,8 +16,8 @@
 #include <sstream>
 #include <vector>
 
-#include "core/error.h"
-#include "image/whole_file.h"
+#include "taut/core/error.h"
+#include "taut/image/whole_file.h"
 
 namespace taut::image {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "image/frame_sink.h"
+#include "taut/image/frame_sink.h"
 
 namespace taut::image {
 

@@ -1,4 +1,4 @@
-#include "image/whole_file.h"
+#include "taut/image/whole_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::image {
 namespace {

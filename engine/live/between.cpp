@@ -1,4 +1,4 @@
-#include "live/between.h"
+#include "taut/live/between.h"
 
 #include <algorithm>
 #include <cmath>

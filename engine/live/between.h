@@ -1,7 +1,7 @@
 // A picture between two ticks. For the eye alone: nothing of it goes back into the state.
 #pragma once
 
-#include "view/frame_view.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::live {
 

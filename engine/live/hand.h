@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "world/action_spec.h"
+#include "taut/world/action_spec.h"
 
 namespace taut::live {
 

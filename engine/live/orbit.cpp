@@ -1,4 +1,4 @@
-#include "live/orbit.h"
+#include "taut/live/orbit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "view/frame_view.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::live {
 

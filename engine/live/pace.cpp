@@ -1,9 +1,9 @@
-#include "live/pace.h"
+#include "taut/live/pace.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::live {
 

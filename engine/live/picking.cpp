@@ -1,10 +1,10 @@
-#include "live/picking.h"
+#include "taut/live/picking.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "render/camera_axes.h"
+#include "taut/render/camera_axes.h"
 
 namespace taut::live {
 namespace {

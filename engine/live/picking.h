@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "view/frame_view.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::live {
 

@@ -1,4 +1,4 @@
-#include "live/recording.h"
+#include "taut/live/recording.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <map>
 #include <string_view>
 
-#include "scene/document.h"
+#include "taut/scene/document.h"
 
 namespace taut::live {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "live/hand.h"
-#include "world/spec.h"
+#include "taut/live/hand.h"
+#include "taut/world/spec.h"
 
 namespace taut::live {
 

@@ -1,4 +1,4 @@
-#include "live/session.h"
+#include "taut/live/session.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,8 @@
 #include <thread>
 #include <utility>
 
-#include "core/error.h"
-#include "world/components.h"
+#include "taut/core/error.h"
+#include "taut/world/components.h"
 
 namespace taut::live {
 namespace {

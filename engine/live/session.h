@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "live/hand.h"
-#include "live/picking.h"
-#include "live/recording.h"
-#include "view/frame_view.h"
-#include "world/world.h"
+#include "taut/live/hand.h"
+#include "taut/live/picking.h"
+#include "taut/live/recording.h"
+#include "taut/view/frame_view.h"
+#include "taut/world/world.h"
 
 namespace taut::live {
 

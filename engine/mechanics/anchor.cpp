@@ -1,9 +1,9 @@
-#include "mechanics/anchor.h"
+#include "taut/mechanics/anchor.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::mechanics {
 

@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "mechanics/force_generator.h"
-#include "mechanics/linear_path.h"
+#include "taut/mechanics/force_generator.h"
+#include "taut/mechanics/linear_path.h"
 
 namespace taut::mechanics {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "mechanics/builder_support.h"
-#include "mechanics/builders.h"
+#include "taut/core/error.h"
+#include "taut/mechanics/builder_support.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::mechanics {
 namespace {

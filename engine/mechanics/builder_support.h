@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <numeric>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::mechanics::detail {
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "core/error.h"
-#include "mechanics/builder_support.h"
-#include "mechanics/builders.h"
+#include "taut/core/error.h"
+#include "taut/mechanics/builder_support.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::mechanics {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/aligned_array.h"
+#include "taut/core/aligned_array.h"
 
 namespace taut::mechanics {
 

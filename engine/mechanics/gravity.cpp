@@ -1,6 +1,6 @@
-#include "mechanics/gravity.h"
+#include "taut/mechanics/gravity.h"
 
-#include "core/vectorise.h"
+#include "taut/core/vectorise.h"
 
 namespace taut::mechanics {
 

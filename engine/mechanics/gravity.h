@@ -3,8 +3,8 @@
 
 #include <glm/glm.hpp>
 
-#include "mechanics/force_generator.h"
-#include "mechanics/linear_path.h"
+#include "taut/mechanics/force_generator.h"
+#include "taut/mechanics/linear_path.h"
 
 namespace taut::mechanics {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "mechanics/kernel_parts.h"
+#include "taut/mechanics/kernel_parts.h"
 
 namespace taut::mechanics {
 

@@ -1,9 +1,9 @@
-#include "mechanics/mass_spring_system.h"
+#include "taut/mechanics/mass_spring_system.h"
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "core/parallel.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 
 namespace taut::mechanics {
 

@@ -10,12 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "core/aligned_array.h"
-#include "mechanics/force_generator.h"
-#include "mechanics/spring_kernels.h"
-#include "mechanics/spring_network.h"
-#include "mechanics/spring_products.h"
-#include "ode/system.h"
+#include "taut/core/aligned_array.h"
+#include "taut/mechanics/force_generator.h"
+#include "taut/mechanics/spring_kernels.h"
+#include "taut/mechanics/spring_network.h"
+#include "taut/mechanics/spring_products.h"
+#include "taut/ode/system.h"
 
 namespace taut::mechanics {
 

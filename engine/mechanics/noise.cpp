@@ -1,8 +1,8 @@
-#include "mechanics/noise.h"
+#include "taut/mechanics/noise.h"
 
 #include <cmath>
 
-#include "core/trig.h"
+#include "taut/core/trig.h"
 
 namespace taut::mechanics {
 namespace {

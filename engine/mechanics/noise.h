@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "mechanics/wind_kernel.h"
+#include "taut/mechanics/wind_kernel.h"
 
 namespace taut::mechanics {
 

@@ -1,7 +1,7 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
-#include "mechanics/product_kernel.h"
+#include "taut/mechanics/product_kernel.h"
 
-#include "core/vectorise.h"
+#include "taut/core/vectorise.h"
 
 namespace taut::mechanics::TAUT_ISA {
 namespace {

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "core/error.h"
-#include "core/trig.h"
-#include "mechanics/builder_support.h"
-#include "mechanics/builders.h"
+#include "taut/core/error.h"
+#include "taut/core/trig.h"
+#include "taut/mechanics/builder_support.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::mechanics {
 namespace {

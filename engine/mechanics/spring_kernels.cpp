@@ -1,6 +1,6 @@
-#include "mechanics/spring_kernels.h"
+#include "taut/mechanics/spring_kernels.h"
 
-#include "core/instruction_set.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut::mechanics {
 

@@ -1,10 +1,10 @@
-#include "mechanics/spring_network.h"
+#include "taut/mechanics/spring_network.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::mechanics {
 namespace {

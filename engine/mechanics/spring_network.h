@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/aligned_array.h"
-#include "mechanics/model.h"
+#include "taut/core/aligned_array.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::mechanics {
 

@@ -1,9 +1,9 @@
-#include "mechanics/spring_products.h"
+#include "taut/mechanics/spring_products.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/instruction_set.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut::mechanics {
 namespace {

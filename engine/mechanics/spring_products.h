@@ -11,9 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/aligned_array.h"
-#include "mechanics/product_kernel.h"
-#include "mechanics/spring_network.h"
+#include "taut/core/aligned_array.h"
+#include "taut/mechanics/product_kernel.h"
+#include "taut/mechanics/spring_network.h"
 
 namespace taut::mechanics {
 

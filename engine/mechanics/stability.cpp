@@ -1,4 +1,4 @@
-#include "mechanics/stability.h"
+#include "taut/mechanics/stability.h"
 
 #include <algorithm>
 #include <array>

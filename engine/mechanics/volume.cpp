@@ -1,11 +1,11 @@
-#include "mechanics/volume.h"
+#include "taut/mechanics/volume.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/instruction_set.h"
+#include "taut/core/error.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut::mechanics {
 namespace {

@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
-#include "mechanics/force_generator.h"
-#include "mechanics/index_runs.h"
-#include "mechanics/model.h"
-#include "mechanics/volume_kernel.h"
+#include "taut/mechanics/force_generator.h"
+#include "taut/mechanics/index_runs.h"
+#include "taut/mechanics/model.h"
+#include "taut/mechanics/volume_kernel.h"
 
 namespace taut::mechanics {
 

@@ -1,8 +1,8 @@
 // Compiled once per instruction set (engine/taut.cmake). Only + - * /, no sum across lanes: the same bits for every
 // width.
-#include "mechanics/volume_kernel.h"
+#include "taut/mechanics/volume_kernel.h"
 
-#include "core/vectorise.h"
+#include "taut/core/vectorise.h"
 
 namespace taut::mechanics::TAUT_ISA {
 namespace {

@@ -2,7 +2,7 @@
 // instruction set.
 #pragma once
 
-#include "mechanics/kernel_parts.h"
+#include "taut/mechanics/kernel_parts.h"
 
 namespace taut::mechanics {
 

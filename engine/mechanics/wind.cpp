@@ -1,10 +1,10 @@
-#include "mechanics/wind.h"
+#include "taut/mechanics/wind.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/instruction_set.h"
+#include "taut/core/error.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut::mechanics {
 namespace {

@@ -19,11 +19,11 @@
 #include <span>
 #include <vector>
 
-#include "mechanics/force_generator.h"
-#include "mechanics/index_runs.h"
-#include "mechanics/linear_path.h"
-#include "mechanics/noise.h"
-#include "mechanics/wind_kernel.h"
+#include "taut/mechanics/force_generator.h"
+#include "taut/mechanics/index_runs.h"
+#include "taut/mechanics/linear_path.h"
+#include "taut/mechanics/noise.h"
+#include "taut/mechanics/wind_kernel.h"
 
 namespace taut::mechanics {
 

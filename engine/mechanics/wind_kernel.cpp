@@ -1,7 +1,7 @@
 // Compiled once per instruction set (engine/taut.cmake). Only + - * / and square roots, no sum across lanes:
 // the same bits for every width.
-#include "mechanics/wind_kernel.h"
-#include "core/vectorise.h"
+#include "taut/mechanics/wind_kernel.h"
+#include "taut/core/vectorise.h"
 
 namespace taut::mechanics::TAUT_ISA {
 namespace {

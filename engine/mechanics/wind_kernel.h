@@ -1,7 +1,7 @@
 // The force of moving air on triangles, in batches. Knows no generator; one copy for each instruction set.
 #pragma once
 
-#include "mechanics/kernel_parts.h"
+#include "taut/mechanics/kernel_parts.h"
 
 namespace taut::mechanics {
 

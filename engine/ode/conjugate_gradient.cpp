@@ -1,6 +1,6 @@
-#include "ode/conjugate_gradient.h"
+#include "taut/ode/conjugate_gradient.h"
 
-#include "core/vectorise.h"
+#include "taut/core/vectorise.h"
 
 namespace taut::ode {
 namespace {

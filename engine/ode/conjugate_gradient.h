@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "core/aligned_array.h"
+#include "taut/core/aligned_array.h"
 
 namespace taut::ode {
 

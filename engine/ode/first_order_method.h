@@ -1,7 +1,7 @@
 // A method that takes y' = f(t, y) from t to t + h, whatever y stands for.
 #pragma once
 
-#include "ode/system.h"
+#include "taut/ode/system.h"
 
 namespace taut::ode {
 

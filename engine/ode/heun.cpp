@@ -1,9 +1,9 @@
 // Heun: y' = y + (h/2)(f(t, y) + f(t + h, y + h f(t, y))). Order 2. Undamped motion grows by 1 + z⁴/8 a step, z = ω h.
 #include <algorithm>
 
-#include "ode/method_table.h"
-#include "ode/runge_kutta.h"
-#include "ode/step_limits.h"
+#include "taut/ode/method_table.h"
+#include "taut/ode/runge_kutta.h"
+#include "taut/ode/step_limits.h"
 
 namespace taut::ode {
 

@@ -15,10 +15,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "ode/conjugate_gradient.h"
-#include "ode/implicit_system.h"
-#include "ode/method_table.h"
+#include "taut/core/error.h"
+#include "taut/ode/conjugate_gradient.h"
+#include "taut/ode/implicit_system.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::ode {
 namespace {

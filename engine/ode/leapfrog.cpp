@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ode/method_table.h"
-#include "ode/update_kernels.h"
+#include "taut/ode/method_table.h"
+#include "taut/ode/update_kernels.h"
 
 namespace taut::ode {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/aligned_array.h"
-#include "ode/system.h"
+#include "taut/core/aligned_array.h"
+#include "taut/ode/system.h"
 
 namespace taut::ode {
 

@@ -1,9 +1,9 @@
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 
 #include <string>
 
-#include "core/error.h"
-#include "ode/stacked_method.h"
+#include "taut/core/error.h"
+#include "taut/ode/stacked_method.h"
 
 namespace taut::ode {
 namespace {

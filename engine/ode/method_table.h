@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
-#include "ode/first_order_method.h"
-#include "ode/method.h"
+#include "taut/ode/first_order_method.h"
+#include "taut/ode/method.h"
 
 namespace taut::ode {
 

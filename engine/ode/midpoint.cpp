@@ -1,6 +1,6 @@
 // The midpoint method: y' = y + h f(t + h/2, y + (h/2) f(t, y)). Order 2. Undamped motion grows by 1 + z⁴/8 a step.
-#include "ode/method_table.h"
-#include "ode/runge_kutta.h"
+#include "taut/ode/method_table.h"
+#include "taut/ode/runge_kutta.h"
 
 namespace taut::ode {
 

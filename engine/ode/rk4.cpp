@@ -1,9 +1,9 @@
 // The classical Runge-Kutta method. Order 4; stands undamped motion up to ω h = 2√2.
 #include <cmath>
 
-#include "ode/method_table.h"
-#include "ode/runge_kutta.h"
-#include "ode/step_limits.h"
+#include "taut/ode/method_table.h"
+#include "taut/ode/runge_kutta.h"
+#include "taut/ode/step_limits.h"
 
 namespace taut::ode {
 namespace {

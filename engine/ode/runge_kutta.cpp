@@ -1,9 +1,9 @@
-#include "ode/runge_kutta.h"
+#include "taut/ode/runge_kutta.h"
 
 #include <algorithm>
 
-#include "core/aligned_array.h"
-#include "core/vectorise.h"
+#include "taut/core/aligned_array.h"
+#include "taut/core/vectorise.h"
 
 namespace taut::ode {
 namespace {

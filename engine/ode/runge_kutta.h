@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "ode/first_order_method.h"
+#include "taut/ode/first_order_method.h"
 
 namespace taut::ode {
 

@@ -1,4 +1,4 @@
-#include "ode/stacked_method.h"
+#include "taut/ode/stacked_method.h"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "ode/first_order_method.h"
-#include "ode/method.h"
+#include "taut/ode/first_order_method.h"
+#include "taut/ode/method.h"
 
 namespace taut::ode {
 

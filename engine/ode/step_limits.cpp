@@ -1,4 +1,4 @@
-#include "ode/step_limits.h"
+#include "taut/ode/step_limits.h"
 
 #include <algorithm>
 #include <cmath>

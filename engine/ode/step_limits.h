@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "ode/method.h"
+#include "taut/ode/method.h"
 
 namespace taut::ode {
 

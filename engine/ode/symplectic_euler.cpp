@@ -5,7 +5,7 @@
 // Drag is implicit, other velocity forces see v.
 #include <cmath>
 
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::ode {
 namespace {

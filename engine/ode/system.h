@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "ode/implicit_system.h"
+#include "taut/ode/implicit_system.h"
 
 namespace taut::ode {
 

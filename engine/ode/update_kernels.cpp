@@ -1,6 +1,6 @@
-#include "ode/update_kernels.h"
+#include "taut/ode/update_kernels.h"
 
-#include "core/instruction_set.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut::ode {
 

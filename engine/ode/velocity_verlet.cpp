@@ -5,7 +5,7 @@
 // a_el is kept from the step before. a_el' sees the velocity extrapolated from half steps, w = 1.5 v½ - 0.5 v½(before),
 // as leap-frog does; at the start and after a contact a_el is evaluated anew, from v. That a contact has been is part
 // of the state, so that a copy of it goes on in the same way.
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::ode {
 namespace {

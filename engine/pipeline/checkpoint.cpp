@@ -1,13 +1,13 @@
-#include "pipeline/checkpoint.h"
+#include "taut/pipeline/checkpoint.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "core/bytes.h"
-#include "core/error.h"
-#include "pipeline/sealed_file.h"
+#include "taut/core/bytes.h"
+#include "taut/core/error.h"
+#include "taut/pipeline/sealed_file.h"
 
 namespace taut::pipeline {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/run.h"
+#include "taut/pipeline/run.h"
 
 namespace taut::pipeline {
 

@@ -1,4 +1,4 @@
-#include "pipeline/energy_graph.h"
+#include "taut/pipeline/energy_graph.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "pipeline/overlay.h"
+#include "taut/pipeline/overlay.h"
 
 namespace taut::pipeline {
 

@@ -1,4 +1,4 @@
-#include "pipeline/machine.h"
+#include "taut/pipeline/machine.h"
 
 #include <fmt/format.h>
 #include <sys/utsname.h>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <thread>
 
-#include "core/instruction_set.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/overlay.h"
+#include "taut/pipeline/overlay.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/energy_graph.h"
+#include "taut/pipeline/energy_graph.h"
 
 namespace taut::pipeline {
 namespace {

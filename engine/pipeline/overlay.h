@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "image/image.h"
-#include "pipeline/painting.h"
-#include "world/world.h"
+#include "taut/image/image.h"
+#include "taut/pipeline/painting.h"
+#include "taut/world/world.h"
 
 namespace taut::pipeline {
 

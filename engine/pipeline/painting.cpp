@@ -1,11 +1,11 @@
-#include "pipeline/painting.h"
+#include "taut/pipeline/painting.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "core/error.h"
-#include "image/srgb_curve.h"
+#include "taut/core/error.h"
+#include "taut/image/srgb_curve.h"
 
 namespace taut::pipeline {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <string_view>
 
-#include "image/image.h"
-#include "render/text_picture.h"
+#include "taut/image/image.h"
+#include "taut/render/text_picture.h"
 
 namespace taut::pipeline {
 

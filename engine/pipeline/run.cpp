@@ -1,4 +1,4 @@
-#include "pipeline/run.h"
+#include "taut/pipeline/run.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,8 +6,8 @@
 #include <map>
 #include <mutex>
 
-#include "core/error.h"
-#include "pipeline/stages.h"
+#include "taut/core/error.h"
+#include "taut/pipeline/stages.h"
 
 namespace taut::pipeline {
 namespace {

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "image/frame_sink.h"
-#include "view/frame_view.h"
-#include "world/world.h"
+#include "taut/image/frame_sink.h"
+#include "taut/view/frame_view.h"
+#include "taut/world/world.h"
 
 namespace taut::pipeline {
 

@@ -1,4 +1,4 @@
-#include "pipeline/run_record.h"
+#include "taut/pipeline/run_record.h"
 
 #include <fmt/format.h>
 

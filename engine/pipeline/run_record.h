@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/machine.h"
-#include "pipeline/run.h"
-#include "render/renderer.h"
-#include "world/spec.h"
-#include "world/world.h"
+#include "taut/pipeline/machine.h"
+#include "taut/pipeline/run.h"
+#include "taut/render/renderer.h"
+#include "taut/world/spec.h"
+#include "taut/world/world.h"
 
 namespace taut::pipeline {
 

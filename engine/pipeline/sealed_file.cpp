@@ -1,4 +1,4 @@
-#include "pipeline/sealed_file.h"
+#include "taut/pipeline/sealed_file.h"
 
 #include <fmt/format.h>
 #include <libdeflate.h>
@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "core/bytes.h"
-#include "core/error.h"
-#include "core/hash.h"
-#include "image/whole_file.h"
+#include "taut/core/bytes.h"
+#include "taut/core/error.h"
+#include "taut/core/hash.h"
+#include "taut/image/whole_file.h"
 
 namespace taut::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/self_test.h"
+#include "taut/pipeline/self_test.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdlib>
 
-#include "core/error.h"
-#include "view/frame_view.h"
+#include "taut/core/error.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::pipeline {
 namespace {

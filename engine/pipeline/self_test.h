@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/renderer.h"
+#include "taut/render/renderer.h"
 
 namespace taut::pipeline {
 

@@ -1,11 +1,11 @@
-#include "pipeline/stages.h"
+#include "taut/pipeline/stages.h"
 
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
 
-#include "pipeline/bounded_queue.h"
+#include "taut/pipeline/bounded_queue.h"
 
 namespace taut::pipeline {
 namespace {

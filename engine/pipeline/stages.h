@@ -5,8 +5,8 @@
 #include <functional>
 #include <optional>
 
-#include "image/image.h"
-#include "view/frame_view.h"
+#include "taut/image/image.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::pipeline {
 

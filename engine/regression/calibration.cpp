@@ -1,16 +1,16 @@
-#include "regression/calibration.h"
+#include "taut/regression/calibration.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "core/error.h"
-#include "image/read.h"
-#include "regression/judging.h"
-#include "regression/mutants.h"
-#include "regression/playing.h"
-#include "regression/tape_compare.h"
+#include "taut/core/error.h"
+#include "taut/image/read.h"
+#include "taut/regression/judging.h"
+#include "taut/regression/mutants.h"
+#include "taut/regression/playing.h"
+#include "taut/regression/tape_compare.h"
 
 namespace taut::regression {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "image/compare.h"
-#include "regression/drawer.h"
-#include "regression/scenario.h"
-#include "report/test_report.h"
+#include "taut/image/compare.h"
+#include "taut/regression/drawer.h"
+#include "taut/regression/scenario.h"
+#include "taut/report/test_report.h"
 
 namespace taut::regression {
 

@@ -1,10 +1,10 @@
-#include "regression/drawer.h"
+#include "taut/regression/drawer.h"
 
 #include <fmt/format.h>
 
 #include <mutex>
 
-#include "pipeline/self_test.h"
+#include "taut/pipeline/self_test.h"
 
 namespace taut::regression {
 

@@ -9,10 +9,10 @@
 #include <tuple>
 #include <vector>
 
-#include "image/image.h"
-#include "render/renderer.h"
-#include "view/frame_view.h"
-#include "world/spec.h"
+#include "taut/image/image.h"
+#include "taut/render/renderer.h"
+#include "taut/view/frame_view.h"
+#include "taut/world/spec.h"
 
 namespace taut::regression {
 

@@ -1,17 +1,17 @@
-#include "regression/goldens.h"
+#include "taut/regression/goldens.h"
 
 #include <fmt/format.h>
 
 #include <system_error>
 
-#include "core/error.h"
-#include "image/png.h"
-#include "image/read.h"
-#include "image/whole_file.h"
-#include "pipeline/machine.h"
-#include "pipeline/sealed_file.h"
-#include "regression/judging.h"
-#include "regression/tape_compare.h"
+#include "taut/core/error.h"
+#include "taut/image/png.h"
+#include "taut/image/read.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/machine.h"
+#include "taut/pipeline/sealed_file.h"
+#include "taut/regression/judging.h"
+#include "taut/regression/tape_compare.h"
 
 namespace taut::regression {
 namespace {

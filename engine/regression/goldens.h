@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "regression/manifest.h"
-#include "regression/playing.h"
-#include "regression/scenario.h"
+#include "taut/regression/manifest.h"
+#include "taut/regression/playing.h"
+#include "taut/regression/scenario.h"
 
 namespace taut::regression {
 

@@ -1,15 +1,15 @@
-#include "regression/judging.h"
+#include "taut/regression/judging.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "image/png.h"
-#include "image/read.h"
-#include "image/whole_file.h"
-#include "pipeline/run.h"
-#include "regression/tape_compare.h"
+#include "taut/core/error.h"
+#include "taut/image/png.h"
+#include "taut/image/read.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/run.h"
+#include "taut/regression/tape_compare.h"
 
 namespace taut::regression {
 namespace {

@@ -1,10 +1,10 @@
 // Holds what a scenario did against its goldens. It plays nothing and writes nothing.
 #pragma once
 
-#include "regression/manifest.h"
-#include "regression/playing.h"
-#include "regression/scenario.h"
-#include "report/test_report.h"
+#include "taut/regression/manifest.h"
+#include "taut/regression/playing.h"
+#include "taut/regression/scenario.h"
+#include "taut/report/test_report.h"
 
 namespace taut::regression {
 

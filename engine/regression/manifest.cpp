@@ -1,12 +1,12 @@
-#include "regression/manifest.h"
+#include "taut/regression/manifest.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/error.h"
-#include "image/whole_file.h"
+#include "taut/core/error.h"
+#include "taut/image/whole_file.h"
 
 namespace taut::regression {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "image/compare.h"
+#include "taut/image/compare.h"
 
 namespace taut::regression {
 

@@ -1,4 +1,4 @@
-#include "regression/mutants.h"
+#include "taut/regression/mutants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "view/frame_view.h"
-#include "world/world.h"
+#include "taut/view/frame_view.h"
+#include "taut/world/world.h"
 
 namespace taut::regression {
 

@@ -1,12 +1,12 @@
-#include "regression/playing.h"
+#include "taut/regression/playing.h"
 
 #include <chrono>
 
-#include "core/error.h"
-#include "pipeline/run.h"
-#include "regression/scenario_checks.h"
-#include "world/components.h"
-#include "world/motion.h"
+#include "taut/core/error.h"
+#include "taut/pipeline/run.h"
+#include "taut/regression/scenario_checks.h"
+#include "taut/world/components.h"
+#include "taut/world/motion.h"
 
 namespace taut::regression {
 namespace {

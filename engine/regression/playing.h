@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
-#include "regression/drawer.h"
-#include "regression/scenario.h"
-#include "regression/tape.h"
-#include "report/test_report.h"
-#include "world/world.h"
+#include "taut/image/image.h"
+#include "taut/regression/drawer.h"
+#include "taut/regression/scenario.h"
+#include "taut/regression/tape.h"
+#include "taut/report/test_report.h"
+#include "taut/world/world.h"
 
 namespace taut::regression {
 

@@ -1,4 +1,4 @@
-#include "regression/scenario.h"
+#include "taut/regression/scenario.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 #include <system_error>
 
-#include "core/error.h"
-#include "pipeline/run.h"
+#include "taut/core/error.h"
+#include "taut/pipeline/run.h"
 
 namespace taut::regression {
 namespace {

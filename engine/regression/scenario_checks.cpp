@@ -1,4 +1,4 @@
-#include "regression/scenario_checks.h"
+#include "taut/regression/scenario_checks.h"
 
 #include <fmt/format.h>
 

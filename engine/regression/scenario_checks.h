@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "check/watcher.h"
-#include "report/test_report.h"
+#include "taut/check/watcher.h"
+#include "taut/report/test_report.h"
 
 namespace taut::regression {
 

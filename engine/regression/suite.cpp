@@ -1,4 +1,4 @@
-#include "regression/suite.h"
+#include "taut/regression/suite.h"
 
 #include <algorithm>
 #include <exception>
@@ -7,9 +7,9 @@
 #include <optional>
 #include <thread>
 
-#include "core/error.h"
-#include "regression/goldens.h"
-#include "regression/judging.h"
+#include "taut/core/error.h"
+#include "taut/regression/goldens.h"
+#include "taut/regression/judging.h"
 
 namespace taut::regression {
 namespace {

@@ -5,11 +5,11 @@
 #include <functional>
 #include <vector>
 
-#include "regression/drawer.h"
-#include "regression/manifest.h"
-#include "regression/playing.h"
-#include "regression/scenario.h"
-#include "report/test_report.h"
+#include "taut/regression/drawer.h"
+#include "taut/regression/manifest.h"
+#include "taut/regression/playing.h"
+#include "taut/regression/scenario.h"
+#include "taut/report/test_report.h"
 
 namespace taut::regression {
 

@@ -1,15 +1,15 @@
-#include "regression/tape.h"
+#include "taut/regression/tape.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
-#include "core/bytes.h"
-#include "core/error.h"
-#include "pipeline/machine.h"
-#include "pipeline/sealed_file.h"
-#include "world/components.h"
+#include "taut/core/bytes.h"
+#include "taut/core/error.h"
+#include "taut/pipeline/machine.h"
+#include "taut/pipeline/sealed_file.h"
+#include "taut/world/components.h"
 
 namespace taut::regression {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::regression {
 

@@ -1,4 +1,4 @@
-#include "regression/tape_compare.h"
+#include "taut/regression/tape_compare.h"
 
 #include <fmt/format.h>
 

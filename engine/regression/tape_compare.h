@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "regression/tape.h"
+#include "taut/regression/tape.h"
 
 namespace taut::regression {
 

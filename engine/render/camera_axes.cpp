@@ -1,4 +1,4 @@
-#include "render/camera_axes.h"
+#include "taut/render/camera_axes.h"
 
 #include <array>
 #include <glm/ext/matrix_clip_space.hpp>

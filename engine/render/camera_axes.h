@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "view/frame_view.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::render {
 

@@ -1,8 +1,8 @@
-#include "render/context.h"
+#include "taut/render/context.h"
 
 #include <glad/gl.h>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::render {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "render/renderer.h"
+#include "taut/render/renderer.h"
 
 struct GladGLContext;
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <string>
 
-#include "core/error.h"
-#include "render/context.h"
+#include "taut/core/error.h"
+#include "taut/render/context.h"
 
 namespace taut::render {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/error.h"
-#include "render/context.h"
+#include "taut/core/error.h"
+#include "taut/render/context.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "render/edge_pass.h"
+#include "taut/render/edge_pass.h"
 
 #include <vector>
 

@@ -5,10 +5,10 @@
 
 #include <span>
 
-#include "render/mesh_cache.h"
-#include "render/program.h"
-#include "render/targets.h"
-#include "view/frame_view.h"
+#include "taut/render/mesh_cache.h"
+#include "taut/render/program.h"
+#include "taut/render/targets.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::render {
 

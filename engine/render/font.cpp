@@ -1,11 +1,11 @@
-#include "render/font.h"
+#include "taut/render/font.h"
 
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <system_error>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push

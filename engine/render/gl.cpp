@@ -1,4 +1,4 @@
-#include "render/gl.h"
+#include "taut/render/gl.h"
 
 namespace taut::render {
 

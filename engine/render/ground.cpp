@@ -1,4 +1,4 @@
-#include "render/ground.h"
+#include "taut/render/ground.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "render/light_box.h"
-#include "render/occlusion_pass.h"
+#include "taut/render/light_box.h"
+#include "taut/render/occlusion_pass.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "render/ground_pass.h"
+#include "taut/render/ground_pass.h"
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "render/ground.h"
-#include "render/program.h"
+#include "taut/render/ground.h"
+#include "taut/render/program.h"
 
 namespace taut::render {
 

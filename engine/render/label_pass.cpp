@@ -1,9 +1,9 @@
-#include "render/label_pass.h"
+#include "taut/render/label_pass.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "image/srgb_curve.h"
+#include "taut/image/srgb_curve.h"
 
 namespace taut::render {
 

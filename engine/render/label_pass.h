@@ -6,9 +6,9 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "image/image.h"
-#include "render/text_picture.h"
-#include "view/frame_view.h"
+#include "taut/image/image.h"
+#include "taut/render/text_picture.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::render {
 

@@ -1,10 +1,10 @@
-#include "render/light_box.h"
+#include "taut/render/light_box.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "render/camera_axes.h"
+#include "taut/core/error.h"
+#include "taut/render/camera_axes.h"
 
 namespace taut::render {
 

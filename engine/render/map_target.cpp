@@ -1,8 +1,8 @@
-#include "render/map_target.h"
+#include "taut/render/map_target.h"
 
 #include <array>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::render {
 

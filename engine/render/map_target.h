@@ -1,7 +1,7 @@
 // A texture that passes draw into and later passes read: the small maps of shadow and occlusion.
 #pragma once
 
-#include "render/gl.h"
+#include "taut/render/gl.h"
 
 namespace taut::render {
 

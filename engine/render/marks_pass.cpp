@@ -1,4 +1,4 @@
-#include "render/marks_pass.h"
+#include "taut/render/marks_pass.h"
 
 #include <algorithm>
 #include <cstddef>

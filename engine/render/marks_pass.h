@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/program.h"
-#include "view/frame_view.h"
+#include "taut/render/program.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::render {
 

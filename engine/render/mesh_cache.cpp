@@ -1,6 +1,6 @@
-#include "render/mesh_cache.h"
+#include "taut/render/mesh_cache.h"
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::render {
 

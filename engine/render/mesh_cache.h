@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "render/gl.h"
-#include "render/light_box.h"
-#include "view/frame_view.h"
+#include "taut/render/gl.h"
+#include "taut/render/light_box.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::render {
 

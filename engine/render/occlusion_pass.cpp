@@ -1,4 +1,4 @@
-#include "render/occlusion_pass.h"
+#include "taut/render/occlusion_pass.h"
 
 #include <algorithm>
 #include <array>

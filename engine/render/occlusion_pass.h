@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
-#include "render/map_target.h"
-#include "render/mesh_cache.h"
-#include "render/program.h"
+#include "taut/render/map_target.h"
+#include "taut/render/mesh_cache.h"
+#include "taut/render/program.h"
 
 namespace taut::render {
 

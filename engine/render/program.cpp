@@ -1,10 +1,10 @@
-#include "render/program.h"
+#include "taut/render/program.h"
 
 #include <array>
 #include <fstream>
 #include <sstream>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::render {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/gl.h"
+#include "taut/render/gl.h"
 
 namespace taut::render {
 

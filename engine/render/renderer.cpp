@@ -1,24 +1,24 @@
-#include "render/renderer.h"
+#include "taut/render/renderer.h"
 
 #include <algorithm>
 #include <numbers>
 #include <optional>
 #include <span>
 
-#include "render/camera_axes.h"
-#include "render/context.h"
-#include "render/edge_pass.h"
-#include "render/frame_block.h"
-#include "render/ground_pass.h"
-#include "render/label_pass.h"
-#include "render/light_box.h"
-#include "render/marks_pass.h"
-#include "render/mesh_cache.h"
-#include "render/occlusion_pass.h"
-#include "render/program.h"
-#include "render/shadow_pass.h"
-#include "render/surface_pass.h"
-#include "render/targets.h"
+#include "taut/render/camera_axes.h"
+#include "taut/render/context.h"
+#include "taut/render/edge_pass.h"
+#include "taut/render/frame_block.h"
+#include "taut/render/ground_pass.h"
+#include "taut/render/label_pass.h"
+#include "taut/render/light_box.h"
+#include "taut/render/marks_pass.h"
+#include "taut/render/mesh_cache.h"
+#include "taut/render/occlusion_pass.h"
+#include "taut/render/program.h"
+#include "taut/render/shadow_pass.h"
+#include "taut/render/surface_pass.h"
+#include "taut/render/targets.h"
 
 namespace taut::render {
 

@@ -1,9 +1,9 @@
-#include "render/shadow_pass.h"
+#include "taut/render/shadow_pass.h"
 
 #include <array>
 #include <string>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::render {
 

@@ -3,10 +3,10 @@
 
 #include <span>
 
-#include "render/light_box.h"
-#include "render/map_target.h"
-#include "render/mesh_cache.h"
-#include "render/program.h"
+#include "taut/render/light_box.h"
+#include "taut/render/map_target.h"
+#include "taut/render/mesh_cache.h"
+#include "taut/render/program.h"
 
 namespace taut::render {
 

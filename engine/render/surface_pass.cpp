@@ -1,8 +1,8 @@
-#include "render/surface_pass.h"
+#include "taut/render/surface_pass.h"
 
 #include <algorithm>
 
-#include "render/edge_pass.h"
+#include "taut/render/edge_pass.h"
 
 namespace taut::render {
 

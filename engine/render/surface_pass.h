@@ -5,9 +5,9 @@
 #include <span>
 #include <tuple>
 
-#include "render/mesh_cache.h"
-#include "render/program.h"
-#include "render/texture_cache.h"
+#include "taut/render/mesh_cache.h"
+#include "taut/render/program.h"
+#include "taut/render/texture_cache.h"
 
 namespace taut::render {
 

@@ -1,10 +1,10 @@
-#include "render/targets.h"
+#include "taut/render/targets.h"
 
 #include <algorithm>
 #include <string>
 
-#include "core/error.h"
-#include "render/program.h"
+#include "taut/core/error.h"
+#include "taut/render/program.h"
 
 namespace taut::render {
 

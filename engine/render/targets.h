@@ -6,9 +6,9 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "image/image.h"
-#include "render/edge_tiles.h"
-#include "render/gl.h"
+#include "taut/image/image.h"
+#include "taut/render/edge_tiles.h"
+#include "taut/render/gl.h"
 
 namespace taut::render {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/font.h"
+#include "taut/render/font.h"
 
 namespace taut::render {
 

@@ -1,7 +1,7 @@
-#include "render/texture_cache.h"
+#include "taut/render/texture_cache.h"
 
-#include "image/read.h"
-#include "render/program.h"
+#include "taut/image/read.h"
+#include "taut/render/program.h"
 
 namespace taut::render {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "render/gl.h"
+#include "taut/render/gl.h"
 
 namespace taut::render {
 

@@ -1,12 +1,12 @@
-#include "report/contact_sheet.h"
+#include "taut/report/contact_sheet.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "image/read.h"
-#include "image/resize.h"
+#include "taut/core/error.h"
+#include "taut/image/read.h"
+#include "taut/image/resize.h"
 
 namespace taut::report {
 namespace {

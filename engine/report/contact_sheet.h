@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "image/frame_sequence.h"
-#include "image/image.h"
+#include "taut/image/frame_sequence.h"
+#include "taut/image/image.h"
 
 namespace taut::report {
 

@@ -1,4 +1,4 @@
-#include "report/gnuplot.h"
+#include "taut/report/gnuplot.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,8 +12,8 @@
 #include <system_error>
 #include <vector>
 
-#include "core/error.h"
-#include "image/whole_file.h"
+#include "taut/core/error.h"
+#include "taut/image/whole_file.h"
 
 namespace taut::report {
 namespace {

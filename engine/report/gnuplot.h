@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "report/chart.h"
+#include "taut/report/chart.h"
 
 namespace taut::report {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "report/gnuplot.h"
-#include "report/layout.h"
+#include "taut/report/gnuplot.h"
+#include "taut/report/layout.h"
 
 namespace taut::report {
 namespace {

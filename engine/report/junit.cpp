@@ -1,4 +1,4 @@
-#include "report/junit.h"
+#include "taut/report/junit.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "report/test_page.h"
+#include "taut/report/test_page.h"
 
 namespace taut::report {
 namespace {

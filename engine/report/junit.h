@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "report/test_report.h"
+#include "taut/report/test_report.h"
 
 namespace taut::report {
 

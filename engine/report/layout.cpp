@@ -1,4 +1,4 @@
-#include "report/layout.h"
+#include "taut/report/layout.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/chart.h"
+#include "taut/report/chart.h"
 
 namespace taut::report {
 

@@ -1,4 +1,4 @@
-#include "report/page_parts.h"
+#include "taut/report/page_parts.h"
 
 namespace taut::report {
 

@@ -1,4 +1,4 @@
-#include "report/palette.h"
+#include "taut/report/palette.h"
 
 #include <array>
 #include <cstdint>

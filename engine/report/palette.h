@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/chart.h"
+#include "taut/report/chart.h"
 
 namespace taut::report {
 

@@ -1,11 +1,11 @@
-#include "report/table.h"
+#include "taut/report/table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::report {
 namespace {

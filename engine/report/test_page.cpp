@@ -1,11 +1,11 @@
-#include "report/test_page.h"
+#include "taut/report/test_page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "report/page_parts.h"
+#include "taut/report/page_parts.h"
 
 namespace taut::report {
 namespace {

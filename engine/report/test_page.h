@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "report/test_report.h"
+#include "taut/report/test_report.h"
 
 namespace taut::report {
 

@@ -1,4 +1,4 @@
-#include "report/test_report.h"
+#include "taut/report/test_report.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <iterator>
 
-#include "report/table.h"
+#include "taut/report/table.h"
 
 namespace taut::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/asset_files.h"
+#include "taut/scene/asset_files.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <memory>
 #include <system_error>
 
-#include "core/error.h"
-#include "scene/obj_file.h"
+#include "taut/core/error.h"
+#include "taut/scene/obj_file.h"
 
 namespace taut::scene {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scene/scene_reader.h"
+#include "taut/scene/scene_reader.h"
 
 namespace taut::scene {
 

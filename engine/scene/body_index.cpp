@@ -1,4 +1,4 @@
-#include "scene/body_index.h"
+#include "taut/scene/body_index.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <charconv>
 #include <string_view>
 
-#include "scene/body_size.h"
-#include "scene/problems.h"
+#include "taut/scene/body_size.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

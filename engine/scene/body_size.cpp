@@ -1,4 +1,4 @@
-#include "scene/body_size.h"
+#include "taut/scene/body_size.h"
 
 #include <unistd.h>
 

@@ -2,7 +2,7 @@
 // anything is allocated.
 #pragma once
 
-#include "world/spec.h"
+#include "taut/world/spec.h"
 
 namespace taut::scene {
 

@@ -1,14 +1,14 @@
-#include "scene/claims.h"
+#include "taut/scene/claims.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "check/check.h"
-#include "scene/body_index.h"
-#include "scene/timeline.h"
-#include "world/ticks.h"
+#include "taut/check/check.h"
+#include "taut/scene/body_index.h"
+#include "taut/scene/timeline.h"
+#include "taut/world/ticks.h"
 
 namespace taut::scene {
 

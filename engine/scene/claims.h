@@ -1,7 +1,7 @@
 // Checks what is claimed of a run: that each claim can be read, and speaks of what is there at its moments.
 #pragma once
 
-#include "scene/scene_reader.h"
+#include "taut/scene/scene_reader.h"
 
 namespace taut::scene {
 

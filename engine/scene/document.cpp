@@ -1,4 +1,4 @@
-#include "scene/document.h"
+#include "taut/scene/document.h"
 
 #include <fmt/format.h>
 

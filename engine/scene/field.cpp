@@ -1,11 +1,11 @@
-#include "scene/field.h"
+#include "taut/scene/field.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "scene/fields_of.h"
-#include "scene/problems.h"
+#include "taut/scene/fields_of.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "scene/document.h"
-#include "world/spec.h"
+#include "taut/scene/document.h"
+#include "taut/world/spec.h"
 
 namespace taut::scene {
 

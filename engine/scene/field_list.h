@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/trig.h"
-#include "scene/field.h"
+#include "taut/core/trig.h"
+#include "taut/scene/field.h"
 
 namespace taut::scene {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "scene/field_list.h"
-#include "scene/fields_of.h"
-#include "scene/method_names.h"
-#include "scene/problems.h"
+#include "taut/scene/field_list.h"
+#include "taut/scene/fields_of.h"
+#include "taut/scene/method_names.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

@@ -1,9 +1,9 @@
 // The field table, part four: text in the picture.
 #include <fmt/format.h>
 
-#include "scene/field_list.h"
-#include "scene/fields_of.h"
-#include "scene/problems.h"
+#include "taut/scene/field_list.h"
+#include "taut/scene/fields_of.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

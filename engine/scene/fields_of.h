@@ -1,7 +1,7 @@
 // The rows of the field table, by topic; sceneSections() joins them. Each function is the table of one section.
 #pragma once
 
-#include "scene/field.h"
+#include "taut/scene/field.h"
 
 namespace taut::scene {
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "scene/field_list.h"
-#include "scene/fields_of.h"
-#include "scene/problems.h"
+#include "taut/scene/field_list.h"
+#include "taut/scene/fields_of.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

@@ -1,23 +1,23 @@
-#include "scene/load.h"
+#include "taut/scene/load.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "scene/asset_files.h"
-#include "scene/body_size.h"
-#include "scene/claims.h"
-#include "scene/document.h"
-#include "scene/merge.h"
-#include "scene/overrides.h"
-#include "scene/references.h"
-#include "scene/scene_reader.h"
-#include "scene/state_keys.h"
-#include "scene/suspicions.h"
-#include "scene/text_file.h"
-#include "scene/timeline.h"
+#include "taut/core/error.h"
+#include "taut/scene/asset_files.h"
+#include "taut/scene/body_size.h"
+#include "taut/scene/claims.h"
+#include "taut/scene/document.h"
+#include "taut/scene/merge.h"
+#include "taut/scene/overrides.h"
+#include "taut/scene/references.h"
+#include "taut/scene/scene_reader.h"
+#include "taut/scene/state_keys.h"
+#include "taut/scene/suspicions.h"
+#include "taut/scene/text_file.h"
+#include "taut/scene/timeline.h"
 
 namespace taut::scene {
 

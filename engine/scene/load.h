@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/state_keys.h"
-#include "world/spec.h"
+#include "taut/scene/state_keys.h"
+#include "taut/world/spec.h"
 
 namespace taut::scene {
 

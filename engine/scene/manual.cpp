@@ -1,11 +1,11 @@
 // The manual of the scene format, made from the field table.
 #include <fmt/format.h>
 
-#include "check/check.h"
-#include "scene/field.h"
-#include "scene/load.h"
-#include "scene/problems.h"
-#include "scene/ramp_key.h"
+#include "taut/check/check.h"
+#include "taut/scene/field.h"
+#include "taut/scene/load.h"
+#include "taut/scene/problems.h"
+#include "taut/scene/ramp_key.h"
 
 namespace taut::scene {
 

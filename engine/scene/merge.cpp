@@ -1,12 +1,12 @@
-#include "scene/merge.h"
+#include "taut/scene/merge.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <system_error>
 
-#include "core/error.h"
-#include "scene/text_file.h"
+#include "taut/core/error.h"
+#include "taut/scene/text_file.h"
 
 namespace taut::scene {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/document.h"
-#include "scene/problems.h"
+#include "taut/scene/document.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

@@ -1,6 +1,6 @@
-#include "scene/method_names.h"
+#include "taut/scene/method_names.h"
 
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::scene {
 

@@ -1,4 +1,4 @@
-#include "scene/obj_file.h"
+#include "taut/scene/obj_file.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <optional>
 #include <tuple>
 
-#include "core/error.h"
-#include "scene/polygon.h"
-#include "scene/text_file.h"
+#include "taut/core/error.h"
+#include "taut/scene/polygon.h"
+#include "taut/scene/text_file.h"
 
 namespace taut::scene {
 

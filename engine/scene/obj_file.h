@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "world/spec.h"
+#include "taut/world/spec.h"
 
 namespace taut::scene {
 

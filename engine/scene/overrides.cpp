@@ -1,4 +1,4 @@
-#include "scene/overrides.h"
+#include "taut/scene/overrides.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::scene {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/field.h"
-#include "scene/problems.h"
+#include "taut/scene/field.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

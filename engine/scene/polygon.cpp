@@ -1,4 +1,4 @@
-#include "scene/polygon.h"
+#include "taut/scene/polygon.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "scene/problems.h"
+#include "taut/scene/problems.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/edit_distance.h"
+#include "taut/core/edit_distance.h"
 
 namespace taut::scene {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/document.h"
+#include "taut/scene/document.h"
 
 namespace taut::scene {
 

@@ -1,10 +1,10 @@
-#include "scene/ramp_key.h"
+#include "taut/scene/ramp_key.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "scene/problems.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/body_index.h"
-#include "scene/field.h"
+#include "taut/scene/body_index.h"
+#include "taut/scene/field.h"
 
 namespace taut::scene {
 

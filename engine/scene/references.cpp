@@ -1,8 +1,8 @@
-#include "scene/references.h"
+#include "taut/scene/references.h"
 
 #include <fmt/format.h>
 
-#include "scene/body_index.h"
+#include "taut/scene/body_index.h"
 
 namespace taut::scene {
 

@@ -1,7 +1,7 @@
 // Checks what texts of a scene refer to: materials, cameras, bodies and their points. It resolves nothing.
 #pragma once
 
-#include "scene/scene_reader.h"
+#include "taut/scene/scene_reader.h"
 
 namespace taut::scene {
 

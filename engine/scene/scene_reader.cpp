@@ -1,10 +1,10 @@
-#include "scene/scene_reader.h"
+#include "taut/scene/scene_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "scene/value_reader.h"
+#include "taut/scene/value_reader.h"
 
 namespace taut::scene {
 

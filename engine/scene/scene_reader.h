@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/field.h"
-#include "scene/problems.h"
-#include "world/spec.h"
+#include "taut/scene/field.h"
+#include "taut/scene/problems.h"
+#include "taut/world/spec.h"
 
 namespace taut::scene {
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/field.h"
-#include "scene/load.h"
+#include "taut/scene/field.h"
+#include "taut/scene/load.h"
 
 namespace taut::scene {
 

@@ -1,13 +1,13 @@
-#include "scene/splice.h"
+#include "taut/scene/splice.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "core/error.h"
-#include "scene/document.h"
-#include "scene/toml_outline.h"
+#include "taut/core/error.h"
+#include "taut/scene/document.h"
+#include "taut/scene/toml_outline.h"
 
 namespace taut::scene {
 

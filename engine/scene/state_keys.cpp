@@ -1,10 +1,10 @@
-#include "scene/state_keys.h"
+#include "taut/scene/state_keys.h"
 
 #include <algorithm>
 #include <string_view>
 
-#include "core/hash.h"
-#include "world/ticks.h"
+#include "taut/core/hash.h"
+#include "taut/world/ticks.h"
 
 namespace taut::scene {
 namespace {

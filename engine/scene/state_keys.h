@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/document.h"
-#include "world/spec.h"
+#include "taut/scene/document.h"
+#include "taut/world/spec.h"
 
 namespace taut::scene {
 

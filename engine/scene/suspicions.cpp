@@ -1,4 +1,4 @@
-#include "scene/suspicions.h"
+#include "taut/scene/suspicions.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Warnings: what a scene may say but probably does not mean.
 #pragma once
 
-#include "scene/scene_reader.h"
+#include "taut/scene/scene_reader.h"
 
 namespace taut::scene {
 

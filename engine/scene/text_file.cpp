@@ -1,4 +1,4 @@
-#include "scene/text_file.h"
+#include "taut/scene/text_file.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::scene {
 

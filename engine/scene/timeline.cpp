@@ -1,14 +1,14 @@
-#include "scene/timeline.h"
+#include "taut/scene/timeline.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "scene/body_index.h"
-#include "scene/ramp_key.h"
-#include "scene/value_reader.h"
-#include "world/ticks.h"
+#include "taut/scene/body_index.h"
+#include "taut/scene/ramp_key.h"
+#include "taut/scene/value_reader.h"
+#include "taut/world/ticks.h"
 
 namespace taut::scene {
 

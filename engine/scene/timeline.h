@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/scene_reader.h"
+#include "taut/scene/scene_reader.h"
 
 namespace taut::scene {
 

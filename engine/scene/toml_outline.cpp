@@ -1,4 +1,4 @@
-#include "scene/toml_outline.h"
+#include "taut/scene/toml_outline.h"
 
 #include <algorithm>
 #include <map>

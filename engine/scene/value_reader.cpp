@@ -1,4 +1,4 @@
-#include "scene/value_reader.h"
+#include "taut/scene/value_reader.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "scene/field.h"
-#include "scene/problems.h"
+#include "taut/scene/field.h"
+#include "taut/scene/problems.h"
 
 namespace taut::scene {
 

@@ -1,12 +1,12 @@
-#include "study/atlas_chart.h"
+#include "taut/study/atlas_chart.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "ode/method_table.h"
-#include "report/palette.h"
+#include "taut/ode/method_table.h"
+#include "taut/report/palette.h"
 
 namespace taut::study {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "report/chart.h"
-#include "study/phase_plane.h"
-#include "study/stability_map.h"
-#include "study/threshold.h"
+#include "taut/report/chart.h"
+#include "taut/study/phase_plane.h"
+#include "taut/study/stability_map.h"
+#include "taut/study/threshold.h"
 
 namespace taut::study {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "study/phase_plane.h"
-#include "study/stability_map.h"
-#include "study/threshold.h"
-#include "study/work_precision_text.h"
+#include "taut/study/phase_plane.h"
+#include "taut/study/stability_map.h"
+#include "taut/study/threshold.h"
+#include "taut/study/work_precision_text.h"
 
 namespace taut::study {
 

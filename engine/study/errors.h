@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "study/subject.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 

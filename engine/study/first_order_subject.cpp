@@ -1,8 +1,8 @@
-#include "study/first_order_subject.h"
+#include "taut/study/first_order_subject.h"
 
 #include <cmath>
 
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::study {
 namespace {

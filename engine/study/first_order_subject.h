@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "study/subject.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 

@@ -1,12 +1,12 @@
-#include "study/growth_table.h"
+#include "taut/study/growth_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string_view>
 
-#include "ode/method_table.h"
-#include "study/problems.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/problems.h"
 
 namespace taut::study {
 

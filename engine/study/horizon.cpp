@@ -1,11 +1,11 @@
-#include "study/horizon.h"
+#include "taut/study/horizon.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/parallel.h"
-#include "ode/method_table.h"
-#include "study/errors.h"
+#include "taut/core/parallel.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/errors.h"
 
 namespace taut::study {
 

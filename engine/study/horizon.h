@@ -1,7 +1,7 @@
 // How long a motion can be predicted at all: two runs that start a little apart, and how they part.
 #pragma once
 
-#include "study/subject.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 

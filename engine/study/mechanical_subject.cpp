@@ -1,13 +1,13 @@
-#include "study/mechanical_subject.h"
+#include "taut/study/mechanical_subject.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/gravity.h"
-#include "mechanics/mass_spring_system.h"
-#include "mechanics/stability.h"
-#include "ode/method_table.h"
-#include "study/perturbation.h"
+#include "taut/mechanics/gravity.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/mechanics/stability.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/perturbation.h"
 
 namespace taut::study {
 namespace {

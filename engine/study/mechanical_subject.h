@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "mechanics/model.h"
-#include "study/subject.h"
+#include "taut/mechanics/model.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 

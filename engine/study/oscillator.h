@@ -1,7 +1,7 @@
 // The damped oscillator x'' = -ω² x - c x' - γ x' with ω = 1, as methods see a spring with a dashpot and a drag.
 #pragma once
 
-#include "ode/system.h"
+#include "taut/ode/system.h"
 
 namespace taut::study {
 

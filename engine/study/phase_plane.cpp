@@ -1,11 +1,11 @@
-#include "study/phase_plane.h"
+#include "taut/study/phase_plane.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "ode/method_table.h"
-#include "study/oscillator.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/oscillator.h"
 
 namespace taut::study {
 

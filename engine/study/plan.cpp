@@ -1,16 +1,16 @@
-#include "study/plan.h"
+#include "taut/study/plan.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/parallel.h"
-#include "study/plan_bodies.h"
-#include "study/plan_changes.h"
-#include "study/plan_search.h"
-#include "study/scene_subject.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
+#include "taut/study/plan_bodies.h"
+#include "taut/study/plan_changes.h"
+#include "taut/study/plan_search.h"
+#include "taut/study/scene_subject.h"
 
 namespace taut::study {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "scene/splice.h"
-#include "study/plan_candidate.h"
-#include "study/plan_need.h"
-#include "study/work_precision.h"
+#include "taut/scene/splice.h"
+#include "taut/study/plan_candidate.h"
+#include "taut/study/plan_need.h"
+#include "taut/study/work_precision.h"
 
 namespace taut::study {
 

@@ -1,7 +1,7 @@
 // Loops over the bodies of a scene's description, whatever their kind.
 #pragma once
 
-#include "world/spec.h"
+#include "taut/world/spec.h"
 
 namespace taut::study {
 

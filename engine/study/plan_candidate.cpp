@@ -1,15 +1,15 @@
-#include "study/plan_candidate.h"
+#include "taut/study/plan_candidate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/error.h"
-#include "study/plan_bodies.h"
-#include "world/body.h"
-#include "world/targets.h"
-#include "world/world.h"
+#include "taut/core/error.h"
+#include "taut/study/plan_bodies.h"
+#include "taut/world/body.h"
+#include "taut/world/targets.h"
+#include "taut/world/world.h"
 
 namespace taut::study {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "world/spec.h"
+#include "taut/world/spec.h"
 
 namespace taut::study {
 

@@ -1,10 +1,10 @@
-#include "study/plan_changes.h"
+#include "taut/study/plan_changes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::study {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "scene/splice.h"
-#include "world/spec.h"
+#include "taut/scene/splice.h"
+#include "taut/world/spec.h"
 
 namespace taut::study {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "world/spec.h"
+#include "taut/world/spec.h"
 
 namespace taut::study {
 

@@ -1,11 +1,11 @@
-#include "study/plan_reference.h"
+#include "taut/study/plan_reference.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::study {
 namespace {

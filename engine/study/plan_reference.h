@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include "study/plan.h"
-#include "study/plan_run.h"
+#include "taut/study/plan.h"
+#include "taut/study/plan_run.h"
 
 namespace taut::study {
 

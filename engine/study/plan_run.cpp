@@ -1,14 +1,14 @@
-#include "study/plan_run.h"
+#include "taut/study/plan_run.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 
-#include "core/error.h"
-#include "world/body.h"
-#include "world/components.h"
-#include "world/world.h"
+#include "taut/core/error.h"
+#include "taut/world/body.h"
+#include "taut/world/components.h"
+#include "taut/world/world.h"
 
 namespace taut::study {
 namespace {

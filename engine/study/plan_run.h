@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "ode/method.h"
-#include "study/plan_candidate.h"
-#include "study/plan_need.h"
+#include "taut/ode/method.h"
+#include "taut/study/plan_candidate.h"
+#include "taut/study/plan_need.h"
 
 namespace taut::study {
 

@@ -1,12 +1,12 @@
-#include "study/plan_search.h"
+#include "taut/study/plan_search.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "ode/method_table.h"
-#include "study/plan_bodies.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/plan_bodies.h"
 
 namespace taut::study {
 namespace {

@@ -1,7 +1,7 @@
 // The search among methods, steps and precisions for the cheapest that meets the need.
 #pragma once
 
-#include "study/plan_reference.h"
+#include "taut/study/plan_reference.h"
 
 namespace taut::study {
 

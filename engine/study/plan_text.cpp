@@ -1,4 +1,4 @@
-#include "study/plan_text.h"
+#include "taut/study/plan_text.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/table.h"
+#include "taut/report/table.h"
 
 namespace taut::study {
 namespace {

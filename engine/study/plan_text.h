@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "study/plan.h"
-#include "study/work_precision_text.h"
+#include "taut/study/plan.h"
+#include "taut/study/work_precision_text.h"
 
 namespace taut::study {
 

@@ -1,10 +1,10 @@
-#include "study/problems.h"
+#include "taut/study/problems.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "study/first_order_subject.h"
+#include "taut/study/first_order_subject.h"
 
 namespace taut::study {
 namespace {

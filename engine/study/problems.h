@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "study/subject.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanics/builders.h"
-#include "study/mechanical_subject.h"
-#include "study/problems.h"
+#include "taut/mechanics/builders.h"
+#include "taut/study/mechanical_subject.h"
+#include "taut/study/problems.h"
 
 namespace taut::study {
 namespace {

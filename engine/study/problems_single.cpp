@@ -1,8 +1,8 @@
 // Problems of one point mass.
 #include <cmath>
 
-#include "study/mechanical_subject.h"
-#include "study/problems.h"
+#include "taut/study/mechanical_subject.h"
+#include "taut/study/problems.h"
 
 namespace taut::study {
 namespace {

@@ -1,13 +1,13 @@
-#include "study/reference.h"
+#include "taut/study/reference.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/parallel.h"
-#include "ode/method_table.h"
-#include "study/errors.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/errors.h"
 
 namespace taut::study {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "study/subject.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 

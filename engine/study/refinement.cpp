@@ -1,10 +1,10 @@
-#include "study/refinement.h"
+#include "taut/study/refinement.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "study/statics.h"
+#include "taut/core/error.h"
+#include "taut/study/statics.h"
 
 namespace taut::study {
 namespace {

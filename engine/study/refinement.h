@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "study/refinement_bodies.h"
+#include "taut/study/refinement_bodies.h"
 
 namespace taut::study {
 

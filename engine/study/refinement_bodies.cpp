@@ -1,9 +1,9 @@
-#include "study/refinement_bodies.h"
+#include "taut/study/refinement_bodies.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "mechanics/builders.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::study {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::study {
 

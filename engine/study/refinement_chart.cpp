@@ -1,4 +1,4 @@
-#include "study/refinement_chart.h"
+#include "taut/study/refinement_chart.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "study/refinement.h"
-#include "study/work_precision_chart.h"
+#include "taut/study/refinement.h"
+#include "taut/study/work_precision_chart.h"
 
 namespace taut::study {
 

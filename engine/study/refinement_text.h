@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "study/refinement.h"
-#include "study/work_precision_text.h"
+#include "taut/study/refinement.h"
+#include "taut/study/work_precision_text.h"
 
 namespace taut::study {
 

@@ -1,12 +1,12 @@
-#include "study/scene_subject.h"
+#include "taut/study/scene_subject.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "ode/method_table.h"
-#include "world/components.h"
-#include "world/world.h"
+#include "taut/core/error.h"
+#include "taut/ode/method_table.h"
+#include "taut/world/components.h"
+#include "taut/world/world.h"
 
 namespace taut::study {
 namespace {

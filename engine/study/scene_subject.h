@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "study/subject.h"
-#include "world/spec.h"
+#include "taut/study/subject.h"
+#include "taut/world/spec.h"
 
 namespace taut::study {
 

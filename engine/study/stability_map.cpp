@@ -1,4 +1,4 @@
-#include "study/stability_map.h"
+#include "taut/study/stability_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <memory>
 #include <mutex>
 
-#include "core/parallel.h"
-#include "ode/method_table.h"
+#include "taut/core/parallel.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::study {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ode/method.h"
-#include "study/oscillator.h"
+#include "taut/ode/method.h"
+#include "taut/study/oscillator.h"
 
 namespace taut::study {
 

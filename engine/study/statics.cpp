@@ -1,12 +1,12 @@
-#include "study/statics.h"
+#include "taut/study/statics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
-#include "mechanics/gravity.h"
-#include "mechanics/mass_spring_system.h"
-#include "ode/method_table.h"
+#include "taut/mechanics/gravity.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::study {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::study {
 

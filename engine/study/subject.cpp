@@ -1,4 +1,4 @@
-#include "study/subject.h"
+#include "taut/study/subject.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ode/method.h"
-#include "world/spec.h"
+#include "taut/ode/method.h"
+#include "taut/world/spec.h"
 
 namespace taut::study {
 

@@ -1,4 +1,4 @@
-#include "study/threshold.h"
+#include "taut/study/threshold.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <mutex>
 #include <optional>
 
-#include "core/parallel.h"
-#include "ode/method_table.h"
-#include "world/world.h"
+#include "taut/core/parallel.h"
+#include "taut/ode/method_table.h"
+#include "taut/world/world.h"
 
 namespace taut::study {
 namespace {

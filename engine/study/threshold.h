@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "ode/method.h"
-#include "study/stability_map.h"
-#include "world/spec.h"
+#include "taut/ode/method.h"
+#include "taut/study/stability_map.h"
+#include "taut/world/spec.h"
 
 namespace taut::study {
 

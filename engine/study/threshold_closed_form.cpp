@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
-#include "study/threshold.h"
+#include "taut/core/error.h"
+#include "taut/study/threshold.h"
 
 namespace taut::study {
 namespace {

@@ -1,14 +1,14 @@
-#include "study/work_precision.h"
+#include "taut/study/work_precision.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
-#include "core/error.h"
-#include "core/parallel.h"
-#include "ode/method_table.h"
-#include "study/errors.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/errors.h"
 
 namespace taut::study {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "study/horizon.h"
-#include "study/reference.h"
-#include "study/subject.h"
+#include "taut/study/horizon.h"
+#include "taut/study/reference.h"
+#include "taut/study/subject.h"
 
 namespace taut::study {
 

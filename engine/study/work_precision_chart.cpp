@@ -1,11 +1,11 @@
-#include "study/work_precision_chart.h"
+#include "taut/study/work_precision_chart.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 
-#include "report/palette.h"
+#include "taut/report/palette.h"
 
 namespace taut::study {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "report/chart.h"
-#include "study/work_precision.h"
+#include "taut/report/chart.h"
+#include "taut/study/work_precision.h"
 
 namespace taut::study {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "study/growth_table.h"
-#include "study/work_precision.h"
+#include "taut/study/growth_table.h"
+#include "taut/study/work_precision.h"
 
 namespace taut::study {
 

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
-#include "view/primitives.h"
+#include "taut/core/error.h"
+#include "taut/view/primitives.h"
 
 namespace taut::view {
 

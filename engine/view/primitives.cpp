@@ -1,4 +1,4 @@
-#include "view/primitives.h"
+#include "taut/view/primitives.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::view {
 

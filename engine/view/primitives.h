@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "view/frame_view.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::view {
 

@@ -1,11 +1,11 @@
-#include "view/tube.h"
+#include "taut/view/tube.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::view {
 

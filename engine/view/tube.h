@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "view/frame_view.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::view {
 

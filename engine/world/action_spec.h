@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "world/source.h"
+#include "taut/world/source.h"
 
 namespace taut::world {
 

@@ -1,12 +1,12 @@
-#include "world/body.h"
+#include "taut/world/body.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "mechanics/builders.h"
-#include "world/rotation.h"
-#include "world/targets.h"
+#include "taut/core/error.h"
+#include "taut/mechanics/builders.h"
+#include "taut/world/rotation.h"
+#include "taut/world/targets.h"
 
 namespace taut::world {
 namespace {

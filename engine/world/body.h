@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/model.h"
-#include "world/damage.h"
-#include "world/spec.h"
+#include "taut/mechanics/model.h"
+#include "taut/world/damage.h"
+#include "taut/world/spec.h"
 
 namespace taut::world {
 

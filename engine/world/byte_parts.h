@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "collision/colliders.h"
-#include "core/bytes.h"
-#include "mechanics/linear_path.h"
+#include "taut/collision/colliders.h"
+#include "taut/core/bytes.h"
+#include "taut/mechanics/linear_path.h"
 
 namespace taut::world {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "core/error.h"
-#include "world/drawing.h"
-#include "world/motion.h"
-#include "world/rotation.h"
+#include "taut/core/error.h"
+#include "taut/world/drawing.h"
+#include "taut/world/motion.h"
+#include "taut/world/rotation.h"
 
 namespace taut::world {
 namespace {

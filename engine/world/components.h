@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "collision/colliders.h"
-#include "world/body.h"
-#include "world/drawing.h"
-#include "world/spec.h"
+#include "taut/collision/colliders.h"
+#include "taut/world/body.h"
+#include "taut/world/drawing.h"
+#include "taut/world/spec.h"
 
 namespace taut::world {
 

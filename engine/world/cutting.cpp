@@ -1,4 +1,4 @@
-#include "world/cutting.h"
+#include "taut/world/cutting.h"
 
 #include <algorithm>
 #include <set>

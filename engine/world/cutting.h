@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "world/island.h"
+#include "taut/world/island.h"
 
 namespace taut::world {
 

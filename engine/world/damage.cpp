@@ -1,4 +1,4 @@
-#include "world/damage.h"
+#include "taut/world/damage.h"
 
 #include <algorithm>
 #include <array>

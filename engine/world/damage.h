@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::world {
 

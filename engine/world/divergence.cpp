@@ -1,10 +1,10 @@
-#include "world/divergence.h"
+#include "taut/world/divergence.h"
 
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::world {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "world/island.h"
-#include "world/step_choice.h"
+#include "taut/world/island.h"
+#include "taut/world/step_choice.h"
 
 namespace taut::world {
 

@@ -1,11 +1,11 @@
-#include "world/drawing.h"
+#include "taut/world/drawing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "view/tube.h"
-#include "world/skin_pieces.h"
+#include "taut/view/tube.h"
+#include "taut/world/skin_pieces.h"
 
 namespace taut::world {
 namespace {

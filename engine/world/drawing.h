@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "collision/colliders.h"
-#include "view/frame_view.h"
-#include "view/primitives.h"
-#include "world/body.h"
+#include "taut/collision/colliders.h"
+#include "taut/view/frame_view.h"
+#include "taut/view/primitives.h"
+#include "taut/world/body.h"
 
 namespace taut::world {
 

@@ -1,12 +1,12 @@
-#include "world/envelope.h"
+#include "taut/world/envelope.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
-#include "core/error.h"
-#include "world/targets.h"
+#include "taut/core/error.h"
+#include "taut/world/targets.h"
 
 namespace taut::world {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "world/forces.h"
-#include "world/island_plan.h"
+#include "taut/world/forces.h"
+#include "taut/world/island_plan.h"
 
 namespace taut::world {
 

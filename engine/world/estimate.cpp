@@ -1,4 +1,4 @@
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

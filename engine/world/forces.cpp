@@ -1,6 +1,6 @@
-#include "world/forces.h"
+#include "taut/world/forces.h"
 
-#include "world/targets.h"
+#include "taut/world/targets.h"
 
 namespace taut::world {
 namespace {

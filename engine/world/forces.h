@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "mechanics/linear_path.h"
-#include "mechanics/wind.h"
-#include "world/body.h"
+#include "taut/mechanics/linear_path.h"
+#include "taut/mechanics/wind.h"
+#include "taut/world/body.h"
 
 namespace taut::world {
 

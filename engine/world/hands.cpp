@@ -1,11 +1,11 @@
-#include "world/hands.h"
+#include "taut/world/hands.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "world/impl.h"
-#include "world/motion.h"
-#include "world/targets.h"
+#include "taut/world/impl.h"
+#include "taut/world/motion.h"
+#include "taut/world/targets.h"
 
 namespace taut::world {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "world/spec.h"
+#include "taut/world/spec.h"
 
 namespace taut::world {
 

@@ -11,11 +11,11 @@
 
 #include <optional>
 
-#include "core/parallel.h"
-#include "world/components.h"
-#include "world/hands.h"
-#include "world/island.h"
-#include "world/world.h"
+#include "taut/core/parallel.h"
+#include "taut/world/components.h"
+#include "taut/world/hands.h"
+#include "taut/world/island.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 

@@ -1,12 +1,12 @@
-#include "world/island.h"
+#include "taut/world/island.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "world/divergence.h"
-#include "world/island_of.h"
-#include "world/motion.h"
+#include "taut/world/divergence.h"
+#include "taut/world/island_of.h"
+#include "taut/world/motion.h"
 
 namespace taut::world {
 namespace {

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "collision/colliders.h"
-#include "core/bytes.h"
-#include "core/hash.h"
-#include "world/envelope.h"
-#include "world/forces.h"
-#include "world/island_plan.h"
-#include "world/world.h"
+#include "taut/collision/colliders.h"
+#include "taut/core/bytes.h"
+#include "taut/core/hash.h"
+#include "taut/world/envelope.h"
+#include "taut/world/forces.h"
+#include "taut/world/island_plan.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 

@@ -2,7 +2,7 @@
 // together are enough to make it again.
 #include <algorithm>
 
-#include "world/island_of.h"
+#include "taut/world/island_of.h"
 
 namespace taut::world {
 

@@ -7,13 +7,13 @@
 //   plasticity.cpp      springs that give way and break
 #pragma once
 
-#include "mechanics/anchor.h"
-#include "mechanics/gravity.h"
-#include "mechanics/volume.h"
-#include "mechanics/wind.h"
-#include "ode/method_table.h"
-#include "world/island.h"
-#include "world/step_choice.h"
+#include "taut/mechanics/anchor.h"
+#include "taut/mechanics/gravity.h"
+#include "taut/mechanics/volume.h"
+#include "taut/mechanics/wind.h"
+#include "taut/ode/method_table.h"
+#include "taut/world/island.h"
+#include "taut/world/step_choice.h"
 
 namespace taut::world {
 

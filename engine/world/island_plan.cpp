@@ -1,12 +1,12 @@
-#include "world/island_plan.h"
+#include "taut/world/island_plan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "core/error.h"
-#include "world/targets.h"
+#include "taut/core/error.h"
+#include "taut/world/targets.h"
 
 namespace taut::world {
 namespace {

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "mechanics/linear_path.h"
-#include "mechanics/mass_spring_system.h"
-#include "world/body.h"
+#include "taut/mechanics/linear_path.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/world/body.h"
 
 namespace taut::world {
 

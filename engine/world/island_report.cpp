@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/divergence.h"
-#include "world/island_of.h"
+#include "taut/world/divergence.h"
+#include "taut/world/island_of.h"
 
 namespace taut::world {
 

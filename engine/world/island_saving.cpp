@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/byte_parts.h"
-#include "world/cutting.h"
-#include "world/island_of.h"
+#include "taut/world/byte_parts.h"
+#include "taut/world/cutting.h"
+#include "taut/world/island_of.h"
 
 namespace taut::world {
 namespace {

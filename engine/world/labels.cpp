@@ -1,10 +1,10 @@
-#include "world/labels.h"
+#include "taut/world/labels.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "ode/method_table.h"
-#include "world/drawing.h"
+#include "taut/ode/method_table.h"
+#include "taut/world/drawing.h"
 
 namespace taut::world {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "view/frame_view.h"
-#include "world/island.h"
+#include "taut/view/frame_view.h"
+#include "taut/world/island.h"
 
 namespace taut::world {
 

@@ -1,9 +1,9 @@
-#include "world/motion.h"
+#include "taut/world/motion.h"
 
 #include <cmath>
 
-#include "core/trig.h"
-#include "world/rotation.h"
+#include "taut/core/trig.h"
+#include "taut/world/rotation.h"
 
 namespace taut::world {
 namespace {

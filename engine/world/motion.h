@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "collision/colliders.h"
-#include "view/frame_view.h"
-#include "world/spec.h"
+#include "taut/collision/colliders.h"
+#include "taut/view/frame_view.h"
+#include "taut/world/spec.h"
 
 namespace taut::world {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/cutting.h"
-#include "world/island_of.h"
+#include "taut/world/cutting.h"
+#include "taut/world/island_of.h"
 
 namespace taut::world {
 namespace {

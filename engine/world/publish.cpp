@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/impl.h"
-#include "world/labels.h"
-#include "world/motion.h"
+#include "taut/world/impl.h"
+#include "taut/world/labels.h"
+#include "taut/world/motion.h"
 
 namespace taut::world {
 namespace {

@@ -1,9 +1,9 @@
 // What is asked of a world while it stands still between two ticks.
 #include <algorithm>
 
-#include "core/hash.h"
-#include "world/impl.h"
-#include "world/targets.h"
+#include "taut/core/hash.h"
+#include "taut/world/impl.h"
+#include "taut/world/targets.h"
 
 namespace taut::world {
 

@@ -1,8 +1,8 @@
 // Fields of the scene that change while it runs.
 #include <algorithm>
 
-#include "world/impl.h"
-#include "world/targets.h"
+#include "taut/world/impl.h"
+#include "taut/world/targets.h"
 
 namespace taut::world {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/trig.h"
+#include "taut/core/trig.h"
 
 namespace taut::world {
 

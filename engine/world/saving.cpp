@@ -1,8 +1,8 @@
 // A world as bytes: what its ticks have changed. The scene is not among them; it makes the world that they go into.
 #include <algorithm>
 
-#include "world/byte_parts.h"
-#include "world/impl.h"
+#include "taut/world/byte_parts.h"
+#include "taut/world/impl.h"
 
 namespace taut::world {
 namespace {

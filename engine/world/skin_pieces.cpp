@@ -1,4 +1,4 @@
-#include "world/skin_pieces.h"
+#include "taut/world/skin_pieces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "world/body.h"
+#include "taut/world/body.h"
 
 namespace taut::world {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "world/action_spec.h"
-#include "world/source.h"
+#include "taut/world/action_spec.h"
+#include "taut/world/source.h"
 
 namespace taut::world {
 

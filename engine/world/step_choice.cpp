@@ -1,11 +1,11 @@
-#include "world/step_choice.h"
+#include "taut/world/step_choice.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "core/error.h"
-#include "ode/method_table.h"
+#include "taut/core/error.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::world {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/stability.h"
-#include "ode/method.h"
-#include "world/envelope.h"
+#include "taut/mechanics/stability.h"
+#include "taut/ode/method.h"
+#include "taut/world/envelope.h"
 
 namespace taut::world {
 

@@ -1,4 +1,4 @@
-#include "world/targets.h"
+#include "taut/world/targets.h"
 
 #include <charconv>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::world {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "world/spec.h"
+#include "taut/world/spec.h"
 
 namespace taut::world {
 

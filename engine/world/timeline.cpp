@@ -1,13 +1,13 @@
 // The actions of a scene, each done at the start of its tick.
 #include <algorithm>
 
-#include "core/error.h"
-#include "world/cutting.h"
-#include "world/impl.h"
-#include "world/motion.h"
-#include "world/rotation.h"
-#include "world/targets.h"
-#include "world/ticks.h"
+#include "taut/core/error.h"
+#include "taut/world/cutting.h"
+#include "taut/world/impl.h"
+#include "taut/world/motion.h"
+#include "taut/world/rotation.h"
+#include "taut/world/targets.h"
+#include "taut/world/ticks.h"
 
 namespace taut::world {
 namespace {

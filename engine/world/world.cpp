@@ -1,13 +1,13 @@
-#include "world/world.h"
+#include "taut/world/world.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/hash.h"
-#include "world/impl.h"
-#include "world/motion.h"
-#include "world/targets.h"
+#include "taut/core/error.h"
+#include "taut/core/hash.h"
+#include "taut/world/impl.h"
+#include "taut/world/motion.h"
+#include "taut/world/targets.h"
 
 namespace taut::world {
 

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "ecs/registry.h"
-#include "ode/method.h"
-#include "view/frame_view.h"
-#include "world/spec.h"
+#include "taut/ecs/registry.h"
+#include "taut/ode/method.h"
+#include "taut/view/frame_view.h"
+#include "taut/world/spec.h"
 
 namespace taut::world {
 

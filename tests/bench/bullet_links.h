@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::bench {
 

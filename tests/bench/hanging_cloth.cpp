@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "mechanics/builders.h"
-#include "mechanics/gravity.h"
-#include "mechanics/stability.h"
-#include "mechanics/wind.h"
-#include "ode/method_table.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/gravity.h"
+#include "taut/mechanics/stability.h"
+#include "taut/mechanics/wind.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::bench {
 namespace {

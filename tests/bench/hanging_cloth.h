@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "mechanics/mass_spring_system.h"
-#include "mechanics/model.h"
-#include "ode/method.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/mechanics/model.h"
+#include "taut/ode/method.h"
 
 namespace taut::bench {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::bench {
 

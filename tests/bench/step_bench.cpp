@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "bullet_links.h"
-#include "core/instruction_set.h"
-#include "core/parallel.h"
+#include "taut/core/instruction_set.h"
+#include "taut/core/parallel.h"
 #include "hanging_cloth.h"
 #include "object_springs.h"
 

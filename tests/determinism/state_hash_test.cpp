@@ -9,10 +9,10 @@
 #include <map>
 #include <sstream>
 
-#include "core/instruction_set.h"
-#include "ode/method_table.h"
-#include "scene/load.h"
-#include "world/world.h"
+#include "taut/core/instruction_set.h"
+#include "taut/ode/method_table.h"
+#include "taut/scene/load.h"
+#include "taut/world/world.h"
 
 namespace taut {
 namespace {

@@ -2,7 +2,7 @@
 // threads, every instruction set and, through the recorded hashes, every compiler.
 #include <gtest/gtest.h>
 
-#include "core/instruction_set.h"
+#include "taut/core/instruction_set.h"
 #include "support/timelines.h"
 
 namespace taut {

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <set>
 
-#include "image/compare.h"
-#include "regression/manifest.h"
-#include "render/renderer.h"
-#include "scene/load.h"
-#include "world/world.h"
+#include "taut/image/compare.h"
+#include "taut/regression/manifest.h"
+#include "taut/render/renderer.h"
+#include "taut/scene/load.h"
+#include "taut/world/world.h"
 
 namespace taut {
 namespace {

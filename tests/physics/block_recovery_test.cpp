@@ -5,11 +5,11 @@
 #include <cmath>
 #include <string>
 
-#include "core/trig.h"
-#include "mechanics/builders.h"
-#include "mechanics/stability.h"
-#include "mechanics/volume.h"
-#include "ode/method_table.h"
+#include "taut/core/trig.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/stability.h"
+#include "taut/mechanics/volume.h"
+#include "taut/ode/method_table.h"
 #include "support/network.h"
 
 namespace taut::test {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 #include "support/scenes.h"
 
 namespace taut::test {

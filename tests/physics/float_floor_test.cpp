@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mechanics/builders.h"
+#include "taut/mechanics/builders.h"
 #include "support/network.h"
 
 namespace taut::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "mechanics/builders.h"
+#include "taut/mechanics/builders.h"
 #include "support/network.h"
 
 namespace taut::test {

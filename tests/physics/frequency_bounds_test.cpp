@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/trig.h"
-#include "mechanics/builders.h"
-#include "mechanics/stability.h"
+#include "taut/core/trig.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/stability.h"
 #include "support/dense_stiffness.h"
 #include "support/network.h"
 

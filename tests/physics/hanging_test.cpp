@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/builders.h"
-#include "mechanics/stability.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/stability.h"
 #include "support/network.h"
 
 namespace taut::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/builders.h"
+#include "taut/mechanics/builders.h"
 #include "support/network.h"
 #include "support/oscillator.h"
 #include "support/scenes.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/trig.h"
+#include "taut/core/trig.h"
 #include "support/network.h"
 #include "support/oscillator.h"
 #include "support/scenes.h"

@@ -8,9 +8,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/trig.h"
-#include "mechanics/builders.h"
-#include "mechanics/stability.h"
+#include "taut/core/trig.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/stability.h"
 #include "support/network.h"
 
 namespace taut::test {

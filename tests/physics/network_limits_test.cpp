@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "mechanics/builders.h"
+#include "taut/core/error.h"
+#include "taut/mechanics/builders.h"
 #include "support/dense_stiffness.h"
 #include "support/scenes.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "mechanics/builders.h"
-#include "mechanics/wind.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/wind.h"
 #include "support/network.h"
 
 namespace taut::test {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "ode/method_table.h"
-#include "study/plan.h"
-#include "study/plan_run.h"
-#include "study/plan_search.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/plan.h"
+#include "taut/study/plan_run.h"
+#include "taut/study/plan_search.h"
 #include "support/small_scenes.h"
 
 namespace taut::study {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "scene/load.h"
+#include "taut/scene/load.h"
 #include "support/scenes.h"
 
 namespace taut::test {

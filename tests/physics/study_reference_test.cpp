@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
-#include "ode/method_table.h"
-#include "study/errors.h"
-#include "study/problems.h"
-#include "study/reference.h"
-#include "study/work_precision.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/errors.h"
+#include "taut/study/problems.h"
+#include "taut/study/reference.h"
+#include "taut/study/work_precision.h"
 
 namespace taut::study {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "mechanics/builders.h"
-#include "ode/method_table.h"
-#include "study/threshold.h"
+#include "taut/mechanics/builders.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/threshold.h"
 #include "support/dense_stiffness.h"
 
 namespace taut::test {

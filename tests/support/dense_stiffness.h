@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 #include "support/eigenvalues.h"
 
 namespace taut::test {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::test {
 

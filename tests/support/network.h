@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "mechanics/gravity.h"
-#include "mechanics/mass_spring_system.h"
-#include "mechanics/model.h"
+#include "taut/mechanics/gravity.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/mechanics/model.h"
 #include "support/integration.h"
 
 namespace taut::test {

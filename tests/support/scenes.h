@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "world/components.h"
-#include "world/world.h"
+#include "taut/world/components.h"
+#include "taut/world/world.h"
 
 namespace taut::test {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "world/spec.h"
+#include "taut/world/spec.h"
 
 namespace taut::support {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "support/small_scenes.h"
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::support {
 

@@ -1,7 +1,7 @@
 // Every function of the language in a small scene whose answer is known from theory.
 #include <cmath>
 
-#include "check/function_table.h"
+#include "taut/check/function_table.h"
 #include "unit/check_support.h"
 
 namespace taut::check {

@@ -1,10 +1,10 @@
 // Two hundred scenarios, each with a few accidents: every one is refused with a message or runs for a while.
 #include <random>
 
-#include "check/watcher.h"
-#include "core/error.h"
+#include "taut/check/watcher.h"
+#include "taut/core/error.h"
 #include "unit/check_support.h"
-#include "world/ticks.h"
+#include "taut/world/ticks.h"
 
 namespace taut::check {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "check/check.h"
-#include "check/evaluation.h"
-#include "scene/load.h"
-#include "world/world.h"
+#include "taut/check/check.h"
+#include "taut/check/evaluation.h"
+#include "taut/scene/load.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

@@ -1,5 +1,5 @@
 // When a check is looked at, and what is said of one that fails or never had its moment.
-#include "check/watcher.h"
+#include "taut/check/watcher.h"
 #include "unit/check_support.h"
 
 namespace taut::check {

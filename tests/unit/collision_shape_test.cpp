@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "collision_support.h"
-#include "core/error.h"
+#include "taut/core/error.h"
 
 namespace taut::collision {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "collision/colliders.h"
-#include "core/trig.h"
+#include "taut/collision/colliders.h"
+#include "taut/core/trig.h"
 
 namespace taut::collision {
 

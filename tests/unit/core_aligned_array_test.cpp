@@ -1,4 +1,4 @@
-#include "core/aligned_array.h"
+#include "taut/core/aligned_array.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/bytes.h"
+#include "taut/core/bytes.h"
 
 #include <gtest/gtest.h>
 

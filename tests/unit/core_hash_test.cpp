@@ -1,4 +1,4 @@
-#include "core/hash.h"
+#include "taut/core/hash.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ecs/registry.h"
+#include "taut/ecs/registry.h"
 
 #include <gtest/gtest.h>
 

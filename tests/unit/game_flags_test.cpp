@@ -5,8 +5,8 @@
 #include <csignal>
 #include <utility>
 
-#include "core/edit_distance.h"
-#include "core/error.h"
+#include "taut/core/edit_distance.h"
+#include "taut/core/error.h"
 #include "game/interruption.h"
 #include "game/progress.h"
 #include "game/suggestion.h"

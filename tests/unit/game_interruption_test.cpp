@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "image/read.h"
+#include "taut/image/read.h"
 #include "image_support.h"
 
 namespace taut::game {

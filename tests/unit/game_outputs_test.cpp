@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "image/frame_sequence.h"
-#include "image/video_writer.h"
+#include "taut/image/frame_sequence.h"
+#include "taut/image/video_writer.h"
 #include "image_support.h"
 
 namespace taut::game {

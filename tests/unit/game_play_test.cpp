@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "image/read.h"
+#include "taut/image/read.h"
 #include "image_support.h"
 #include "program_support.h"
 

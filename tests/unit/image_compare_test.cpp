@@ -1,4 +1,4 @@
-#include "image/compare.h"
+#include "taut/image/compare.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "image/frame_sequence.h"
+#include "taut/image/frame_sequence.h"
 
 #include <gtest/gtest.h>
 
-#include "image/read.h"
-#include "image/several_sinks.h"
+#include "taut/image/read.h"
+#include "taut/image/several_sinks.h"
 #include "image_support.h"
 
 namespace taut::image {

@@ -1,8 +1,8 @@
-#include "image/png.h"
+#include "taut/image/png.h"
 
 #include <gtest/gtest.h>
 
-#include "image/read.h"
+#include "taut/image/read.h"
 #include "image_support.h"
 
 namespace taut::image {

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <string>
 
-#include "core/error.h"
-#include "image/image.h"
+#include "taut/core/error.h"
+#include "taut/image/image.h"
 
 namespace taut::test {
 

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <cstdio>
 
-#include "image/video_writer.h"
+#include "taut/image/video_writer.h"
 #include "image_support.h"
 
 namespace taut::image {

@@ -1,4 +1,4 @@
-#include "image/whole_file.h"
+#include "taut/image/whole_file.h"
 
 #include <gtest/gtest.h>
 

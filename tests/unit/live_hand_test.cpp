@@ -1,4 +1,4 @@
-#include "live/hand.h"
+#include "taut/live/hand.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "live/pace.h"
+#include "taut/live/pace.h"
 
 #include <gtest/gtest.h>
 
-#include "live/between.h"
+#include "taut/live/between.h"
 
 namespace taut::live {
 namespace {

@@ -1,8 +1,8 @@
-#include "live/picking.h"
+#include "taut/live/picking.h"
 
 #include <gtest/gtest.h>
 
-#include "live/orbit.h"
+#include "taut/live/orbit.h"
 
 namespace taut::live {
 namespace {

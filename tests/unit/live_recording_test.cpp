@@ -1,9 +1,9 @@
-#include "live/recording.h"
+#include "taut/live/recording.h"
 
 #include <gtest/gtest.h>
 
-#include "scene/document.h"
-#include "scene/load.h"
+#include "taut/scene/document.h"
+#include "taut/scene/load.h"
 
 namespace taut::live {
 namespace {

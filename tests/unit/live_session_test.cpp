@@ -1,8 +1,8 @@
-#include "live/session.h"
+#include "taut/live/session.h"
 
 #include <gtest/gtest.h>
 
-#include "scene/load.h"
+#include "taut/scene/load.h"
 
 namespace taut::live {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "mechanics/builders.h"
+#include "taut/mechanics/builders.h"
 #include "mechanics_lattice_facts.h"
 
 namespace taut::mechanics {

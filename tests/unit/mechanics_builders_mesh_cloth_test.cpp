@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/error.h"
-#include "mechanics/builders.h"
+#include "taut/core/error.h"
+#include "taut/mechanics/builders.h"
 #include "mechanics_lattice_facts.h"
 
 namespace taut::mechanics {

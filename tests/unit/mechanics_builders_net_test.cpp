@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "mechanics/builders.h"
+#include "taut/mechanics/builders.h"
 #include "mechanics_lattice_facts.h"
 
 namespace taut::mechanics {

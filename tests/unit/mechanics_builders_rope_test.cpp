@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "mechanics/builders.h"
+#include "taut/core/error.h"
+#include "taut/mechanics/builders.h"
 #include "mechanics_lattice_facts.h"
 
 namespace taut::mechanics {

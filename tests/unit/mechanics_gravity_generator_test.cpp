@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "mechanics/builders.h"
-#include "mechanics/gravity.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/gravity.h"
 #include "mechanics_planar_state.h"
 
 namespace taut::mechanics {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mechanics/noise.h"
+#include "taut/mechanics/noise.h"
 
 namespace taut::mechanics {
 namespace {

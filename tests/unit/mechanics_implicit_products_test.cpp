@@ -4,12 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "core/instruction_set.h"
-#include "mechanics/anchor.h"
-#include "mechanics/builders.h"
-#include "mechanics/mass_spring_system.h"
-#include "mechanics/volume.h"
-#include "mechanics/wind.h"
+#include "taut/core/instruction_set.h"
+#include "taut/mechanics/anchor.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/mechanics/volume.h"
+#include "taut/mechanics/wind.h"
 
 namespace taut::mechanics {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "mechanics/builders.h"
-#include "mechanics/index_runs.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/index_runs.h"
 
 namespace taut::mechanics {
 namespace {

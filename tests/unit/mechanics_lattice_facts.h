@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/model.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::mechanics::test {
 

@@ -1,4 +1,4 @@
-#include "mechanics/mass_spring_system.h"
+#include "taut/mechanics/mass_spring_system.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <limits>
 #include <mutex>
 
-#include "core/parallel.h"
-#include "mechanics/builders.h"
-#include "mechanics/gravity.h"
+#include "taut/core/parallel.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/gravity.h"
 #include "mechanics_random_net.h"
-#include "ode/method_table.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::mechanics::test {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "core/aligned_array.h"
-#include "core/instruction_set.h"
-#include "mechanics/force_generator.h"
-#include "mechanics/model.h"
+#include "taut/core/aligned_array.h"
+#include "taut/core/instruction_set.h"
+#include "taut/mechanics/force_generator.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::mechanics::test {
 

@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
-#include "core/instruction_set.h"
-#include "mechanics/mass_spring_system.h"
-#include "mechanics/model.h"
+#include "taut/core/instruction_set.h"
+#include "taut/mechanics/mass_spring_system.h"
+#include "taut/mechanics/model.h"
 
 namespace taut::mechanics::test {
 

@@ -1,4 +1,4 @@
-#include "mechanics/spring_kernels.h"
+#include "taut/mechanics/spring_kernels.h"
 
 #include <gtest/gtest.h>
 

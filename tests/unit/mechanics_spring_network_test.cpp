@@ -1,4 +1,4 @@
-#include "mechanics/spring_network.h"
+#include "taut/mechanics/spring_network.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <tuple>
 
-#include "mechanics/builders.h"
+#include "taut/mechanics/builders.h"
 #include "mechanics_random_net.h"
 
 namespace taut::mechanics::test {

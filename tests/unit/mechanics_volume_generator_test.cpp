@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "mechanics/builders.h"
-#include "mechanics/volume.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/volume.h"
 #include "mechanics_planar_state.h"
 #include "support/eigenvalues.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/trig.h"
-#include "mechanics/builders.h"
-#include "mechanics/wind.h"
+#include "taut/core/trig.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/wind.h"
 #include "mechanics_planar_state.h"
 #include "support/eigenvalues.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/error.h"
-#include "ode/conjugate_gradient.h"
+#include "taut/core/error.h"
+#include "taut/ode/conjugate_gradient.h"
 #include "support/oscillator.h"
 
 namespace taut::test {

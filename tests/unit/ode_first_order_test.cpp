@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "support/oscillator.h"
 
 namespace taut::test {

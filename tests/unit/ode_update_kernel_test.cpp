@@ -1,12 +1,12 @@
-#include "ode/update_kernels.h"
+#include "taut/ode/update_kernels.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "core/instruction_set.h"
-#include "ode/method_table.h"
+#include "taut/core/instruction_set.h"
+#include "taut/ode/method_table.h"
 
 namespace taut::ode {
 namespace {

@@ -1,14 +1,14 @@
 // Checkpoint files: whole or refused with a reason.
-#include "pipeline/checkpoint.h"
+#include "taut/pipeline/checkpoint.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <random>
 
-#include "core/error.h"
-#include "image/whole_file.h"
-#include "pipeline/sealed_file.h"
+#include "taut/core/error.h"
+#include "taut/image/whole_file.h"
+#include "taut/pipeline/sealed_file.h"
 
 namespace taut::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/overlay.h"
+#include "taut/pipeline/overlay.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/energy_graph.h"
+#include "taut/pipeline/energy_graph.h"
 
 namespace taut::pipeline {
 namespace {

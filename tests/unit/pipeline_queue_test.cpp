@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "pipeline/bounded_queue.h"
+#include "taut/pipeline/bounded_queue.h"
 
 namespace taut::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/run.h"
+#include "taut/pipeline/run.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/error.h"
-#include "pipeline/run_record.h"
+#include "taut/core/error.h"
+#include "taut/pipeline/run_record.h"
 
 namespace taut::pipeline {
 namespace {

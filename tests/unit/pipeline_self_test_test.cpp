@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "image_support.h"
-#include "pipeline/self_test.h"
+#include "taut/pipeline/self_test.h"
 
 namespace taut::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/stages.h"
+#include "taut/pipeline/stages.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // The calibration finds the mutants with the thresholds that are used, and refuses thresholds that let one through.
-#include "regression/calibration.h"
+#include "taut/regression/calibration.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "image/png.h"
-#include "regression/judging.h"
-#include "regression/mutants.h"
-#include "regression/playing.h"
+#include "taut/image/png.h"
+#include "taut/regression/judging.h"
+#include "taut/regression/mutants.h"
+#include "taut/regression/playing.h"
 #include "regression_support.h"
 
 namespace taut::regression {

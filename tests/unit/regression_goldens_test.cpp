@@ -1,10 +1,10 @@
 // What an update changes and what it leaves, and which test notices what.
-#include "regression/goldens.h"
+#include "taut/regression/goldens.h"
 
 #include <gtest/gtest.h>
 
-#include "image/png.h"
-#include "image/read.h"
+#include "taut/image/png.h"
+#include "taut/image/read.h"
 #include "regression_support.h"
 
 namespace taut::regression {

@@ -1,4 +1,4 @@
-#include "regression/manifest.h"
+#include "taut/regression/manifest.h"
 
 #include <gtest/gtest.h>
 

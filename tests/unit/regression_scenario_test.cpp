@@ -1,4 +1,4 @@
-#include "regression/scenario.h"
+#include "taut/regression/scenario.h"
 
 #include <gtest/gtest.h>
 

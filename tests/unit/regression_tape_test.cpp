@@ -1,13 +1,13 @@
 // Tapes: what they keep, where two of them differ first, and what is refused. The differences are made by hand or by a
 // change of the scene whose effect is known: points that a spring's force has not reached yet agree.
-#include "regression/tape.h"
+#include "taut/regression/tape.h"
 
 #include <gtest/gtest.h>
 
-#include "pipeline/sealed_file.h"
-#include "regression/tape_compare.h"
+#include "taut/pipeline/sealed_file.h"
+#include "taut/regression/tape_compare.h"
 #include "regression_support.h"
-#include "scene/load.h"
+#include "taut/scene/load.h"
 
 namespace taut::regression {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/edge_tiles.h"
+#include "taut/render/edge_tiles.h"
 
 #include <gtest/gtest.h>
 

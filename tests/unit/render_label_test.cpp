@@ -4,9 +4,9 @@
 #include <fstream>
 #include <limits>
 
-#include "core/error.h"
-#include "render/label_pass.h"
-#include "render/text_picture.h"
+#include "taut/core/error.h"
+#include "taut/render/label_pass.h"
+#include "taut/render/text_picture.h"
 #include "unit/image_support.h"
 #include "unit/render_support.h"
 

@@ -1,8 +1,8 @@
 // Where the shadow map lies and which part of the ground needs it: geometry without GL.
 #include <gtest/gtest.h>
 
-#include "render/ground.h"
-#include "render/light_box.h"
+#include "taut/render/ground.h"
+#include "taut/render/light_box.h"
 #include "render_support.h"
 
 namespace taut::render::test {

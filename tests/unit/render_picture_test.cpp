@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "image/png.h"
+#include "taut/image/png.h"
 #include "render_support.h"
 
 namespace taut::render::test {

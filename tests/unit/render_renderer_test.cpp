@@ -1,14 +1,14 @@
 // How the renderer behaves as an object: repeatable, on either library, on any thread, clear about what fails.
-#include "render/renderer.h"
+#include "taut/render/renderer.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <thread>
 
-#include "core/error.h"
-#include "render/context.h"
-#include "render/mesh_cache.h"
+#include "taut/core/error.h"
+#include "taut/render/context.h"
+#include "taut/render/mesh_cache.h"
 #include "render_support.h"
 
 namespace taut::render::test {

@@ -8,8 +8,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <memory>
 
-#include "render/renderer.h"
-#include "view/primitives.h"
+#include "taut/render/renderer.h"
+#include "taut/view/primitives.h"
 
 namespace taut::render::test {
 

@@ -1,11 +1,11 @@
-#include "report/contact_sheet.h"
+#include "taut/report/contact_sheet.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "image/png.h"
-#include "image/resize.h"
+#include "taut/image/png.h"
+#include "taut/image/resize.h"
 #include "image_support.h"
 #include "program_support.h"
 

@@ -1,4 +1,4 @@
-#include "report/gnuplot.h"
+#include "taut/report/gnuplot.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <functional>
 #include <set>
 
-#include "core/error.h"
-#include "image/read.h"
+#include "taut/core/error.h"
+#include "taut/image/read.h"
 #include "image_support.h"
-#include "report/layout.h"
-#include "report/palette.h"
+#include "taut/report/layout.h"
+#include "taut/report/palette.h"
 
 namespace taut::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/table.h"
+#include "taut/report/table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "report/test_report.h"
+#include "taut/report/test_report.h"
 
 #include <gtest/gtest.h>
 
 #include <span>
 #include <string>
 
-#include "report/junit.h"
-#include "report/test_page.h"
+#include "taut/report/junit.h"
+#include "taut/report/test_page.h"
 #include "report_test_results.h"
 
 namespace taut::report {

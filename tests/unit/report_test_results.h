@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "report/test_report.h"
+#include "taut/report/test_report.h"
 
 namespace taut::report::test {
 

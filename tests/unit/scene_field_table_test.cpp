@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "scene/document.h"
-#include "scene/field.h"
+#include "taut/scene/document.h"
+#include "taut/scene/field.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <set>
 
-#include "core/trig.h"
-#include "scene/document.h"
-#include "scene/field.h"
+#include "taut/core/trig.h"
+#include "taut/scene/document.h"
+#include "taut/scene/field.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 

@@ -1,8 +1,8 @@
 // Triangle meshes from OBJ files.
 #include <clocale>
 
-#include "scene/obj_file.h"
-#include "scene/polygon.h"
+#include "taut/scene/obj_file.h"
+#include "taut/scene/polygon.h"
 #include "unit/scene_support.h"
 
 namespace taut::scene {

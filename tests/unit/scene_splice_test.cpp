@@ -1,13 +1,13 @@
 // Changed values are written where they stand; every other byte of the file stays.
-#include "scene/splice.h"
+#include "taut/scene/splice.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "scene/toml_outline.h"
+#include "taut/core/error.h"
+#include "taut/scene/toml_outline.h"
 
 namespace taut::scene {
 namespace {

@@ -1,9 +1,9 @@
 // What makes two stored states the same: all that reaches the state, and nothing else.
-#include "scene/state_keys.h"
+#include "taut/scene/state_keys.h"
 
 #include <gtest/gtest.h>
 
-#include "scene/load.h"
+#include "taut/scene/load.h"
 
 namespace taut::scene {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "scene/load.h"
+#include "taut/core/error.h"
+#include "taut/scene/load.h"
 
 namespace taut::scene {
 

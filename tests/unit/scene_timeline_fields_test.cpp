@@ -1,7 +1,7 @@
 // Every field of a timeline, a check and a golden lands in its member; a ramp reaches the field that its key names.
 #include <numeric>
 
-#include "core/trig.h"
+#include "taut/core/trig.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "game/program.h"
-#include "image/read.h"
+#include "taut/image/read.h"
 #include "image_support.h"
 
 namespace taut::game {

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "ode/method_table.h"
-#include "study/atlas_chart.h"
-#include "study/atlas_text.h"
-#include "study/phase_plane.h"
-#include "study/stability_map.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/atlas_chart.h"
+#include "taut/study/atlas_text.h"
+#include "taut/study/phase_plane.h"
+#include "taut/study/stability_map.h"
 
 namespace taut::study {
 namespace {

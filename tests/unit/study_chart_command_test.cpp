@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "image/read.h"
+#include "taut/image/read.h"
 #include "image_support.h"
 #include "program_support.h"
 

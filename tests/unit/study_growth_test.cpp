@@ -1,5 +1,5 @@
 // The slides' table for y' = y against the formulas of each method's own growth a step.
-#include "study/growth_table.h"
+#include "taut/study/growth_table.h"
 
 #include <gtest/gtest.h>
 

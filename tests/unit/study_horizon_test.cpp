@@ -1,13 +1,13 @@
 // How long a motion can be predicted depends on what is asked of it, and where nothing moves there is nothing to ask.
-#include "study/horizon.h"
+#include "taut/study/horizon.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "core/error.h"
-#include "study/scene_subject.h"
+#include "taut/core/error.h"
+#include "taut/study/scene_subject.h"
 #include "support/small_scenes.h"
 
 namespace taut::study {

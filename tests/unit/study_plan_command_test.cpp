@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "game/scene_file.h"
-#include "image/whole_file.h"
+#include "taut/image/whole_file.h"
 #include "image_support.h"
 #include "program_support.h"
 

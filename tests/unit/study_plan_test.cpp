@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <string>
 
-#include "core/error.h"
-#include "study/plan_candidate.h"
-#include "study/plan_changes.h"
-#include "study/plan_need.h"
-#include "study/plan_run.h"
+#include "taut/core/error.h"
+#include "taut/study/plan_candidate.h"
+#include "taut/study/plan_changes.h"
+#include "taut/study/plan_need.h"
+#include "taut/study/plan_run.h"
 #include "support/small_scenes.h"
 
 namespace taut::study {

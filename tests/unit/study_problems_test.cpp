@@ -1,15 +1,15 @@
-#include "study/problems.h"
+#include "taut/study/problems.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "ode/method_table.h"
-#include "study/errors.h"
-#include "study/horizon.h"
-#include "study/mechanical_subject.h"
-#include "study/scene_subject.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/errors.h"
+#include "taut/study/horizon.h"
+#include "taut/study/mechanical_subject.h"
+#include "taut/study/scene_subject.h"
 
 namespace taut::study {
 namespace {

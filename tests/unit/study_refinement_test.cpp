@@ -1,4 +1,4 @@
-#include "study/refinement.h"
+#include "taut/study/refinement.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include "game/chart_refinement.h"
 #include "image_support.h"
 #include "program_support.h"
-#include "study/refinement_chart.h"
-#include "study/refinement_text.h"
-#include "study/statics.h"
+#include "taut/study/refinement_chart.h"
+#include "taut/study/refinement_text.h"
+#include "taut/study/statics.h"
 
 namespace taut::study {
 namespace {

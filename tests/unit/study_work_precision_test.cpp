@@ -1,4 +1,4 @@
-#include "study/work_precision.h"
+#include "taut/study/work_precision.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/error.h"
-#include "ode/method_table.h"
-#include "study/problems.h"
-#include "study/work_precision_chart.h"
-#include "study/work_precision_text.h"
+#include "taut/core/error.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/problems.h"
+#include "taut/study/work_precision_chart.h"
+#include "taut/study/work_precision_text.h"
 
 namespace taut::study {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "view/frame_view.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::view::test {
 

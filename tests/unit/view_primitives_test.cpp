@@ -1,4 +1,4 @@
-#include "view/primitives.h"
+#include "taut/view/primitives.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "view/tube.h"
+#include "taut/view/tube.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "world/body.h"
+#include "taut/world/body.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "support/small_scenes.h"
 
 namespace taut::world {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "core/trig.h"
+#include "taut/core/trig.h"
 #include "support/small_scenes.h"
-#include "world/components.h"
-#include "world/rotation.h"
-#include "world/world.h"
+#include "taut/world/components.h"
+#include "taut/world/rotation.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
-#include "world/components.h"
-#include "world/world.h"
+#include "taut/world/components.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

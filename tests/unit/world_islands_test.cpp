@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "support/small_scenes.h"
-#include "world/island_plan.h"
-#include "world/world.h"
+#include "taut/world/island_plan.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

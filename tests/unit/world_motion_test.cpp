@@ -1,11 +1,11 @@
-#include "world/motion.h"
+#include "taut/world/motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/trig.h"
-#include "world/rotation.h"
+#include "taut/core/trig.h"
+#include "taut/world/rotation.h"
 
 namespace taut::world {
 namespace {

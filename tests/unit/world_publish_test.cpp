@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
-#include "world/drawing.h"
-#include "world/world.h"
+#include "taut/world/drawing.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

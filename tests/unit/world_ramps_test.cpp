@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <random>
 
-#include "core/error.h"
-#include "ode/method_table.h"
+#include "taut/core/error.h"
+#include "taut/ode/method_table.h"
 #include "support/timelines.h"
-#include "world/components.h"
+#include "taut/world/components.h"
 
 namespace taut::world {
 namespace {

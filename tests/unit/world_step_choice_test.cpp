@@ -1,12 +1,12 @@
-#include "world/step_choice.h"
+#include "taut/world/step_choice.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/error.h"
+#include "taut/core/error.h"
 #include "support/small_scenes.h"
-#include "world/world.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

@@ -1,8 +1,8 @@
-#include "world/targets.h"
+#include "taut/world/targets.h"
 
 #include <gtest/gtest.h>
 
-#include "mechanics/builders.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::world {
 namespace {

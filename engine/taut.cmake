@@ -13,6 +13,12 @@ file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/engine ${PROJECT_BINARY_DIR}/include/taut SYMBOLIC)
 target_include_directories(taut_options INTERFACE ${PROJECT_BINARY_DIR}/include)
 
+# One compiler run reads the sources of up to eight files as one: most of a file's time goes into reading headers.
+# -DTAUT_UNITY=OFF compiles file by file, as tests/run.sh does with clang, so that every file includes what it needs.
+option(TAUT_UNITY "Compile the files of a folder together" ON)
+set(CMAKE_UNITY_BUILD ${TAUT_UNITY})
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+
 # taut_library(core SOURCES a.cpp LINK taut::ode): the library of one folder, known as taut::core.
 function(taut_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})

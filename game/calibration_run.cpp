@@ -11,7 +11,7 @@
 #include "game/lab.h"
 #include "game/shell_word.h"
 #include "taut/image/frame_sequence.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 namespace taut::game {
 namespace {
@@ -33,7 +33,7 @@ std::string drawApart(const std::string& gl, const regression::Scenario& scenari
     while (pipe != nullptr && std::fgets(text.data(), text.size(), pipe) != nullptr) said += text.data();
     if (pipe == nullptr || ::pclose(pipe) != 0)
         throw core::Error(core::ExitCode::inputOutput,
-                          fmt::format("this failed: {}\n{}", command, image::fileContent(complaints)));
+                          fmt::format("this failed: {}\n{}", command, core::fileContent(complaints)));
     std::filesystem::rename(image::FramePattern(frames).pathOf(golden.frame), png);
     const std::size_t space = said.find(' ');
     return space == std::string::npos ? "" : said.substr(space + 1, 16);

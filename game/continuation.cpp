@@ -10,7 +10,7 @@
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
 #include "taut/image/frame_sequence.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/checkpoint.h"
 
 namespace taut::game {
@@ -97,7 +97,7 @@ void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, c
 }
 
 void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, pipeline::RunListener& listener) {
-    image::prepareFolderOf(pipeline::CheckpointFolder(folder).pathOf(0));
+    core::prepareFolderOf(pipeline::CheckpointFolder(folder).pathOf(0));
     listener.checkpoint = [folder, keys](std::int64_t frame, std::vector<std::byte> state,
                                          const std::vector<pipeline::FrameRecord>& before) {
         const pipeline::CheckpointFolder checkpoints(folder);

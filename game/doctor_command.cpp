@@ -10,7 +10,7 @@
 #include "game/commands.h"
 #include "game/folders.h"
 #include "taut/image/video_writer.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/self_test.h"
 #include "taut/render/font.h"
@@ -80,7 +80,7 @@ bool printRenderers() {
 bool printWriteTest(const std::filesystem::path& folder) {
     try {
         const std::filesystem::path file = folder / "taut-write-test";
-        image::writeWholeFile(file, "taut\n");
+        core::writeWholeFile(file, "taut\n");
         std::filesystem::remove(file);
         printFact("write test", fmt::format("ok: {}", std::filesystem::absolute(folder).lexically_normal().string()));
         return true;

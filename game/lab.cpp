@@ -10,7 +10,7 @@
 #include "game/messages.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/ode/method_table.h"
 #include "taut/report/gnuplot.h"
 
@@ -51,12 +51,12 @@ LabFolder::LabFolder(std::filesystem::path folder, bool isQuiet)
     for (std::filesystem::path at = folder_; !at.empty() && !std::filesystem::exists(at, ignored);
          at = at.parent_path())
         made_.push_back(at);
-    image::prepareFolderOf(folder_ / "any");
+    core::prepareFolderOf(folder_ / "any");
     if (!draws_) printWarnings({report::gnuplotMissing() + "; only CSV and JSON will be written"});
 }
 
 void LabFolder::write(const std::string& name, const std::string& text) const {
-    image::writeWholeFile(folder_ / name, text);
+    core::writeWholeFile(folder_ / name, text);
 }
 
 void LabFolder::draw(const std::string& name, const report::Chart& chart) const {

@@ -9,7 +9,7 @@
 #include "game/folders.h"
 #include "game/live_play.h"
 #include "game/scene_file.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/live/recording.h"
 #include "taut/scene/method_names.h"
 
@@ -187,11 +187,11 @@ void LivePlay::writeRecording() {
     const std::filesystem::path scene = sceneFile(settings_.scene);
     const std::filesystem::path file = freeName(
         settings_.record.empty() ? std::filesystem::path(scene.stem().string() + "-played.toml") : settings_.record);
-    const live::ScenarioParts parts = live::partsOf(image::fileContent(scene));
+    const live::ScenarioParts parts = live::partsOf(core::fileContent(scene));
     recording.scene = referenceTo(baseOf(scene, parts.scene), file.parent_path());
     for (const auto& changes : {parts.changes, settings_.overrides, changes_})
         recording.overrides.insert(recording.overrides.end(), changes.begin(), changes.end());
-    image::writeWholeFile(file, live::scenarioText(recording));
+    core::writeWholeFile(file, live::scenarioText(recording));
     const std::string what = fmt::format("{}: {} actions, state hash {:016x} at tick {}", file.string(),
                                          recording.deeds.size(), recording.hash, recording.endTick);
     fmt::print("{}\n", what);

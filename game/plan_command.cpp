@@ -15,7 +15,7 @@
 #include "game/live_line.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/scene/load.h"
 #include "taut/scene/splice.h"
@@ -74,14 +74,14 @@ int plan(const PlanFlags& flags) {
         throw core::Error(core::ExitCode::usage,
                           "--write and --set do not go together: what is planned would not be what the file says");
     const std::filesystem::path file = sceneFile(flags.scene);
-    const std::string text = image::fileContent(file);
+    const std::string text = core::fileContent(file);
     const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
     if (flags.write && !spec.base.empty())
         throw core::Error(core::ExitCode::usage,
                           fmt::format("{}: --write needs a scene that is one file; this one builds on {}: plan that, or "
                                       "leave --write out and copy the values",
                                       file.string(), spec.base));
-    if (!flags.json.empty()) image::prepareFolderOf(flags.json);
+    if (!flags.json.empty()) core::prepareFolderOf(flags.json);
 
     const Interruption interruption;
     study::Plan result;
@@ -92,7 +92,7 @@ int plan(const PlanFlags& flags) {
         throw;
     }
     fmt::print("{}", study::planSummary(result));
-    if (!flags.json.empty()) image::writeWholeFile(flags.json, study::planJson(result, machineFacts()));
+    if (!flags.json.empty()) core::writeWholeFile(flags.json, study::planJson(result, machineFacts()));
     if (!result.isMet()) {
         if (flags.write) fmt::print("\n{}: nothing is written, as the need is not met\n", file.string());
         return static_cast<int>(core::ExitCode::needNotMet);

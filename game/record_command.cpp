@@ -15,7 +15,7 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/tape.h"
 #include "taut/scene/load.h"
@@ -36,7 +36,7 @@ world::SceneSpec readRecorded(const std::filesystem::path& file, const RecordFla
     std::error_code ignored;
     const std::filesystem::path whole = std::filesystem::weakly_canonical(file, ignored);
     tape.origin.scene = whole.string();
-    tape.origin.text = image::fileContent(file);
+    tape.origin.text = core::fileContent(file);
     tape.origin.overrides = flags.overrides;
     if (flags.seconds > 0.0) tape.origin.overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
     scene::LoadOptions options;
@@ -55,7 +55,7 @@ int record(const RecordFlags& flags) {
                           fmt::format("{} exists already; -y overwrites it", output.string()));
     regression::Tape tape = regression::blankTape();
     const world::SceneSpec spec = readRecorded(sceneFile(flags.scene), flags, tape);
-    image::prepareFolderOf(output);
+    core::prepareFolderOf(output);
 
     const Interruption interruption;
     const core::ThreadLimit limit(flags.threads);

@@ -23,7 +23,7 @@
 #include "game/scene_file.h"
 #include "taut/image/several_sinks.h"
 #include "taut/image/video_writer.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/overlay.h"
 #include "taut/pipeline/run.h"
 #include "taut/pipeline/run_record.h"
@@ -173,8 +173,8 @@ pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunO
 
 void writeRecords(const image::FrameSink& sink, const RenderFlags& flags, const std::string& json,
                   const pipeline::RunResult& result) {
-    image::writeWholeFile(sink.companion("run.json"), json);
-    if (flags.metrics) image::writeWholeFile(sink.companion("metrics.csv"), pipeline::metricsCsv(result));
+    core::writeWholeFile(sink.companion("run.json"), json);
+    if (flags.metrics) core::writeWholeFile(sink.companion("metrics.csv"), pipeline::metricsCsv(result));
 }
 
 // What came out, in a line; the first `before` frames are those of an earlier run.

@@ -15,7 +15,7 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/regression/tape.h"
 #include "taut/regression/tape_compare.h"
 #include "taut/scene/load.h"
@@ -61,7 +61,7 @@ world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape)
                         "with --scene",
                         flags.tape));
     std::error_code error;
-    if (!std::filesystem::exists(tape.origin.scene, error) || image::fileContent(tape.origin.scene) != tape.origin.text)
+    if (!std::filesystem::exists(tape.origin.scene, error) || core::fileContent(tape.origin.scene) != tape.origin.text)
         printWarnings({fmt::format("{} is not what it was; the text on the tape is played", tape.origin.scene)});
     return scene::loadSceneText(tape.origin.text, tape.origin.scene, options).spec;
 }

@@ -8,7 +8,7 @@
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/suggestion.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/scene/load.h"
 
 namespace taut::game {
@@ -52,14 +52,14 @@ scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<s
 }
 
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {
-    if (image::fileContent(file) != expected)
+    if (core::fileContent(file) != expected)
         throw core::Error(
             core::ExitCode::inputOutput,
             fmt::format("{}: the file has changed while it was planned; nothing is written", file.string()));
     std::error_code ignored;
     const std::filesystem::path real = std::filesystem::canonical(file, ignored);
     const std::filesystem::perms permissions = std::filesystem::status(file, ignored).permissions();
-    image::writeWholeFile(ignored ? file : real, content);
+    core::writeWholeFile(ignored ? file : real, content);
     std::filesystem::permissions(ignored ? file : real, permissions, ignored);
 }
 

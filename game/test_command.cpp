@@ -21,7 +21,7 @@
 #include "game/scene_file.h"
 #include "game/shell_word.h"
 #include "game/suggestion.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/self_test.h"
 #include "taut/regression/goldens.h"
@@ -162,8 +162,8 @@ void writePictures(const std::filesystem::path& folder, const report::TestScenar
     const auto write = [&](const std::string& name, const std::vector<std::byte>& bytes) {
         if (bytes.empty()) return;
         const std::filesystem::path path = folder / scenario.name / name;
-        image::prepareFolderOf(path);
-        image::WholeFile file(path);
+        core::prepareFolderOf(path);
+        core::WholeFile file(path);
         file.write(std::span<const std::byte>(bytes));
         file.commit();
     };
@@ -220,8 +220,8 @@ std::vector<std::string> orphans(const TestFlags& flags, const Run& run) {
 int finish(const TestFlags& flags, const report::TestReport& report, const std::filesystem::path& page) {
     // First what a full disk cannot take away.
     fmt::print("{}{}{}", report::testTable(report), report::testFailures(report), report::calibrationTable(report));
-    image::writeWholeFile(page, report::testPage(report));
-    if (!flags.junit.empty()) image::writeWholeFile(flags.junit, report::junitXml(report));
+    core::writeWholeFile(page, report::testPage(report));
+    if (!flags.junit.empty()) core::writeWholeFile(flags.junit, report::junitXml(report));
     fmt::print("\n{}; {}\n", report::testSummary(report), page.string());
     return exitCodeOf(report::verdictOf(report));
 }
@@ -245,8 +245,8 @@ void addUnplayed(const std::vector<regression::Scenario>& scenarios, report::Tes
 int test(const TestFlags& flags) {
     Run run = prepare(flags);
     const std::filesystem::path page = std::filesystem::path(flags.output) / "report.html";
-    image::prepareFolderOf(page);
-    if (!flags.junit.empty()) image::prepareFolderOf(flags.junit);
+    core::prepareFolderOf(page);
+    if (!flags.junit.empty()) core::prepareFolderOf(flags.junit);
 
     const Interruption interruption;
     const core::ThreadLimit limit(run.suite.threadsEach);

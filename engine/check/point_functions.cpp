@@ -58,7 +58,7 @@ std::string placeOfLargest(const Now& now, Arguments arguments) {
     return extremePoint(now, arguments[0].target, measure);
 }
 
-Quantity number(double value) {
+Quantity numberOf(double value) {
     return {dvec3(value, 0, 0)};
 }
 
@@ -93,7 +93,7 @@ std::vector<Function> pointFunctions() {
          "How far two places are from each other.",
          [](const Now& now, Arguments a) {
              const dvec3 way = place(a[0], now) - place(a[1], now);
-             return number(std::sqrt(glm::dot(way, way)));
+             return numberOf(std::sqrt(glm::dot(way, way)));
          },
          nullptr},
         {"speed",
@@ -102,7 +102,7 @@ std::vector<Function> pointFunctions() {
          false,
          "m/s",
          "Speed of the fastest of the points.",
-         [](const Now& now, Arguments a) { return number(largest(pointsOf(now, a), speed)); },
+         [](const Now& now, Arguments a) { return numberOf(largest(pointsOf(now, a), speed)); },
          placeOfLargest<speed>},
         {"height",
          {Takes::points},
@@ -110,7 +110,7 @@ std::vector<Function> pointFunctions() {
          false,
          "m",
          "Height y of the highest of the points.",
-         [](const Now& now, Arguments a) { return number(largest(pointsOf(now, a), up)); },
+         [](const Now& now, Arguments a) { return numberOf(largest(pointsOf(now, a), up)); },
          placeOfLargest<up>},
         {"lowest",
          {Takes::points},
@@ -118,7 +118,7 @@ std::vector<Function> pointFunctions() {
          false,
          "m",
          "Height y of the lowest of the points.",
-         [](const Now& now, Arguments a) { return number(-largest(pointsOf(now, a), down)); },
+         [](const Now& now, Arguments a) { return numberOf(-largest(pointsOf(now, a), down)); },
          placeOfLargest<down>},
     };
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t mostTriangles = 2'000'000;  // Bullet numbers a mesh's triangles with 21 bits
 constexpr int cellsAlongLongest = 24;
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void failMesh(const std::string& what) {
     throw core::Error(core::ExitCode::badContent, "collider mesh: " + what);
 }
 
@@ -27,14 +27,14 @@ TriangleMesh::TriangleMesh(std::span<const dvec3> vertices, std::span<const std:
 }
 
 void TriangleMesh::takeTriangles(std::span<const dvec3> vertices, std::span<const std::uint32_t> triangles) {
-    if (triangles.empty()) fail("has no triangles");
-    if (triangles.size() % 3 != 0) fail("the number of its corners is not a multiple of three");
-    if (triangles.size() / 3 > mostTriangles) fail("has more than two million triangles");
+    if (triangles.empty()) failMesh("has no triangles");
+    if (triangles.size() % 3 != 0) failMesh("the number of its corners is not a multiple of three");
+    if (triangles.size() / 3 > mostTriangles) failMesh("has more than two million triangles");
     for (const dvec3& v : vertices)
-        if (!isFinite(v)) fail("a vertex is not finite");
+        if (!isFinite(v)) failMesh("a vertex is not finite");
     for (const std::uint32_t corner : triangles)
         if (corner >= vertices.size())
-            fail("a triangle names vertex " + std::to_string(corner) + ", there are " +
+            failMesh("a triangle names vertex " + std::to_string(corner) + ", there are " +
                  std::to_string(vertices.size()));
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
         const dvec3& a = vertices[triangles[i]];
@@ -51,7 +51,7 @@ void TriangleMesh::takeTriangles(std::span<const dvec3> vertices, std::span<cons
             bounds_.add(vertices[triangles[i + k]]);
         }
     }
-    if (triangles_.empty()) fail("all its triangles have no area");
+    if (triangles_.empty()) failMesh("all its triangles have no area");
 }
 
 void TriangleMesh::findOutside(std::span<const dvec3> vertices) {

@@ -8,12 +8,12 @@ namespace taut::collision {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void failShape(const std::string& what) {
     throw core::Error(core::ExitCode::badContent, "collider " + what);
 }
 
 void expectSize(double size, const char* what) {
-    if (!(size > 0.0) || !isFinite(size)) fail(std::string(what) + " has to be above zero, is " + std::to_string(size));
+    if (!(size > 0.0) || !isFinite(size)) failShape(std::string(what) + " has to be above zero, is " + std::to_string(size));
 }
 
 // The half size of a solid of revolution about y.
@@ -34,7 +34,7 @@ Solid makeSolid(const Shape& shape) {
     switch (shape.kind) {
         case ShapeKind::plane: {
             const double length = std::sqrt(glm::dot(shape.normal, shape.normal));
-            if (!(length > 0.0) || !isFinite(length)) fail("plane: its normal has no direction");
+            if (!(length > 0.0) || !isFinite(length)) failShape("plane: its normal has no direction");
             Solid solid = solidOf(PlaneForm{shape.normal / length}, Box{});
             solid.bounded = false;
             return solid;
@@ -69,12 +69,12 @@ Solid makeSolid(const Shape& shape) {
         case ShapeKind::compound:
             break;
     }
-    fail("of unknown shape");
+    failShape("of unknown shape");
 }
 
 glm::dquat unit(const glm::dquat& q) {
     const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (!(length > 0.0) || !isFinite(length)) fail("pose: the rotation is not a quaternion of length above zero");
+    if (!(length > 0.0) || !isFinite(length)) failShape("pose: the rotation is not a quaternion of length above zero");
     return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
 
@@ -89,7 +89,7 @@ Box worldBox(const Box& local, const Frame& frame) {
 }  // namespace
 
 Frame frameOf(const Pose& pose) {
-    if (!isFinite(pose.position)) fail("pose: the position is not finite");
+    if (!isFinite(pose.position)) failShape("pose: the position is not finite");
     const glm::dquat q = unit(pose.rotation);
     return {glm::mat3_cast(q), pose.position, q.x != 0.0 || q.y != 0.0 || q.z != 0.0};
 }
@@ -100,7 +100,7 @@ void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid
         solids.back().inCollider = inCollider;
         return;
     }
-    if (shape.parts.empty()) fail("compound: has no parts");
+    if (shape.parts.empty()) failShape("compound: has no parts");
     for (const Shape::Part& part : shape.parts) appendSolids(part.shape, inCollider.of(frameOf(part.pose)), solids);
 }
 

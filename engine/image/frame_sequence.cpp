@@ -7,7 +7,7 @@
 
 #include "taut/core/error.h"
 #include "taut/image/png.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 namespace taut::image {
 
@@ -64,7 +64,7 @@ std::vector<std::int64_t> FramePattern::framesThere() const {
 }
 
 FrameSequence::FrameSequence(const FramePattern& pattern) : pattern_(pattern) {
-    prepareFolderOf(pattern_.pathOf(0));
+    core::prepareFolderOf(pattern_.pathOf(0));
 }
 
 void FrameSequence::write(std::int64_t frame, const Image& image) {

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "taut/core/error.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 namespace {
 
@@ -66,7 +66,7 @@ std::vector<std::byte> pngBytes(const Image& image) {
 }
 
 void writePng(const std::filesystem::path& path, const Image& image) {
-    WholeFile file(path);
+    core::WholeFile file(path);
     file.write(pngBytes(image));
     file.commit();
 }

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "taut/core/error.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 namespace taut::image {
 namespace {
@@ -57,7 +57,7 @@ bool pngIsDamaged(const std::string& content) {
 }  // namespace
 
 Image readImage(const std::filesystem::path& path) {
-    const std::string content = fileContent(path);
+    const std::string content = core::fileContent(path);
     if (content.empty()) fail(path, "the file is empty");
     if (content.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) fail(path, "the file is too large");
     if (pngIsDamaged(content)) fail(path, "the file breaks off or is damaged");

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 namespace taut::image {
 namespace {
@@ -98,7 +98,7 @@ bool isVideoPath(const std::filesystem::path& path) {
 }
 
 VideoWriter::VideoWriter(std::filesystem::path path, VideoOptions options)
-    : path_(std::move(path)), temporary_(temporaryName(path_)), options_(std::move(options)) {
+    : path_(std::move(path)), temporary_(core::temporaryName(path_)), options_(std::move(options)) {
     TAUT_EXPECTS(isVideoPath(path_));
     TAUT_EXPECTS(options_.fps > 0.0);
     if (!isInPath(options_.program))
@@ -106,7 +106,7 @@ VideoWriter::VideoWriter(std::filesystem::path path, VideoOptions options)
                           fmt::format("{}: {} is not installed. Install the package 'ffmpeg', or write pictures "
                                       "instead: -o {}/frame_######.png",
                                       path_.string(), options_.program, (path_.parent_path() / path_.stem()).string()));
-    prepareFolderOf(path_);
+    core::prepareFolderOf(path_);
 }
 
 VideoWriter::~VideoWriter() {

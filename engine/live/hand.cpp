@@ -10,9 +10,9 @@ constexpr int placeDecimals = 3;    // [m]: to the millimetre
 constexpr double leastWay = 0.002;  // [m]
 constexpr int timeDecimals = 6;     // [s]: far finer than a tick
 
-glm::dvec3 rounded(const glm::dvec3& place) {
-    return {live::rounded(place.x, placeDecimals), live::rounded(place.y, placeDecimals),
-            live::rounded(place.z, placeDecimals)};
+glm::dvec3 roundedPlace(const glm::dvec3& place) {
+    return {rounded(place.x, placeDecimals), rounded(place.y, placeDecimals),
+            rounded(place.z, placeDecimals)};
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ world::ActionSpec Hand::action(world::Do what, std::int64_t tick) const {
     world::ActionSpec action;
     action.what = what;
     action.id = id_;
-    action.t = live::rounded(static_cast<double>(tick) / ticksPerSecond_, timeDecimals);
+    action.t = rounded(static_cast<double>(tick) / ticksPerSecond_, timeDecimals);
     return action;
 }
 
@@ -36,16 +36,16 @@ void Hand::grab(std::string target, double radius, double strength, double dampi
     if (isHolding_) wantsRelease_ = true;
     world::ActionSpec grab = action(world::Do::grab, 0);
     grab.target = std::move(target);
-    grab.radius = live::rounded(radius, placeDecimals);
+    grab.radius = rounded(radius, placeDecimals);
     grab.strength = strength;
     grab.dampingRatio = dampingRatio;
     grab_ = std::move(grab);
     goal_.reset();
-    last_ = rounded(place);
+    last_ = roundedPlace(place);
 }
 
 void Hand::leadTo(glm::dvec3 place) {
-    if (glm::length(place - goal_.value_or(last_)) > leastWay) goal_ = rounded(place);
+    if (glm::length(place - goal_.value_or(last_)) > leastWay) goal_ = roundedPlace(place);
 }
 
 void Hand::release() {
@@ -70,9 +70,9 @@ std::vector<world::ActionSpec> Hand::deedsAt(std::int64_t tick) {
         world::ActionSpec move = action(world::Do::move, tick);
         const glm::dvec3 way = *goal_ - last_;
         const double most = fastest * moveTicks / ticksPerSecond_, length = glm::length(way);
-        last_ = length > most ? rounded(last_ + way * (most / length)) : *goal_;
+        last_ = length > most ? roundedPlace(last_ + way * (most / length)) : *goal_;
         move.to = last_;
-        move.over = live::rounded(moveTicks / ticksPerSecond_, timeDecimals);
+        move.over = rounded(moveTicks / ticksPerSecond_, timeDecimals);
         move.ease = world::Ease::linear;
         deeds.push_back(std::move(move));
         free_ = tick + moveTicks;

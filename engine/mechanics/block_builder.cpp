@@ -23,13 +23,13 @@ using glm::ivec3;
 //   diagonal  k = 0.4 E c (a² + b²)/(2ab),     edge along a  k = 0.4 E (bc/a) (3 - a²/b² - a²/c²).
 // A cube has 0.4 E ℓ for both. The edge's bracket falls to zero for a/b = a/c = 1.22; below 0.1 it stays 0.1, and
 // a cell so long is stiffer than E along its longest side: choose cells near cubes.
-struct CellStiffness {
+struct LatticeStiffness {
     dvec3 edge;      // along x, y, z [N/m]
     dvec3 diagonal;  // in the faces across x, y, z [N/m]
 };
 
-CellStiffness stiffnessOf(double young, const dvec3& s) {
-    CellStiffness k;
+LatticeStiffness stiffnessOf(double young, const dvec3& s) {
+    LatticeStiffness k;
     for (int axis = 0; axis < 3; ++axis) {
         const double a = s[axis], b = s[(axis + 1) % 3], c = s[(axis + 2) % 3];
         const double bracket = 3.0 - a * a / (b * b) - a * a / (c * c);
@@ -89,7 +89,7 @@ class LatticeBuilder {
     }
 
     void addSprings() {
-        const CellStiffness k = stiffnessOf(shape_.young, s_);
+        const LatticeStiffness k = stiffnessOf(shape_.young, s_);
         auto add = [this](ivec3 from, ivec3 to, double stiffness, double restLength, SpringKind kind) {
             model_.springs.push_back({at(from), at(to), stiffness, restLength, shape_.dampingTime, kind});
         };

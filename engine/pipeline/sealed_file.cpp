@@ -9,7 +9,7 @@
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 namespace taut::pipeline {
 namespace {
@@ -88,13 +88,13 @@ std::vector<std::byte> unsealed(const SealedKind& kind, std::span<const std::byt
 }
 
 void writeSealed(const std::filesystem::path& path, const SealedKind& kind, std::span<const std::byte> content) {
-    image::WholeFile file(path);
+    core::WholeFile file(path);
     file.write(sealed(kind, content));
     file.commit();
 }
 
 std::vector<std::byte> readSealed(const std::filesystem::path& path, const SealedKind& kind) {
-    return unsealed(kind, bytesOf(image::fileContent(path)), path.string());
+    return unsealed(kind, bytesOf(core::fileContent(path)), path.string());
 }
 
 }  // namespace taut::pipeline

@@ -7,7 +7,7 @@
 #include "taut/core/error.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/regression/judging.h"
@@ -18,11 +18,6 @@ namespace {
 
 const pipeline::SealedKind storedKind{"tautgold", 1, "stored state of a golden picture"};
 
-bool isThere(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-}
-
 void removeFile(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::remove(path, error);
@@ -31,7 +26,7 @@ void removeFile(const std::filesystem::path& path) {
 
 bool hasSameChain(const std::filesystem::path& file, const Tape& tape) {
     try {
-        return isThere(file) && !firstDifference(readTape(file), tape);
+        return core::isThere(file) && !firstDifference(readTape(file), tape);
     } catch (const core::Error& error) {
         if (error.code() == core::ExitCode::inputOutput) throw;
         return false;  // damaged: written anew
@@ -40,7 +35,7 @@ bool hasSameChain(const std::filesystem::path& file, const Tape& tape) {
 
 bool hasSamePicture(const std::filesystem::path& file, const image::Image& picture, const image::Tolerance& tolerance) {
     try {
-        return isThere(file) && image::compare(image::readImage(file), picture, tolerance).within;
+        return core::isThere(file) && image::compare(image::readImage(file), picture, tolerance).within;
     } catch (const core::Error& error) {
         if (error.code() == core::ExitCode::inputOutput) throw;
         return false;
@@ -67,7 +62,7 @@ bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const 
     const auto known = goldens.pictures.find(key);
     const std::string hash = hexadecimal(played.stateHash);
     const bool isKnown = known != goldens.pictures.end();
-    const bool hasState = !played.request.restart || (isKnown && isThere(stored) && known->second.stateHash == hash);
+    const bool hasState = !played.request.restart || (isKnown && core::isThere(stored) && known->second.stateHash == hash);
     if (isKnown && hasState && hasSamePicture(file, played.picture, manifest.tolerance)) {
         known->second.stateHash = hash;  // the picture stays and so does its reason; its state may have changed unseen
         return false;
@@ -87,7 +82,7 @@ std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& p
                                        Manifest& manifest, const std::string& why) {
     TAUT_EXPECTS(!played.divergence && !played.interrupted);
     std::vector<std::string> changes;
-    image::prepareFolderOf(folder.tape(scenario.name));
+    core::prepareFolderOf(folder.tape(scenario.name));
     const std::vector<std::string> dropped = leftOver(scenario, manifest);
     GoldenScenario& goldens = manifest.scenarios[scenario.name];
     if (updateState(scenario, played, folder, goldens, why))
@@ -109,7 +104,7 @@ std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& p
 std::optional<std::vector<std::byte>> storedState(const GoldenFolder& folder, const std::string& scenario,
                                                   const std::string& key) {
     const std::filesystem::path file = folder.stored(scenario, key);
-    if (!isThere(file)) return std::nullopt;
+    if (!core::isThere(file)) return std::nullopt;
     return pipeline::readSealed(file, storedKind);
 }
 

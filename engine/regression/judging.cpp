@@ -7,7 +7,7 @@
 #include "taut/core/error.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/tape_compare.h"
 
@@ -26,13 +26,8 @@ const GoldenScenario& goldensOf(const Scenario& scenario, const Manifest& manife
     return found == manifest.scenarios.end() ? none : found->second;
 }
 
-bool isThere(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-}
-
 std::vector<std::byte> bytesOf(const std::filesystem::path& path) {
-    const std::string content = image::fileContent(path);
+    const std::string content = core::fileContent(path);
     const auto bytes = std::as_bytes(std::span<const char>(content.data(), content.size()));
     return {bytes.begin(), bytes.end()};
 }
@@ -43,7 +38,7 @@ TestState judgedState(const Scenario& scenario, const Played& played, const Gold
     state.ticks = played.tape.ticks();
     state.lastHash = hexadecimal(played.tape.chain.back());
     const std::filesystem::path file = folder.tape(scenario.name);
-    if (!goldens.state || !isThere(file)) {
+    if (!goldens.state || !core::isThere(file)) {
         state.verdict = Verdict::missing;
         state.reason = goldens.state ? fmt::format("the manifest names a chain that is not there: {}", file.string())
                                      : "no chain of state hashes is kept for this scenario yet";
@@ -116,7 +111,7 @@ TestPicture judgedPicture(const Scenario& scenario, const PlayedPicture& played,
     }
     const auto golden = goldens.pictures.find(picture.key);
     const std::filesystem::path file = folder.picture(scenario.name, picture.key);
-    if (golden == goldens.pictures.end() || !isThere(file)) {
+    if (golden == goldens.pictures.end() || !core::isThere(file)) {
         picture.verdict = Verdict::missing;
         picture.reason = golden == goldens.pictures.end()
                              ? "no golden picture is kept for this frame yet"
@@ -125,7 +120,7 @@ TestPicture judgedPicture(const Scenario& scenario, const PlayedPicture& played,
     }
     picture.why = golden->second.why;
     picture.madeBy = golden->second.renderer;
-    if (played.request.restart && !isThere(folder.stored(scenario.name, picture.key))) {
+    if (played.request.restart && !core::isThere(folder.stored(scenario.name, picture.key))) {
         picture.verdict = Verdict::missing;
         picture.reason = "the state that this picture is to be drawn from is not stored";
         return picture;

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "taut/core/error.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 namespace taut::regression {
 namespace {
@@ -124,7 +124,7 @@ Manifest readManifest(const GoldenFolder& folder) {
     Manifest manifest;
     std::error_code ignored;
     if (!std::filesystem::exists(folder.manifest(), ignored) && !ignored) return manifest;
-    const std::string content = image::fileContent(folder.manifest());
+    const std::string content = core::fileContent(folder.manifest());
     Json json;
     try {
         json = Json::parse(content);
@@ -157,8 +157,8 @@ void writeManifest(const GoldenFolder& folder, const Manifest& manifest) {
                          {"tile_mean", manifest.tolerance.tileMean}};
     json["scenarios"] = Json::object();
     for (const auto& [name, scenario] : manifest.scenarios) json["scenarios"][name] = jsonOf(scenario);
-    image::prepareFolderOf(folder.manifest());
-    image::writeWholeFile(folder.manifest(), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    core::prepareFolderOf(folder.manifest());
+    core::writeWholeFile(folder.manifest(), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace taut::regression

@@ -7,11 +7,11 @@ namespace taut::render {
 
 namespace {
 
-constexpr int half = 20;  // cells from the middle to the rim
+constexpr int halfCells = 20;  // cells from the middle to the rim
 
 // Grid lines: dense near the middle.
 float gridLine(int i) {
-    const float t = static_cast<float>(i) / static_cast<float>(half);
+    const float t = static_cast<float>(i) / static_cast<float>(halfCells);
     return t * (0.15F + 0.85F * t * t);
 }
 
@@ -44,19 +44,19 @@ GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightB
     const std::vector<Footprint> footprints = footprintsOf(casters, box, height, softness);
     GroundMesh mesh;
     const auto place = [&](int i) { return i < 0 ? -gridLine(-i) : gridLine(i); };
-    for (int row = -half; row <= half; ++row) {
-        for (int column = -half; column <= half; ++column) {
+    for (int row = -halfCells; row <= halfCells; ++row) {
+        for (int column = -halfCells; column <= halfCells; ++column) {
             mesh.positions.emplace_back(middle.x + radius * place(column), height, middle.z + radius * place(row));
         }
     }
-    for (int row = -half; row < half; ++row) {
-        for (int column = -half; column < half; ++column) {
+    for (int row = -halfCells; row < halfCells; ++row) {
+        for (int column = -halfCells; column < halfCells; ++column) {
             // Cells wholly outside the disc are faded away anyway.
             const float nearX = std::min(std::abs(place(column)), std::abs(place(column + 1)));
             const float nearZ = std::min(std::abs(place(row)), std::abs(place(row + 1)));
             if (nearX * nearX + nearZ * nearZ > 1.0F) continue;
-            const auto a = static_cast<std::uint32_t>((row + half) * (2 * half + 1) + column + half);
-            const std::uint32_t c = a + 2 * half + 2;
+            const auto a = static_cast<std::uint32_t>((row + halfCells) * (2 * halfCells + 1) + column + halfCells);
+            const std::uint32_t c = a + 2 * halfCells + 2;
             const std::uint32_t b = a + 1;
             const std::uint32_t d = c - 1;
             Bounds cell;

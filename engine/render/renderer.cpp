@@ -24,38 +24,6 @@ namespace taut::render {
 
 namespace {
 
-// Everything that lives in the context.
-struct Parts {
-    Parts(const Gl& gl, const RendererOptions& options)
-        : shaders(gl, options.shaders),
-          targets(gl, options.width, options.height, options.samples),
-          meshes(gl),
-          shadow(gl, shaders, options.shadowSize),
-          occlusion(gl, shaders),
-          surfaces(gl, shaders),
-          ground(gl, shaders),
-          edges(gl, shaders),
-          marks(gl, shaders),
-          labels(options.font),
-          background(shaders.program("background.vert", "background.frag")),
-          frameBlock(gl, GlKind::buffer),
-          empty(gl, GlKind::vertexArray) {}
-
-    ShaderFolder shaders;
-    Targets targets;
-    MeshCache meshes;
-    ShadowPass shadow;
-    OcclusionPass occlusion;
-    SurfacePass surfaces;
-    GroundPass ground;
-    EdgePass edges;
-    MarksPass marks;
-    LabelPass labels;
-    Program background;
-    GlObject frameBlock;
-    GlObject empty;
-};
-
 // Near things first: what they hide need not be shaded.
 void sortByDistance(std::vector<DrawItem>& items, glm::vec3 eye) {
     const auto distance = [&](const DrawItem& item) {
@@ -88,17 +56,49 @@ FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, con
 
 }  // namespace
 
+// Everything that lives in the context.
+struct RendererParts {
+    RendererParts(const Gl& gl, const RendererOptions& options)
+        : shaders(gl, options.shaders),
+          targets(gl, options.width, options.height, options.samples),
+          meshes(gl),
+          shadow(gl, shaders, options.shadowSize),
+          occlusion(gl, shaders),
+          surfaces(gl, shaders),
+          ground(gl, shaders),
+          edges(gl, shaders),
+          marks(gl, shaders),
+          labels(options.font),
+          background(shaders.program("background.vert", "background.frag")),
+          frameBlock(gl, GlKind::buffer),
+          empty(gl, GlKind::vertexArray) {}
+
+    ShaderFolder shaders;
+    Targets targets;
+    MeshCache meshes;
+    ShadowPass shadow;
+    OcclusionPass occlusion;
+    SurfacePass surfaces;
+    GroundPass ground;
+    EdgePass edges;
+    MarksPass marks;
+    LabelPass labels;
+    Program background;
+    GlObject frameBlock;
+    GlObject empty;
+};
+
 struct Renderer::Impl {
     RendererOptions options;
     std::unique_ptr<Context> context;
-    std::unique_ptr<Parts> parts;
+    std::unique_ptr<RendererParts> parts;
 };
 
 Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>()) {
     impl_->options = options;
     impl_->context = makeContext(options.backend);
     const CurrentContext current(*impl_->context);
-    impl_->parts = std::make_unique<Parts>(impl_->context->gl(), options);
+    impl_->parts = std::make_unique<RendererParts>(impl_->context->gl(), options);
 }
 
 Renderer::~Renderer() {
@@ -113,7 +113,7 @@ RendererInfo Renderer::info() const {
 image::Image Renderer::draw(const view::FrameView& view) {
     const CurrentContext current(*impl_->context);
     const Gl& gl = impl_->context->gl();
-    Parts& parts = *impl_->parts;
+    RendererParts& parts = *impl_->parts;
     const RendererOptions& options = impl_->options;
 
     std::vector<DrawItem> items = parts.meshes.items(view.surfaces);

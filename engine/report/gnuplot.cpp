@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 namespace taut::report {
 namespace {
@@ -86,8 +86,8 @@ Outcome runGnuplot(std::vector<std::string> arguments, const std::string& input)
 }
 
 void draw(const Chart& chart, Format format, const std::filesystem::path& path) {
-    image::prepareFolderOf(path);
-    const std::filesystem::path temporary = image::temporaryName(path);
+    core::prepareFolderOf(path);
+    const std::filesystem::path temporary = core::temporaryName(path);
     const auto fail = [&](const std::string& what) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);

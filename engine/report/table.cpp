@@ -10,7 +10,7 @@
 namespace taut::report {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string csvText(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string out = "\"";
     for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -18,7 +18,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string exact(const Cell& cell) {
-    if (const auto* text = std::get_if<std::string>(&cell)) return quoted(*text);
+    if (const auto* text = std::get_if<std::string>(&cell)) return csvText(*text);
     if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
     const double value = std::get<double>(cell);
     return std::isnan(value) ? "" : fmt::format("{}", value);
@@ -45,7 +45,7 @@ std::string csv(const Table& table) {
         for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + text(cells[i]);
         out += "\n";
     };
-    line(table.columns, quoted);
+    line(table.columns, csvText);
     for (const auto& row : table.rows) {
         TAUT_EXPECTS(row.size() == table.columns.size());
         line(row, exact);

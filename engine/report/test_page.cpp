@@ -11,7 +11,7 @@ namespace taut::report {
 namespace {
 
 // As a JavaScript string within a script element, where "</" would end the element.
-std::string quoted(const std::string& text) {
+std::string scriptText(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\')
@@ -75,9 +75,9 @@ std::string frameJson(const TestPicture& picture) {
     return fmt::format(
         "{{\"key\":{},\"frame\":{},\"label\":{},\"verdict\":\"{}\",\"reason\":{},\"figures\":{},\"why\":{},"
         "\"madeBy\":{},\"same\":{},\"golden\":\"{}\",\"actual\":\"{}\",\"difference\":\"{}\"}}",
-        quoted(picture.key), picture.frame, quoted(fmt::format("frame {}, {:.3f} s", picture.frame, picture.time)),
-        nameOf(picture.verdict), quoted(picture.reason), quoted(picture.figures), quoted(picture.why),
-        quoted(picture.madeBy), picture.isSame, base64(picture.golden), picture.isSame ? "" : base64(picture.actual),
+        scriptText(picture.key), picture.frame, scriptText(fmt::format("frame {}, {:.3f} s", picture.frame, picture.time)),
+        nameOf(picture.verdict), scriptText(picture.reason), scriptText(picture.figures), scriptText(picture.why),
+        scriptText(picture.madeBy), picture.isSame, base64(picture.golden), picture.isSame ? "" : base64(picture.actual),
         base64(picture.difference));
 }
 

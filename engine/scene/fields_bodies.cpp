@@ -16,8 +16,6 @@ using namespace world;
 
 namespace {
 
-constexpr Range place{-1e6, 1e6};       // [m]
-constexpr Range length{1e-6, 1e6};      // [m]
 constexpr Range count{1.0, 1e9};        // of cells; what is too much is said with figures once all is read
 constexpr Range dampingTime{0.0, 1e3};  // [s]
 constexpr Range dragRate{0.0, 1e6};     // [1/s]
@@ -31,9 +29,9 @@ Section arraySection() {
     section.fields = FieldList<ArraySpec>()
                          .vector("count", &ArraySpec::count, "", copies, "Copies along the three directions.")
                          .required()
-                         .vector("step_x", &ArraySpec::stepX, "m", place, "From one copy to the next, first direction.")
-                         .vector("step_y", &ArraySpec::stepY, "m", place, "The same, second direction.")
-                         .vector("step_z", &ArraySpec::stepZ, "m", place, "The same, third direction.")
+                         .vector("step_x", &ArraySpec::stepX, "m", placeRange, "From one copy to the next, first direction.")
+                         .vector("step_y", &ArraySpec::stepY, "m", placeRange, "The same, second direction.")
+                         .vector("step_z", &ArraySpec::stepZ, "m", placeRange, "The same, third direction.")
                          .take();
     section.check = [](const CheckInput& input, void* target) {
         auto& array = *static_cast<ArraySpec*>(target);
@@ -72,8 +70,8 @@ Section overrideSection() {
 template <class Spec>
 std::vector<Field> withBodyFields(FieldList<Spec> list) {
     list.texts("hold", &Spec::hold, Role::selector, "Points that never move: a group, \"#12\", \"(u,v)\", \"50%\".")
-        .vector("velocity", &Spec::velocity, "m/s", place, "At the start.")
-        .vector("spin_rad_per_s", &Spec::spin, "rad/s", place, "At the start, about the centre of mass.")
+        .vector("velocity", &Spec::velocity, "m/s", placeRange, "At the start.")
+        .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange, "At the start, about the centre of mass.")
         .number("jitter_m", &Spec::jitter, "m", Range{0.0, 1.0},
                 "Random offset of the free points at the start, to break symmetry.")
         .whole("seed", &Spec::seed, "", Range{0.0, 1e12}, "Seed of the offsets.")
@@ -130,9 +128,9 @@ Section finishSection() {
             .colour("back_colour", &FinishSpec::backColour, "Colour of the back; paler than the front if not given.")
             .colour("accent", &FinishSpec::accent, "Second colour of a pattern.")
             .choice("pattern", &FinishSpec::pattern, {"plain", "checker", "stripes", "tartan", "image"}, "Pattern.")
-            .number("repeat_m", &FinishSpec::repeat, "m", length, "Length after which the pattern repeats.")
+            .number("repeat_m", &FinishSpec::repeat, "m", lengthRange, "Length after which the pattern repeats.")
             .number("weave", &FinishSpec::weave, "", share, "Depth of the weave: 0 smooth, 1 coarse linen.")
-            .number("thread_m", &FinishSpec::thread, "m", length, "Distance of two threads.")
+            .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")
             .number("roughness", &FinishSpec::roughness, "", share, "0 a mirror, 1 chalk.")
             .number("sheen", &FinishSpec::sheen, "", share, "Bright rim of fabric.")
             .text("texture", &FinishSpec::texture, Role::texture, "Picture file, PNG or JPEG.")
@@ -184,11 +182,11 @@ Section clothSection() {
         withBodyFields(FieldList<ClothSpec>()
                            .text("material", &ClothSpec::material, Role::material, "Name of its material.")
                            .required()
-                           .vector("size", &ClothSpec::size, "m", length, "Across and down.")
+                           .vector("size", &ClothSpec::size, "m", lengthRange, "Across and down.")
                            .only(grid)
                            .vector("cells", &ClothSpec::cells, "", count, "Number of cells across and down.")
                            .only(grid)
-                           .vector("origin", &ClothSpec::origin, "m", place, "Top left corner.")
+                           .vector("origin", &ClothSpec::origin, "m", placeRange, "Top left corner.")
                            .only(grid)
                            .direction("across", &ClothSpec::across, "Direction from left to right; any length.")
                            .only(grid)
@@ -196,11 +194,11 @@ Section clothSection() {
                            .only(grid)
                            .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file.")
                            .only(mesh)
-                           .vector("position", &ClothSpec::position, "m", place, "Where the file's origin lies.")
+                           .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
                            .only(mesh)
                            .rotation("rotation_deg", &ClothSpec::rotation, "About x, then y, then z.")
                            .only(mesh)
-                           .number("scale", &ClothSpec::scale, "", length, "Metres of a unit of the file.")
+                           .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
                            .only(mesh));
     section.check = [](const CheckInput& input, void* target) {
         auto& cloth = *static_cast<ClothSpec*>(target);
@@ -239,7 +237,7 @@ Section ropeSection() {
         .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
         .ramps(springs);
     section.fields = withBodyFields(withPlasticity(withLosses(list))
-                                        .number("radius", &RopeSpec::radius, "m", length, "As it is drawn.")
+                                        .number("radius", &RopeSpec::radius, "m", lengthRange, "As it is drawn.")
                                         .choice("lumping", &RopeSpec::lumping, lumpingNames(),
                                                 "How mass is shared out: by length, or the same for every point."));
     section.check = [](const CheckInput& input, void* target) {
@@ -259,9 +257,9 @@ Section blockSection() {
     section.enter = enterNamed(&SceneSpec::blocks);
     section.existing = findNamed(&SceneSpec::blocks);
     FieldList<BlockSpec> list;
-    list.vector("size", &BlockSpec::size, "m", length, "Its three edges.")
+    list.vector("size", &BlockSpec::size, "m", lengthRange, "Its three edges.")
         .vector("cells", &BlockSpec::cells, "", count, "Number of cells along each.")
-        .vector("position", &BlockSpec::position, "m", place, "Its centre.")
+        .vector("position", &BlockSpec::position, "m", placeRange, "Its centre.")
         .rotation("rotation_deg", &BlockSpec::rotation, "About x, then y, then z.")
         .number("density_kg_per_m3", &BlockSpec::density, "kg/m³", positive, "Mass of a cubic metre.")
         .number("young_Pa", &BlockSpec::young, "Pa", positive, "Young's modulus.")
@@ -283,7 +281,7 @@ Section netPointSection() {
     section.fields = FieldList<NetPointSpec>()
                          .text("name", &NetPointSpec::name, Role::none, "Its name.")
                          .required()
-                         .vector("position", &NetPointSpec::position, "m", place, "Where it starts.")
+                         .vector("position", &NetPointSpec::position, "m", placeRange, "Where it starts.")
                          .required()
                          .number("mass_kg", &NetPointSpec::mass, "kg", positive, "Mass.")
                          .flag("hold", &NetPointSpec::hold, "Whether it never moves.")
@@ -356,8 +354,8 @@ Section netSection() {
         .tables("springs", &NetSpec::springs, netSpringSection(), "Its springs.");
     section.fields =
         withBodyFields(withPlasticity(withLosses(list))
-                           .number("radius", &NetSpec::radius, "m", length, "Radius of a spring as it is drawn.")
-                           .number("ball", &NetSpec::ball, "m", length, "Radius of a point as it is drawn."));
+                           .number("radius", &NetSpec::radius, "m", lengthRange, "Radius of a spring as it is drawn.")
+                           .number("ball", &NetSpec::ball, "m", lengthRange, "Radius of a point as it is drawn."));
     section.check = [](const CheckInput& input, void* target) {
         const auto& net = *static_cast<const NetSpec*>(target);
         if (input.isClean && net.points.empty()) input.problems.addError(input.at("points"), "a net needs points");

@@ -5,6 +5,11 @@
 
 namespace taut::scene {
 
+// Limits that many fields share.
+inline constexpr Range placeRange{-1e6, 1e6};   // [m]
+inline constexpr Range lengthRange{1e-6, 1e6};  // [m]
+inline constexpr Range momentRange{0.0, 1e6};   // [s]
+
 // Settings of the whole scene.
 Section fileSection();
 Section needSection();

@@ -14,27 +14,25 @@ using namespace world;
 
 namespace {
 
-constexpr Range place{-1e6, 1e6};   // [m]
-constexpr Range length{1e-6, 1e6};  // [m]
 
 // The sizes and the place of a shape: what a collider and a part of a compound have in common.
 FieldList<ColliderSpec> shapeFields(std::vector<std::string> shapes) {
     FieldList<ColliderSpec> list;
     list.choice("shape", &ColliderSpec::shape, std::move(shapes), "Its shape.")
         .required()
-        .vector("position", &ColliderSpec::position, "m", place, "Its centre.")
+        .vector("position", &ColliderSpec::position, "m", placeRange, "Its centre.")
         .rotation("rotation_deg", &ColliderSpec::rotation, "About x, then y, then z.")
-        .vector("size", &ColliderSpec::size, "m", length, "Its three edges.")
+        .vector("size", &ColliderSpec::size, "m", lengthRange, "Its three edges.")
         .only({"box"})
-        .number("radius", &ColliderSpec::radius, "m", length, "Its radius.")
+        .number("radius", &ColliderSpec::radius, "m", lengthRange, "Its radius.")
         .only({"sphere", "capsule", "cylinder", "cone"})
-        .number("height", &ColliderSpec::height, "m", length,
+        .number("height", &ColliderSpec::height, "m", lengthRange,
                 "Whole height along y; of a capsule between the centres of its half spheres.")
         .only({"capsule", "cylinder", "cone"})
         .text("mesh", &ColliderSpec::mesh, Role::mesh, "OBJ file.")
         .required()
         .only({"hull", "mesh"})
-        .number("scale", &ColliderSpec::scale, "", length, "Metres of a unit of the file.")
+        .number("scale", &ColliderSpec::scale, "", lengthRange, "Metres of a unit of the file.")
         .only({"hull", "mesh"});
     return list;
 }
@@ -50,7 +48,7 @@ Section poseKeySection() {
                          .number("t", &PoseKey::t, "s", Range{0.0, 1e6}, "Moment.")
                          .required()
                          .role(Role::time)
-                         .vector("position", &PoseKey::position, "m", place, "Where its centre is then.")
+                         .vector("position", &PoseKey::position, "m", placeRange, "Where its centre is then.")
                          .rotation("rotation_deg", &PoseKey::rotation, "About x, then y, then z.")
                          .choice("ease", &PoseKey::ease, easeNames(), "Way from the key before to this one.")
                          .take();
@@ -151,7 +149,7 @@ Section anchorSection() {
     section.fields = FieldList<AnchorSpec>()
                          .text("target", &AnchorSpec::target, Role::points, "The points: KIND.NAME@SELECTOR.")
                          .required()
-                         .vector("at", &AnchorSpec::at, "m", place, "The place.")
+                         .vector("at", &AnchorSpec::at, "m", placeRange, "The place.")
                          .ramps(RampField::Affects::forces)
                          .required()
                          .number("stiffness_N_per_m", &AnchorSpec::stiffness, "N/m", notNegative, "Of each point.")

@@ -13,8 +13,6 @@ using namespace world;
 
 namespace {
 
-constexpr Range place{-1e6, 1e6};  // [m]
-constexpr Range moment{0.0, 1e6};  // [s]
 
 std::vector<std::string> actionNames() {
     return {"grab", "move", "release", "push", "hold", "free", "cut", "add-mass", "ramp", "spawn"};
@@ -84,7 +82,7 @@ Section atSection() {
     const std::vector<std::string> onPoints{"grab", "push", "hold", "free", "add-mass"};
     section.fields =
         FieldList<ActionSpec>()
-            .number("t", &ActionSpec::t, "s", moment, "Moment; the nearest tick is taken.")
+            .number("t", &ActionSpec::t, "s", momentRange, "Moment; the nearest tick is taken.")
             .required()
             .role(Role::time)
             .choice("do", &ActionSpec::what, actionNames(), "What happens.")
@@ -95,7 +93,7 @@ Section atSection() {
                   "The points: KIND.NAME@SELECTOR, all if @SELECTOR is left out; of cut and spawn bodies, of move "
                   "collider.NAME.")
             .only({"grab", "move", "push", "hold", "free", "cut", "add-mass", "spawn"})
-            .vector("near", &ActionSpec::near, "m", place,
+            .vector("near", &ActionSpec::near, "m", placeRange,
                     "Of the target only the point that is nearest to this place when it happens.")
             .only(onPoints)
             .number("radius", &ActionSpec::radius, "m", Range{0.0, 1e6},
@@ -117,14 +115,14 @@ Section atSection() {
             .rotation("rotation_deg", &ActionSpec::rotation,
                       "How the collider is turned then, about x, then y, then z.")
             .only({"move"})
-            .number("over_s", &ActionSpec::over, "s", moment, "How long it takes; 0 means at once.")
+            .number("over_s", &ActionSpec::over, "s", momentRange, "How long it takes; 0 means at once.")
             .only({"move", "ramp"})
             .choice("ease", &ActionSpec::ease, easeNames(), "How it gets there.")
             .only({"move", "ramp"})
-            .vector("impulse_Ns", &ActionSpec::impulse, "N s", place, "Of all the points, shared by mass.")
+            .vector("impulse_Ns", &ActionSpec::impulse, "N s", placeRange, "Of all the points, shared by mass.")
             .required()
             .only({"push"})
-            .segment("plane", &ActionSpec::planePoint, &ActionSpec::planeNormal, "m", place,
+            .segment("plane", &ActionSpec::planePoint, &ActionSpec::planeNormal, "m", placeRange,
                      "A point and a normal: springs that cross the plane are cut.")
             .only({"cut"})
             .segment("segment", &ActionSpec::from, &ActionSpec::upTo, "", share,
@@ -161,13 +159,13 @@ Section checkSection() {
                                "The claim, e.g. \"max_strain(cloth.*) < 0.1\"; it must hold all the time unless a "
                                "moment or a span is given.")
                          .required()
-                         .number("at", &CheckSpec::at, "s", moment, "Only at this moment.")
+                         .number("at", &CheckSpec::at, "s", momentRange, "Only at this moment.")
                          .role(Role::time)
                          .only({"a check at a moment"})
-                         .number("from", &CheckSpec::from, "s", moment, "From this moment on.")
+                         .number("from", &CheckSpec::from, "s", momentRange, "From this moment on.")
                          .role(Role::time)
                          .only({"a check of a span"})
-                         .number("to", &CheckSpec::upTo, "s", moment, "Up to this moment.")
+                         .number("to", &CheckSpec::upTo, "s", momentRange, "Up to this moment.")
                          .role(Role::time)
                          .only({"a check of a span"})
                          .take();

@@ -23,7 +23,7 @@ namespace taut::scene {
 
 namespace {
 
-constexpr std::uint64_t maxFileSize = 16U << 20U;  // [bytes]
+constexpr std::uint64_t maxSceneSize = 16U << 20U;  // [bytes]
 
 void throwIfAny(const Problems& problems) {
     if (problems.errorCount() > 0) throw core::Error(core::ExitCode::badContent, problems.errors());
@@ -89,7 +89,7 @@ Node treeOf(std::string_view text, int origin, Problems& problems) {
 // Lays the document over the scene that it names, if it names one, and says which.
 std::filesystem::path layOnBase(Node& root, const std::string& fileName, const LoadOptions& options,
                                 Problems& problems) {
-    BaseFile base = baseFileOf(root, fileName, options.assetFolders, maxFileSize, problems);
+    BaseFile base = baseFileOf(root, fileName, options.assetFolders, maxSceneSize, problems);
     throwIfAny(problems);
     if (base.path.empty()) return {};
     problems.setBase(base.text, base.path.string());
@@ -106,7 +106,7 @@ std::filesystem::path layOnBase(Node& root, const std::string& fileName, const L
 }  // namespace
 
 Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options) {
-    return loadSceneText(textFile(path, maxFileSize), path.string(), options);
+    return loadSceneText(textFile(path, maxSceneSize), path.string(), options);
 }
 
 Loaded loadSceneText(std::string_view text, const std::string& fileName, const LoadOptions& options) {

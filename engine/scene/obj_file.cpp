@@ -19,7 +19,7 @@ namespace {
 using world::dvec2;
 using world::dvec3;
 
-constexpr std::uint64_t maxFileSize = 256U << 20U;  // [bytes]
+constexpr std::uint64_t maxObjSize = 256U << 20U;  // [bytes]
 constexpr std::size_t maxCorners = 1000;            // of one face; cutting it takes their cube
 
 struct Corner {
@@ -177,7 +177,7 @@ class ObjReader {
 }  // namespace
 
 world::MeshData objMesh(const std::filesystem::path& path) {
-    return objMeshText(textFile(path, maxFileSize), path.string());
+    return objMeshText(textFile(path, maxObjSize), path.string());
 }
 
 world::MeshData objMeshText(std::string_view text, const std::string& fileName) {

@@ -10,7 +10,7 @@
 namespace taut::study {
 namespace {
 
-constexpr double longest = 2.0;  // [s] unless the scene says how long
+constexpr double longestHorizon = 2.0;  // [s] unless the scene says how long
 
 [[noreturn]] void fail(const world::SceneSpec& spec, const std::string& why) {
     throw core::Error(core::ExitCode::badContent,
@@ -47,7 +47,7 @@ void checkNeed(const world::SceneSpec& spec) {
 Need resolvedNeed(const world::SceneSpec& spec, const Scales& scales) {
     const world::NeedSpec& given = spec.need;
     Need need;
-    need.horizon = given.horizon.value_or(std::min(spec.run.seconds, longest));
+    need.horizon = given.horizon.value_or(std::min(spec.run.seconds, longestHorizon));
     need.budget = given.budget;
     need.target = HUGE_VAL;
     const auto consider = [&](double metres, const std::string& stated) {

@@ -11,7 +11,7 @@
 namespace taut::study {
 namespace {
 
-constexpr double longest = 2.0;  // [s] studied of a scene unless asked for more
+constexpr double longestStudied = 2.0;  // [s] studied of a scene unless asked for more
 
 template <class Action>
 void forEachBody(world::SceneSpec& spec, const Action& action) {
@@ -93,7 +93,7 @@ class SceneSubject final : public Subject {
     int dimensions() const override { return 3; }
     std::string unit() const override { return "m"; }
     bool hasEnergy() const override { return true; }
-    double duration() const override { return std::min(spec_.run.seconds, longest); }
+    double duration() const override { return std::min(spec_.run.seconds, longestStudied); }
     bool accepts(const ode::MethodInfo&) const override { return true; }
 
     Grid grid(double duration, double window) const override {

@@ -14,8 +14,8 @@ namespace {
 using glm::dvec3;
 using System = mechanics::MassSpringSystem<double>;
 
-constexpr double shortest = 0.02, longest = 1e3;  // [s] steps
-constexpr int mostSteps = 400;
+constexpr double shortestStep = 0.02, longestStep = 1e3;  // [s] steps
+constexpr int mostRestSteps = 400;
 
 std::vector<System::PointMass> pointsOf(const mechanics::Model& model) {
     std::vector<System::PointMass> points;
@@ -61,23 +61,23 @@ class Settling {
         system_.add(std::make_unique<mechanics::Gravity<double>>(gravity));
         for (std::size_t i = 0; i < model.positions.size(); ++i)
             for (int p = 0; p < 3; ++p) state_.x[index(i, p)] = model.positions[i][p];
-        method_->start(system_, 0.0, shortest, state_);
+        method_->start(system_, 0.0, shortestStep, state_);
     }
 
     Equilibrium run(double tolerance) {
         Equilibrium found;
-        double h = shortest;
+        double h = shortestStep;
         found.residual = residual();
-        while (found.residual > tolerance && found.steps < mostSteps) {
+        while (found.residual > tolerance && found.steps < mostRestSteps) {
             method_->step(system_, 0.0, h, state_);
             ++found.steps;
             const double now = residual();
-            h = now < found.residual ? std::min(2.0 * h, longest) : std::max(0.5 * h, shortest);
+            h = now < found.residual ? std::min(2.0 * h, longestStep) : std::max(0.5 * h, shortestStep);
             found.residual = now;
         }
         found.isAtRest = found.residual <= tolerance;
         if (found.isAtRest) {  // once more, and without haste: Newton's step squares what is left
-            method_->step(system_, 0.0, longest, state_);
+            method_->step(system_, 0.0, longestStep, state_);
             ++found.steps;
             found.residual = residual();
         }

@@ -14,13 +14,13 @@
 namespace taut::study {
 namespace {
 
-constexpr double longest = 0.5;          // [s] of motion in each run unless asked for more
+constexpr double longestRun = 0.5;       // [s] of motion in each run unless asked for more
 constexpr double mostStep = 1.0 / 60;    // [s] no tick is longer
 constexpr double stir = 1e-9;            // [m]
 constexpr double apart = 1.01;           // at which bisection ends
 constexpr double leastShare = 1.0 / 32;  // of leap-frog's limit: the shortest step tried, or
 constexpr double belowTheory = 0.5;      // of the predicted limit where that is less, but
-constexpr double mostSteps = 1e6;        // in a run, however short that limit
+constexpr double mostRunSteps = 1e6;     // in a run, however short that limit
 constexpr double beyondTheory = 1.05;    // of the predicted limit: from there on what stands only fails later
 constexpr int lookEvery = 16;            // steps between looks at the energy
 constexpr int patience = 1000;           // steps for which a run that has failed is followed to see what breaks
@@ -160,7 +160,7 @@ class Search {
         const double base = std::min(std::isfinite(leapfrog) ? leapfrog : mostStep, mostStep);
         const double predicted = threshold.predicted.lanczos;
         double least = leastShare * base;
-        if (predicted > 0) least = std::min(least, std::max(belowTheory * predicted, result_.seconds / mostSteps));
+        if (predicted > 0) least = std::min(least, std::max(belowTheory * predicted, result_.seconds / mostRunSteps));
         double h = predicted;
         if (!(h > least) || !std::isfinite(h)) h = base;
         h = std::min(h, mostStep);
@@ -241,7 +241,7 @@ SceneThresholds findThresholds(const world::SceneSpec& spec, const std::string& 
     SceneThresholds result;
     result.name = name;
     result.title = spec.title.empty() ? name : spec.title;
-    result.seconds = settings.seconds > 0 ? settings.seconds : std::min(spec.run.seconds, longest);
+    result.seconds = settings.seconds > 0 ? settings.seconds : std::min(spec.run.seconds, longestRun);
     result.mostStep = mostStep;
     Search(spec, settings, result).run();
     return result;

@@ -9,7 +9,7 @@
 namespace taut::study {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 template <class Specs>
 auto find(const Specs& specs, const std::string& kind, const std::string& fullName) {
@@ -25,7 +25,7 @@ double ropeFrequency(const world::RopeSpec& rope) {
     const bool isHeld = holds("ends") || (holds("start") && holds("end"));
     const double distance = glm::length(rope.end - rope.start);
     const bool isStraight = rope.length == 0.0 || rope.length <= distance;
-    if (!isHeld || !isStraight || rope.bend != 0.0 || rope.segments < 2) return none;
+    if (!isHeld || !isStraight || rope.bend != 0.0 || rope.segments < 2) return unknown;
     const double natural = rope.length == 0.0 ? distance : rope.length;
     const double k = rope.stretch * rope.segments / natural;
     const double m = rope.mass / (rope.lumping == "uniform" ? rope.segments + 1 : rope.segments);
@@ -36,8 +36,8 @@ double ropeFrequency(const world::RopeSpec& rope) {
 double gridFrequency(const world::ClothSpec& cloth, const world::MaterialSpec& material) {
     const double a = cloth.size.x / cloth.cells.x, b = cloth.size.y / cloth.cells.y;
     const bool isSquare = std::abs(a - b) < 1e-9 * a;
-    if (!isSquare || cloth.meshData || cloth.cells.x < 4 || cloth.cells.y < 4) return none;
-    if (material.lumping == "uniform") return none;
+    if (!isSquare || cloth.meshData || cloth.cells.x < 4 || cloth.cells.y < 4) return unknown;
+    if (material.lumping == "uniform") return unknown;
     const double ks = material.stretch, kd = material.shear.value_or(ks / 2), kb = material.bend;
     const double sum = ks + kd, bends = kb + kd;
     double most = 4 * sum;
@@ -49,7 +49,7 @@ double gridFrequency(const world::ClothSpec& cloth, const world::MaterialSpec& m
 }  // namespace
 
 double closedFormFrequency(const world::SceneSpec& spec, const std::vector<std::string>& bodies, std::string& formula) {
-    if (bodies.size() != 1 || !spec.anchors.empty() || !spec.masses.empty()) return none;
+    if (bodies.size() != 1 || !spec.anchors.empty() || !spec.masses.empty()) return unknown;
     if (const auto rope = find(spec.ropes, "rope", bodies.front()); rope != spec.ropes.end()) {
         formula = "2 √(k/m) cos(π/2(n+1))";
         return ropeFrequency(*rope);
@@ -59,7 +59,7 @@ double closedFormFrequency(const world::SceneSpec& spec, const std::vector<std::
         formula = "the fastest plane wave of an endless grid";
         return gridFrequency(*cloth, material == spec.materials.end() ? world::MaterialSpec{} : material->second);
     }
-    return none;
+    return unknown;
 }
 
 bool isReferenceNetwork(const std::string& name) {

@@ -163,7 +163,7 @@ bool Sweep::hasLevelled(std::size_t first) const {
 }
 
 void Sweep::curve(const MethodFacts& method, Precision precision) {
-    const double longestRun = secondsPerCurve_ / 8;  // with its repeats and all the longer steps together eight times
+    const double runLimit = secondsPerCurve_ / 8;  // with its repeats and all the longer steps together eight times
     const std::size_t first = study_.points.size();
     RunPlan plan;
     plan.method = method.name;
@@ -177,7 +177,7 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
     for (int halvings = 0; halvings <= most && !isStopped(); ++halvings, plan.stepsPerSample *= 2) {
         const double expected = 2 * lastRun;
         // A curve needs a slope: three points, unless they are out of all proportion.
-        if (!isFixed && expected > longestRun * (good < 3 ? 4 : 1)) break;
+        if (!isFixed && expected > runLimit * (good < 3 ? 4 : 1)) break;
         const auto start = Clock::now();
         double seconds = 0;
         RunPoint point = run(plan, seconds);

@@ -12,7 +12,6 @@ namespace taut::view {
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr int roundSteps = 4;   // steps of a rounded edge's quarter turn
 constexpr float bevel = 0.03F;  // rounding of the rims of cylinders and cones, as a part of the smaller size
 
@@ -63,12 +62,12 @@ Mesh revolved(const std::vector<ProfilePoint>& profile) {
         const float distance = at.x > 1e-6F * widest ? at.x : 0.0F;
         for (int i = 0; i <= steps; ++i) {
             const float part = static_cast<float>(i) / static_cast<float>(steps);
-            const float angle = 2.0F * pi * static_cast<float>(i % steps) / static_cast<float>(steps);
+            const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i % steps) / static_cast<float>(steps);
             const float x = std::cos(angle);
             const float z = -std::sin(angle);
             geometry.positions.emplace_back(distance * x, at.y, distance * z);
             geometry.normals.emplace_back(glm::normalize(glm::vec3(normal.x * x, normal.y, normal.x * z)));
-            topology.uv.emplace_back(2.0F * pi * widest * part, along);
+            topology.uv.emplace_back(2.0F * std::numbers::pi_v<float> * widest * part, along);
         }
     }
     const auto stride = static_cast<std::uint32_t>(steps + 1);
@@ -88,7 +87,7 @@ std::vector<float> boxLines(float halfSize, float edgeRadius) {
     const float inner = halfSize - edgeRadius;
     if (edgeRadius > 0.0F) {
         for (int i = roundSteps; i > 0; --i) {
-            const float angle = 0.25F * pi * static_cast<float>(i) / static_cast<float>(roundSteps);
+            const float angle = 0.25F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(roundSteps);
             lines.push_back(i == roundSteps ? halfSize : inner + edgeRadius * std::tan(angle));
         }
     }
@@ -140,7 +139,7 @@ void appendBoxSide(Topology& topology, Geometry& geometry, glm::vec3 halfSize, f
 Mesh sphereMesh(float radius) {
     TAUT_EXPECTS(radius > 0.0F);
     std::vector<ProfilePoint> profile;
-    appendArc(profile, {0.0F, 0.0F}, radius, -0.5F * pi, 0.5F * pi, turnSteps(radius) / 2);
+    appendArc(profile, {0.0F, 0.0F}, radius, -0.5F * std::numbers::pi_v<float>, 0.5F * std::numbers::pi_v<float>, turnSteps(radius) / 2);
     return revolved(profile);
 }
 
@@ -162,8 +161,8 @@ Mesh cylinderMesh(float radius, float height) {
     const float half = 0.5F * height;
     const float rim = bevel * std::min(radius, half);
     std::vector<ProfilePoint> profile{{{0.0F, -half}, {0.0F, -1.0F}}};
-    appendArc(profile, {radius - rim, rim - half}, rim, -0.5F * pi, 0.0F, roundSteps);
-    appendArc(profile, {radius - rim, half - rim}, rim, 0.0F, 0.5F * pi, roundSteps);
+    appendArc(profile, {radius - rim, rim - half}, rim, -0.5F * std::numbers::pi_v<float>, 0.0F, roundSteps);
+    appendArc(profile, {radius - rim, half - rim}, rim, 0.0F, 0.5F * std::numbers::pi_v<float>, roundSteps);
     profile.push_back({{0.0F, half}, {0.0F, 1.0F}});
     return revolved(profile);
 }
@@ -177,7 +176,7 @@ Mesh coneMesh(float radius, float height) {
     const float inset = rim * (1.0F + std::sin(slope)) / std::cos(slope);
     const glm::vec2 normal(std::cos(slope), std::sin(slope));
     std::vector<ProfilePoint> profile{{{0.0F, -half}, {0.0F, -1.0F}}};
-    appendArc(profile, {radius - inset, rim - half}, rim, -0.5F * pi, slope, 2 * roundSteps);
+    appendArc(profile, {radius - inset, rim - half}, rim, -0.5F * std::numbers::pi_v<float>, slope, 2 * roundSteps);
     // Rows between rim and tip keep the shading even where the triangles narrow.
     const glm::vec2 rimEnd = profile.back().at;
     for (int i = 1; i <= roundSteps; ++i) {
@@ -191,9 +190,9 @@ Mesh capsuleMesh(float radius, float height) {
     TAUT_EXPECTS(radius > 0.0F && height >= 0.0F);
     const float half = 0.5F * height;
     std::vector<ProfilePoint> profile;
-    appendArc(profile, {0.0F, -half}, radius, -0.5F * pi, 0.0F, turnSteps(radius) / 4);
+    appendArc(profile, {0.0F, -half}, radius, -0.5F * std::numbers::pi_v<float>, 0.0F, turnSteps(radius) / 4);
     if (height == 0.0F) profile.pop_back();
-    appendArc(profile, {0.0F, half}, radius, 0.0F, 0.5F * pi, turnSteps(radius) / 4);
+    appendArc(profile, {0.0F, half}, radius, 0.0F, 0.5F * std::numbers::pi_v<float>, turnSteps(radius) / 4);
     return revolved(profile);
 }
 

@@ -11,7 +11,6 @@ namespace taut::view {
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 
 // Rings that a cap adds between its pole and the tube's first ring.
 int capRings(int sides) {
@@ -25,7 +24,7 @@ int lineRings(int points, int subdivisions) {
 // Angle of a cap's ring from the plane of the tube's end ring [rad]; ring 0 lies next to the pole.
 float capAngle(int ring, int sides) {
     const int rings = capRings(sides);
-    return 0.5F * pi * static_cast<float>(rings - ring) / static_cast<float>(rings + 1);
+    return 0.5F * std::numbers::pi_v<float> * static_cast<float>(rings - ring) / static_cast<float>(rings + 1);
 }
 
 // Uniform Catmull-Rom; beyond the ends the line goes on straight.
@@ -92,7 +91,7 @@ void appendRing(Geometry& tube, glm::vec3 centre, glm::vec3 tangent, glm::vec3 s
                 float radius) {
     const glm::vec3 other = glm::cross(tangent, side);
     for (int k = 0; k < sides; ++k) {
-        const float angle = 2.0F * pi * static_cast<float>(k) / static_cast<float>(sides);
+        const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(sides);
         const glm::vec3 across = std::cos(angle) * side + std::sin(angle) * other;
         const glm::vec3 normal = glm::normalize(std::cos(lift) * across + std::sin(lift) * tangent);
         tube.positions.push_back(centre + radius * normal);
@@ -110,17 +109,17 @@ Topology tubeTopology(int points, int subdivisions, int sides, float length, flo
     const int rings = along + 2 * cap;
 
     // u runs along the rope, v around it: up one half and down the other, so that no pattern has a seam.
-    tube.uv.emplace_back(-0.5F * pi * radius, 0.0F);
+    tube.uv.emplace_back(-0.5F * std::numbers::pi_v<float> * radius, 0.0F);
     for (int ring = 0; ring < rings; ++ring) {
         float u = length * static_cast<float>(ring - cap) / static_cast<float>(along - 1);
         if (ring < cap) u = -radius * capAngle(ring, sides);
         if (ring >= cap + along) u = length + radius * capAngle(rings - 1 - ring, sides);
         for (int k = 0; k < sides; ++k) {
             const int steps = std::min(k, sides - k);
-            tube.uv.emplace_back(u, 2.0F * pi * radius * static_cast<float>(steps) / static_cast<float>(sides));
+            tube.uv.emplace_back(u, 2.0F * std::numbers::pi_v<float> * radius * static_cast<float>(steps) / static_cast<float>(sides));
         }
     }
-    tube.uv.emplace_back(length + 0.5F * pi * radius, 0.0F);
+    tube.uv.emplace_back(length + 0.5F * std::numbers::pi_v<float> * radius, 0.0F);
 
     const auto vertex = [&](int ring, int k) { return static_cast<std::uint32_t>(1 + ring * sides + k % sides); };
     const auto lastPole = static_cast<std::uint32_t>(1 + rings * sides);

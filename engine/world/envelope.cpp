@@ -34,39 +34,6 @@ SceneSpec extreme(const SceneSpec& spec, bool largest) {
     return scene;
 }
 
-// One end of what the scene may become.
-struct Side {
-    SceneSpec spec;
-    std::vector<std::shared_ptr<Body>> bodies;
-    std::vector<IslandPlan> plans;  // of the bodies that are there from the start
-
-    explicit Side(SceneSpec scene) : spec(std::move(scene)) {
-        std::vector<Body*> first;
-        for (Body& body : buildBodies(spec)) {
-            bodies.push_back(std::make_shared<Body>(std::move(body)));
-            if (!isSpawnedLater(*bodies.back(), spec)) first.push_back(bodies.back().get());
-        }
-        plans = planIslands(first, spec);
-    }
-
-    // The plan of the same bodies; nothing if the scene does not have them.
-    std::optional<IslandPlan> like(const IslandPlan& plan, bool hasJoints) const {
-        const std::string name = plan.bodies.front()->fullName();
-        if (hasJoints) {
-            for (const IslandPlan& other : plans)
-                if (other.bodies.front()->fullName() == name) return other;
-            return std::nullopt;
-        }
-        for (const auto& body : bodies) {
-            if (body->fullName() != name) continue;
-            SceneSpec alone;
-            alone.solver = spec.solver;
-            return planIslands(std::vector<Body*>{body.get()}, alone).front();
-        }
-        return std::nullopt;
-    }
-};
-
 // Numbers in the island of the points that an action names.
 std::vector<int> pointsOf(const IslandPlan& plan, const std::string& target) {
     std::vector<int> points;
@@ -168,9 +135,42 @@ void addDrag(Envelope& envelope, const IslandPlan& of) {
 
 }  // namespace
 
+// One end of what the scene may become.
+struct EnvelopeSide {
+    SceneSpec spec;
+    std::vector<std::shared_ptr<Body>> bodies;
+    std::vector<IslandPlan> plans;  // of the bodies that are there from the start
+
+    explicit EnvelopeSide(SceneSpec scene) : spec(std::move(scene)) {
+        std::vector<Body*> first;
+        for (Body& body : buildBodies(spec)) {
+            bodies.push_back(std::make_shared<Body>(std::move(body)));
+            if (!isSpawnedLater(*bodies.back(), spec)) first.push_back(bodies.back().get());
+        }
+        plans = planIslands(first, spec);
+    }
+
+    // The plan of the same bodies; nothing if the scene does not have them.
+    std::optional<IslandPlan> like(const IslandPlan& plan, bool hasJoints) const {
+        const std::string name = plan.bodies.front()->fullName();
+        if (hasJoints) {
+            for (const IslandPlan& other : plans)
+                if (other.bodies.front()->fullName() == name) return other;
+            return std::nullopt;
+        }
+        for (const auto& body : bodies) {
+            if (body->fullName() != name) continue;
+            SceneSpec alone;
+            alone.solver = spec.solver;
+            return planIslands(std::vector<Body*>{body.get()}, alone).front();
+        }
+        return std::nullopt;
+    }
+};
+
 struct Envelopes::Impl {
     const SceneSpec& spec;
-    std::optional<Side> high, low;
+    std::optional<EnvelopeSide> high, low;
 };
 
 GripRates gripRates(double strength, double dampingRatio, double mass) {

@@ -12,7 +12,7 @@
 #include "taut/ode/method_table.h"
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::block_recovery {
 namespace {
 
 using mechanics::Model;
@@ -176,4 +176,4 @@ TEST(Block, CollapsedToALineIsReported) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::block_recovery

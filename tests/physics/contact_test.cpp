@@ -7,7 +7,7 @@
 #include "taut/ode/method_table.h"
 #include "support/scenes.h"
 
-namespace taut::test {
+namespace taut::test::contact {
 namespace {
 
 constexpr double g = 9.81;
@@ -148,4 +148,4 @@ TEST(StiffContact, AddsNoEnergyAtTheLargestStableStep) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::contact

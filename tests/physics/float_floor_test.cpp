@@ -7,7 +7,7 @@
 #include "taut/mechanics/builders.h"
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::float_floor {
 namespace {
 
 constexpr double duration = 0.25;  // [s]
@@ -63,4 +63,4 @@ TEST(FloatFloor, SinglePrecisionIsBestNearAQuarterMillisecondWhileDoubleGoesOn) 
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::float_floor

@@ -7,7 +7,7 @@
 #include "taut/mechanics/builders.h"
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::free_motion {
 namespace {
 
 using mechanics::Model;
@@ -187,4 +187,4 @@ TEST(Reversal, BringsAClothBackAfterFiveHundredSteps) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::free_motion

@@ -11,7 +11,7 @@
 #include "support/dense_stiffness.h"
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::frequency_bounds {
 namespace {
 
 using core::pi;
@@ -220,4 +220,4 @@ TEST(ClosedForms, GiveTheFastestMotionOfAGrid) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::frequency_bounds

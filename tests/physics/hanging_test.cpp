@@ -8,7 +8,7 @@
 #include "taut/mechanics/stability.h"
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::hanging {
 namespace {
 
 using mechanics::Model;
@@ -168,4 +168,4 @@ TEST(Refinement, KeepsTheSagOfAClothHeldAllAround) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::hanging

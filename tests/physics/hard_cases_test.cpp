@@ -11,7 +11,7 @@
 #include "support/oscillator.h"
 #include "support/scenes.h"
 
-namespace taut::test {
+namespace taut::test::hard_cases {
 namespace {
 
 using mechanics::Model;
@@ -364,4 +364,4 @@ TEST(NotANumber, ByOverflowKeepsTheLastGoodState) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::hard_cases

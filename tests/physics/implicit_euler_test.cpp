@@ -11,7 +11,7 @@
 #include "support/oscillator.h"
 #include "support/scenes.h"
 
-namespace taut::test {
+namespace taut::test::implicit_euler {
 namespace {
 
 using mechanics::Model;
@@ -282,4 +282,4 @@ TEST(ImplicitEulerWorld, TakesNewtonStepsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::implicit_euler

@@ -5,7 +5,7 @@
 
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::led_points {
 namespace {
 
 using mechanics::Model;
@@ -106,4 +106,4 @@ TEST(LedPoints, ThatStayAreHeldPoints) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::led_points

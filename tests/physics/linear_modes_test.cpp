@@ -13,7 +13,7 @@
 #include "taut/mechanics/stability.h"
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::linear_modes {
 namespace {
 
 using core::pi;
@@ -203,4 +203,4 @@ TEST(HangingChain, SwingsAtTheZerosOfLaguerrePolynomials) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::linear_modes

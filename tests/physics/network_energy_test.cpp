@@ -7,7 +7,7 @@
 #include "support/network.h"
 #include "support/scenes.h"
 
-namespace taut::test {
+namespace taut::test::network_energy {
 namespace {
 
 using mechanics::Model;
@@ -105,4 +105,4 @@ TEST(WorldMetrics, AreTheEnergiesAndMomentaOfTheNet) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::network_energy

@@ -9,7 +9,7 @@
 #include "support/dense_stiffness.h"
 #include "support/scenes.h"
 
-namespace taut::test {
+namespace taut::test::network_limits {
 namespace {
 
 using mechanics::Model;
@@ -189,4 +189,4 @@ TEST(AutomaticStep, IsShorterThanTheOneThatForgetsDashpots) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::network_limits

@@ -8,7 +8,7 @@
 #include "taut/mechanics/wind.h"
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::network_order {
 namespace {
 
 using mechanics::Model;
@@ -126,4 +126,4 @@ TEST(ClothOrder, IsTwoForRungeKuttaWhereDragCrossesEdgeOn) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::network_order

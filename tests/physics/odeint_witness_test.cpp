@@ -9,7 +9,7 @@
 
 #include "support/network.h"
 
-namespace taut::test {
+namespace taut::test::odeint_witness {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
@@ -128,4 +128,4 @@ TEST(OdeintWitness, AgreesOnADampedClothByBulirschAndStoer) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::odeint_witness

@@ -7,7 +7,7 @@
 
 #include "support/oscillator.h"
 
-namespace taut::test {
+namespace taut::test::oscillator_damping {
 namespace {
 
 constexpr double omega = 2.0;
@@ -140,4 +140,4 @@ TEST(VelocityVerlet, GivesThePositionsAndVelocitiesOfLeapfrogWithDragAndDashpots
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::oscillator_damping

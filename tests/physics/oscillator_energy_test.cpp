@@ -6,7 +6,7 @@
 
 #include "support/oscillator.h"
 
-namespace taut::test {
+namespace taut::test::oscillator_energy {
 namespace {
 
 constexpr double omega = 3.0;
@@ -114,4 +114,4 @@ TEST(LeapfrogOscillator, GoesBackWhereItCameFrom) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::oscillator_energy

@@ -8,7 +8,7 @@
 
 #include "support/oscillator.h"
 
-namespace taut::test {
+namespace taut::test::oscillator_limits {
 namespace {
 
 constexpr double omega = 5.0;
@@ -227,4 +227,4 @@ TEST(LargestStep, OfAFreePointIsSetByItsDampingAlone) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::oscillator_limits

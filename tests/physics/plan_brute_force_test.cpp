@@ -14,7 +14,7 @@
 #include "taut/study/plan_search.h"
 #include "support/small_scenes.h"
 
-namespace taut::study {
+namespace taut::study::plan_brute_force {
 namespace {
 
 world::SceneSpec shortScene(double seconds, double target) {
@@ -225,4 +225,4 @@ TEST(Plan, CallsNothingChaoticThatStaysWithinTheTarget) {
 }
 
 }  // namespace
-}  // namespace taut::study
+}  // namespace taut::study::plan_brute_force

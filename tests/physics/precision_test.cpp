@@ -6,7 +6,7 @@
 
 #include "support/scenes.h"
 
-namespace taut::test {
+namespace taut::test::precision {
 namespace {
 
 world::SceneSpec sheet(world::Precision precision, const char* method) {
@@ -68,4 +68,4 @@ TEST(SinglePrecision, HasTheEnergyOfDouble) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::precision

@@ -7,7 +7,7 @@
 #include "taut/scene/load.h"
 #include "support/scenes.h"
 
-namespace taut::test {
+namespace taut::test::shipped_scenes {
 namespace {
 
 world::World shipped(const std::string& name, std::vector<std::string> overrides = {}) {
@@ -79,4 +79,4 @@ TEST(ShippedScenes, AJumpingColliderDoesNotExplodeACloth) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::shipped_scenes

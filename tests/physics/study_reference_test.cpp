@@ -10,7 +10,7 @@
 #include "taut/study/reference.h"
 #include "taut/study/work_precision.h"
 
-namespace taut::study {
+namespace taut::study::study_reference {
 namespace {
 
 class ExactProblem : public testing::TestWithParam<const char*> {};
@@ -119,4 +119,4 @@ TEST(StudyCloth, StepsWithinTheLimitNeverFail) {
 }
 
 }  // namespace
-}  // namespace taut::study
+}  // namespace taut::study::study_reference

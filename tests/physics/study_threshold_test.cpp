@@ -9,7 +9,7 @@
 #include "taut/study/threshold.h"
 #include "support/dense_stiffness.h"
 
-namespace taut::test {
+namespace taut::test::study_threshold {
 namespace {
 
 using study::MethodThreshold;
@@ -119,4 +119,4 @@ TEST(ClosedForm, IsNoneWhereTheFormulaDoesNotHold) {
 }
 
 }  // namespace
-}  // namespace taut::test
+}  // namespace taut::test::study_threshold

@@ -11,6 +11,8 @@
 
 namespace taut::support {
 
+inline constexpr double g = 9.81;  // [m/s²]
+
 inline void run(world::World& world, int ticks) {
     for (int i = 0; i < ticks; ++i) {
         const auto divergence = world.advance();

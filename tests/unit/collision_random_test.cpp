@@ -3,7 +3,7 @@
 
 #include "collision_support.h"
 
-namespace taut::collision {
+namespace taut::collision::collision_random {
 namespace {
 
 struct Case {
@@ -115,4 +115,4 @@ TYPED_TEST(CollisionRandom, PointLeftAloneByATurningColliderEndsOutsideOfIt) {
 }
 
 }  // namespace
-}  // namespace taut::collision
+}  // namespace taut::collision::collision_random

@@ -6,7 +6,7 @@
 
 #include "tests/unit/program_support.h"
 
-namespace taut::game {
+namespace taut::game::game_continuation {
 namespace {
 
 using test::has;
@@ -143,4 +143,4 @@ TEST_F(Continuation, SaysWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace taut::game
+}  // namespace taut::game::game_continuation

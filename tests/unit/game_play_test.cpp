@@ -14,7 +14,7 @@ using test::Outcome;
 using test::run;
 using test::TemporaryFolder;
 
-std::string scene(const TemporaryFolder& folder) {
+std::string springFile(const TemporaryFolder& folder) {
     const auto path = folder / "spring.toml";
     test::writeText(path, R"(schema = 1
 [run]
@@ -34,9 +34,9 @@ springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]
 TEST(PlayCommand, WithoutADisplaySaysHowToDoWithout) {
     const TemporaryFolder folder;
     for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"}) ::unsetenv(variable);
-    const Outcome outcome = run({"play", scene(folder)});
+    const Outcome outcome = run({"play", springFile(folder)});
     EXPECT_EQ(outcome.code, 7);
-    EXPECT_TRUE(has(outcome.err, "taut render " + scene(folder))) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "taut render " + springFile(folder))) << outcome.err;
 }
 
 TEST(PlayCommand, AWrongSceneIsSaidBeforeAWindowIsMissed) {
@@ -48,7 +48,7 @@ TEST(PlayCommand, AWrongSceneIsSaidBeforeAWindowIsMissed) {
 // The figures cover a corner; everything else, and every picture without the flag, is as it was.
 TEST(RenderCommand, TheOverlayChangesItsCornerOnly) {
     const TemporaryFolder folder;
-    const std::string file = scene(folder);
+    const std::string file = springFile(folder);
     ASSERT_EQ(run({"render", file, "-o", (folder / "plain_######.png").string(), "--quiet"}).code, 0);
     ASSERT_EQ(run({"render", file, "-o", (folder / "over_######.png").string(), "--quiet", "--overlay"}).code, 0);
     const image::Image plain = image::readImage(folder / "plain_000003.png");

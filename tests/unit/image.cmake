@@ -2,6 +2,5 @@ list(APPEND TAUT_UNIT_TESTS
   image_compare_test.cpp
   image_frame_sequence_test.cpp
   image_png_test.cpp
-  image_video_test.cpp
-  image_whole_file_test.cpp)
+  image_video_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::image)

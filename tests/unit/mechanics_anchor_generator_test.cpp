@@ -10,7 +10,7 @@ using glm::dvec3;
 using test::PlanarState;
 
 // Values a few units large: double rounding of sums of three or four of them.
-constexpr double rounding = 1e-13;
+constexpr double anchorRounding = 1e-13;
 
 const std::vector<dvec3> places = {{0, 0, 0}, {1, 2, 3}, {-1, 0.5, 0}};
 const std::vector<double> masses = {1.0, 0.5, 0.25};
@@ -36,9 +36,9 @@ TEST(Anchor, DampingResistsMotionRelativeToTheMovingPlace) {
     Anchor<double> anchor({1}, places[1], 0.0, 4.0);
     anchor.setPlace({0, 0, 0}, {3, 0, 0}, 1.0, 2.5);  // 2 m/s
     state.set(state.v, 1, {0.5, 1.0, 0.0});
-    EXPECT_NEAR(glm::length(state.forces(anchor, 2.0)[1] - dvec3(6.0, -4.0, 0.0)), 0.0, rounding);
-    EXPECT_NEAR(glm::length(state.forces(anchor, 0.5)[1] - dvec3(-2.0, -4.0, 0.0)), 0.0, rounding);
-    EXPECT_NEAR(glm::length(state.forces(anchor, 2.5)[1] - dvec3(-2.0, -4.0, 0.0)), 0.0, rounding);
+    EXPECT_NEAR(glm::length(state.forces(anchor, 2.0)[1] - dvec3(6.0, -4.0, 0.0)), 0.0, anchorRounding);
+    EXPECT_NEAR(glm::length(state.forces(anchor, 0.5)[1] - dvec3(-2.0, -4.0, 0.0)), 0.0, anchorRounding);
+    EXPECT_NEAR(glm::length(state.forces(anchor, 2.5)[1] - dvec3(-2.0, -4.0, 0.0)), 0.0, anchorRounding);
 }
 
 TEST(Anchor, PlaceMovesEvenlyBetweenItsTimes) {

@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 // Sums over some thousand springs.
-constexpr double rounding = 1e-11;
+constexpr double blockRounding = 1e-11;
 
 BlockShape cubes(int n) {
     BlockShape shape;
@@ -28,8 +28,8 @@ TEST(BlockBuilder, MassAndCentreAreTheMaterials) {
             shape.lumping = lumping;
             const Model model = buildBlock(shape);
             EXPECT_EQ(brokenRule(model), "");
-            EXPECT_NEAR(totalMass(model), 300.0 * 0.9 * 0.6 * 0.3, 50.0 * rounding);
-            EXPECT_NEAR(glm::length(centreOfMass(model) - shape.centre), 0.0, rounding);
+            EXPECT_NEAR(totalMass(model), 300.0 * 0.9 * 0.6 * 0.3, 50.0 * blockRounding);
+            EXPECT_NEAR(glm::length(centreOfMass(model) - shape.centre), 0.0, blockRounding);
         }
 }
 
@@ -41,9 +41,9 @@ TEST(BlockBuilder, CubicCellsHaveTheMaterialsStiffnessAtEveryResolution) {
         const Model model = buildBlock(shape);
         const double volume = 0.9 * 0.6 * 0.3;
         for (int i = 0; i < 3; ++i) {
-            EXPECT_NEAR(normalStiffness(model, i, i, volume), 6e4, 6e4 * rounding);
-            EXPECT_NEAR(normalStiffness(model, i, (i + 1) % 3, volume), 2e4, 6e4 * rounding);
-            EXPECT_NEAR(shearStiffness(model, i, (i + 1) % 3, volume), 2e4, 6e4 * rounding);
+            EXPECT_NEAR(normalStiffness(model, i, i, volume), 6e4, 6e4 * blockRounding);
+            EXPECT_NEAR(normalStiffness(model, i, (i + 1) % 3, volume), 2e4, 6e4 * blockRounding);
+            EXPECT_NEAR(shearStiffness(model, i, (i + 1) % 3, volume), 2e4, 6e4 * blockRounding);
         }
     }
 }
@@ -55,9 +55,9 @@ TEST(BlockBuilder, NearlyCubicCellsHaveTheSameStiffness) {
     const Model model = buildBlock(shape);
     const double volume = 0.9 * 0.66 * 0.28;
     for (int i = 0; i < 3; ++i) {
-        EXPECT_NEAR(normalStiffness(model, i, i, volume), 6e4, 6e4 * rounding);
-        EXPECT_NEAR(normalStiffness(model, i, (i + 1) % 3, volume), 2e4, 6e4 * rounding);
-        EXPECT_NEAR(shearStiffness(model, i, (i + 1) % 3, volume), 2e4, 6e4 * rounding);
+        EXPECT_NEAR(normalStiffness(model, i, i, volume), 6e4, 6e4 * blockRounding);
+        EXPECT_NEAR(normalStiffness(model, i, (i + 1) % 3, volume), 2e4, 6e4 * blockRounding);
+        EXPECT_NEAR(shearStiffness(model, i, (i + 1) % 3, volume), 2e4, 6e4 * blockRounding);
     }
 }
 
@@ -68,10 +68,10 @@ TEST(BlockBuilder, LongCellsKeepShearAndNeverHaveANegativeSpring) {
     const Model model = buildBlock(shape);
     const double volume = 1.8 * 0.6 * 0.3;
     EXPECT_EQ(brokenRule(model), "");
-    EXPECT_NEAR(shearStiffness(model, 0, 1, volume), 2e4, 6e4 * rounding);
+    EXPECT_NEAR(shearStiffness(model, 0, 1, volume), 2e4, 6e4 * blockRounding);
     // Stretched cells are stiffer along their long side: 0.4 E (0.1 + 4 + 4).
-    EXPECT_NEAR(normalStiffness(model, 0, 0, volume), 0.4 * 5e4 * 8.1, 2e5 * rounding);
-    EXPECT_NEAR(normalStiffness(model, 1, 1, volume), 6e4, 2e5 * rounding);
+    EXPECT_NEAR(normalStiffness(model, 0, 0, volume), 0.4 * 5e4 * 8.1, 2e5 * blockRounding);
+    EXPECT_NEAR(normalStiffness(model, 1, 1, volume), 6e4, 2e5 * blockRounding);
 }
 
 // Shares of edges and faces: inside all is in balance, a face point bears the stress times its share of the face.
@@ -95,7 +95,7 @@ TEST(BlockBuilder, UniformStrainLoadsOnlyTheSurfaceAndEachPointByItsShare) {
                     for (int other : {(axis + 1) % 3, (axis + 2) % 3})
                         if (p[other] == 0 || p[other] == n[other]) share *= 0.5;
                     const double side = p[axis] == 0 ? 1.0 : p[axis] == n[axis] ? -1.0 : 0.0;
-                    EXPECT_NEAR(at(forces, i)[axis], side * share * stress[axis], 100.0 * rounding);
+                    EXPECT_NEAR(at(forces, i)[axis], side * share * stress[axis], 100.0 * blockRounding);
                 }
             }
 }
@@ -123,7 +123,7 @@ TEST(BlockBuilder, TetrahedraAreRightHandedAndFillTheBlock) {
         EXPECT_NEAR(now, cell.restVolume, 1e-15);  // 5.6e-4 m³ from coordinates of about 2
         volume += cell.restVolume;
     }
-    EXPECT_NEAR(volume, 0.9 * 0.6 * 0.3, rounding);
+    EXPECT_NEAR(volume, 0.9 * 0.6 * 0.3, blockRounding);
 }
 
 TEST(BlockBuilder, SurfaceIsClosedAndFacesOutward) {
@@ -143,7 +143,7 @@ TEST(BlockBuilder, SurfaceIsClosedAndFacesOutward) {
         EXPECT_GT(part, 0.0);
         volume += part;
     }
-    EXPECT_NEAR(volume, 0.9 * 0.6 * 0.3, rounding);
+    EXPECT_NEAR(volume, 0.9 * 0.6 * 0.3, blockRounding);
     for (const auto& [edge, count] : edges) {
         EXPECT_EQ(count, 1);
         EXPECT_EQ(edges.count({edge.second, edge.first}), 1U);

@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 // Sums over some thousand springs: relative errors of about √n · 1e-16, at most n · 1e-16.
-constexpr double rounding = 1e-11;
+constexpr double clothRounding = 1e-11;
 
 ClothShape flag(int across, int down) {
     ClothShape shape;
@@ -29,18 +29,18 @@ TEST(ClothBuilder, MassAndCentreAreTheMaterials) {
             shape.material.lumping = lumping;
             const Model model = buildCloth(shape);
             EXPECT_EQ(brokenRule(model), "");
-            EXPECT_NEAR(totalMass(model), 0.2 * 1.8 * 1.2, rounding);
-            EXPECT_NEAR(glm::length(centreOfMass(model) - glm::dvec3(1.2, 2.4, -1.0)), 0.0, rounding);
+            EXPECT_NEAR(totalMass(model), 0.2 * 1.8 * 1.2, clothRounding);
+            EXPECT_NEAR(glm::length(centreOfMass(model) - glm::dvec3(1.2, 2.4, -1.0)), 0.0, clothRounding);
         }
 }
 
 TEST(ClothBuilder, WeightedMassesAreAQuarterAndAHalfOnTheBoundary) {
     const Model model = buildCloth(flag(6, 4));
     const double cell = 0.2 * 0.3 * 0.3;
-    EXPECT_NEAR(model.masses[0], cell / 4, rounding);
-    EXPECT_NEAR(model.masses[3], cell / 2, rounding);
-    EXPECT_NEAR(model.masses[7], cell / 2, rounding);
-    EXPECT_NEAR(model.masses[8], cell, rounding);
+    EXPECT_NEAR(model.masses[0], cell / 4, clothRounding);
+    EXPECT_NEAR(model.masses[3], cell / 2, clothRounding);
+    EXPECT_NEAR(model.masses[7], cell / 2, clothRounding);
+    EXPECT_NEAR(model.masses[8], cell, clothRounding);
 }
 
 // C11 = C22 = ks + kd, C12 = C66 = kd, whatever the resolution.
@@ -51,10 +51,10 @@ TEST(ClothBuilder, SquareCellsHaveTheMaterialsStiffnessAtEveryResolution) {
         shape.material.shear = 400.0;
         const Model model = buildCloth(shape);
         const double area = 1.8 * 1.2;
-        EXPECT_NEAR(normalStiffness(model, 0, 0, area), 1300.0, 1300.0 * rounding);
-        EXPECT_NEAR(normalStiffness(model, 1, 1, area), 1300.0, 1300.0 * rounding);
-        EXPECT_NEAR(normalStiffness(model, 0, 1, area), 400.0, 1300.0 * rounding);
-        EXPECT_NEAR(shearStiffness(model, 0, 1, area), 400.0, 1300.0 * rounding);
+        EXPECT_NEAR(normalStiffness(model, 0, 0, area), 1300.0, 1300.0 * clothRounding);
+        EXPECT_NEAR(normalStiffness(model, 1, 1, area), 1300.0, 1300.0 * clothRounding);
+        EXPECT_NEAR(normalStiffness(model, 0, 1, area), 400.0, 1300.0 * clothRounding);
+        EXPECT_NEAR(shearStiffness(model, 0, 1, area), 400.0, 1300.0 * clothRounding);
     }
 }
 
@@ -63,8 +63,8 @@ TEST(ClothBuilder, HalfShearIsIsotropic) {
     shape.material.shear = shape.material.stretch / 2.0;
     const Model model = buildCloth(shape);
     const double c11 = normalStiffness(model, 0, 0, 1.0), c12 = normalStiffness(model, 0, 1, 1.0);
-    EXPECT_NEAR(shearStiffness(model, 0, 1, 1.0), (c11 - c12) / 2.0, c11 * rounding);
-    EXPECT_NEAR(c12 / c11, 1.0 / 3.0, rounding);
+    EXPECT_NEAR(shearStiffness(model, 0, 1, 1.0), (c11 - c12) / 2.0, c11 * clothRounding);
+    EXPECT_NEAR(c12 / c11, 1.0 / 3.0, clothRounding);
 }
 
 // A cell a by b: C12 = C66 = kd, C11 = ks + kd a²/b².
@@ -75,10 +75,10 @@ TEST(ClothBuilder, LongCellsKeepStretchAndShearPerMetre) {
         shape.material.shear = 400.0;
         const Model model = buildCloth(shape);
         const double area = 1.8 * 1.2, aspect = (1.8 / 6) / (1.2 / 8);
-        EXPECT_NEAR(normalStiffness(model, 0, 1, area), 400.0, 2500.0 * rounding);
-        EXPECT_NEAR(shearStiffness(model, 0, 1, area), 400.0, 2500.0 * rounding);
-        EXPECT_NEAR(normalStiffness(model, 0, 0, area), 900.0 + 400.0 * aspect * aspect, 2500.0 * rounding);
-        EXPECT_NEAR(normalStiffness(model, 1, 1, area), 900.0 + 400.0 / (aspect * aspect), 2500.0 * rounding);
+        EXPECT_NEAR(normalStiffness(model, 0, 1, area), 400.0, 2500.0 * clothRounding);
+        EXPECT_NEAR(shearStiffness(model, 0, 1, area), 400.0, 2500.0 * clothRounding);
+        EXPECT_NEAR(normalStiffness(model, 0, 0, area), 900.0 + 400.0 * aspect * aspect, 2500.0 * clothRounding);
+        EXPECT_NEAR(normalStiffness(model, 1, 1, area), 900.0 + 400.0 / (aspect * aspect), 2500.0 * clothRounding);
     }
 }
 
@@ -100,8 +100,8 @@ TEST(ClothBuilder, UniformStrainLoadsOnlyTheBoundaryAndEachPointByItsShare) {
             const double fx = i == 0 ? alongX * shareX : i == 6 ? -alongX * shareX : 0.0;
             const double fy = j == 0 ? -alongY * shareY : j == 4 ? alongY * shareY : 0.0;
             const glm::dvec3 force = at(forces, j * 7 + i);
-            EXPECT_NEAR(force.x, fx, rounding) << i << ' ' << j;
-            EXPECT_NEAR(force.y, fy, rounding) << i << ' ' << j;
+            EXPECT_NEAR(force.x, fx, clothRounding) << i << ' ' << j;
+            EXPECT_NEAR(force.y, fy, clothRounding) << i << ' ' << j;
             EXPECT_EQ(force.z, 0.0);
         }
 }
@@ -113,7 +113,7 @@ TEST(ClothBuilder, BendSpringsStiffenInPlaneByFourKb) {
     const double without = normalStiffness(buildCloth(shape), 0, 0, 1.8 * 1.2);
     shape.material.bend = 10.0;
     const double with = normalStiffness(buildCloth(shape), 0, 0, 1.8 * 1.2);
-    EXPECT_NEAR(with - without, 4.0 * 10.0 * 17.0 / 18.0, 1000.0 * rounding);
+    EXPECT_NEAR(with - without, 4.0 * 10.0 * 17.0 / 18.0, 1000.0 * clothRounding);
 }
 
 TEST(ClothBuilder, SpringsComeByKindAndShareRestLengths) {
@@ -154,7 +154,7 @@ TEST(ClothBuilder, TrianglesCoverItAndFaceForward) {
         EXPECT_GT(n.z, 0.0);
         area += n;
     }
-    EXPECT_NEAR(area.z, 1.8 * 1.2, rounding);
+    EXPECT_NEAR(area.z, 1.8 * 1.2, clothRounding);
     EXPECT_EQ(model.triangles.size(), 48U);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-constexpr double rounding = 1e-11;  // sums over some hundred springs
+constexpr double meshRounding = 1e-11;  // sums over some hundred springs
 
 // Rows of equilateral triangles with side c, a parallelogram of cells by cells.
 MeshClothShape equilateral(int cells, double c) {
@@ -47,10 +47,10 @@ TEST(MeshClothBuilder, EquilateralLatticeIsExact) {
         const Model model = buildMeshCloth(shape);
         EXPECT_EQ(brokenRule(model), "");
         const double young = 1200.0, area = std::sqrt(0.75);
-        EXPECT_NEAR(normalStiffness(model, 0, 0, area), young * 9.0 / 8.0, young * rounding);
-        EXPECT_NEAR(normalStiffness(model, 2, 2, area), young * 9.0 / 8.0, young * rounding);
-        EXPECT_NEAR(normalStiffness(model, 0, 2, area), young * 3.0 / 8.0, young * rounding);
-        EXPECT_NEAR(shearStiffness(model, 0, 2, area), young * 3.0 / 8.0, young * rounding);
+        EXPECT_NEAR(normalStiffness(model, 0, 0, area), young * 9.0 / 8.0, young * meshRounding);
+        EXPECT_NEAR(normalStiffness(model, 2, 2, area), young * 9.0 / 8.0, young * meshRounding);
+        EXPECT_NEAR(normalStiffness(model, 0, 2, area), young * 3.0 / 8.0, young * meshRounding);
+        EXPECT_NEAR(shearStiffness(model, 0, 2, area), young * 3.0 / 8.0, young * meshRounding);
     }
 }
 
@@ -63,14 +63,14 @@ TEST(MeshClothBuilder, AgreesWithTheGridOnAnIsotropicMaterial) {
     MeshClothShape mesh = equilateral(4, 0.25);
     mesh.material.stretch = 900.0;
     EXPECT_NEAR(normalStiffness(buildMeshCloth(mesh), 0, 0, std::sqrt(0.75)),
-                normalStiffness(buildCloth(grid), 0, 0, 1.0), 1350.0 * rounding);
+                normalStiffness(buildCloth(grid), 0, 0, 1.0), 1350.0 * meshRounding);
 }
 
 TEST(MeshClothBuilder, MassIsDensityTimesArea) {
     for (Lumping lumping : {Lumping::weighted, Lumping::uniform}) {
         MeshClothShape shape = equilateral(3, 0.4);
         shape.material.lumping = lumping;
-        EXPECT_NEAR(totalMass(buildMeshCloth(shape)), 0.2 * 1.2 * 1.2 * std::sqrt(0.75), rounding);
+        EXPECT_NEAR(totalMass(buildMeshCloth(shape)), 0.2 * 1.2 * 1.2 * std::sqrt(0.75), meshRounding);
     }
 }
 
@@ -85,7 +85,7 @@ TEST(MeshClothBuilder, BendSpringsCrossInnerEdges) {
             continue;
         }
         ++crossing;
-        EXPECT_NEAR(s.restLength, 2.0 * 0.5 * std::sqrt(0.75), rounding);
+        EXPECT_NEAR(s.restLength, 2.0 * 0.5 * std::sqrt(0.75), meshRounding);
         EXPECT_EQ(s.stiffness, 3.0);
     }
     EXPECT_EQ(edges, 16);
@@ -124,7 +124,7 @@ TEST(MeshClothBuilder, MakesUvFromTheTwoLongestAxes) {
     for (int i = 0; i < model.pointCount(); ++i) {
         const glm::dvec2 uv = model.uv[static_cast<std::size_t>(i)];
         EXPECT_EQ(uv.x, at(model.positions, i).x);
-        EXPECT_NEAR(uv.y, at(model.positions, i).z + std::sqrt(0.75), rounding);
+        EXPECT_NEAR(uv.y, at(model.positions, i).z + std::sqrt(0.75), meshRounding);
     }
     MeshClothShape given = shape;
     given.uv.assign(given.positions.size(), {0.25, 0.5});

@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 
 // Sums of a few hundred terms of about the same size.
-constexpr double rounding = 1e-12;
+constexpr double ropeRounding = 1e-12;
 
 double chord(const Model& model, int i) {
     return glm::length(at(model.positions, i + 1) - at(model.positions, i));
@@ -26,8 +26,8 @@ TEST(RopeBuilder, MassIsTheRopesForEveryResolutionAndLumping) {
             const Model model = buildRope(shape);
             EXPECT_EQ(brokenRule(model), "");
             EXPECT_EQ(model.pointCount(), segments + 1);
-            EXPECT_NEAR(totalMass(model), 2.5, 2.5 * rounding);
-            EXPECT_NEAR(centreOfMass(model).x, 0.5, rounding);
+            EXPECT_NEAR(totalMass(model), 2.5, 2.5 * ropeRounding);
+            EXPECT_NEAR(centreOfMass(model).x, 0.5, ropeRounding);
         }
 }
 
@@ -39,7 +39,7 @@ TEST(RopeBuilder, SpringsInARowHaveTheRopesStiffness) {
         shape.stretch = 600.0;
         double compliance = 0.0;
         for (const Spring& s : buildRope(shape).springs) compliance += 1.0 / s.stiffness;
-        EXPECT_NEAR(1.0 / compliance, 600.0 / 3.0, 200.0 * rounding);
+        EXPECT_NEAR(1.0 / compliance, 600.0 / 3.0, 200.0 * ropeRounding);
     }
 }
 
@@ -56,7 +56,7 @@ TEST(RopeBuilder, HangingByItsOwnWeightStretchesByHalfMgLOverEa) {
         below += model.masses[static_cast<std::size_t>(i) + 1];
         extension += below * 9.81 / model.springs[static_cast<std::size_t>(i)].stiffness;
     }
-    EXPECT_NEAR(extension, 0.7 * 9.81 * 2.0 / (2.0 * 500.0), rounding);
+    EXPECT_NEAR(extension, 0.7 * 9.81 * 2.0 / (2.0 * 500.0), ropeRounding);
 }
 
 TEST(RopeBuilder, SpringsOfAKindShareOneRestLength) {
@@ -145,7 +145,7 @@ TEST(RopeBuilder, EndsInOnePlaceMakeARing) {
         shape.segments = segments;
         shape.length = 3.0;
         const Model model = buildRope(shape);
-        for (int i = 0; i < segments; ++i) EXPECT_NEAR(chord(model, i), 3.0 / segments, rounding);
+        for (int i = 0; i < segments; ++i) EXPECT_NEAR(chord(model, i), 3.0 / segments, ropeRounding);
         for (const glm::dvec3& p : model.positions) EXPECT_LE(p.y, 0.0);
     }
 }
@@ -156,7 +156,7 @@ TEST(RopeBuilder, ShorterThanItsDistanceIsTautAndEven) {
     shape.segments = 5;
     const Model model = buildRope(shape);
     for (int i = 0; i < 5; ++i) {
-        EXPECT_NEAR(chord(model, i), 0.2, rounding);
+        EXPECT_NEAR(chord(model, i), 0.2, ropeRounding);
         EXPECT_EQ(model.springs[static_cast<std::size_t>(i)].restLength, 0.8 / 5);
     }
 }

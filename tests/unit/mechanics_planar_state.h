@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
+#include <vector>
 
 #include "taut/core/aligned_array.h"
 #include "taut/core/instruction_set.h"
@@ -12,6 +13,12 @@
 #include "taut/mechanics/model.h"
 
 namespace taut::mechanics::test {
+
+inline glm::dvec3 sum(const std::vector<glm::dvec3>& vectors) {
+    glm::dvec3 total(0.0);
+    for (const glm::dvec3& v : vectors) total += v;
+    return total;
+}
 
 template <class Real>
 class PlanarState {

@@ -14,6 +14,7 @@ namespace {
 
 using glm::dvec3;
 using test::PlanarState;
+using test::sum;
 
 Model block(int cells) {
     BlockShape shape;
@@ -37,12 +38,6 @@ VolumePreservation<double> generatorOf(const Model& model, double workingStretch
 void scale(PlanarState<double>& state, const dvec3& factors) {
     for (int i = 0; i < state.count; ++i)
         for (int axis = 0; axis < 3; ++axis) state.x[state.index(i, axis)] *= factors[axis];
-}
-
-dvec3 sum(const std::vector<dvec3>& vectors) {
-    dvec3 total(0.0);
-    for (const dvec3& v : vectors) total += v;
-    return total;
 }
 
 // K = -∂f/∂x column by column, with the masses' roots divided out if asked.
@@ -265,7 +260,7 @@ TEST(Volume, StabilityShareFollowsAStateBeyondTheWorkingStretch) {
 }
 
 template <class Real>
-void expectSameBits() {
+void expectSameVolumeBits() {
     Model model = block(7);
     const std::size_t regular = model.cells.size();
     for (std::size_t k = 0; k < 100; ++k) model.cells.push_back(model.cells[(k * 97) % regular]);
@@ -281,8 +276,8 @@ void expectSameBits() {
 }
 
 TEST(Volume, HasTheSameBitsForEveryInstructionSet) {
-    expectSameBits<float>();
-    expectSameBits<double>();
+    expectSameVolumeBits<float>();
+    expectSameVolumeBits<double>();
 }
 
 TEST(Volume, OrderOfCellsMattersOnlyInRounding) {

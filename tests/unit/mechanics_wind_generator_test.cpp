@@ -15,8 +15,9 @@ namespace {
 
 using glm::dvec3;
 using test::PlanarState;
+using test::sum;
 
-constexpr double rounding = 1e-12;  // forces of a few N in double
+constexpr double windRounding = 1e-12;  // forces of a few N in double
 
 // A right triangle of ½ m² whose normal lies at the angle α from the y-z plane's, so that wind along x meets its
 // plane at α.
@@ -34,12 +35,6 @@ WindSettings settings(double drag, double lift) {
     return s;
 }
 
-dvec3 sum(const std::vector<dvec3>& vectors) {
-    dvec3 total(0.0);
-    for (const dvec3& v : vectors) total += v;
-    return total;
-}
-
 // The formula of the header, written for one triangle.
 dvec3 expectedForce(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& u, const WindSettings& s) {
     const dvec3 cross = glm::cross(b - a, c - a);
@@ -50,7 +45,7 @@ dvec3 expectedForce(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3&
     return 0.5 * s.airDensity * area * un * (s.drag * u + s.lift * (speed * n - un / speed * u));
 }
 
-Model cloth() {
+Model sheet() {
     ClothShape shape;
     shape.cells = {37, 29};
     shape.size = {1.85, 1.45};
@@ -61,9 +56,9 @@ TEST(Wind, FlatPlateAcrossTheFlowHasHalfRhoACdUSquared) {
     PlanarState<double> state(plateAt(core::pi / 2), masses);
     const Wind<double> wind(one, {6, 0, 0}, settings(1.2, 0.6));
     const std::vector<dvec3> f = state.forces(wind);
-    EXPECT_NEAR(sum(f).x, 0.5 * 1.2 * 0.5 * 1.2 * 36.0, rounding);
-    EXPECT_NEAR(sum(f).y, 0.0, rounding);
-    for (const dvec3& corner : f) EXPECT_NEAR(glm::length(corner - f[0]), 0.0, rounding);
+    EXPECT_NEAR(sum(f).x, 0.5 * 1.2 * 0.5 * 1.2 * 36.0, windRounding);
+    EXPECT_NEAR(sum(f).y, 0.0, windRounding);
+    for (const dvec3& corner : f) EXPECT_NEAR(glm::length(corner - f[0]), 0.0, windRounding);
 }
 
 TEST(Wind, DragIsForTheAreaThatTheFlowSeesAndLiftTurnsTowardsTheNormal) {
@@ -72,8 +67,8 @@ TEST(Wind, DragIsForTheAreaThatTheFlowSeesAndLiftTurnsTowardsTheNormal) {
         const dvec3 drag = sum(state.forces(Wind<double>(one, {5, 0, 0}, settings(1.0, 0.0))));
         const dvec3 lift = sum(state.forces(Wind<double>(one, {5, 0, 0}, settings(0.0, 1.0))));
         const double head = 0.5 * 1.2 * 0.5 * 25.0;
-        EXPECT_NEAR(glm::length(drag - dvec3(head * std::sin(alpha), 0, 0)), 0.0, rounding);
-        EXPECT_NEAR(glm::length(lift - dvec3(0, head * std::sin(alpha) * std::cos(alpha), 0)), 0.0, rounding);
+        EXPECT_NEAR(glm::length(drag - dvec3(head * std::sin(alpha), 0, 0)), 0.0, windRounding);
+        EXPECT_NEAR(glm::length(lift - dvec3(0, head * std::sin(alpha) * std::cos(alpha), 0)), 0.0, windRounding);
     }
 }
 
@@ -89,14 +84,14 @@ TEST(Wind, WindingDoesNotMatter) {
     const std::vector<std::array<int, 3>> turned = {{0, 2, 1}};
     const dvec3 f = sum(state.forces(Wind<double>(one, {5, 1, 2}, settings(1.0, 0.6))));
     const dvec3 g = sum(state.forces(Wind<double>(turned, {5, 1, 2}, settings(1.0, 0.6))));
-    EXPECT_NEAR(glm::length(f - g), 0.0, rounding);
+    EXPECT_NEAR(glm::length(f - g), 0.0, windRounding);
 }
 
 TEST(Wind, AirThatMovesWithTheClothHasNoForce) {
-    PlanarState<double> state(cloth());
-    for (const dvec3& f : state.forces(Wind<double>(cloth().triangles, dvec3(0.0), {}))) EXPECT_EQ(f, dvec3(0.0));
+    PlanarState<double> state(sheet());
+    for (const dvec3& f : state.forces(Wind<double>(sheet().triangles, dvec3(0.0), {}))) EXPECT_EQ(f, dvec3(0.0));
     for (int i = 0; i < state.count; ++i) state.set(state.v, i, {2, 1, -4});
-    for (const dvec3& f : state.forces(Wind<double>(cloth().triangles, {2, 1, -4}, {})))
+    for (const dvec3& f : state.forces(Wind<double>(sheet().triangles, {2, 1, -4}, {})))
         EXPECT_LT(glm::length(f), 1e-30);  // u is one rounding of 4 at most, and the force goes with its square
 }
 
@@ -105,7 +100,7 @@ TEST(Wind, OnlyRelativeVelocityCounts) {
     for (int i = 0; i < 3; ++i) moving.set(moving.v, i, {1, 2, 3});
     const dvec3 f = sum(still.forces(Wind<double>(one, {4, -1, 2}, {})));
     const dvec3 g = sum(moving.forces(Wind<double>(one, {5, 1, 5}, {})));
-    EXPECT_NEAR(glm::length(f - g), 0.0, rounding);
+    EXPECT_NEAR(glm::length(f - g), 0.0, windRounding);
 }
 
 // A plate that falls flat stops gaining speed at √(2 m g / ρ A C_D).
@@ -116,12 +111,12 @@ TEST(Wind, CarriesTheWeightAtTheTerminalSpeed) {
         PlanarState<double> state(flat, masses);
         for (int i = 0; i < 3; ++i) state.set(state.v, i, {0, -factor * terminal, 0});
         const double up = sum(state.forces(Wind<double>(one, dvec3(0.0), {}))).y;
-        EXPECT_NEAR(up, factor * factor * weight, rounding);
+        EXPECT_NEAR(up, factor * factor * weight, windRounding);
     }
 }
 
 TEST(Wind, ClothFeelsTheFormulaInEveryTriangleGustsIncluded) {
-    const Model model = cloth();
+    const Model model = sheet();
     PlanarState<double> state(model);
     state.shake(0.01, 1.0);
     WindSettings s;
@@ -138,11 +133,11 @@ TEST(Wind, ClothFeelsTheFormulaInEveryTriangleGustsIncluded) {
         for (int i : triangle) expected[static_cast<std::size_t>(i)] += expectedForce(p[0], p[1], p[2], u, s) / 3.0;
     }
     const std::vector<dvec3> f = state.forces(wind, 0.75);
-    for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(glm::length(f[i] - expected[i]), 0.0, rounding);
+    for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(glm::length(f[i] - expected[i]), 0.0, windRounding);
 }
 
 TEST(Wind, OrderOfTrianglesMattersOnlyInRounding) {
-    const Model model = cloth();
+    const Model model = sheet();
     PlanarState<double> state(model);
     state.shake(0.01, 1.0);
     std::vector<std::array<int, 3>> mixed;  // every 7th: no runs left
@@ -151,12 +146,12 @@ TEST(Wind, OrderOfTrianglesMattersOnlyInRounding) {
     for (std::size_t k = 0; k < n; ++k) mixed.push_back(model.triangles[7 * k % n]);
     const std::vector<dvec3> f = state.forces(Wind<double>(model.triangles, {6, 0, 1}, {}));
     const std::vector<dvec3> g = state.forces(Wind<double>(mixed, {6, 0, 1}, {}));
-    for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(glm::length(f[i] - g[i]), 0.0, rounding);
+    for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(glm::length(f[i] - g[i]), 0.0, windRounding);
 }
 
 template <class Real>
-void expectSameBits() {
-    Model model = cloth();
+void expectSameWindBits() {
+    Model model = sheet();
     // The grid's rows run; these do not.
     for (int k = 0; k < 90; ++k) model.triangles.push_back({3 * k, 1100 - 2 * k, 500 + (k * 37) % 450});
     PlanarState<Real> state(model);
@@ -173,8 +168,8 @@ void expectSameBits() {
 }
 
 TEST(Wind, HasTheSameBitsForEveryInstructionSet) {
-    expectSameBits<float>();
-    expectSameBits<double>();
+    expectSameWindBits<float>();
+    expectSameWindBits<double>();
 }
 
 TEST(Wind, DegenerateTrianglesStayFinite) {
@@ -198,8 +193,8 @@ TEST(Wind, VelocityRisesEvenlyBetweenItsTimes) {
     EXPECT_EQ(wind.airVelocity({0, 0, 0}, 0.0), dvec3(2, 0, 0));
     EXPECT_EQ(wind.airVelocity({0, 0, 0}, 2.0), dvec3(4, 0, 0));
     PlanarState<double> state(plateAt(core::pi / 2), masses);
-    EXPECT_NEAR(sum(state.forces(wind, 2.0)).x, 0.5 * 1.2 * 0.5 * 16.0, rounding);
-    EXPECT_NEAR(sum(state.forces(wind, 9.0)).x, 0.5 * 1.2 * 0.5 * 36.0, rounding);
+    EXPECT_NEAR(sum(state.forces(wind, 2.0)).x, 0.5 * 1.2 * 0.5 * 16.0, windRounding);
+    EXPECT_NEAR(sum(state.forces(wind, 9.0)).x, 0.5 * 1.2 * 0.5 * 36.0, windRounding);
 }
 
 // The largest |∂F/∂v| over many attitudes, from differences, against the share of a corner: a third of it, over m.

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "taut/core/error.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "taut/pipeline/sealed_file.h"
 
 namespace taut::pipeline {

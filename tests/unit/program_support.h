@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "game/program.h"
+#include "support/text.h"
 
 namespace taut::test {
 
@@ -25,10 +26,6 @@ inline Outcome run(const std::vector<std::string>& arguments) {
     outcome.out = testing::internal::GetCapturedStdout();
     outcome.err = testing::internal::GetCapturedStderr();
     return outcome;
-}
-
-inline bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 }  // namespace taut::test

@@ -13,15 +13,13 @@
 #include "image_support.h"
 #include "taut/report/layout.h"
 #include "taut/report/palette.h"
+#include "support/text.h"
 
 namespace taut::report {
 namespace {
 
+using test::has;
 using test::TemporaryFolder;
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 // Something of everything that a chart can hold.
 Chart fullChart() {

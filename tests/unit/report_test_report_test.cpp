@@ -8,21 +8,19 @@
 #include "taut/report/junit.h"
 #include "taut/report/test_page.h"
 #include "report_test_results.h"
+#include "support/text.h"
 
-namespace taut::report {
+namespace taut::report::report_test_report {
 namespace {
 
 using test::bytes;
+using taut::test::has;
 using test::mixedReport;
 
 int count(const std::string& text, const std::string& part) {
     int n = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
     return n;
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 TEST(TestReport, OfSeveralFailuresTheGravestCounts) {
@@ -120,4 +118,4 @@ TEST(TestReportPage, ShowsTheCalibration) {
 }
 
 }  // namespace
-}  // namespace taut::report
+}  // namespace taut::report::report_test_report

@@ -6,9 +6,9 @@ namespace {
 
 using glm::dvec3;
 
-constexpr const char* yard =
+constexpr const char* mergedYard =
     "schema = 1\n"
-    "title = \"a yard\"\n"
+    "title = \"a mergedYard\"\n"
     "[run]\nfps = 30\nseconds = 2\n"
     "[rope.line]\nends = [[0, 1, 0], [1, 1, 0]]\nsegments = 8\nhold = [\"ends\"]\n"
     "finish = { weave = 0.5, roughness = 0.25 }\n"
@@ -16,13 +16,13 @@ constexpr const char* yard =
 
 TEST(SceneMerge, TablesAreMergedDeeplyAndAllElseIsReplaced) {
     const AssetFolder folder;
-    folder.write("yard.toml", yard);
+    folder.write("yard.toml", mergedYard);
     const Loaded loaded = folder.load(
         "schema = 1\nscene = \"yard.toml\"\nrun = { seconds = 3 }\n"
         "[rope.line]\nhold = [\"start\"]\nfinish = { weave = 0.75 }\n"
         "[rope.other]\nends = [[0, 2, 0], [1, 2, 0]]\n");
     const world::SceneSpec& scene = loaded.spec;
-    EXPECT_EQ(scene.title, "a yard");
+    EXPECT_EQ(scene.title, "a mergedYard");
     EXPECT_EQ(scene.run.fps, 30.0);
     EXPECT_EQ(scene.run.seconds, 3.0);
     ASSERT_EQ(scene.ropes.size(), 2U);
@@ -42,11 +42,11 @@ TEST(SceneMerge, TablesAreMergedDeeplyAndAllElseIsReplaced) {
 
 TEST(SceneMerge, OverridesComeOnTop) {
     const AssetFolder folder;
-    folder.write("yard.toml", yard);
+    folder.write("yard.toml", mergedYard);
     LoadOptions options;
     options.overrides = {"rope.line.segments=16", "run.seconds=4"};
     const world::SceneSpec scene =
-        folder.load("schema = 1\nscene = \"yard\"\n[rope.line]\nsegments = 12\n", options).spec;
+        folder.load("schema = 1\nscene = \"mergedYard\"\n[rope.line]\nsegments = 12\n", options).spec;
     EXPECT_EQ(scene.ropes[0].segments, 16);
     EXPECT_EQ(scene.run.seconds, 4.0);
 }
@@ -54,7 +54,7 @@ TEST(SceneMerge, OverridesComeOnTop) {
 TEST(SceneMerge, AShippedSceneIsFoundAlsoByAFileOfItsName) {
     const AssetFolder folder, assets;
     std::filesystem::create_directory(assets / "scenes");
-    assets.write("scenes/s.toml", yard);
+    assets.write("scenes/s.toml", mergedYard);
     LoadOptions options;
     options.assetFolders = {assets / ""};
     for (const char* name : {"s", "s.toml"}) {
@@ -113,7 +113,7 @@ TEST(SceneMerge, AChainOfScenesIsRefused) {
 
 TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {
     const AssetFolder folder;
-    folder.write("yard.toml", yard);
+    folder.write("yard.toml", mergedYard);
     const auto messageOf = [&](const std::string& name) {
         folder.write("s.toml", "schema = 1\nscene = " + name + "\n");
         try {
@@ -126,7 +126,7 @@ TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {
     };
     const std::string start = "s.toml:2:9: error: ";
     EXPECT_EQ(messageOf("\"yart\""),
-              start + "there is no scene \"yart\"\n  scene = \"yart\"\n          ^ did you mean \"yard\"?");
+              start + "there is no scene \"yart\"\n  scene = \"yart\"\n          ^ did you mean \"mergedYard\"?");
     EXPECT_EQ(messageOf("\"wood.toml\""),
               start + "there is no scene \"wood.toml\"\n  scene = \"wood.toml\"\n          ^ looked for wood.toml");
     EXPECT_EQ(messageOf("\"s\""), start + "this scene names itself\n  scene = \"s\"\n          ^");
@@ -136,8 +136,8 @@ TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {
 
 TEST(SceneMerge, TheSceneCannotBeSet) {
     LoadOptions options;
-    options.overrides = {"scene=yard"};
-    EXPECT_EQ(messageOver(yard, "", options), "--set scene: error: the scene that a file builds on cannot be set");
+    options.overrides = {"scene=mergedYard"};
+    EXPECT_EQ(messageOver(mergedYard, "", options), "--set scene: error: the scene that a file builds on cannot be set");
 }
 
 // A scenario can be looked at for a second: what lies past an end that was set by hand is left out, not wrong.

@@ -9,55 +9,42 @@
 #include "game/program.h"
 #include "taut/image/read.h"
 #include "image_support.h"
+#include "program_support.h"
 
 namespace taut::game {
 namespace {
 
+using test::has;
+using test::Outcome;
 using test::TemporaryFolder;
 
-struct Outcome {
-    int code = 0;
-    std::string out, err;
-};
-
-Outcome run(const std::vector<std::string>& arguments) {
-    std::vector<const char*> argv = {"taut", "atlas"};
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    Outcome outcome;
-    outcome.code = runProgram(static_cast<int>(argv.size()), argv.data());
-    outcome.out = testing::internal::GetCapturedStdout();
-    outcome.err = testing::internal::GetCapturedStderr();
-    return outcome;
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+Outcome atlas(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "atlas");
+    return test::run(arguments);
 }
 
 TEST(AtlasCommand, WrongWordsAreUsageErrors) {
-    const Outcome method = run({"--methods", "rk4,leapfrg"});
+    const Outcome method = atlas({"--methods", "rk4,leapfrg"});
     EXPECT_EQ(method.code, 2);
     EXPECT_TRUE(has(method.err, "there is no method 'leapfrg'; did you mean leapfrog?")) << method.err;
-    EXPECT_EQ(run({"--cells", "1"}).code, 2);
+    EXPECT_EQ(atlas({"--cells", "1"}).code, 2);
     for (const char* seconds : {"0", "-1", "nan", "inf"}) {
-        const Outcome wrong = run({"rope", "--seconds", seconds});
+        const Outcome wrong = atlas({"rope", "--seconds", seconds});
         EXPECT_EQ(wrong.code, 2) << seconds;
         EXPECT_TRUE(has(wrong.err, "expected a number from 0.001 to 86400")) << wrong.err;
     }
-    const Outcome noScene = run({"--seconds", "1"});
+    const Outcome noScene = atlas({"--seconds", "1"});
     EXPECT_EQ(noScene.code, 2);
     EXPECT_TRUE(has(noScene.err, "name one")) << noScene.err;
-    EXPECT_EQ(run({"rope", "--set", "run.fps=30"}).code, 2);
-    EXPECT_EQ(run({"no/such.toml"}).code, 6);
-    EXPECT_EQ(run({"no-such-scene"}).code, 6);
+    EXPECT_EQ(atlas({"rope", "--set", "run.fps=30"}).code, 2);
+    EXPECT_EQ(atlas({"no/such.toml"}).code, 6);
+    EXPECT_EQ(atlas({"no-such-scene"}).code, 6);
 }
 
 TEST(AtlasCommand, WritesTheMapAndThePhasePlane) {
     const TemporaryFolder folder;
     const Outcome outcome =
-        run({"--methods", "euler,leapfrog", "--cells", "9", "--quiet", "-o", (folder / "atlas").string()});
+        atlas({"--methods", "euler,leapfrog", "--cells", "9", "--quiet", "-o", (folder / "atlas").string()});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(outcome.err.empty()) << outcome.err;
     EXPECT_TRUE(has(outcome.out, "largest gap")) << outcome.out;
@@ -79,7 +66,7 @@ damping_time_s = 0.0
 drag_per_s = 0.0
 hold = ["ends"]
 )");
-    const Outcome outcome = run({(folder / "swing.toml").string(), "--methods", "leapfrog,implicit-euler", "--seconds",
+    const Outcome outcome = atlas({(folder / "swing.toml").string(), "--methods", "leapfrog,implicit-euler", "--seconds",
                                  "0.3", "--quiet", "-o", (folder / "out").string()});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(has(outcome.out, "rope.line")) << outcome.out;
@@ -98,7 +85,7 @@ TEST(AtlasCommand, WithoutGnuplotWritesTheTablesAndSaysSo) {
     const char* path = std::getenv("PATH");
     const std::string before = path == nullptr ? "" : path;
     ::setenv("PATH", (folder / "empty").c_str(), 1);
-    const Outcome outcome = run({"rope", "--methods", "leapfrog", "--quiet", "-o", (folder / "out").string()});
+    const Outcome outcome = atlas({"rope", "--methods", "leapfrog", "--quiet", "-o", (folder / "out").string()});
     ::setenv("PATH", before.c_str(), 1);
     EXPECT_EQ(outcome.code, 6);
     EXPECT_TRUE(has(outcome.err, "gnuplot")) << outcome.err;

@@ -26,7 +26,7 @@ world::SceneSpec bucklingRope() {
     return scene;
 }
 
-std::string refusal(const world::SceneSpec& scene) {
+std::string horizonRefusal(const world::SceneSpec& scene) {
     try {
         (void)makeSceneSubject(scene, "s");
     } catch (const core::Error& error) {
@@ -39,12 +39,12 @@ std::string refusal(const world::SceneSpec& scene) {
 TEST(StudyHorizon, OfASceneWithoutFreePointsThereIsNone) {
     world::SceneSpec scene;
     scene.file = "s.toml";
-    EXPECT_NE(refusal(scene).find("s.toml: error: nothing in the scene can move"), std::string::npos);
+    EXPECT_NE(horizonRefusal(scene).find("s.toml: error: nothing in the scene can move"), std::string::npos);
     scene.cloths.push_back(support::cloth("c", 4));
     scene.cloths.back().hold = {"all"};
-    EXPECT_NE(refusal(scene).find("nothing in the scene can move"), std::string::npos);
+    EXPECT_NE(horizonRefusal(scene).find("nothing in the scene can move"), std::string::npos);
     scene.cloths.back().hold = {"top"};
-    EXPECT_EQ(refusal(scene), "");
+    EXPECT_EQ(horizonRefusal(scene), "");
 }
 
 TEST(StudyHorizon, AShiftThatMovesNothingGrowsByOne) {

@@ -7,7 +7,7 @@
 
 #include "taut/core/error.h"
 #include "game/scene_file.h"
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 #include "image_support.h"
 #include "program_support.h"
 
@@ -52,7 +52,7 @@ TEST(PlanCommand, PrintsTheEvidenceAndKeepsTheFile) {
     for (const char* part : {"Force generators", "Resolution", "Candidates", "implicit-euler", "as written", "chosen",
                              "Verification", "rope.r.segments = ", "The need is met"})
         EXPECT_TRUE(has(outcome.out, part)) << part << "\n" << outcome.out;
-    EXPECT_EQ(image::fileContent(path), rope);
+    EXPECT_EQ(core::fileContent(path), rope);
 }
 
 TEST(PlanCommand, WritesTheChangedValuesOnly) {
@@ -61,7 +61,7 @@ TEST(PlanCommand, WritesTheChangedValuesOnly) {
     const auto json = folder / "plan.json";
     const Outcome outcome = run({"plan", path.string(), "--quiet", "--write", "-o", json.string()});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const auto plan = nlohmann::json::parse(image::fileContent(json));
+    const auto plan = nlohmann::json::parse(core::fileContent(json));
     EXPECT_TRUE(plan["met"].get<bool>());
     EXPECT_GT(plan["candidates"].size(), 7U) << "every method";
     EXPECT_GT(plan["cost_as_written_over_planned"].get<double>(), 1.0);
@@ -70,7 +70,7 @@ TEST(PlanCommand, WritesTheChangedValuesOnly) {
         if (change["key"] == "rope.r.segments") segments = change["value"];
     ASSERT_FALSE(segments.empty());
 
-    const std::string written = image::fileContent(path);
+    const std::string written = core::fileContent(path);
     EXPECT_TRUE(has(written, "segments = " + segments + "     # too many\n")) << written;
     EXPECT_TRUE(written.starts_with(rope.substr(0, rope.find("segments")))) << written;
 
@@ -92,7 +92,7 @@ TEST(PlanCommand, EndsWithFiveWhenTheNeedCannotBeMet) {
         run({"plan", path.string(), "--quiet", "--effort", "0.001", "--set", "need.rms_position_m=1e-8"});
     EXPECT_EQ(fine.code, 5) << fine.err;
     EXPECT_TRUE(has(fine.out, "cannot be met: the nearest, leapfrog")) << fine.out;
-    EXPECT_EQ(image::fileContent(path), rope);
+    EXPECT_EQ(core::fileContent(path), rope);
 }
 
 TEST(PlanCommand, SaysWhatItDidNotLookAt) {
@@ -104,7 +104,7 @@ TEST(PlanCommand, SaysWhatItDidNotLookAt) {
     EXPECT_TRUE(has(outcome.out, "between 0.1 s and the end of the run at 1 s was not looked at")) << outcome.out;
     EXPECT_TRUE(has(outcome.err, "warning: what happens between 0.1 s and 1 s was not looked at")) << outcome.err;
     // 0.9: a second of which a tenth was looked at; 1e-12 rounding.
-    EXPECT_NEAR(nlohmann::json::parse(image::fileContent(json))["not_looked_at_s"].get<double>(), 0.9, 1e-12);
+    EXPECT_NEAR(nlohmann::json::parse(core::fileContent(json))["not_looked_at_s"].get<double>(), 0.9, 1e-12);
 }
 
 TEST(PlanCommand, ShowsNoTimeOfWhatWasStopped) {
@@ -116,7 +116,7 @@ TEST(PlanCommand, ShowsNoTimeOfWhatWasStopped) {
                    "need.rms_position_m=4e-3", "--set", "need.horizon_s=0.3"})
                   .code,
               0);
-    const auto plan = nlohmann::json::parse(image::fileContent(json));
+    const auto plan = nlohmann::json::parse(core::fileContent(json));
     int stopped = 0;
     for (const auto& trial : plan["candidates"]) {
         if (!trial["was_stopped"].get<bool>()) continue;
@@ -150,7 +150,7 @@ hold = ["start"]
     EXPECT_EQ(outcome.code, 5) << outcome.err;
     EXPECT_TRUE(has(outcome.out, "The motion is chaotic")) << outcome.out;
     EXPECT_TRUE(has(outcome.out, "nothing is written")) << outcome.out;
-    EXPECT_EQ(image::fileContent(path), buckling);
+    EXPECT_EQ(core::fileContent(path), buckling);
 }
 
 TEST(PlanCommand, WhereNothingCanMoveThereIsNothingToPlan) {
@@ -165,9 +165,9 @@ TEST(PlanCommand, AFileThatChangedMeanwhileIsLeftAlone) {
     const TemporaryFolder folder;
     const auto path = fileOf(folder, rope + "# somebody was here\n");
     EXPECT_THROW(replaceSceneFile(path, rope, "new"), core::Error);
-    EXPECT_EQ(image::fileContent(path), rope + "# somebody was here\n");
+    EXPECT_EQ(core::fileContent(path), rope + "# somebody was here\n");
     replaceSceneFile(path, rope + "# somebody was here\n", "new");
-    EXPECT_EQ(image::fileContent(path), "new");
+    EXPECT_EQ(core::fileContent(path), "new");
 }
 
 TEST(PlanCommand, AsksForANeed) {

@@ -10,9 +10,12 @@
 #include "taut/study/plan_need.h"
 #include "taut/study/plan_run.h"
 #include "support/small_scenes.h"
+#include "support/text.h"
 
 namespace taut::study {
 namespace {
+
+using test::has;
 
 world::SceneSpec sceneWithNeed() {
     world::SceneSpec scene;
@@ -25,7 +28,7 @@ world::SceneSpec sceneWithNeed() {
     return scene;
 }
 
-std::string refusal(const world::SceneSpec& scene) {
+std::string planRefusal(const world::SceneSpec& scene) {
     try {
         checkNeed(scene);
     } catch (const core::Error& error) {
@@ -35,14 +38,10 @@ std::string refusal(const world::SceneSpec& scene) {
     return "";
 }
 
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 TEST(PlanNeed, AMissingOneIsExplainedByAnExample) {
     world::SceneSpec scene = sceneWithNeed();
     scene.need = {};
-    const std::string message = refusal(scene);
+    const std::string message = planRefusal(scene);
     EXPECT_TRUE(has(message, "s.toml: error: ")) << message;
     EXPECT_TRUE(has(message, "[need]\n    rms_position_m = ")) << message;
 }
@@ -50,15 +49,15 @@ TEST(PlanNeed, AMissingOneIsExplainedByAnExample) {
 TEST(PlanNeed, WithoutAnAccuracyItIsRefused) {
     world::SceneSpec scene = sceneWithNeed();
     scene.need.rmsPosition.reset();
-    EXPECT_TRUE(has(refusal(scene), "how accurate"));
+    EXPECT_TRUE(has(planRefusal(scene), "how accurate"));
 }
 
 TEST(PlanNeed, AHorizonBeyondTheRunContradictsIt) {
     world::SceneSpec scene = sceneWithNeed();
     scene.run.seconds = 0.4;
-    EXPECT_TRUE(has(refusal(scene), "horizon_s = 0.5 is later than the end of the run at 0.4 s"));
+    EXPECT_TRUE(has(planRefusal(scene), "horizon_s = 0.5 is later than the end of the run at 0.4 s"));
     scene.run.seconds = 0.5;
-    EXPECT_EQ(refusal(scene), "");
+    EXPECT_EQ(planRefusal(scene), "");
 }
 
 TEST(PlanNeed, OfSeveralTargetsTheStrictestCounts) {

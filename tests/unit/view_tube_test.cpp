@@ -10,8 +10,6 @@
 namespace taut::view::test {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
 std::vector<glm::vec3> helix(int points) {
     std::vector<glm::vec3> line;
     for (int i = 0; i < points; ++i) {
@@ -45,8 +43,8 @@ TEST(ViewTube, StraightTubeHasTheVolumeOfItsPrism) {
     const float r = 0.01F;
     const int sides = 16;
     const float prism =
-        0.5F * static_cast<float>(sides) * r * r * std::sin(2.0F * pi / static_cast<float>(sides)) * 2.0F;
-    const float caps = 4.0F / 3.0F * pi * r * r * r;
+        0.5F * static_cast<float>(sides) * r * r * std::sin(2.0F * std::numbers::pi_v<float> / static_cast<float>(sides)) * 2.0F;
+    const float caps = 4.0F / 3.0F * std::numbers::pi_v<float> * r * r * r;
     const float measured = volume(tubeTopology(3, 4, sides, 2.0F, r), tubeGeometry(line, 4, sides, r));
     EXPECT_GT(measured, prism);
     EXPECT_LT(measured, prism + caps);
@@ -88,7 +86,7 @@ TEST(ViewTube, MaterialCoordinatesMeasureTheRope) {
     const std::size_t firstRing = 1 + 8;  // after the pole and the cap's ring
     EXPECT_FLOAT_EQ(topology.uv[firstRing].x, 0.0F);
     EXPECT_FLOAT_EQ(topology.uv[firstRing + 8 * 8].x, 4.0F);
-    EXPECT_FLOAT_EQ(topology.uv[firstRing + 4].y, 0.1F * pi);  // half way round
+    EXPECT_FLOAT_EQ(topology.uv[firstRing + 4].y, 0.1F * std::numbers::pi_v<float>);  // half way round
 }
 
 TEST(ViewTube, CoincidentPointsStayFinite) {

@@ -29,7 +29,7 @@ SceneSpec dumbbell() {
 }
 
 // One mass of 2 kg, free in empty space, or under gravity; tied by a spring of no force to one that is held.
-SceneSpec lone(const std::string& method = "leapfrog") {
+SceneSpec loneMass(const std::string& method = "leapfrog") {
     SceneSpec scene;
     scene.solver.precision = Precision::double_;
     scene.solver.integrator = method;
@@ -95,7 +95,7 @@ TEST_P(EveryMethodActs, AnImpulseOnAPartOfABodyIsItsMomentum) {
 }
 
 TEST(Actions, AHeldPointStaysToTheBitAndAFreedOneFalls) {
-    SceneSpec scene = lone();
+    SceneSpec scene = loneMass();
     scene.actions = {action(Do::hold, 0.1, "net.ball@m"), action(Do::free, 0.3, "net.ball@m")};
     World world(scene);
     run(world, 7);
@@ -110,7 +110,7 @@ TEST(Actions, AHeldPointStaysToTheBitAndAFreedOneFalls) {
 
 // At rest m g = k x: 2 kg and then 5 kg on 500 N/m.
 TEST(Actions, AddedMassMovesTheEquilibrium) {
-    SceneSpec scene = lone();
+    SceneSpec scene = loneMass();
     scene.nets[0].points[1].position = {0, 1, 0};
     scene.nets[0].points[0].mass = 2;
     scene.nets[0].springs[0] = {"m", "wall", 500.0, 1.0, std::nullopt, {}};
@@ -231,7 +231,7 @@ TEST(Actions, AColliderThatIsSentAtOnceDoesNotTearClothApart) {
 }
 
 TEST(Actions, PenetrationIsTheDepthInsideAColliderBeforeContactTakesItAway) {
-    SceneSpec scene = lone();
+    SceneSpec scene = loneMass();
     scene.nets[0].collide = true;
     scene.colliders = {support::ball("ball", {0, 0.1, 0}, 0.4)};
     World world(scene);

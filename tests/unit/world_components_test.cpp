@@ -6,12 +6,15 @@
 
 #include "taut/core/trig.h"
 #include "support/small_scenes.h"
+#include "support/timelines.h"
 #include "taut/world/components.h"
 #include "taut/world/rotation.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
 namespace {
+
+using support::run;
 
 // A component that only this test knows: it turns what it is on about the vertical.
 struct Spinner {
@@ -36,10 +39,6 @@ double lowest(const World& world, ecs::Entity body) {
     double y = HUGE_VAL;
     for (const dvec3& x : world.positions(body)) y = std::min(y, x.y);
     return y;
-}
-
-void run(World& world, int ticks) {
-    for (int i = 0; i < ticks; ++i) ASSERT_FALSE(world.advance());
 }
 
 TEST(Components, ANewComponentWithItsSystemMovesACollider) {

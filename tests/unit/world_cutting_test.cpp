@@ -12,7 +12,7 @@ namespace {
 
 using support::run;
 
-constexpr double g = 9.81;
+using support::g;
 
 SceneSpec sheet(int cells = 6) {
     SceneSpec scene;

@@ -11,10 +11,10 @@ namespace {
 
 using support::run;
 
-constexpr double g = 9.81;
+using support::g;
 
 // A mass of 2 kg that nothing but gravity acts on: its spring, to a wall, is without force to speak of.
-SceneSpec lone(const std::string& method = "leapfrog", double stiffness = 1e-9) {
+SceneSpec handledMass(const std::string& method = "leapfrog", double stiffness = 1e-9) {
     SceneSpec scene;
     scene.solver.precision = Precision::double_;
     scene.solver.integrator = method;
@@ -28,7 +28,7 @@ SceneSpec lone(const std::string& method = "leapfrog", double stiffness = 1e-9) 
 }
 
 TEST(Hands, ASpringHandLetsItsLoadSagByWeightOverStrength) {
-    SceneSpec scene = lone();
+    SceneSpec scene = handledMass();
     ActionSpec grab = support::grab(0.0, "net.ball@m");
     grab.strength = 150;
     grab.dampingRatio = 1;  // the slower of its rates is √(K/m) = 8.7/s
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodLetsGo,
                          });
 
 TEST_P(EveryMethodLetsGo, WhatARigidHandReleasesFliesOnWithItsSpeed) {
-    SceneSpec scene = lone(std::string(GetParam()));
+    SceneSpec scene = handledMass(std::string(GetParam()));
     scene.world.gravity = dvec3(0.0);
     scene.nets[0].springs[0].dampingTime = 0;
     scene.solver.dt = 1.0 / 240;
@@ -143,7 +143,7 @@ TEST_P(EveryMethodLetsGo, WhatARigidHandReleasesFliesOnWithItsSpeed) {
 }
 
 TEST(Hands, LettingGoOfASpringHandKeepsTheMomentum) {
-    SceneSpec scene = lone();
+    SceneSpec scene = handledMass();
     scene.world.gravity = dvec3(0.0);
     scene.actions = {support::grab(0.0, "net.ball@m"), support::moveHand(0.0, {1, 0.5, 0}, 0.3), support::release(0.2)};
     World world(scene);
@@ -159,7 +159,7 @@ TEST(Hands, LettingGoOfASpringHandKeepsTheMomentum) {
 // Where m is after a second of: pulled by a hand that comes and goes, pushed, released, held and freed, with gravity
 // changing. Its own spring swings at 1.6 Hz with a dashpot.
 dvec3 placeAfterEvents(const std::string& method, int substeps) {
-    SceneSpec scene = lone(method, 200.0);
+    SceneSpec scene = handledMass(method, 200.0);
     scene.solver.dt = 1.0 / 60 / substeps;
     ActionSpec grab = support::grab(0.1, "net.ball@m");
     grab.strength = 120;

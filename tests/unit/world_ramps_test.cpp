@@ -11,13 +11,13 @@ namespace {
 
 using support::run;
 using Affects = RampField::Affects;
-constexpr double g = 9.81;
+using support::g;
 
 double& gravityOf(SceneSpec& s) {
     return s.world.gravity.y;
 }
 
-SceneSpec lone(double stiffness = 1e-9) {
+SceneSpec rampedMass(double stiffness = 1e-9) {
     SceneSpec scene;
     scene.solver.precision = Precision::double_;
     NetSpec net;
@@ -32,7 +32,7 @@ SceneSpec lone(double stiffness = 1e-9) {
 // From rest under a = -g t/T for T: v = -g T/2, x = -g T²/6; then a = -g.
 TEST(Ramps, GravityThatRisesEvenlyMakesTheFallThatItsIntegralSays) {
     for (const int substeps : {1, 4}) {
-        SceneSpec scene = lone();
+        SceneSpec scene = rampedMass();
         scene.world.gravity = dvec3(0.0);
         scene.solver.dt = 1.0 / 60 / substeps;
         scene.actions = {support::ramp(0.0, "world.gravity", Affects::forces, -g, 0.5, Ease::linear, gravityOf)};
@@ -49,7 +49,7 @@ TEST(Ramps, GravityThatRisesEvenlyMakesTheFallThatItsIntegralSays) {
 }
 
 TEST(Ramps, AtOnceMeansFromTheStartOfTheTick) {
-    SceneSpec scene = lone();
+    SceneSpec scene = rampedMass();
     scene.world.gravity = dvec3(0.0);
     scene.actions = {support::ramp(0.1, "world.gravity", Affects::forces, -g, 0.0, Ease::smooth, gravityOf)};
     World world(scene);
@@ -61,7 +61,7 @@ TEST(Ramps, AtOnceMeansFromTheStartOfTheTick) {
 }
 
 TEST(Ramps, ALaterRampTakesOverFromTheValueOfTheMoment) {
-    SceneSpec scene = lone();
+    SceneSpec scene = rampedMass();
     scene.world.gravity = dvec3(0.0);
     scene.actions = {support::ramp(0.0, "world.gravity", Affects::forces, -8, 0.4, Ease::linear, gravityOf),
                      support::ramp(0.2, "world.gravity", Affects::forces, 0, 0.2, Ease::linear, gravityOf)};
@@ -72,7 +72,7 @@ TEST(Ramps, ALaterRampTakesOverFromTheValueOfTheMoment) {
 
 // m g = k x for 300 N/m, and then for 900 N/m.
 TEST(Ramps, StiffnessMovesTheEquilibrium) {
-    SceneSpec scene = lone(300);
+    SceneSpec scene = rampedMass(300);
     scene.nets[0].drag = 10;
     scene.actions = {support::ramp(3.0, "net.ball.stiffness", Affects::springs, 900.0, 0.5, Ease::smooth,
                                    [](SceneSpec& s) -> double& { return s.nets[0].springs[0].stiffness; })};
@@ -144,7 +144,7 @@ TEST(Ramps, WindThatRisesPressesWithItsSquare) {
 }
 
 TEST(Ramps, PicturesShowTheValueOfTheirTime) {
-    SceneSpec scene = lone();
+    SceneSpec scene = rampedMass();
     scene.light.intensity = 1.0;
     CameraSpec camera;
     camera.name = "main";
@@ -168,7 +168,7 @@ TEST(Ramps, PicturesShowTheValueOfTheirTime) {
 
 // On a slope of 20° a mass slides iff tan 20° = 0.364 > μ; it gains g (sin 20° - μ cos 20°) a second.
 TEST(Ramps, FrictionThatFallsLetsThingsSlide) {
-    SceneSpec scene = lone();
+    SceneSpec scene = rampedMass();
     scene.nets[0].thickness = 0;
     scene.solver.dt = 1.0 / 960;
     ColliderSpec slope = support::ground();

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace taut::image {
+namespace taut::core {
 
 // The name that a file has while it is being written: its own with ".part" behind it, in the same folder.
 std::filesystem::path temporaryName(const std::filesystem::path& path);
@@ -44,7 +44,10 @@ class WholeFile {
 // The whole of a file in one call; throws core::Error(inputOutput).
 void writeWholeFile(const std::filesystem::path& path, std::string_view content);
 
+// Whether there is anything of that name; false where that cannot be known.
+bool isThere(const std::filesystem::path& path);
+
 // What a file holds; throws core::Error(inputOutput) when it is missing, unreadable or a folder.
 std::string fileContent(const std::filesystem::path& path);
 
-}  // namespace taut::image
+}  // namespace taut::core

@@ -1,13 +1,12 @@
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 #include <gtest/gtest.h>
 
 #include "image_support.h"
 
-namespace taut::image {
+namespace taut::core {
 namespace {
 
-using core::ExitCode;
 using test::contentOf;
 using test::messageOf;
 using test::TemporaryFolder;
@@ -85,4 +84,4 @@ TEST(WholeFile, ReadingReportsWhatIsMissingOrAFolder) {
 }
 
 }  // namespace
-}  // namespace taut::image
+}  // namespace taut::core

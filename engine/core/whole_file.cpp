@@ -1,4 +1,4 @@
-#include "taut/image/whole_file.h"
+#include "taut/core/whole_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,11 +10,11 @@
 
 #include "taut/core/error.h"
 
-namespace taut::image {
+namespace taut::core {
 namespace {
 
 [[noreturn]] void failOn(const std::filesystem::path& path, const char* what, int error) {
-    throw core::Error(core::ExitCode::inputOutput, path.string() + ": " + what + ": " + std::strerror(error));
+    throw Error(ExitCode::inputOutput, path.string() + ": " + what + ": " + std::strerror(error));
 }
 
 }  // namespace
@@ -86,6 +86,11 @@ void writeWholeFile(const std::filesystem::path& path, std::string_view content)
     file.commit();
 }
 
+bool isThere(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+}
+
 std::string fileContent(const std::filesystem::path& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) failOn(path, "cannot read", errno);
@@ -104,4 +109,4 @@ std::string fileContent(const std::filesystem::path& path) {
     }
 }
 
-}  // namespace taut::image
+}  // namespace taut::core

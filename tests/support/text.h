@@ -1,0 +1,12 @@
+// Looking for words in what a program says.
+#pragma once
+
+#include <string>
+
+namespace taut::test {
+
+inline bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace taut::test

@@ -1,14 +1,15 @@
 // Entities and their components: who exists, and what each has. It knows no component type.
 //
-// An entity is a cloth, a rope, a collider, a camera; never a point. There are dozens, not millions: pools are plain
-// arrays that stay in the order of adding, so that iteration is the same in every run.
+// An entity is a cloth, a rope, a collider, a camera; never a point. Pools are plain arrays that stay in the order of
+// adding, so that iteration is the same in every run, with an index by entity beside them (a sparse set).
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 #include "taut/core/error.h"
@@ -35,40 +36,43 @@ class Registry {
     C& add(Entity entity, C component) {
         TAUT_EXPECTS(isAlive(entity));
         Pool<C>& pool = poolOf<C>();
-        if (C* old = pool.find(entity)) return *old = std::move(component);
-        pool.owners.push_back(entity);
-        pool.components.push_back(std::make_unique<C>(std::move(component)));
-        return *pool.components.back();
+        if (C* old = find<C>(entity)) return *old = std::move(component);
+        return pool.add(entity, std::move(component));
     }
 
     template <class C>
     void remove(Entity entity) {
-        poolOf<C>().erase(entity);
+        if (Pool<C>* pool = findPool<C>()) pool->erase(entity);
     }
 
     // nullptr when the entity has none.
     template <class C>
     C* find(Entity entity) {
-        return poolOf<C>().find(entity);
+        return const_cast<C*>(std::as_const(*this).find<C>(entity));
     }
     template <class C>
     const C* find(Entity entity) const {
-        return const_cast<Registry*>(this)->poolOf<C>().find(entity);
+        const Pool<C>* pool = findPool<C>();
+        return pool == nullptr ? nullptr : pool->find(entity);
     }
 
     // Calls f(entity, c, more…) for every entity that has all these components, in the order in which the first was
     // added. f may create and destroy entities: it sees those that existed and still exist.
     template <class C, class... More, class F>
     void each(F&& f) {
-        const std::vector<Entity> owners = poolOf<C>().owners;
+        const Pool<C>* pool = findPool<C>();
+        if (pool == nullptr) return;
+        const std::vector<Entity> owners = pool->owners;
         for (Entity entity : owners)
             if (C* first = find<C>(entity); first != nullptr && (... && (find<More>(entity) != nullptr)))
                 f(entity, *first, *find<More>(entity)...);
     }
     template <class C, class... More, class F>
     void each(F&& f) const {
-        const_cast<Registry*>(this)->each<C, More...>(
-            [&](Entity entity, const C& first, const More&... more) { f(entity, first, more...); });
+        const Pool<C>* pool = findPool<C>();
+        if (pool == nullptr) return;
+        for (Entity entity : pool->owners)
+            if ((... && (find<More>(entity) != nullptr))) f(entity, *find<C>(entity), *find<More>(entity)...);
     }
 
   private:
@@ -78,19 +82,45 @@ class Registry {
     };
     template <class C>
     struct Pool final : AnyPool {
-        std::vector<Entity> owners;
-        std::vector<std::unique_ptr<C>> components;
-        C* find(Entity entity) {
-            const auto at = std::find(owners.begin(), owners.end(), entity);
-            return at == owners.end() ? nullptr : components[static_cast<std::size_t>(at - owners.begin())].get();
+        static constexpr std::size_t none = static_cast<std::size_t>(-1);
+        std::vector<Entity> owners;                  // in the order of adding
+        std::vector<std::unique_ptr<C>> components;  // (owners)
+        std::vector<std::size_t> placeOf;            // (places of entities) in owners, or none
+
+        std::size_t place(Entity entity) const {
+            if (entity.index >= placeOf.size() || placeOf[entity.index] == none) return none;
+            const std::size_t at = placeOf[entity.index];
+            return owners[at] == entity ? at : none;
+        }
+        const C* find(Entity entity) const {
+            const std::size_t at = place(entity);
+            return at == none ? nullptr : components[at].get();
+        }
+        C& add(Entity entity, C component) {
+            if (entity.index >= placeOf.size()) placeOf.resize(entity.index + std::size_t{1}, none);
+            placeOf[entity.index] = owners.size();
+            owners.push_back(entity);
+            components.push_back(std::make_unique<C>(std::move(component)));
+            return *components.back();
         }
         void erase(Entity entity) override {
-            const auto at = std::find(owners.begin(), owners.end(), entity);
-            if (at == owners.end()) return;
-            components.erase(components.begin() + (at - owners.begin()));
-            owners.erase(at);
+            const std::size_t at = place(entity);
+            if (at == none) return;
+            components.erase(components.begin() + static_cast<std::ptrdiff_t>(at));
+            owners.erase(owners.begin() + static_cast<std::ptrdiff_t>(at));
+            placeOf[entity.index] = none;
+            for (std::size_t i = at; i < owners.size(); ++i) placeOf[owners[i].index] = i;
         }
     };
+    template <class C>
+    Pool<C>* findPool() {
+        return const_cast<Pool<C>*>(std::as_const(*this).findPool<C>());
+    }
+    template <class C>
+    const Pool<C>* findPool() const {
+        const auto found = pools_.find(std::type_index(typeid(C)));
+        return found == pools_.end() ? nullptr : static_cast<const Pool<C>*>(found->second.get());
+    }
     template <class C>
     Pool<C>& poolOf() {
         std::unique_ptr<AnyPool>& pool = pools_[std::type_index(typeid(C))];

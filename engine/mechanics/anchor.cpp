@@ -58,11 +58,12 @@ void Anchor<Real>::addForces(const Motion<Real>& motion, int first, int last, Re
 }
 
 template <class Real>
-double Anchor<Real>::potentialEnergy(const Motion<Real>& motion) const {
+double Anchor<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
     const glm::dvec3 place = place_.at(motion.t);
     double energy = 0.0;
     for (std::size_t p = 0; p < points_.size(); ++p)
         for (int axis = 0; axis < 3; ++axis) {
+            if (!only.empty() && !only[static_cast<std::size_t>(points_[p])]) continue;
             const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(axis) * motion.stride + points_[p];
             const double away = static_cast<double>(motion.x[i]) - (place[axis] + offsets_[p][axis]);
             energy += 0.5 * stiffness_[p] * away * away;

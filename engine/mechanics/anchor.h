@@ -30,10 +30,9 @@ class Anchor final : public ForceGenerator<Real> {
     void setStiffness(double stiffness, double damping);
     const std::vector<int>& points() const { return points_; }  // ascending
 
-    std::string_view name() const override { return "anchor"; }
     bool isLocal() const override { return true; }
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
-    double potentialEnergy(const Motion<Real>& motion) const override;
+    double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;
     void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
     void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
     void addProduct(int stride, const Real* u, Real* out) const override;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <string_view>
 #include <vector>
 
 #include "taut/core/aligned_array.h"
@@ -34,10 +33,8 @@ class ForceGenerator {
   public:
     virtual ~ForceGenerator() = default;
 
-    virtual std::string_view name() const = 0;
-
-    // Whether the force on a point depends on that point alone. Then add() may be called for a part of the points.
-    virtual bool isLocal() const = 0;
+    // Whether the force on a point depends on that point alone. Then addForces() may be called for a part of the points.
+    virtual bool isLocal() const { return false; }
 
     // Adds the force on points first … last - 1 to f (3 · stride) [N]. Not local: first = 0, last = count.
     virtual void addForces(const Motion<Real>& motion, int first, int last, Real* f) const = 0;
@@ -47,8 +44,9 @@ class ForceGenerator {
     virtual bool isUniform() const { return false; }
     virtual glm::dvec3 uniformAcceleration(double /*t*/) const { return glm::dvec3(0.0); }  // [m/s²]
 
-    // Potential energy [J] at the motion's positions; 0 for a force that has none.
-    virtual double potentialEnergy(const Motion<Real>& motion) const = 0;
+    // Potential energy [J] at the motion's positions; 0 for a force that has none. With `only` (points) what is between
+    // such points alone; without it, of all.
+    virtual double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const = 0;
 
     // Adds K u to out (3 · stride), K = -∂f/∂x [N/m], u a displacement (3 · stride) [m]. Nothing when K = 0.
     virtual void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const = 0;

@@ -18,10 +18,11 @@ void Gravity<Real>::addForces(const Motion<Real>& motion, int first, int last, R
 }
 
 template <class Real>
-double Gravity<Real>::potentialEnergy(const Motion<Real>& motion) const {
+double Gravity<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
     const glm::dvec3 acceleration = acceleration_.at(motion.t);
     double energy = 0.0;
     for (int i = 0; i < motion.count; ++i) {
+        if (!only.empty() && !only[static_cast<std::size_t>(i)]) continue;
         const Real* x = motion.x + i;
         const std::ptrdiff_t stride = motion.stride;
         const glm::dvec3 position(x[0], x[stride], x[2 * stride]);

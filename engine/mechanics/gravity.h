@@ -17,12 +17,11 @@ class Gravity final : public ForceGenerator<Real> {
     void setAcceleration(const glm::dvec3& acceleration) { acceleration_ = {acceleration, acceleration}; }
     void setAcceleration(const LinearPath& acceleration) { acceleration_ = acceleration; }
 
-    std::string_view name() const override { return "gravity"; }
     bool isLocal() const override { return true; }
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
     bool isUniform() const override { return true; }
     glm::dvec3 uniformAcceleration(double t) const override { return acceleration_.at(t); }
-    double potentialEnergy(const Motion<Real>& motion) const override;  // -Σ m g·x
+    double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;  // -Σ m g·x
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
     void addStability(const Motion<Real>&, StabilityShare&) const override {}
 

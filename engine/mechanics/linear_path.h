@@ -16,6 +16,11 @@ struct LinearPath {
         return {at, at + rate, t0, t0 + 1.0, true};
     }
 
+    // Evenly from a to b between the times; at rest where they are the same.
+    static LinearPath between(const glm::dvec3& a, const glm::dvec3& b, double t0, double t1) {
+        return a == b ? LinearPath{a, a} : LinearPath{a, b, t0, t1};
+    }
+
     // `from` before t0, `to` from t1 on, unless it is a line.
     glm::dvec3 at(double t) const {
         if (isLine) return from + (to - from) * (t - t0);

@@ -163,9 +163,11 @@ void VolumePreservation<Real>::addForces(const Motion<Real>& motion, int first, 
 }
 
 template <class Real>
-double VolumePreservation<Real>::potentialEnergy(const Motion<Real>& motion) const {
+double VolumePreservation<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
     double energy = 0.0;
     for (const VolumeCell& cell : cells_) {
+        const auto isLeftOut = [&](int point) { return !only.empty() && !only[static_cast<std::size_t>(point)]; };
+        if (std::any_of(cell.points.begin(), cell.points.end(), isLeftOut)) continue;
         const double change = volumeOf(cornersOf(cell, motion.x, motion.stride)) / cell.restVolume - 1.0;
         energy += 0.5 * cell.bulkModulus * cell.restVolume * change * change;
     }

@@ -38,10 +38,8 @@ class VolumePreservation final : public ForceGenerator<Real> {
     double workingStretch() const { return workingStretch_; }
     VolumeReport inspect(const Motion<Real>& motion) const;
 
-    std::string_view name() const override { return "volume"; }
-    bool isLocal() const override { return false; }
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
-    double potentialEnergy(const Motion<Real>& motion) const override;
+    double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;
     // The exact product; indefinite where a cell is compressed.
     void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
     // (K/V0) g gᵀ of each cell, g = ∂V/∂p: the part that is never negative.

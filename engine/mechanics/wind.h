@@ -60,10 +60,8 @@ class Wind final : public ForceGenerator<Real> {
     glm::dvec3 airVelocity(const glm::dvec3& x, double t) const;  // [m/s], gust included
     double workingSpeed() const;                                  // [m/s]
 
-    std::string_view name() const override { return "wind"; }
-    bool isLocal() const override { return false; }
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
-    double potentialEnergy(const Motion<Real>&) const override { return 0.0; }
+    double potentialEnergy(const Motion<Real>&, const std::vector<bool>& = {}) const override { return 0.0; }
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
     // Its K is left out. Of C the drag's share, ½ρA C_D (|u·n| I + u nᵀ), with u replaced by its part along n in the
     // second term: ½ρA C_D |u·n| (I + nnᵀ), symmetric and positive, in the steady flow; a ninth for each

@@ -35,6 +35,12 @@ struct Work {
         unconverged += other.unconverged;
         return *this;
     }
+    Work& operator-=(const Work& other) {
+        evaluations -= other.evaluations;
+        iterations -= other.iterations;
+        unconverged -= other.unconverged;
+        return *this;
+    }
 };
 
 // How methods that solve equations go about it; the others have no use for it.

@@ -41,7 +41,7 @@ class Player {
         if (stop_) return !(result_.interrupted = true);
         if (next_ == 0 && listener_.tickDone) listener_.tickDone(0, world_.stateHash());
         current_ = FrameRecord{.frame = next_++, .time = world_.time(), .hash = world_.stateHash()};
-        saveState();  // before the metrics, whose evaluations count as work
+        saveState();
         if (options_.metrics) current_.metrics = world_.metrics();
         current_.simulating = secondsSince(start);
         if (listener_.frameSimulated) listener_.frameSimulated(current_);

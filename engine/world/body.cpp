@@ -233,12 +233,15 @@ std::vector<Body*> pointersTo(std::vector<Body>& bodies) {
     return pointers;
 }
 
-std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string& text) {
+bool names(const std::string& text, const Body& body) {
     const Target target = parseTarget(text);
+    return target.kind == kindName(body.kind) && (matches(target.name, body.name) || matches(target.name, body.base));
+}
+
+std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string& text) {
     std::vector<Body*> found;
     for (Body* body : bodies)
-        if (target.kind == kindName(body->kind) && (matches(target.name, body->name) || matches(target.name, body->base)))
-            found.push_back(body);
+        if (names(text, *body)) found.push_back(body);
     return found;
 }
 

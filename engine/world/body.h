@@ -12,6 +12,8 @@
 
 namespace taut::world {
 
+class Island;
+
 struct Body {
     enum class Kind { block, cloth, net, rope };  // the order of the state hash
     Kind kind = Kind::cloth;
@@ -28,6 +30,7 @@ struct Body {
     Damage damage;  // what has been cut or torn of it
 
     // In the island that owns it.
+    Island* island = nullptr;
     std::vector<int> pointOf;            // (points) number in the island, for each point of the model
     int firstPoint = 0, lastPoint = 0;   // the range that collides for this body
 
@@ -56,6 +59,8 @@ void startBody(Body& body);
 // "file:line:column: error: " of a source, or less when it has none.
 std::string at(const Source& source);
 
+// Whether a target names the body.
+bool names(const std::string& target, const Body& body);
 // The bodies that a target names.
 std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string& target);
 

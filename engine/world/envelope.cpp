@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "taut/core/error.h"
+#include "taut/world/forces/scene_forces.h"
 #include "taut/world/targets.h"
 
 namespace taut::world {
@@ -133,6 +134,19 @@ void addDrag(Envelope& envelope, const IslandPlan& of) {
     }
 }
 
+// The forces as the scene makes them at their strongest; those that the scene does not know, as they are.
+ForceList strongest(const ForceList& forces, const SceneSpec& strong) {
+    const ForceList scene = sceneForces(strong);
+    ForceList all = forces;
+    for (auto& force : all)
+        for (const auto& other : scene)
+            if (other->name() == force->name()) force = other;
+    for (const auto& other : scene)
+        if (std::none_of(all.begin(), all.end(), [&](const auto& f) { return f->name() == other->name(); }))
+            all.push_back(other);
+    return all;
+}
+
 }  // namespace
 
 // One end of what the scene may become.
@@ -140,6 +154,7 @@ struct EnvelopeSide {
     SceneSpec spec;
     std::vector<std::shared_ptr<Body>> bodies;
     std::vector<IslandPlan> plans;  // of the bodies that are there from the start
+    std::map<std::string, std::size_t> bodyOf, planOf;  // by name, the plan by that of its first body
 
     explicit EnvelopeSide(SceneSpec scene) : spec(std::move(scene)) {
         std::vector<Body*> first;
@@ -148,23 +163,22 @@ struct EnvelopeSide {
             if (!isSpawnedLater(*bodies.back(), spec)) first.push_back(bodies.back().get());
         }
         plans = planIslands(first, spec);
+        for (std::size_t i = 0; i < bodies.size(); ++i) bodyOf.emplace(bodies[i]->fullName(), i);
+        for (std::size_t i = 0; i < plans.size(); ++i) planOf.emplace(plans[i].bodies.front()->fullName(), i);
     }
 
     // The plan of the same bodies; nothing if the scene does not have them.
     std::optional<IslandPlan> like(const IslandPlan& plan, bool hasJoints) const {
         const std::string name = plan.bodies.front()->fullName();
         if (hasJoints) {
-            for (const IslandPlan& other : plans)
-                if (other.bodies.front()->fullName() == name) return other;
-            return std::nullopt;
+            const auto found = planOf.find(name);
+            return found == planOf.end() ? std::nullopt : std::optional<IslandPlan>(plans[found->second]);
         }
-        for (const auto& body : bodies) {
-            if (body->fullName() != name) continue;
-            SceneSpec alone;
-            alone.solver = spec.solver;
-            return planIslands(std::vector<Body*>{body.get()}, alone).front();
-        }
-        return std::nullopt;
+        const auto found = bodyOf.find(name);
+        if (found == bodyOf.end()) return std::nullopt;
+        SceneSpec alone;
+        alone.solver = spec.solver;
+        return planIslands(std::vector<Body*>{bodies[found->second].get()}, alone).front();
     }
 };
 
@@ -193,7 +207,7 @@ Envelopes::Envelopes(const SceneSpec& spec) : impl_(new Impl{spec, {}, {}}) {
 }
 Envelopes::~Envelopes() = default;
 
-Envelope Envelopes::of(const IslandPlan& plan, const IslandForces& forces, bool hasJoints) const {
+Envelope Envelopes::of(const IslandPlan& plan, const ForceList& forces, bool hasJoints) const {
     const SceneSpec& spec = impl_->spec;
     Envelope envelope;
     envelope.plan = plan;
@@ -205,7 +219,7 @@ Envelope Envelopes::of(const IslandPlan& plan, const IslandForces& forces, bool 
             const SceneSpec& strong = impl_->high->spec;
             envelope.plan = std::move(*stiff);
             envelope.bodies = impl_->high->bodies;
-            envelope.forces = resolveForces(strong.world, strong.winds, strong.anchors, envelope.plan.bodies);
+            envelope.forces = strongest(forces, strong);
             soft = impl_->low->like(plan, hasJoints);
         }
     }

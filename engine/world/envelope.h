@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "taut/world/forces.h"
+#include "taut/world/forces/force.h"
 #include "taut/world/island_plan.h"
 
 namespace taut::world {
@@ -13,7 +13,7 @@ namespace taut::world {
 struct Envelope {
     // The island as it is built, but with the stiffest springs, the lightest masses, and all points free that ever are.
     IslandPlan plan;
-    IslandForces forces;                        // at their strongest
+    ForceList forces;                           // at their strongest
     std::vector<double> handStiffness;          // (points) [N/m] of all hands that a point may be in at a time
     std::vector<double> handRate;               // (points) [1/s] at which they damp it
     double leastTau = 0;                        // [s] that the largest of its springs ever falls to
@@ -40,7 +40,7 @@ class Envelopes {
     // Of an island of bodies of the scene, with all its joints; or of a body that came later, without joints. A body
     // that the scene does not name is taken as it is. Throws core::Error(badContent) where a timeline takes all mass
     // from a point.
-    Envelope of(const IslandPlan& plan, const IslandForces& forces, bool hasJoints) const;
+    Envelope of(const IslandPlan& plan, const ForceList& forces, bool hasJoints) const;
 
   private:
     struct Impl;

@@ -41,6 +41,7 @@ struct World::Impl {
     core::ThreadLimit threads;
     ecs::Registry registry;
     std::vector<System> systems;
+    ForceList added;  // by addForce()
     std::vector<std::unique_ptr<Island>> islands;
     std::vector<ecs::Entity> bodies;  // sorted by kind and name
     double ticksPerSecond = 60;
@@ -60,8 +61,8 @@ struct World::Impl {
     double seconds() const { return static_cast<double>(tick) / ticksPerSecond; }
 
     void addBodies();
-    void addIsland(IslandPlan plan, const Envelopes& envelopes, bool hasJoints);
-    IslandForces forces() const;
+    void addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints);
+    ForceList forces() const;
     void checkUntied(Body& body) const;
     void checkAnchors() const;
     void rebuildColliders();
@@ -111,8 +112,7 @@ struct World::Impl {
 
     Metrics metricsOf(const std::function<bool(const Body&)>& wanted) const;
 
-    void save(core::ByteWriter& bytes) const;
-    void restore(core::ByteReader& bytes);
+    void visit(StateBytes& bytes);
 };
 
 // The islands of picked points with their points in each, in order.

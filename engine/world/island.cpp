@@ -17,7 +17,7 @@ constexpr double speedLimit = 3000.0;
 }  // namespace
 
 template <class Real>
-IslandOf<Real>::IslandOf(IslandPlan plan, const IslandForces& forces, Envelope envelope, double ticksPerSecond,
+IslandOf<Real>::IslandOf(IslandPlan plan, const ForceList& forces, Envelope envelope, double ticksPerSecond,
                          double t)
     : plan_(std::move(plan)), forces_(forces), system_(systemOf(plan_)), state_(system_.layout()) {
     addGenerators();
@@ -43,6 +43,7 @@ void IslandOf<Real>::makeMethod() {
 template <class Real>
 std::optional<Fault> IslandOf<Real>::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
     if (frozen_) return std::nullopt;
+    TAUT_EXPECTS(!isOpen_);
     copyState(state_, good_);
     hasMoved_ = true;
     const bool mayFreeze = plan_.solver.onDivergence == OnDivergence::freeze;
@@ -202,7 +203,7 @@ void IslandOf<Real>::watchVolumes(double t) {
 template class IslandOf<float>;
 template class IslandOf<double>;
 
-std::unique_ptr<Island> makeIsland(IslandPlan plan, const IslandForces& forces, Envelope envelope,
+std::unique_ptr<Island> makeIsland(IslandPlan plan, const ForceList& forces, Envelope envelope,
                                    double ticksPerSecond, double t) {
     if (plan.solver.precision == Precision::single_)
         return std::make_unique<IslandOf<float>>(std::move(plan), forces, std::move(envelope), ticksPerSecond, t);

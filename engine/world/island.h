@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "taut/collision/colliders.h"
-#include "taut/core/bytes.h"
 #include "taut/core/hash.h"
 #include "taut/world/envelope.h"
-#include "taut/world/forces.h"
+#include "taut/world/forces/force.h"
 #include "taut/world/island_plan.h"
 #include "taut/world/world.h"
 
@@ -79,7 +78,7 @@ class Island {
     // The way of a hand from now on; opens if `bends`. Does nothing where the hand has hold of nothing.
     virtual void lead(const TickTime& time, const std::string& hand, const mechanics::LinearPath& path, bool bends) = 0;
     // Opens where a force jumps; not if flows and gravity only go on changing.
-    virtual void setForces(const TickTime& time, const IslandForces& forces) = 0;
+    virtual void setForces(const TickTime& time, const ForceList& forces) = 0;
 
     virtual const IslandPlan& plan() const = 0;
     virtual double step() const = 0;  // [s]
@@ -102,14 +101,13 @@ class Island {
     virtual std::vector<std::string> warnings() const = 0;
     virtual Divergence diagnose(const Fault& fault, const TickTime& time) const = 0;
 
-    // All that changes while it moves. restore() throws core::Error(badContent) for bytes that do not fit.
-    virtual void save(core::ByteWriter& bytes) const = 0;
-    virtual void restore(core::ByteReader& bytes) = 0;
+    // All that changes while it moves, written or read. Throws core::Error(badContent) for bytes that do not fit.
+    virtual void visit(StateBytes& bytes) = 0;
 };
 
 // Builds the island at time t [s] and chooses its step, which holds for all that the envelope allows; throws
 // core::Error(badContent) where no step would do.
-std::unique_ptr<Island> makeIsland(IslandPlan plan, const IslandForces& forces, Envelope envelope,
+std::unique_ptr<Island> makeIsland(IslandPlan plan, const ForceList& forces, Envelope envelope,
                                    double ticksPerSecond, double t);
 
 }  // namespace taut::world

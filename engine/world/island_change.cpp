@@ -1,6 +1,7 @@
 // What is changed of an island between two ticks. A system is always what the plan and the forces say, so that both
 // together are enough to make it again.
 #include <algorithm>
+#include <type_traits>
 
 #include "taut/world/island_of.h"
 
@@ -28,11 +29,34 @@ void IslandOf<Real>::rebuild() {
 template <class Real>
 void IslandOf<Real>::addGenerators() {
     volumes_.clear();
-    winds_.clear();
-    anchors_.clear();
-    auto gravity = std::make_unique<mechanics::Gravity<Real>>(forces_.gravity);
-    gravity_ = gravity.get();
-    system_.add(std::move(gravity));
+    acting_.clear();
+    for (std::size_t number = 0; number < forces_.size(); ++number) {
+        if (number == 1) addVolumes();  // after gravity
+        std::unique_ptr<mechanics::ForceGenerator<Real>> generator;
+        if constexpr (std::is_same_v<Real, float>)
+            generator = forces_[number]->inSingle(plan_);
+        else
+            generator = forces_[number]->inDouble(plan_);
+        if (!generator) continue;
+        acting_.emplace_back(number, generator.get());
+        system_.add(std::move(generator));
+    }
+    if (forces_.size() < 2) addVolumes();
+    gripAnchors_.clear();
+    for (const Grip& grip : plan_.grips) {
+        gripAnchors_.push_back(nullptr);
+        if (grip.rigid) continue;
+        auto anchor = std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.from, grip.stiffness,
+                                                                grip.damping, grip.offsets);
+        anchor->setPlace(grip.path);
+        gripAnchors_.back() = anchor.get();
+        system_.add(std::move(anchor));
+    }
+}
+
+// What keeps the volume of each body that has cells.
+template <class Real>
+void IslandOf<Real>::addVolumes() {
     for (const Body* body : plan_.bodies) {
         std::vector<mechanics::VolumeCell> cells;
         for (std::size_t c = 0; c < body->model.cells.size(); ++c) {
@@ -45,43 +69,6 @@ void IslandOf<Real>::addGenerators() {
             std::make_unique<mechanics::VolumePreservation<Real>>(cells, plan_.positions, body->workingStretch);
         volumes_.push_back({body, volume.get()});
         system_.add(std::move(volume));
-    }
-    for (std::size_t w = 0; w < forces_.winds.size(); ++w) {
-        const WindOn& wind = forces_.winds[w];
-        std::vector<std::array<int, 3>> triangles;
-        for (const Body* body : plan_.bodies) {
-            if (std::find(wind.bodies.begin(), wind.bodies.end(), body) == wind.bodies.end()) continue;
-            for (std::size_t t = 0; t < body->model.triangles.size(); ++t) {
-                if (body->damage.isTriangleGone(t)) continue;
-                triangles.push_back(body->model.triangles[t]);
-                for (int& i : triangles.back()) i = body->pointOf[static_cast<std::size_t>(i)];
-            }
-        }
-        if (triangles.empty()) continue;
-        auto generator = std::make_unique<mechanics::Wind<Real>>(triangles, wind.velocity, wind.settings);
-        winds_.emplace_back(w, generator.get());
-        system_.add(std::move(generator));
-    }
-    for (std::size_t a = 0; a < forces_.anchors.size(); ++a) {
-        const AnchorOn& anchor = forces_.anchors[a];
-        if (std::find(plan_.bodies.begin(), plan_.bodies.end(), anchor.body) == plan_.bodies.end()) continue;
-        std::vector<int> points;
-        for (int i : anchor.points) points.push_back(anchor.body->pointOf[static_cast<std::size_t>(i)]);
-        auto generator =
-            std::make_unique<mechanics::Anchor<Real>>(points, anchor.place.to, anchor.stiffness, anchor.damping);
-        generator->setPlace(anchor.place);
-        anchors_.emplace_back(a, generator.get());
-        system_.add(std::move(generator));
-    }
-    gripAnchors_.clear();
-    for (const Grip& grip : plan_.grips) {
-        gripAnchors_.push_back(nullptr);
-        if (grip.rigid) continue;
-        auto anchor = std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.from, grip.stiffness,
-                                                                grip.damping, grip.offsets);
-        anchor->setPlace(grip.path);
-        gripAnchors_.back() = anchor.get();
-        system_.add(std::move(anchor));
     }
 }
 
@@ -109,6 +96,15 @@ void IslandOf<Real>::synchronise(const TickTime& time) {
         std::copy(state_.v.begin(), state_.v.end(), velocity_.begin());
     else
         method_->synchronise(system_, time.start(), choice_.step, state_, velocity_.data());
+}
+
+// Asking changes nothing, the work of the run least of all.
+template <class Real>
+void IslandOf<Real>::ask(const TickTime& time) {
+    const ode::Work before = method_->work();
+    synchronise(time);
+    workOfQueries_ += method_->work();
+    workOfQueries_ -= before;
 }
 
 template <class Real>
@@ -168,7 +164,7 @@ void IslandOf<Real>::lead(const TickTime& time, const std::string& hand, const m
 }
 
 template <class Real>
-void IslandOf<Real>::setForces(const TickTime& time, const IslandForces& forces) {
+void IslandOf<Real>::setForces(const TickTime& time, const ForceList& forces) {
     if (frozen_) return;
     if (!goesOn(forces_, forces)) {
         open(time);  // on the forces so far
@@ -180,9 +176,7 @@ void IslandOf<Real>::setForces(const TickTime& time, const IslandForces& forces)
     }
     forces_ = forces;
     if (isReshaped_) return;
-    gravity_->setAcceleration(forces_.gravity);
-    for (const auto& [w, wind] : winds_) wind->setVelocity(forces_.winds[w].velocity);
-    for (const auto& [a, anchor] : anchors_) anchor->setPlace(forces_.anchors[a].place);
+    for (const auto& [number, generator] : acting_) forces_[number]->steer(*generator);
 }
 
 template <class Real>
@@ -220,7 +214,7 @@ void IslandOf<Real>::watchLimit(double t) {
 
 template <class Real>
 std::vector<dvec3> IslandOf<Real>::velocities(const TickTime& time) {
-    synchronise(time);
+    ask(time);
     std::vector<dvec3> v;
     for (int i = 0; i < state_.layout.count; ++i) v.push_back(at(velocity_, i));
     return v;
@@ -230,15 +224,17 @@ std::vector<dvec3> IslandOf<Real>::velocities(const TickTime& time) {
     template mechanics::MassSpringSystem<Real> IslandOf<Real>::systemOf(const IslandPlan&);                      \
     template void IslandOf<Real>::rebuild();                                                                     \
     template void IslandOf<Real>::addGenerators();                                                               \
+    template void IslandOf<Real>::addVolumes();                                                                  \
     template void IslandOf<Real>::leadGrips();                                                                   \
     template void IslandOf<Real>::synchronise(const TickTime&);                                                  \
+    template void IslandOf<Real>::ask(const TickTime&);                                                          \
     template void IslandOf<Real>::open(const TickTime&);                                                         \
     template void IslandOf<Real>::close(const TickTime&);                                                        \
     template IslandPlan& IslandOf<Real>::change(const TickTime&);                                                \
     template void IslandOf<Real>::push(const TickTime&, std::span<const int>, const dvec3&);                     \
     template void IslandOf<Real>::stop(const TickTime&, std::span<const int>);                                   \
     template void IslandOf<Real>::lead(const TickTime&, const std::string&, const mechanics::LinearPath&, bool); \
-    template void IslandOf<Real>::setForces(const TickTime&, const IslandForces&);                               \
+    template void IslandOf<Real>::setForces(const TickTime&, const ForceList&);                               \
     template mechanics::StabilityShare IslandOf<Real>::stabilityShare(double) const;                             \
     template void IslandOf<Real>::chooseStepFor(Envelope&, double, double);                                      \
     template void IslandOf<Real>::watchLimit(double);                                                            \

@@ -8,9 +8,7 @@
 #pragma once
 
 #include "taut/mechanics/anchor.h"
-#include "taut/mechanics/gravity.h"
 #include "taut/mechanics/volume.h"
-#include "taut/mechanics/wind.h"
 #include "taut/ode/method_table.h"
 #include "taut/world/island.h"
 #include "taut/world/step_choice.h"
@@ -20,7 +18,7 @@ namespace taut::world {
 template <class Real>
 class IslandOf final : public Island {
   public:
-    IslandOf(IslandPlan plan, const IslandForces& forces, Envelope envelope, double ticksPerSecond, double t);
+    IslandOf(IslandPlan plan, const ForceList& forces, Envelope envelope, double ticksPerSecond, double t);
 
     void setColliders(collision::Colliders colliders) override { colliders_ = std::move(colliders); }
     std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving) override;
@@ -36,7 +34,7 @@ class IslandOf final : public Island {
     void push(const TickTime& time, std::span<const int> points, const dvec3& velocity) override;
     void stop(const TickTime& time, std::span<const int> points) override;
     void lead(const TickTime& time, const std::string& hand, const mechanics::LinearPath& path, bool bends) override;
-    void setForces(const TickTime& time, const IslandForces& forces) override;
+    void setForces(const TickTime& time, const ForceList& forces) override;
 
     const IslandPlan& plan() const override { return plan_; }
     double step() const override { return choice_.step; }
@@ -52,8 +50,7 @@ class IslandOf final : public Island {
     std::vector<std::string> warnings() const override;
     Divergence diagnose(const Fault& fault, const TickTime& time) const override;
 
-    void save(core::ByteWriter& bytes) const override;
-    void restore(core::ByteReader& bytes) override;
+    void visit(StateBytes& bytes) override;
 
   private:
     using System = mechanics::MassSpringSystem<Real>;
@@ -61,6 +58,7 @@ class IslandOf final : public Island {
     static System systemOf(const IslandPlan& plan);
     void rebuild();
     void addGenerators();
+    void addVolumes();
     void leadGrips();
     void makeMethod();
     mechanics::StabilityShare stabilityShare(double t) const;
@@ -78,6 +76,7 @@ class IslandOf final : public Island {
     double lengthOf(const mechanics::Spring& spring) const;
     // Velocities at the time of the tick, in velocity_.
     void synchronise(const TickTime& time);
+    void ask(const TickTime& time);
     static void copyState(const ode::State<Real>& from, ode::State<Real>& to);
 
     bool isBounded() const;
@@ -88,26 +87,25 @@ class IslandOf final : public Island {
     double penetration(const std::vector<bool>& wanted) const;
     std::string_view methodTitle() const { return ode::findMethod(plan_.solver.integrator)->title; }
 
-    void saveSprings(core::ByteWriter& bytes) const;
-    void restoreSprings(core::ByteReader& bytes);
+    void visitPlan(StateBytes& bytes);
 
     IslandPlan plan_;
-    IslandForces forces_;
+    ForceList forces_;
     System system_;
     // Among the system's generators:
-    mechanics::Gravity<Real>* gravity_ = nullptr;
     struct VolumeOf {
         const Body* body;
         const mechanics::VolumePreservation<Real>* volume;
     };
     std::vector<VolumeOf> volumes_;
-    std::vector<std::pair<std::size_t, mechanics::Wind<Real>*>> winds_;      // with their number in forces_
-    std::vector<std::pair<std::size_t, mechanics::Anchor<Real>*>> anchors_;  // with their number in forces_
+    // Those of forces_ that act here, by their number.
+    std::vector<std::pair<std::size_t, mechanics::ForceGenerator<Real>*>> acting_;
     std::vector<mechanics::Anchor<Real>*> gripAnchors_;                      // (grips) null for rigid ones
 
     StepChoice choice_;
     std::unique_ptr<ode::Method<Real>> method_;
     ode::Work workBefore_;                        // of what ran before this method was made
+    ode::Work workOfQueries_;                     // of what was only asked, which the run does not need
     ode::State<Real> state_, good_;               // good: as the tick began, or the step where it may freeze
     core::AlignedArray<Real> before_, velocity_;  // (3 · stride) scratch
     bool isOpen_ = false;                         // v is at the time of x, and the method not started from there

@@ -55,9 +55,16 @@ class Planner {
     }
 
     std::vector<IslandPlan> plans() {
-        std::vector<IslandPlan> plans;
+        std::vector<std::vector<int>> members(bodies_.size());  // by the body that stands for the set
         for (int body = 0; body < static_cast<int>(bodies_.size()); ++body)
-            if (islands_.find(body) == body) plans.push_back(plan(body));
+            members[static_cast<std::size_t>(islands_.find(body))].push_back(body);
+        std::vector<std::vector<JointSpring>> joints(bodies_.size());
+        for (const JointSpring& joint : joints_)
+            joints[static_cast<std::size_t>(islands_.find(joint.a.body))].push_back(joint);
+        std::vector<int> numberOf(firstGlobalEnd(), -1);  // by the global point that stands for a weld
+        std::vector<IslandPlan> plans;
+        for (std::size_t root = 0; root < members.size(); ++root)
+            if (!members[root].empty()) plans.push_back(plan(members[root], joints[root], numberOf));
         return plans;
     }
 
@@ -78,10 +85,9 @@ class Planner {
 
     std::vector<PointRef> points(const std::string& text, const Source& source) const {
         std::vector<PointRef> found;
-        for (const Body* match : matchBodies(bodies_, text)) {
-            const auto number = static_cast<int>(std::find(bodies_.begin(), bodies_.end(), match) - bodies_.begin());
-            for (int i : selectPoints(match->model, parseTarget(text).selector)) found.push_back({number, i});
-        }
+        for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
+            if (names(text, body(number)))
+                for (int i : selectPoints(body(number).model, parseTarget(text).selector)) found.push_back({number, i});
         if (found.empty()) throw Error(ExitCode::badContent, at(source) + "\"" + text + "\" names no point");
         return found;
     }
@@ -124,15 +130,13 @@ class Planner {
         }
     }
 
-    IslandPlan plan(int root) {
+    IslandPlan plan(const std::vector<int>& members, const std::vector<JointSpring>& joints,
+                    std::vector<int>& numberOf) {
         IslandPlan plan;
-        std::vector<int> numberOf(firstGlobalEnd(), -1);  // by the global point that stands for a weld
-        for (int i = root; i < static_cast<int>(bodies_.size()); ++i)
-            if (islands_.find(i) == root) addBody(plan, i, numberOf);
-        for (const JointSpring& joint : joints_)
-            if (islands_.find(joint.a.body) == root)
-                plan.springs.push_back({pointOf(joint.a), pointOf(joint.b), joint.spec->stiffness, joint.restLength,
-                                        joint.spec->dampingTime, mechanics::SpringKind::joint});
+        for (int body : members) addBody(plan, body, numberOf);
+        for (const JointSpring& joint : joints)
+            plan.springs.push_back({pointOf(joint.a), pointOf(joint.b), joint.spec->stiffness, joint.restLength,
+                                    joint.spec->dampingTime, mechanics::SpringKind::joint});
         plan.origins.resize(plan.springs.size());
         plan.broken.resize(plan.springs.size(), false);
         plan.solver = solverOf(plan);

@@ -12,19 +12,17 @@ void IslandOf<Real>::addMetrics(const TickTime& time, const std::function<bool(c
                                 Metrics& metrics) {
     if (frozen_) return;
     const double t = time.start();
-    synchronise(time);
+    ask(time);
     std::vector<bool> counts(plan_.points.size(), false);
     for (const Body* body : plan_.bodies)
         if (wanted(*body))
             for (int i : body->pointOf) counts[static_cast<std::size_t>(i)] = true;
     const auto isIn = [&](int point) { return counts[static_cast<std::size_t>(point)]; };
-    const dvec3 gravity = forces_.gravity.at(t);
     for (int i = 0; i < system_.layout().count; ++i) {
         if (!isIn(i)) continue;
         const double m = plan_.points[static_cast<std::size_t>(i)].mass;
         const dvec3 x = at(state_.x, i), v = at(velocity_, i);
         metrics.kinetic += 0.5 * m * glm::dot(v, v);
-        metrics.gravitational -= m * glm::dot(gravity, x);
         metrics.momentum += m * v;
         metrics.angularMomentum += m * glm::cross(x, v);
     }
@@ -45,12 +43,11 @@ void IslandOf<Real>::addMetrics(const TickTime& time, const std::function<bool(c
         const mechanics::VolumeReport state = entry.volume->inspect(motion(t));
         metrics.minVolumeRatio = std::min(metrics.minVolumeRatio, state.smallestRatio);
         metrics.invertedCells += state.inverted;
-        metrics.elastic += entry.volume->potentialEnergy(motion(t));
     }
-    for (const auto& [a, anchor] : anchors_)
-        if (wanted(*forces_.anchors[a].body)) metrics.elastic += anchor->potentialEnergy(motion(t));
-    for (const mechanics::Anchor<Real>* anchor : gripAnchors_)
-        if (anchor != nullptr && isIn(anchor->points().front())) metrics.elastic += anchor->potentialEnergy(motion(t));
+    for (const auto& generator : system_.generators()) {
+        double& kind = generator->isUniform() ? metrics.gravitational : metrics.elastic;
+        kind += generator->potentialEnergy(motion(t), counts);
+    }
     for (const Body* body : plan_.bodies) {
         if (!wanted(*body)) continue;
         for (std::size_t c = 0; c < body->model.cells.size(); ++c) {
@@ -92,7 +89,8 @@ double IslandOf<Real>::penetration(const std::vector<bool>& wanted) const {
 template <class Real>
 ode::Work IslandOf<Real>::work() const {
     ode::Work sum = workBefore_;
-    return sum += method_->work();
+    sum += method_->work();
+    return sum -= workOfQueries_;
 }
 
 template <class Real>

@@ -1,5 +1,5 @@
 // What is asked of a world while it stands still between two ticks.
-#include <algorithm>
+#include <map>
 
 #include "taut/core/hash.h"
 #include "taut/world/impl.h"
@@ -19,22 +19,17 @@ Metrics World::metrics() const {
 }
 
 Metrics World::metrics(const std::string& bodies) const {
-    const std::vector<Body*> all = impl_->allBodies();
-    const std::vector<Body*> wanted = matchBodies(all, bodies);
-    return impl_->metricsOf(
-        [&](const Body& body) { return std::find(wanted.begin(), wanted.end(), &body) != wanted.end(); });
+    return impl_->metricsOf([&](const Body& body) { return names(bodies, body); });
 }
 
 PointsNow World::points(const std::string& target) const {
     PointsNow points;
     const std::vector<Body*> all = impl_->allBodies();
-    std::vector<std::pair<const Island*, std::vector<dvec3>>> velocities;  // of the islands asked so far
+    std::map<const Island*, std::vector<dvec3>> velocities;  // of the islands asked so far
     for (const Body* body : matchBodies(all, target)) {
         Island& island = impl_->islandOf(*body);
-        auto known =
-            std::find_if(velocities.begin(), velocities.end(), [&](const auto& v) { return v.first == &island; });
-        if (known == velocities.end())
-            known = velocities.insert(velocities.end(), {&island, island.velocities(impl_->now())});
+        auto known = velocities.find(&island);
+        if (known == velocities.end()) known = velocities.emplace(&island, island.velocities(impl_->now())).first;
         for (int i : selectPoints(body->model, parseTarget(target).selector)) {
             const int point = body->pointOf[static_cast<std::size_t>(i)];
             points.x.push_back(island.position(point));

@@ -57,9 +57,9 @@ void World::Impl::changeForces() {
         return forces();
     };
     const double begin = static_cast<double>(tick);
-    const IslandForces from = forcesAt(begin), middle = forcesAt(begin + 0.5), to = forcesAt(begin + 1.0);
-    const IslandForces during = between(from, middle, to, seconds(), static_cast<double>(tick + 1) / ticksPerSecond);
-    for (const auto& island : islands) island->setForces(now(), during);
+    const ForceList from = forcesAt(begin), middle = forcesAt(begin + 0.5), to = forcesAt(begin + 1.0);
+    const ForceList current = during(from, middle, to, seconds(), static_cast<double>(tick + 1) / ticksPerSecond);
+    for (const auto& island : islands) island->setForces(now(), current);
 }
 
 // Takes the springs over that the body would have if it were built from the scene as it is now.

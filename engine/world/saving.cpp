@@ -1,171 +1,110 @@
 // A world as bytes: what its ticks have changed. The scene is not among them; it makes the world that they go into.
 #include <algorithm>
 
-#include "taut/world/byte_parts.h"
 #include "taut/world/impl.h"
+#include "taut/world/state_bytes.h"
 
 namespace taut::world {
 namespace {
 
-using core::ByteReader;
-using core::ByteWriter;
-
-Ease easeOf(ByteReader& bytes) {
-    const int number = bytes.number<int>();
-    require(number >= 0 && number <= static_cast<int>(Ease::hold));
-    return static_cast<Ease>(number);
-}
-
 // Ways in ticks: none takes longer than any run.
-constexpr std::int64_t longest = std::int64_t{1} << 40;
+constexpr std::int64_t longestWay = std::int64_t{1} << 40;
 
-std::int64_t ticks(ByteReader& bytes, std::int64_t least) {
-    const auto number = bytes.number<std::int64_t>();
-    require(number >= least && number <= longest);
-    return number;
+void visitWay(StateBytes& bytes, std::int64_t& start, std::int64_t& length, Ease& ease, std::int64_t shortest = 1) {
+    bytes.atLeast(start, 0, longestWay);
+    bytes.atLeast(length, shortest, longestWay);
+    bytes.choice(ease, Ease::hold);
 }
 
-void addHand(ByteWriter& bytes, const Hand& hand) {
-    bytes.add(hand.id);
-    bytes.add(hand.rigid);
-    for (const dvec3* v : {&hand.from, &hand.to, &hand.rate}) addVector(bytes, *v);
-    bytes.add(hand.start);
-    bytes.add(hand.length);
-    bytes.add(static_cast<int>(hand.ease));
+void visitPart(StateBytes& bytes, Hand& hand) {
+    bytes(hand.id);
+    bytes(hand.rigid);
+    for (dvec3* v : {&hand.from, &hand.to, &hand.rate}) bytes(*v);
+    visitWay(bytes, hand.start, hand.length, hand.ease);
 }
 
-Hand readHand(ByteReader& bytes) {
-    Hand hand;
-    hand.id = bytes.text();
-    hand.rigid = bytes.number<bool>();
-    for (dvec3* v : {&hand.from, &hand.to, &hand.rate}) *v = vector(bytes);
-    hand.start = ticks(bytes, 0);
-    hand.length = ticks(bytes, 1);
-    hand.ease = easeOf(bytes);
-    return hand;
+void visitPart(StateBytes& bytes, PoseMove& move) {
+    bytes(move.from);
+    bytes(move.to);
+    visitWay(bytes, move.start, move.length, move.ease);
 }
 
-void addMove(ByteWriter& bytes, const std::optional<PoseMove>& move) {
-    bytes.add(move.has_value());
-    if (!move) return;
-    addPose(bytes, move->from);
-    addPose(bytes, move->to);
-    bytes.add(move->start);
-    bytes.add(move->length);
-    bytes.add(static_cast<int>(move->ease));
+// As many numbers as the field has.
+void visitValue(StateBytes& bytes, std::vector<double>& value, std::size_t size) {
+    bytes.list(value);
+    bytes.require(value.size() == size && std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
 }
 
-std::optional<PoseMove> readMove(ByteReader& bytes) {
-    if (!bytes.number<bool>()) return std::nullopt;
-    PoseMove move;
-    move.from = pose(bytes);
-    move.to = pose(bytes);
-    move.start = ticks(bytes, 0);
-    move.length = ticks(bytes, 1);
-    move.ease = easeOf(bytes);
-    return move;
-}
-
-void addRamp(ByteWriter& bytes, const Ramp& ramp, const SceneSpec& spec) {
-    bytes.add(ramp.action.key);
-    bytes.addList<double>(ramp.action.value);
-    bytes.add(static_cast<int>(ramp.action.ease));
-    bytes.addList<double>(ramp.from);
-    bytes.add(ramp.start);
-    bytes.add(ramp.length);
-    bytes.addList<double>(ramp.action.field.read(spec));
-}
-
-// Its field is that of any action of the scene with the same key. Writes the value as it was into the scene.
-Ramp readRamp(ByteReader& bytes, const SceneSpec& start, SceneSpec& spec) {
-    Ramp ramp;
-    const std::string key = bytes.text();
-    const auto like = std::find_if(start.actions.begin(), start.actions.end(),
-                                   [&](const ActionSpec& a) { return a.what == Do::ramp && a.key == key; });
-    if (like == start.actions.end()) misfit("it has no ramp of \"" + key + "\"");
-    ramp.action = *like;
-    const std::size_t size = like->field.read(spec).size();
-    const auto values = [&] {
-        std::vector<double> list = bytes.list<double>();
-        require(list.size() == size);
-        for (double number : list) require(std::isfinite(number));
-        return list;
-    };
-    ramp.action.value = values();
-    ramp.action.ease = easeOf(bytes);
-    ramp.from = values();
-    ramp.start = ticks(bytes, 0);
-    ramp.length = ticks(bytes, 0);
-    ramp.action.field.write(spec, values());
-    return ramp;
+// Its field is that of any action of the scene with the same key. Reading writes the value as it was into the scene.
+void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, SceneSpec& spec) {
+    std::string key = ramp.action.key;
+    bytes(key);
+    if (bytes.isReading()) {
+        const auto like = std::find_if(start.actions.begin(), start.actions.end(),
+                                       [&](const ActionSpec& a) { return a.what == Do::ramp && a.key == key; });
+        if (like == start.actions.end()) misfit("it has no ramp of \"" + key + "\"");
+        ramp.action = *like;
+    }
+    std::vector<double> now = ramp.action.field.read(spec);
+    const std::size_t size = now.size();
+    visitValue(bytes, ramp.action.value, size);
+    visitValue(bytes, ramp.from, size);
+    visitWay(bytes, ramp.start, ramp.length, ramp.action.ease, 0);
+    visitValue(bytes, now, size);
+    if (bytes.isReading()) ramp.action.field.write(spec, now);
 }
 
 }  // namespace
 
-void World::Impl::save(ByteWriter& bytes) const {
-    bytes.add(ticksPerSecond);
-    bytes.add(tick);
-    bytes.add(hash);
-    bytes.add(static_cast<std::uint64_t>(ramps.size()));
-    for (const Ramp& ramp : ramps) addRamp(bytes, ramp, spec);
-    bytes.add(static_cast<std::uint64_t>(spawned.size()));
-    for (const std::string& target : spawned) bytes.add(target);
-    bytes.add(static_cast<std::uint64_t>(hands.size()));
-    for (const Hand& hand : hands) addHand(bytes, hand);
-    registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
-        bytes.add(part.spec.name);
-        addPose(bytes, placement.from);
-        addPose(bytes, placement.to);
-        bytes.add(placement.moved);
-        addMove(bytes, part.move);
-    });
-    bytes.add(static_cast<std::uint64_t>(islands.size()));
-    for (const auto& island : islands) island->save(bytes);
-}
-
-void World::Impl::restore(ByteReader& bytes) {
-    TAUT_EXPECTS(tick == 0);
-    if (bytes.number<double>() != ticksPerSecond) misfit("its frame rate is another");
-    tick = ticks(bytes, 0);
-    hash = bytes.number<std::uint64_t>();
-    const auto rampCount = bytes.number<std::uint64_t>();
-    for (std::uint64_t i = 0; i < rampCount; ++i) ramps.push_back(readRamp(bytes, *start, spec));
-    takeRampedParts();
-    const auto spawnCount = bytes.number<std::uint64_t>();
-    for (std::uint64_t i = 0; i < spawnCount; ++i) {
-        ActionSpec action;
-        action.target = bytes.text();
-        spawnNamed(action);
-    }
-    const auto handCount = bytes.number<std::uint64_t>();
-    for (std::uint64_t i = 0; i < handCount; ++i) hands.push_back(readHand(bytes));
+void World::Impl::visit(StateBytes& bytes) {
+    double rate = ticksPerSecond;
+    bytes(rate);
+    if (rate != ticksPerSecond) misfit("its frame rate is another");
+    bytes.atLeast(tick, 0, longestWay);
+    bytes(hash);
+    bytes.each(ramps, [&](Ramp& ramp) { visitPart(bytes, ramp, *start, spec); });
+    if (bytes.isReading()) takeRampedParts();
+    std::vector<std::string> targets = spawned;
+    bytes.each(targets, [&](std::string& target) { bytes(target); });
+    if (bytes.isReading())
+        for (const std::string& target : targets) {
+            ActionSpec action;
+            action.target = target;
+            spawnNamed(action);
+        }
+    bytes.each(hands, [&](Hand& hand) { visitPart(bytes, hand); });
     registry.each<ColliderPart, Placement>([&](ecs::Entity, ColliderPart& part, Placement& placement) {
-        if (bytes.text() != part.spec.name) misfit("its colliders are others");
-        placement.from = pose(bytes);
-        placement.to = pose(bytes);
-        placement.moved = bytes.number<bool>();
-        part.move = readMove(bytes);
+        bytes.expect(part.spec.name, "its colliders are others");
+        bytes(placement.from);
+        bytes(placement.to);
+        bytes(placement.moved);
+        bytes.optional(part.move, [&](PoseMove& move) { visitPart(bytes, move); });
     });
-    if (bytes.number<std::uint64_t>() != islands.size()) misfit("its bodies hang together in another way");
-    const IslandForces current = forces();
-    for (const auto& island : islands) {
-        island->setForces(now(), current);
-        island->restore(bytes);
+    auto count = static_cast<std::uint64_t>(islands.size());
+    bytes(count);
+    if (count != islands.size()) misfit("its bodies hang together in another way");
+    if (bytes.isReading()) {
+        const ForceList current = forces();
+        for (const auto& island : islands) island->setForces(now(), current);
     }
-    if (!bytes.isAtEnd()) misfit("there is more in them than it has");
-    rebuildColliders();
-    redrawDamage();
+    for (const auto& island : islands) island->visit(bytes);
 }
 
 std::vector<std::byte> World::save() const {
-    core::ByteWriter bytes;
-    impl_->save(bytes);
-    return bytes.take();
+    core::ByteWriter writer;
+    StateBytes bytes(writer);
+    impl_->visit(bytes);
+    return writer.take();
 }
 
-void World::restore(std::span<const std::byte> bytes) {
-    core::ByteReader reader(bytes);
-    impl_->restore(reader);
+void World::restore(std::span<const std::byte> content) {
+    TAUT_EXPECTS(impl_->tick == 0);
+    core::ByteReader reader(content);
+    StateBytes bytes(reader);
+    impl_->visit(bytes);
+    if (!reader.isAtEnd()) misfit("there is more in them than it has");
+    impl_->rebuildColliders();
+    impl_->redrawDamage();
 }
 
 }  // namespace taut::world

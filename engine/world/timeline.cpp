@@ -166,7 +166,7 @@ void World::Impl::spawnNamed(const ActionSpec& action) {
     std::erase(waiting, nullptr);
     spawned.push_back(action.target);
     // Winds and anchors that were without it may act on it.
-    const IslandForces current = forces();
+    const ForceList current = forces();
     for (const auto& island : islands) island->setForces(now(), current);
     rebuildColliders();
 }

@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
+#include "taut/world/forces/scene_forces.h"
 #include "taut/world/impl.h"
 #include "taut/world/motion.h"
 #include "taut/world/targets.h"
@@ -12,7 +13,7 @@
 namespace taut::world {
 
 World::Impl::Impl(const SceneSpec& scene, const Options& options)
-    : spec(scene), threads(options.threads), start(std::make_unique<const SceneSpec>(scene)) {
+    : spec(scene), threads(options.threads), added(options.forces), start(std::make_unique<const SceneSpec>(scene)) {
     ticksPerFrame = std::max(1, static_cast<int>(std::ceil(60.0 / spec.run.fps)));
     ticksPerSecond = spec.run.fps * ticksPerFrame;
     const auto add = [&](const char* kind, const std::string& name, auto part) {
@@ -44,7 +45,8 @@ void World::Impl::addBodies() {
     }
     checkAnchors();
     const Envelopes envelopes(*start);
-    for (IslandPlan& plan : planIslands(pointers, spec)) addIsland(std::move(plan), envelopes, true);
+    const ForceList current = forces();
+    for (IslandPlan& plan : planIslands(pointers, spec)) addIsland(std::move(plan), current, envelopes, true);
 }
 
 // A body that comes later cannot be tied to others: islands are made once.
@@ -72,13 +74,15 @@ std::vector<Body*> World::Impl::allBodies() const {
     return all;
 }
 
-// The winds and anchors as they are now, resolved to bodies and points.
-IslandForces World::Impl::forces() const {
-    std::vector<WindSpec> winds;
-    std::vector<AnchorSpec> anchors;
-    registry.each<WindPart>([&](ecs::Entity, const WindPart& part) { winds.push_back(part.spec); });
-    registry.each<AnchorPart>([&](ecs::Entity, const AnchorPart& part) { anchors.push_back(part.spec); });
-    return resolveForces(spec.world, winds, anchors, allBodies());
+// Those of the scene as they are now, then those that were added.
+ForceList World::Impl::forces() const {
+    ForceList all{gravityForce(spec.world)};
+    registry.each<WindPart>([&](ecs::Entity, const WindPart& part) {
+        if (auto wind = windForce(part.spec, spec.world.airDensity)) all.push_back(std::move(wind));
+    });
+    registry.each<AnchorPart>([&](ecs::Entity, const AnchorPart& part) { all.push_back(anchorForce(part.spec)); });
+    all.insert(all.end(), added.begin(), added.end());
+    return all;
 }
 
 // That each finds a point, of bodies that are there or wait.
@@ -86,16 +90,17 @@ void World::Impl::checkAnchors() const {
     std::vector<Body*> all = allBodies();
     for (const auto& body : waiting) all.push_back(body.get());
     for (const AnchorSpec& anchor : spec.anchors)
-        if (resolveForces({}, {}, {&anchor, 1}, all).anchors.empty())
+        if (std::none_of(all.begin(), all.end(), [&](const Body* body) { return hasPointIn(anchor, *body); }))
             throw core::Error(core::ExitCode::badContent,
                               at(anchor.source) + "target = \"" + anchor.target + "\" names no point");
 }
 
-void World::Impl::addIsland(IslandPlan plan, const Envelopes& envelopes, bool hasJoints) {
+void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints) {
     plan.solver.precision = spec.solver.precision;
-    const IslandForces current = forces();
+    const std::vector<Body*> members = plan.bodies;
     Envelope envelope = envelopes.of(plan, current, hasJoints);
     islands.push_back(makeIsland(std::move(plan), current, std::move(envelope), ticksPerSecond, seconds()));
+    for (Body* body : members) body->island = islands.back().get();
 }
 
 ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
@@ -130,15 +135,17 @@ ecs::Entity World::Impl::spawn(Body body) {
 // An island of its own.
 ecs::Entity World::Impl::addAlone(std::unique_ptr<Body> body) {
     const ecs::Entity entity = addBody(std::move(body));
-    Body* added = registry.find<BodyPart>(entity)->body.get();
+    Body* newcomer = registry.find<BodyPart>(entity)->body.get();
     const auto place = std::find_if(bodies.begin(), bodies.end(), [&](ecs::Entity other) {
-        return sortsBefore(*added, *registry.find<BodyPart>(other)->body);
+        return sortsBefore(*newcomer, *registry.find<BodyPart>(other)->body);
     });
     bodies.insert(place, entity);
     SceneSpec alone;  // the joints of the scene do not concern it
     alone.solver = spec.solver;
     const Envelopes envelopes(*start);
-    for (IslandPlan& plan : planIslands(std::vector<Body*>{added}, alone)) addIsland(std::move(plan), envelopes, false);
+    const ForceList current = forces();
+    for (IslandPlan& plan : planIslands(std::vector<Body*>{newcomer}, alone))
+        addIsland(std::move(plan), current, envelopes, false);
     return entity;
 }
 
@@ -194,11 +201,8 @@ void World::Impl::updateHash() {
 }
 
 Island& World::Impl::islandOf(const Body& body) const {
-    for (const auto& island : islands) {
-        const std::vector<Body*>& members = island->plan().bodies;
-        if (std::find(members.begin(), members.end(), &body) != members.end()) return *island;
-    }
-    core::failCheck("a body lives in an island", __FILE__, __LINE__);
+    TAUT_EXPECTS(body.island != nullptr);
+    return *body.island;
 }
 
 World::World(const SceneSpec& spec, const Options& options) : impl_(std::make_unique<Impl>(spec, options)) {}
@@ -232,15 +236,16 @@ void World::Impl::redrawDamage() {
 std::optional<Divergence> World::advance() {
     Impl& w = *impl_;
     const TickTime now = w.now();
+    // What acts between two ticks, systems as well as actions; then the islands that it opened start again.
     w.performDue();
-    w.changeForces();
-    w.changeSprings();
     w.changeColliders();
-    w.leadHands();
-    w.closeIslands();
     w.placeColliders();
     for (const System& system : std::vector<System>(w.systems))
         system(*this, static_cast<double>(w.tick + 1) / w.ticksPerSecond, tickSeconds());
+    w.changeForces();
+    w.changeSprings();
+    w.leadHands();
+    w.closeIslands();
     const std::vector<ColliderMotion> moving = w.movingColliders();
     std::vector<std::optional<Fault>> faults(w.islands.size());
     w.threads.run([&] {
@@ -301,6 +306,20 @@ std::vector<std::string> World::warnings() const {
 
 ecs::Registry& World::registry() {
     return impl_->registry;
+}
+void World::addForce(std::shared_ptr<const Force> force) {
+    TAUT_EXPECTS(force != nullptr);
+    Impl& w = *impl_;
+    for (const auto& other : w.forces())
+        if (other->name() == force->name())
+            throw core::Error(core::ExitCode::usage, "there is a force " + force->name() + " already");
+    w.added.push_back(std::move(force));
+    const ForceList current = w.forces();
+    for (const auto& island : w.islands) {
+        if (island->frozen() != nullptr) continue;
+        island->setForces(w.now(), current);
+        island->change(w.now());  // so that its step is held against the limit as it is now
+    }
 }
 void World::addSystem(System system) {
     impl_->systems.push_back(std::move(system));

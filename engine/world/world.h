@@ -19,6 +19,8 @@
 
 namespace taut::world {
 
+class Force;
+
 // Why a run cannot go on: everything a person needs to mend the scene.
 struct Divergence {
     std::int64_t tick = 0;
@@ -90,6 +92,7 @@ struct IslandInfo {
 
 struct Options {
     int threads = 0;  // 0: as many as the machine has
+    std::vector<std::shared_ptr<const Force>> forces{};  // besides those of the scene; steps allow for them
 };
 
 class World {
@@ -148,6 +151,11 @@ class World {
     // set and before forces act; in the order of adding.
     using System = std::function<void(World& world, double t, double dt)>;
     void addSystem(System system);
+
+    // A force acts from now on, on the bodies that are there and on those that come; its energy counts among the elastic
+    // ones, or among the gravitational where it is uniform. Steps are not chosen anew: where it is too stiff for them,
+    // warnings() says so; Options::forces are allowed for. Throws core::Error(usage) where one of that name acts already.
+    void addForce(std::shared_ptr<const Force> force);
 
     // In mid-run. A new body is an island of its own, felt by the winds and colliders that are there.
     ecs::Entity spawn(const ColliderSpec& spec);

@@ -247,7 +247,6 @@ TYPED_TEST(MassSpringSystems, LeaveHeldPointsBitwiseWhereTheyAre) {
 template <class Real>
 struct Push final : ForceGenerator<Real> {
     Push(bool local, double s) : isLocal_(local), size(s) {}
-    std::string_view name() const override { return "push"; }
     bool isLocal() const override { return isLocal_; }
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override {
         if (!isLocal_) {
@@ -258,7 +257,7 @@ struct Push final : ForceGenerator<Real> {
             for (int i = first; i < last; ++i)
                 f[p * motion.stride + i] += static_cast<Real>(size * (p + 1)) * static_cast<Real>(i % 1024);
     }
-    double potentialEnergy(const Motion<Real>&) const override { return 0.0; }
+    double potentialEnergy(const Motion<Real>&, const std::vector<bool>&) const override { return 0.0; }
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
     void addStability(const Motion<Real>&, StabilityShare&) const override {}
     bool isLocal_;

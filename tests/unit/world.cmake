@@ -5,6 +5,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_cutting_test.cpp
   world_divergence_test.cpp
   world_envelope_test.cpp
+  world_forces_test.cpp
   world_freeze_test.cpp
   world_hands_test.cpp
   world_islands_test.cpp

@@ -65,6 +65,23 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodActs,
                                          "leapfrog", "implicit-euler"),
                          nameOfMethod);
 
+// What a system does to a body at the start of a tick is what an action of that tick does.
+TEST_P(EveryMethodActs, APushFromASystemIsThatOfAnAction) {
+    SceneSpec scene = loneMass(std::string(GetParam()));
+    scene.solver.dt = 1.0 / 240;
+    ActionSpec push = action(Do::push, 0.1, "net.ball@m");
+    push.impulse = {0, 0.6, 0};
+    World fromSystem(scene);
+    fromSystem.addSystem([&](World& world, double, double) {
+        if (world.tick() == 6) world.apply(push);
+    });
+    scene.actions = {push};
+    World fromAction(scene);
+    run(fromSystem, 20);
+    run(fromAction, 20);
+    EXPECT_EQ(fromSystem.stateHash(), fromAction.stateHash());
+}
+
 TEST_P(EveryMethodActs, APushChangesTheVelocityOfEveryPointByTheImpulseOverTheMass) {
     SceneSpec scene = dumbbell();
     scene.solver.integrator = std::string(GetParam());

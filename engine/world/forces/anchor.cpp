@@ -1,0 +1,82 @@
+#include "taut/mechanics/anchor.h"
+
+#include <map>
+
+#include "taut/world/forces/scene_forces.h"
+#include "taut/world/targets.h"
+
+namespace taut::world {
+namespace {
+
+std::vector<int> pointsIn(const std::string& target, const Body& body) {
+    if (!names(target, body)) return {};
+    return selectPoints(body.model, parseTarget(target).selector);
+}
+
+dvec3 rateOf(const mechanics::LinearPath& path) {
+    return path.isLine ? path.to - path.from : dvec3(0.0);
+}
+
+class AnchorForce final : public ForceOf<AnchorForce> {
+  public:
+    explicit AnchorForce(const AnchorSpec& anchor)
+        : ForceOf("anchor." + anchor.name),
+          target_(anchor.target),
+          place_{anchor.at, anchor.at},
+          stiffness_(anchor.stiffness),
+          damping_(anchor.damping) {}
+
+    // A point that bodies share is drawn once by each.
+    template <class Real>
+    std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan& plan) const {
+        std::map<int, int> times;  // by point
+        for (const Body* body : plan.bodies)
+            for (int i : pointsIn(target_, *body)) ++times[body->pointOf[static_cast<std::size_t>(i)]];
+        if (times.empty()) return nullptr;
+        std::vector<int> points;
+        std::vector<double> stiffness, damping;
+        for (const auto& [point, count] : times) {
+            points.push_back(point);
+            stiffness.push_back(count * stiffness_);
+            damping.push_back(count * damping_);
+        }
+        auto anchor = std::make_unique<mechanics::Anchor<Real>>(points, place_.to, stiffness, damping);
+        anchor->setPlace(place_);
+        return anchor;
+    }
+    void changeEvenly(const AnchorForce& from, const AnchorForce& to, double t0, double t1) {
+        const dvec3 a = from.place_.to, b = to.place_.to;
+        place_ = a == b ? mechanics::LinearPath{a, a} : mechanics::LinearPath::line(a, (b - a) / (t1 - t0), t0);
+    }
+    // As fast as before, from where that was.
+    bool follows(const AnchorForce& before) const {
+        return before.stiffness_ == stiffness_ && before.damping_ == damping_ && before.target_ == target_ &&
+               rateOf(before.place_) == rateOf(place_) && (before.place_.isLine || before.place_.to == place_.from);
+    }
+    template <class Real>
+    void guide(mechanics::ForceGenerator<Real>& generator) const {
+        static_cast<mechanics::Anchor<Real>&>(generator).setPlace(place_);
+    }
+    void visit(StateBytes& bytes) override {
+        bytes(place_);
+        bytes.notNegative(stiffness_);
+        bytes.notNegative(damping_);
+    }
+
+  private:
+    std::string target_;
+    mechanics::LinearPath place_;  // [m]
+    double stiffness_, damping_;   // [N/m], [kg/s] of each point
+};
+
+}  // namespace
+
+std::shared_ptr<const Force> anchorForce(const AnchorSpec& anchor) {
+    return std::make_shared<AnchorForce>(anchor);
+}
+
+bool hasPointIn(const AnchorSpec& anchor, const Body& body) {
+    return !pointsIn(anchor.target, body).empty();
+}
+
+}  // namespace taut::world

@@ -1,0 +1,46 @@
+#include "taut/world/forces/force.h"
+
+#include <algorithm>
+
+namespace taut::world {
+namespace {
+
+const Force* named(const ForceList& forces, const std::string& name) {
+    const auto found = std::find_if(forces.begin(), forces.end(), [&](const auto& f) { return f->name() == name; });
+    return found == forces.end() ? nullptr : found->get();
+}
+
+}  // namespace
+
+ForceList during(const ForceList& from, const ForceList& middle, const ForceList& to, double t0, double t1) {
+    ForceList forces;
+    for (const auto& force : middle) {
+        const Force *first = named(from, force->name()), *last = named(to, force->name());
+        forces.push_back(first != nullptr && last != nullptr ? force->during(*first, *last, t0, t1) : force);
+    }
+    return forces;
+}
+
+bool goesOn(const ForceList& before, const ForceList& now) {
+    if (before.size() != now.size()) return false;
+    for (std::size_t i = 0; i < now.size(); ++i)
+        if (now[i]->name() != before[i]->name() || !now[i]->goesOn(*before[i])) return false;
+    return true;
+}
+
+void visit(StateBytes& bytes, ForceList& forces) {
+    auto count = static_cast<std::uint64_t>(forces.size());
+    bytes(count);
+    if (count < forces.size()) misfit("they know nothing of " + forces[static_cast<std::size_t>(count)]->name());
+    for (std::size_t i = 0; i < count; ++i) {
+        std::string name = i < forces.size() ? forces[i]->name() : "";
+        bytes(name);
+        if (i >= forces.size() || name != forces[i]->name())
+            misfit("they need the force " + name + ", which this world has not, or not in this place");
+        const std::shared_ptr<Force> force = forces[i]->copy();
+        force->visit(bytes);
+        forces[i] = force;
+    }
+}
+
+}  // namespace taut::world

@@ -165,7 +165,7 @@ Json methodsJson() {
                        {"stored_arrays", m.storedArrays},
                        {"symplectic", m.symplectic},
                        {"reversible", m.reversible},
-                       {"any_first_order_system", m.isFirstOrder},
+                       {"any_first_order_system", m.isFirstOrder()},
                        {"omega_h_undamped", m.largestStep({.omega = 1.0})},  // null: none
                        {"stability_limit", m.limit},
                        {"caution", m.caution}});
@@ -184,7 +184,7 @@ void printMethods() {
     const auto yes = [](bool is) { return is ? "yes" : "-"; };
     for (const ode::MethodInfo& m : ode::methods())
         fmt::print("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", m.name, m.title, m.order,
-                   m.evaluations, m.storedArrays, yes(m.symplectic), yes(m.reversible), yes(m.isFirstOrder),
+                   m.evaluations, m.storedArrays, yes(m.symplectic), yes(m.reversible), yes(m.isFirstOrder()),
                    undampedLimit(m), m.limit);
     fmt::print(
         "\nevals: force evaluations a step, besides the solve of implicit Euler. arrays: kept besides positions and "

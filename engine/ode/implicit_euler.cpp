@@ -18,7 +18,7 @@
 #include "taut/core/error.h"
 #include "taut/ode/conjugate_gradient.h"
 #include "taut/ode/implicit_system.h"
-#include "taut/ode/method_table.h"
+#include "taut/ode/method.h"
 
 namespace taut::ode {
 namespace {
@@ -240,17 +240,30 @@ class ImplicitEuler final : public Method<Real> {
     core::AlignedArray<Real> acceleration_, scratch_;
 };
 
-}  // namespace
-
 template <class Real>
 std::unique_ptr<Method<Real>> makeImplicitEuler(const MethodOptions& options) {
     return std::make_unique<ImplicitEuler<Real>>(options);
 }
-template std::unique_ptr<Method<float>> makeImplicitEuler(const MethodOptions&);
-template std::unique_ptr<Method<double>> makeImplicitEuler(const MethodOptions&);
 
 double implicitEulerLargestStep(const FastestMode&) {
     return HUGE_VAL;
+}
+
+}  // namespace
+
+MethodInfo implicitEuler() {
+    return {.name = "implicit-euler",
+            .title = "implicit Euler",
+            .order = 1,
+            .evaluations = 1,
+            .storedArrays = 12,
+            .symplectic = false,
+            .reversible = false,
+            .limit = "none on linear problems; solves by conjugate gradients, and damps by ζ = z/2",
+            .caution = "",
+            .largestStep = implicitEulerLargestStep,
+            .automaticStep = implicitEulerLargestStep,
+            .make = {makeImplicitEuler<float>, makeImplicitEuler<double>}};
 }
 
 }  // namespace taut::ode

@@ -7,9 +7,9 @@
 // Drag is semi-implicit (limit h ω < 2 whatever γ), other velocity forces see the extrapolated w, which keeps order
 // 2 at the limit h²ω² + 4hc < 4 for a modal rate c. Start: v(-h/2) = v0 - (h/2) a(x0, v0), w = v0.
 #include <algorithm>
-#include <cmath>
 
-#include "taut/ode/method_table.h"
+#include "taut/ode/method.h"
+#include "taut/ode/step_limits.h"
 #include "taut/ode/update_kernels.h"
 
 namespace taut::ode {
@@ -130,21 +130,26 @@ class Leapfrog final : public Method<Real> {
     bool isDragUniform_ = false;
 };
 
-}  // namespace
-
 template <class Real>
-std::unique_ptr<Method<Real>> makeLeapfrog() {
+std::unique_ptr<Method<Real>> makeLeapfrog(const MethodOptions&) {
     return std::make_unique<Leapfrog<Real>>();
 }
-template std::unique_ptr<Method<float>> makeLeapfrog();
-template std::unique_ptr<Method<double>> makeLeapfrog();
 
-// Largest h with h²ω² + 4h(τω² + c) < 4; drag is semi-implicit and does not enter.
-double leapfrogLargestStep(const FastestMode& mode) {
-    if (mode.omega <= 0.0) return mode.rate > 0.0 ? 1.0 / mode.rate : HUGE_VAL;
-    const double omega2 = mode.omega * mode.omega;
-    const double s = mode.tau + mode.rate / omega2;
-    return 2.0 / (omega2 * (std::sqrt(s * s + 1.0 / omega2) + s));
+}  // namespace
+
+MethodInfo leapfrog() {
+    return {.name = "leapfrog",
+            .title = "leap-frog",
+            .order = 2,
+            .evaluations = 1,
+            .storedArrays = 1,
+            .symplectic = true,
+            .reversible = true,
+            .limit = "2 with drag, 2(√(1+4ζ²) - 2ζ) with dashpots",
+            .caution = "",
+            .largestStep = leapfrogLargestStep,
+            .automaticStep = leapfrogLargestStep,
+            .make = {makeLeapfrog<float>, makeLeapfrog<double>}};
 }
 
 }  // namespace taut::ode

@@ -5,9 +5,11 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "taut/core/aligned_array.h"
+#include "taut/ode/first_order_method.h"
 #include "taut/ode/system.h"
 
 namespace taut::ode {
@@ -83,7 +85,36 @@ struct FastestMode {
     double largestDrag = 0;  // [1/s] largest of them
 };
 
-// What a person should know of a method before choosing it.
+// The functions that make a method, one for each precision: of a method for any y' = f(t, y), or of one that needs
+// x'' = a.
+class MethodMakers {
+  public:
+    template <class Real>
+    using FirstOrder = std::unique_ptr<FirstOrderMethod<Real>> (*)();
+    template <class Real>
+    using SecondOrder = std::unique_ptr<Method<Real>> (*)(const MethodOptions& options);
+
+    constexpr MethodMakers(FirstOrder<float> single, FirstOrder<double> twice) : first_{single, twice} {}
+    constexpr MethodMakers(SecondOrder<float> single, SecondOrder<double> twice) : second_{single, twice} {}
+
+    constexpr bool isFirstOrder() const { return std::get<0>(first_) != nullptr; }
+    // nullptr when it is of the other kind.
+    template <class Real>
+    constexpr FirstOrder<Real> firstOrder() const {
+        return std::get<FirstOrder<Real>>(first_);
+    }
+    template <class Real>
+    constexpr SecondOrder<Real> secondOrder() const {
+        return std::get<SecondOrder<Real>>(second_);
+    }
+
+  private:
+    std::tuple<FirstOrder<float>, FirstOrder<double>> first_;
+    std::tuple<SecondOrder<float>, SecondOrder<double>> second_;
+};
+
+// A row of the table of methods: what a person should know of it before choosing it, its limits, and how it is made.
+// The texts are not copied.
 struct MethodInfo {
     std::string_view name;   // as scenes write it
     std::string_view title;  // as texts write it
@@ -92,7 +123,6 @@ struct MethodInfo {
     int storedArrays;        // of the size of x, besides x and v
     bool symplectic;
     bool reversible;
-    bool isFirstOrder;         // integrates any y' = f(t, y); else it needs x'' = a
     std::string_view limit;    // largest stable z = ω h in words, for a damping ratio ζ
     std::string_view caution;  // what its limit does not promise; empty when it does
     // Largest stable h [s]; 0 when every h is unstable, infinite when none is.
@@ -100,6 +130,9 @@ struct MethodInfo {
     // h [s] that may be taken without asking: the largest stable one or, of methods that let undamped motion grow at
     // every step, one at which it grows slowly.
     double (*automaticStep)(const FastestMode& mode);
+    MethodMakers make;
+
+    bool isFirstOrder() const { return make.isFirstOrder(); }  // integrates any y' = f(t, y); else it needs x'' = a
 };
 
 }  // namespace taut::ode

@@ -1,7 +1,7 @@
 // The classical Runge-Kutta method. Order 4; stands undamped motion up to ω h = 2√2.
 #include <cmath>
 
-#include "taut/ode/method_table.h"
+#include "taut/ode/method.h"
 #include "taut/ode/runge_kutta.h"
 #include "taut/ode/step_limits.h"
 
@@ -20,14 +20,10 @@ double amplification(double z, double zeta) {
     return a * a + b * b;
 }
 
-}  // namespace
-
 template <class Real>
 std::unique_ptr<FirstOrderMethod<Real>> makeRk4() {
     return makeRungeKutta<Real>({4, {0.0, 0.5, 0.5, 1.0}, {1, 2, 2, 1}, 6});
 }
-template std::unique_ptr<FirstOrderMethod<float>> makeRk4();
-template std::unique_ptr<FirstOrderMethod<double>> makeRk4();
 
 // |R(w)| = 1. Within |w| <= 2.5 all of the left half plane is stable, and beyond 3.5 nothing.
 double rk4LargestStep(const FastestMode& mode) {
@@ -36,6 +32,23 @@ double rk4LargestStep(const FastestMode& mode) {
         if (zeta >= 1.0) return overdampedLimit(zeta, real);
         return bisect(2.5, 3.5, [&](double z) { return amplification(z, zeta) < 1.0; });
     });
+}
+
+}  // namespace
+
+MethodInfo rungeKutta4() {
+    return {.name = "rk4",
+            .title = "Runge-Kutta 4",
+            .order = 4,
+            .evaluations = 4,
+            .storedArrays = 8,
+            .symplectic = false,
+            .reversible = false,
+            .limit = "2√2 at ζ = 0; from ζ = 1 on 2.785(ζ - √(ζ²-1)); between |R(w)| = 1",
+            .caution = "",
+            .largestStep = rk4LargestStep,
+            .automaticStep = rk4LargestStep,
+            .make = {makeRk4<float>, makeRk4<double>}};
 }
 
 }  // namespace taut::ode

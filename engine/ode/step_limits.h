@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 #include "taut/ode/method.h"
 
@@ -30,5 +31,13 @@ double cubeRoot(double x);
 // but a short one is good for long: the step at which motion of that frequency grows e-fold in `patience` seconds.
 inline constexpr double patience = 10.0;  // [s]
 double slowGrowthStep(double omega, double drag);
+inline constexpr std::string_view growthCaution =
+    "motion that nothing damps grows at every step: dt = \"auto\" keeps it to a factor of e in 10 s";
+
+// Limits that two methods have in common [s]: Heun and midpoint, the same on linear problems, and leap-frog and
+// velocity Verlet, whose positions are the same.
+double heunLargestStep(const FastestMode& mode);
+double heunAutomaticStep(const FastestMode& mode);
+double leapfrogLargestStep(const FastestMode& mode);
 
 }  // namespace taut::ode

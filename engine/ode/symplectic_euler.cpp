@@ -5,7 +5,7 @@
 // Drag is implicit, other velocity forces see v.
 #include <cmath>
 
-#include "taut/ode/method_table.h"
+#include "taut/ode/method.h"
 
 namespace taut::ode {
 namespace {
@@ -52,14 +52,10 @@ class SymplecticEuler final : public Method<Real> {
     };
 };
 
-}  // namespace
-
 template <class Real>
-std::unique_ptr<Method<Real>> makeSymplecticEuler() {
+std::unique_ptr<Method<Real>> makeSymplecticEuler(const MethodOptions&) {
     return std::make_unique<SymplecticEuler<Real>>();
 }
-template std::unique_ptr<Method<float>> makeSymplecticEuler();
-template std::unique_ptr<Method<double>> makeSymplecticEuler();
 
 // Largest h with h²ω² + 2h(τω² + c - γ) < 4: from the trace and determinant of a step of the damped oscillator. Drag
 // helps, as little as the point with the smallest has.
@@ -70,6 +66,23 @@ double symplecticEulerLargestStep(const FastestMode& mode) {
     const double root = std::sqrt(b * b + omega2);
     // Without a difference of equals.
     return b >= 0.0 ? 2.0 / (root + b) : 2.0 * (root - b) / omega2;
+}
+
+}  // namespace
+
+MethodInfo symplecticEuler() {
+    return {.name = "symplectic-euler",
+            .title = "symplectic Euler",
+            .order = 1,
+            .evaluations = 1,
+            .storedArrays = 0,
+            .symplectic = true,
+            .reversible = false,
+            .limit = "2(√(1+ζ²) - ζ) with dashpots, 2(√(1+ζ²) + ζ) with drag",
+            .caution = "",
+            .largestStep = symplecticEulerLargestStep,
+            .automaticStep = symplecticEulerLargestStep,
+            .make = {makeSymplecticEuler<float>, makeSymplecticEuler<double>}};
 }
 
 }  // namespace taut::ode

@@ -5,7 +5,8 @@
 // a_el is kept from the step before. a_el' sees the velocity extrapolated from half steps, w = 1.5 v½ - 0.5 v½(before),
 // as leap-frog does; at the start and after a contact a_el is evaluated anew, from v. That a contact has been is part
 // of the state, so that a copy of it goes on in the same way.
-#include "taut/ode/method_table.h"
+#include "taut/ode/method.h"
+#include "taut/ode/step_limits.h"
 
 namespace taut::ode {
 namespace {
@@ -93,13 +94,26 @@ class VelocityVerlet final : public Method<Real> {
     }
 };
 
-}  // namespace
-
 template <class Real>
-std::unique_ptr<Method<Real>> makeVelocityVerlet() {
+std::unique_ptr<Method<Real>> makeVelocityVerlet(const MethodOptions&) {
     return std::make_unique<VelocityVerlet<Real>>();
 }
-template std::unique_ptr<Method<float>> makeVelocityVerlet();
-template std::unique_ptr<Method<double>> makeVelocityVerlet();
+
+}  // namespace
+
+MethodInfo velocityVerlet() {
+    return {.name = "velocity-verlet",
+            .title = "velocity Verlet",
+            .order = 2,
+            .evaluations = 1,
+            .storedArrays = 3,
+            .symplectic = true,
+            .reversible = true,
+            .limit = "2 with drag, 2(√(1+4ζ²) - 2ζ) with dashpots",
+            .caution = "",
+            .largestStep = leapfrogLargestStep,
+            .automaticStep = leapfrogLargestStep,
+            .make = {makeVelocityVerlet<float>, makeVelocityVerlet<double>}};
+}
 
 }  // namespace taut::ode

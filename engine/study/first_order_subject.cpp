@@ -74,7 +74,7 @@ class FirstOrderSubject final : public Subject {
     std::string unit() const override { return ""; }
     bool hasEnergy() const override { return false; }
     double duration() const override { return problem_.duration; }
-    bool accepts(const ode::MethodInfo& method) const override { return method.isFirstOrder; }
+    bool accepts(const ode::MethodInfo& method) const override { return method.isFirstOrder(); }
     Grid grid(double duration, double) const override { return {duration / 10, 10}; }
 
     std::unique_ptr<Trial> begin(const RunPlan& plan) const override {

@@ -27,7 +27,7 @@ std::vector<GrowthRow> growthTable(double tolerance, const std::vector<std::stri
     };
     std::vector<GrowthRow> rows;
     for (const ode::MethodInfo& info : ode::methods()) {
-        if (!info.isFirstOrder || !isWanted(info.name)) continue;
+        if (!info.isFirstOrder() || !isWanted(info.name)) continue;
         GrowthRow row;
         row.method = info.name;
         row.tolerance = tolerance;

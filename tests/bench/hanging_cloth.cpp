@@ -44,7 +44,7 @@ double stableStep(const mechanics::Model& cloth) {
     ode::FastestMode mode;
     mode.omega = mechanics::boundAnywhere({cloth.springs, inverseMasses}, {}).omega;
     for (const mechanics::Spring& s : cloth.springs) mode.tau = std::max(mode.tau, s.dampingTime);
-    return 0.5 * ode::leapfrogLargestStep(mode);
+    return 0.5 * ode::findMethod("leapfrog")->largestStep(mode);
 }
 
 template <class Real>

@@ -6,34 +6,13 @@
 #include <complex>
 #include <string>
 
-#include "support/oscillator.h"
+#include "support/oscillator_measures.h"
 
 namespace taut::test::oscillator_limits {
 namespace {
 
 constexpr double omega = 5.0;
-constexpr int manySteps = 200000;
 constexpr double zetas[] = {0.0, 0.1, 0.5, 1.0, 2.0};
-
-// How far the amplitude gets within many steps; stops beyond 1e12.
-double largestAmplitude(std::string_view method, const Oscillator::Values& values, double h) {
-    Oscillator oscillator(values);
-    Integration<double> run = integrate(oscillator, method, h, {1.0, values.omega});
-    double largest = 0.0;
-    for (int i = 0; i < manySteps && largest < 1e12; ++i) {
-        run.step();
-        largest = std::max(largest, std::abs(run.state.x[0]));
-    }
-    return largest;
-}
-
-// Below the limit the start can be enlarged once: 1/√(1 - 0.99²) = 7 times for either part of it; where two roots
-// meet, Euler at ζ = 1, n steps multiply it by 4 n 0.98^n, 73 at most. Never more than 100, that is.
-// Above it the slowest growth here, Euler at ζ = 0.1, is (1 + 0.04 ζ²)^(n/2) = e^40 in n = 2e5 steps.
-void expectLimit(std::string_view method, const Oscillator::Values& values, double limit) {
-    EXPECT_LT(largestAmplitude(method, values, 0.99 * limit), 100.0);
-    EXPECT_GT(largestAmplitude(method, values, 1.01 * limit), 1e11);
-}
 
 double leapfrogLimit(double zetaOfDashpot) {
     return 2.0 * (std::sqrt(1.0 + 4.0 * zetaOfDashpot * zetaOfDashpot) - 2.0 * zetaOfDashpot) / omega;

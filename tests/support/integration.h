@@ -19,8 +19,9 @@ class Integration {
   public:
     // x and v are laid out as the system's layout says.
     Integration(ode::SecondOrderSystem<Real>& system, std::string_view method, double h, std::span<const Real> x,
-                std::span<const Real> v, const ode::MethodOptions& options = exactSolves)
-        : system_(system), method_(ode::makeMethod<Real>(method, options)), h_(h), state(system.layout()) {
+                std::span<const Real> v, const ode::MethodOptions& options = exactSolves,
+                const ode::Methods& methods = ode::builtInMethods())
+        : system_(system), method_(methods.make<Real>(method, options)), h_(h), state(system.layout()) {
         for (std::size_t i = 0; i < state.x.size(); ++i) {
             state.x[i] = x[i];
             state.v[i] = v[i];

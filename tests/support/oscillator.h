@@ -54,8 +54,10 @@ struct Phase {
 };
 
 inline Integration<double> integrate(Oscillator& oscillator, std::string_view method, double h, Phase start,
-                                     const ode::MethodOptions& options = exactSolves) {
-    return {oscillator, method, h, std::span<const double>(&start.x, 1), std::span<const double>(&start.v, 1), options};
+                                     const ode::MethodOptions& options = exactSolves,
+                                     const ode::Methods& methods = ode::builtInMethods()) {
+    const std::span<const double> x(&start.x, 1), v(&start.v, 1);
+    return {oscillator, method, h, x, v, options, methods};
 }
 
 inline Phase phaseOf(Integration<double>& run) {

@@ -95,14 +95,14 @@ std::string messageOf(const char* name) {
 
 TEST(FirstOrderMethod, IsRefusedWhereAMethodNeedsPositionsAndVelocitiesApart) {
     for (const char* name : secondOrderMethods) {
-        EXPECT_FALSE(ode::findMethod(name)->isFirstOrder);
+        EXPECT_FALSE(ode::findMethod(name)->isFirstOrder());
         const std::string message = messageOf(name);
         EXPECT_NE(message.find(ode::findMethod(name)->title), std::string::npos) << message;
         EXPECT_NE(message.find("x'' = a"), std::string::npos) << message;
         for (const char* other : firstOrderMethods) EXPECT_NE(message.find(other), std::string::npos) << message;
     }
     EXPECT_NE(messageOf("leap").find("no method \"leap\""), std::string::npos);
-    for (const char* name : firstOrderMethods) EXPECT_TRUE(ode::findMethod(name)->isFirstOrder);
+    for (const char* name : firstOrderMethods) EXPECT_TRUE(ode::findMethod(name)->isFirstOrder());
 }
 
 // The adapter adds nothing of its own: the same bits as the method on the first-order view.

@@ -40,7 +40,7 @@ TEST(StudyWorkPrecision, EveryMethodOfTheTableAppears) {
 
 TEST(StudyWorkPrecision, AnEquationOfFirstOrderTakesTheMethodsThatCan) {
     const WorkPrecision study = studyWorkPrecision(*makeGrowth(), fixed(2));
-    for (const MethodFacts& method : study.methods) EXPECT_TRUE(ode::findMethod(method.name)->isFirstOrder);
+    for (const MethodFacts& method : study.methods) EXPECT_TRUE(ode::findMethod(method.name)->isFirstOrder());
     EXPECT_GE(study.methods.size(), 1U);
     StudySettings settings = fixed(2);
     settings.methods = {"leapfrog"};

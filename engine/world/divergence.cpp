@@ -4,8 +4,6 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "taut/ode/method_table.h"
-
 namespace taut::world {
 namespace {
 
@@ -43,7 +41,7 @@ std::string explainDivergence(const Divergence& d, const Fault& fault, const Ste
     else if (d.limit > 0)
         text += "  the step is within the limit, so something else feeds energy in: look at colliders that move fast, "
                 "winds, anchors, and working_stretch of blocks\n";
-    for (const ode::MethodInfo& other : ode::methods()) {
+    for (const ode::MethodInfo& other : methodsOf(plan.solver).all()) {
         const double limit = other.automaticStep(choice.mode);
         if (other.name == plan.solver.integrator || !(limit > 0) || !std::isfinite(limit)) continue;
         const double steps = std::ceil(choice.step * choice.substeps / (plan.solver.safety * limit));

@@ -37,7 +37,8 @@ IslandOf<Real>::IslandOf(IslandPlan plan, const ForceList& forces, Envelope enve
 template <class Real>
 void IslandOf<Real>::makeMethod() {
     const SolverSpec& solver = plan_.solver;
-    method_ = ode::makeMethod<Real>(solver.integrator, {solver.newtonSteps, solver.cgTolerance, solver.cgIterations});
+    method_ = methodsOf(solver).make<Real>(solver.integrator,
+                                           {solver.newtonSteps, solver.cgTolerance, solver.cgIterations});
 }
 
 template <class Real>

@@ -9,7 +9,6 @@
 
 #include "taut/mechanics/anchor.h"
 #include "taut/mechanics/volume.h"
-#include "taut/ode/method_table.h"
 #include "taut/world/island.h"
 #include "taut/world/step_choice.h"
 
@@ -85,7 +84,9 @@ class IslandOf final : public Island {
     void collide(std::span<const ColliderMotion> moving, int substep);
     void watchVolumes(double t);
     double penetration(const std::vector<bool>& wanted) const;
-    std::string_view methodTitle() const { return ode::findMethod(plan_.solver.integrator)->title; }
+    std::string_view methodTitle() const {
+        return methodsOf(plan_.solver).find(plan_.solver.integrator)->title;
+    }
 
     void visitPlan(StateBytes& bytes);
 

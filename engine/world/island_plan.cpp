@@ -290,6 +290,10 @@ void takeSpringsFromModels(IslandPlan& plan) {
         }
 }
 
+const ode::Methods& methodsOf(const SolverSpec& solver) {
+    return solver.methods != nullptr ? *solver.methods : ode::builtInMethods();
+}
+
 std::string describeSpring(const IslandPlan& plan, int spring) {
     static constexpr const char* kinds[] = {"structural", "shear", "bend", "joint"};
     const mechanics::Spring& s = plan.springs[static_cast<std::size_t>(spring)];

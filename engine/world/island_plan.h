@@ -6,6 +6,7 @@
 
 #include "taut/mechanics/linear_path.h"
 #include "taut/mechanics/mass_spring_system.h"
+#include "taut/ode/method_table.h"
 #include "taut/world/body.h"
 
 namespace taut::world {
@@ -45,6 +46,9 @@ std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSp
 
 // Takes stiffness, damping and drag over from the models of the bodies, for instance when those have changed.
 void takeSpringsFromModels(IslandPlan& plan);
+
+// The table of methods that the solver's integrator is a name of.
+const ode::Methods& methodsOf(const SolverSpec& solver);
 
 // "structural spring 12-13 of cloth.flag" for spring number `spring` of the plan.
 std::string describeSpring(const IslandPlan& plan, int spring);

@@ -175,7 +175,7 @@ Divergence IslandOf<Real>::diagnose(const Fault& fault, const TickTime& time) co
             plan_.springs[static_cast<std::size_t>(worst)].stiffness)
             worst = s;
     if (worst >= 0) d.spring = describeSpring(plan_, worst);
-    const ode::MethodInfo* method = ode::findMethod(plan_.solver.integrator);
+    const ode::MethodInfo* method = methodsOf(plan_.solver).find(plan_.solver.integrator);
     ode::FastestMode mode = choice_.mode;
     mode.omega = std::max(here.omega, choice_.here.omega);
     d.omegaH = mode.omega * choice_.step;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "taut/ode/method_table.h"
 #include "taut/world/drawing.h"
 
 namespace taut::world {
@@ -53,7 +52,8 @@ void addLabels(const LabelSpec& spec, std::span<const LabelSubject> subjects, st
         const FrozenIsland* frozen = subject.island->frozen();
         label.at = placeAbove(subject);
         label.shift.y = -(lift + lineHeight * statusSize) * label.size;  // room for the second line
-        if (!spec.text) label.text = ode::findMethod(subject.island->plan().solver.integrator)->title;
+        const SolverSpec& solver = subject.island->plan().solver;
+        if (!spec.text) label.text = methodsOf(solver).find(solver.integrator)->title;
         labels.push_back(label);
         if (frozen == nullptr) continue;
         char text[64];

@@ -14,6 +14,10 @@
 #include "taut/world/action_spec.h"
 #include "taut/world/source.h"
 
+namespace taut::ode {
+class Methods;
+}
+
 namespace taut::world {
 
 using glm::dvec2;
@@ -36,6 +40,7 @@ struct SolverSpec {
     OnDivergence onDivergence = OnDivergence::stop;
     double freezeStrain =
         1.0;  // |l - L|/L of a spring (but those of bending) at which freezing takes a body to diverge
+    std::shared_ptr<const ode::Methods> methods;  // that integrators are names of; none: the engine's own
 };
 
 // A body may override these parts of [solver].

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "taut/core/error.h"
-#include "taut/ode/method_table.h"
 
 namespace taut::world {
 namespace {
@@ -62,7 +61,8 @@ double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share)
     }
     now.plan.springs = plan.springs;
     const double omega = mechanics::boundAnywhere({plan.springs, inverseMasses}, share.stiffness).omega;
-    return ode::findMethod(plan.solver.integrator)->automaticStep(fastestMode(now, share, omega));
+    const ode::MethodInfo& method = *methodsOf(plan.solver).find(plan.solver.integrator);
+    return method.automaticStep(fastestMode(now, share, omega));
 }
 
 std::string inSeconds(double t) {
@@ -80,7 +80,7 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
     std::vector<double> inverseMasses;
     for (const auto& point : plan.points) inverseMasses.push_back(point.held ? 0.0 : 1.0 / point.mass);
     const mechanics::NetworkView network{plan.springs, inverseMasses};
-    const ode::MethodInfo* method = ode::findMethod(plan.solver.integrator);
+    const ode::MethodInfo* method = methodsOf(plan.solver).find(plan.solver.integrator);
     const Body& body = *plan.bodies.front();
     if (method == nullptr)
         throw Error(ExitCode::badContent, at(body.common.source) + "no method \"" + plan.solver.integrator + "\"");

@@ -1,0 +1,45 @@
+// A world whose scene brings a method of its own along.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "taut/core/error.h"
+#include "taut/ode/method_table.h"
+#include "support/small_scenes.h"
+#include "taut/world/world.h"
+
+namespace taut::world {
+namespace {
+
+// The engine's midpoint method under another name.
+ode::Methods withMine() {
+    ode::MethodInfo mine = *ode::findMethod("midpoint");
+    mine.name = "mine";
+    mine.title = "my method";
+    ode::Methods methods = ode::builtInMethods();
+    methods.add(mine);
+    return methods;
+}
+
+World swinging(const std::string& integrator, std::shared_ptr<const ode::Methods> methods) {
+    SceneSpec scene;
+    scene.ropes = {support::rope("line", {0, 0, 0}, {1, 0, 0})};
+    scene.ropes[0].hold = {"start"};
+    scene.solver.integrator = integrator;
+    scene.solver.methods = std::move(methods);
+    World world(scene);
+    for (int i = 0; i < 10; ++i) world.advance();
+    return world;
+}
+
+TEST(OwnMethodInAWorld, ChoosesTheStepAndMovesTheBodies) {
+    const World mine = swinging("mine", std::make_shared<ode::Methods>(withMine()));
+    const World same = swinging("midpoint", nullptr);
+    EXPECT_EQ(mine.islands()[0].method, "mine");
+    EXPECT_EQ(mine.islands()[0].step, same.islands()[0].step);
+    EXPECT_EQ(mine.stateHash(), same.stateHash());
+    EXPECT_THROW(swinging("mine", nullptr), core::Error);
+}
+
+}  // namespace
+}  // namespace taut::world

@@ -7,19 +7,6 @@
 
 namespace taut::collision {
 
-namespace {
-
-template <class T>
-const T& formOf(const T& form) {
-    return form;
-}
-template <class T>
-const T& formOf(const std::shared_ptr<const T>& form) {
-    return *form;
-}
-
-}  // namespace
-
 Colliders::Colliders() : impl_(std::make_unique<Impl>()) {}
 Colliders::~Colliders() = default;
 Colliders::Colliders(Colliders&&) noexcept = default;
@@ -72,7 +59,7 @@ double Colliders::distance(const glm::dvec3& position) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Solid& solid : impl_->solids) {
         const dvec3 local = solid.to.toLocal(position);
-        const double d = std::visit([&](const auto& form) { return formOf(form).nearest(local).distance; }, solid.form);
+        const double d = solid.form->nearest(local).distance;
         if (d < least) least = d;
     }
     return least;

@@ -10,24 +10,18 @@
 
 namespace taut::collision {
 
-enum class ShapeKind { plane, box, sphere, capsule, cylinder, cone, hull, mesh, compound };
-
 struct Pose {
     glm::dvec3 position{0.0};                 // [m]
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // unit (w, x, y, z)
 };
 
-// Lengths in metres, about the shape's own origin; the axis of capsule, cylinder and cone is y.
+class Form;
+
+// What a collider is made of: one form (form.h), which a row of the table of shapes makes, or several in their places.
 struct Shape {
-    ShapeKind kind = ShapeKind::sphere;
-    glm::dvec3 normal{0.0, 1.0, 0.0};      // plane: unit, away from the solid; passes through the origin
-    glm::dvec3 halfSize{0.5};              // box
-    double radius = 0.5;                   // sphere, capsule, cylinder, cone
-    double height = 1.0;                   // cylinder, cone: whole; capsule: between the two centres
-    std::vector<glm::dvec3> vertices;      // hull, mesh
-    std::vector<std::uint32_t> triangles;  // mesh: (3 · triangles) counter-clockwise seen from outside
+    std::shared_ptr<const Form> form;
     struct Part;
-    std::vector<Part> parts;  // compound
+    std::vector<Part> parts;  // of a compound; then there is no form
 };
 struct Shape::Part {
     Shape shape;
@@ -68,13 +62,12 @@ class Colliders {
     Colliders(Colliders&&) noexcept;
     Colliders& operator=(Colliders&&) noexcept;
 
-    // Returns the collider's number, counting from 0. Throws core::Error(badContent) for a shape that cannot be
-    // built (hull of fewer than four points or without volume, mesh without triangles, a size not above zero), a
-    // material out of range, or a pose that is not finite. Rotations and plane normals need not be of unit length.
+    // Returns the collider's number, counting from 0. Throws core::Error(badContent) for a compound without parts, a
+    // material out of range, or a pose that is not finite. Rotations need not be of unit length.
     int add(const Shape& shape, const Material& material, const Pose& pose);
     int size() const;
 
-    // The same colliders, to be moved on their own; hulls and meshes are shared, not built again.
+    // The same colliders, to be moved on their own; their forms are shared.
     Colliders clone() const;
 
     // The pose at the start and the end of the coming step; it holds until the next call, so a collider that stops is

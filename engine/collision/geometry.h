@@ -1,11 +1,9 @@
-// Geometry that the sources of this folder share: frames, boxes, nearest points and swept paths. Knows no Bullet.
+// The geometry of contact: frames, boxes, nearest points and swept paths. Knows no Bullet.
 #pragma once
 
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
-
-#include "taut/collision/colliders.h"
 
 namespace taut::collision {
 

@@ -1,7 +1,6 @@
 #include <array>
 #include <type_traits>
 
-#include "taut/collision/convex_sweep.h"
 #include "taut/collision/cull.h"
 #include "taut/collision/impl.h"
 #include "taut/collision/response.h"
@@ -21,26 +20,6 @@ constexpr double restSpeedPerSecond = 2.0 * 9.81;  // [m/s²]
 // Rounding of a coordinate of 1 m, some times over: of the state, and of the frames it is taken through.
 template <class Real>
 constexpr double skinPerMetre = std::is_same_v<Real, float> ? 4.8e-7 : 4e-15;
-
-// A plane never comes here: its half-space is the touch itself.
-bool sweepForm(const Form& form, const Path& path, Touch& touch, bool& crossed) {
-    switch (form.index()) {
-        case 1:
-            return sweepConvex(*std::get_if<BoxForm>(&form), path, touch);
-        case 2:
-            return sweepConvex(*std::get_if<SphereForm>(&form), path, touch);
-        case 3:
-            return sweepConvex(*std::get_if<CapsuleForm>(&form), path, touch);
-        case 4:
-            return sweepConvex(*std::get_if<CylinderForm>(&form), path, touch);
-        case 5:
-            return sweepConvex(*std::get_if<ConeForm>(&form), path, touch);
-        case 6:
-            return sweepHull(**std::get_if<std::shared_ptr<const Hull>>(&form), path, touch);
-        default:
-            return (*std::get_if<std::shared_ptr<const TriangleMesh>>(&form))->sweep(path, touch, crossed);
-    }
-}
 
 template <class Real>
 class Resolver {
@@ -125,7 +104,7 @@ class Resolver {
 
         // Pressed out of one solid a point may stand in another: a few passes in the same order, then it is left.
         const Solid& first = *near[static_cast<std::size_t>(__builtin_ctz(bits))];
-        const bool single = (bits & (bits - 1)) == 0 && first.form.index() != meshIndex;
+        const bool single = (bits & (bits - 1)) == 0 && first.convex;
         const int passes = single ? 1 : mostPasses;
         const std::size_t firstContact = contacts_.size();
         bool touches = false;
@@ -165,13 +144,13 @@ class Resolver {
             if (!surface.still) world.from = solid.to.toWorld(solid.from.toLocal(point.before));
             touch = {solid.above.normal, solid.above.offset + world.thickness};
         } else {
-            const double least = solid.form.index() == meshIndex ? 8.0 * skin : 0.0;
+            const double least = solid.convex ? 0.0 : 8.0 * skin;
             if (world.thickness < least) world.thickness = least;
             const dvec3 localStart = (jumped ? solid.to : solid.from).toLocal(point.before);
             if (!surface.still) world.from = solid.to.toWorld(localStart);
             const Path local{localStart, solid.to.toLocal(point.x), world.thickness, skin};
             if (jumped || solid.turn.empty()) {
-                if (!sweepForm(solid.form, local, touch, crossed)) return false;
+                if (!solid.form->sweep(local, touch, crossed)) return false;
             } else if (!sweepTurning(solid, point, local, touch, crossed)) {
                 return false;
             }
@@ -195,7 +174,7 @@ class Resolver {
         for (std::size_t k = 1; k <= pieces; ++k) {
             const double t = static_cast<double>(k) / static_cast<double>(pieces);
             piece.to = k == pieces ? whole.to : solid.turn[k - 1].toLocal(point.before + t * (point.x - point.before));
-            if (sweepForm(solid.form, piece, touch, crossed)) return true;
+            if (solid.form->sweep(piece, touch, crossed)) return true;
             piece.from = piece.to;
         }
         return false;
@@ -212,8 +191,6 @@ class Resolver {
         }
         contacts_.push_back({i, collider, impact.position, impact.normal, impact.impulse});
     }
-
-    static constexpr std::size_t meshIndex = 7;
 
     const std::vector<Solid>& solids_;
     const MovingPoints<Real>& points_;

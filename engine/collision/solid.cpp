@@ -8,73 +8,13 @@ namespace taut::collision {
 
 namespace {
 
-[[noreturn]] void failShape(const std::string& what) {
+[[noreturn]] void fail(const std::string& what) {
     throw core::Error(core::ExitCode::badContent, "collider " + what);
-}
-
-void expectSize(double size, const char* what) {
-    if (!(size > 0.0) || !isFinite(size)) failShape(std::string(what) + " has to be above zero, is " + std::to_string(size));
-}
-
-// The half size of a solid of revolution about y.
-Box roundBounds(double radius, double halfHeight) {
-    return {dvec3(-radius, -halfHeight, -radius), dvec3(radius, halfHeight, radius)};
-}
-
-Solid solidOf(Form form, const Box& bounds) {
-    Solid solid;
-    solid.form = std::move(form);
-    solid.localBounds = bounds;
-    return solid;
-}
-
-Solid makeSolid(const Shape& shape) {
-    const double radius = shape.radius;
-    const double halfHeight = 0.5 * shape.height;
-    switch (shape.kind) {
-        case ShapeKind::plane: {
-            const double length = std::sqrt(glm::dot(shape.normal, shape.normal));
-            if (!(length > 0.0) || !isFinite(length)) failShape("plane: its normal has no direction");
-            Solid solid = solidOf(PlaneForm{shape.normal / length}, Box{});
-            solid.bounded = false;
-            return solid;
-        }
-        case ShapeKind::box:
-            for (int k = 0; k < 3; ++k) expectSize(shape.halfSize[k], "box: a half size");
-            return solidOf(BoxForm{shape.halfSize}, Box{-shape.halfSize, shape.halfSize});
-        case ShapeKind::sphere:
-            expectSize(radius, "sphere: the radius");
-            return solidOf(SphereForm{radius}, roundBounds(radius, radius));
-        case ShapeKind::capsule:
-            expectSize(radius, "capsule: the radius");
-            expectSize(shape.height, "capsule: the height");
-            return solidOf(CapsuleForm{radius, halfHeight}, roundBounds(radius, halfHeight + radius));
-        case ShapeKind::cylinder:
-            expectSize(radius, "cylinder: the radius");
-            expectSize(shape.height, "cylinder: the height");
-            return solidOf(CylinderForm{radius, halfHeight}, roundBounds(radius, halfHeight));
-        case ShapeKind::cone:
-            expectSize(radius, "cone: the radius");
-            expectSize(shape.height, "cone: the height");
-            return solidOf(ConeForm{radius, halfHeight, std::sqrt(radius * radius + shape.height * shape.height)},
-                           roundBounds(radius, halfHeight));
-        case ShapeKind::hull: {
-            auto hull = std::make_shared<const Hull>(shape.vertices);
-            return solidOf(hull, hull->bounds());
-        }
-        case ShapeKind::mesh: {
-            auto mesh = std::make_shared<const TriangleMesh>(shape.vertices, shape.triangles);
-            return solidOf(mesh, mesh->bounds());
-        }
-        case ShapeKind::compound:
-            break;
-    }
-    failShape("of unknown shape");
 }
 
 glm::dquat unit(const glm::dquat& q) {
     const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (!(length > 0.0) || !isFinite(length)) failShape("pose: the rotation is not a quaternion of length above zero");
+    if (!(length > 0.0) || !isFinite(length)) fail("pose: the rotation is not a quaternion of length above zero");
     return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
 
@@ -89,18 +29,23 @@ Box worldBox(const Box& local, const Frame& frame) {
 }  // namespace
 
 Frame frameOf(const Pose& pose) {
-    if (!isFinite(pose.position)) failShape("pose: the position is not finite");
+    if (!isFinite(pose.position)) fail("pose: the position is not finite");
     const glm::dquat q = unit(pose.rotation);
     return {glm::mat3_cast(q), pose.position, q.x != 0.0 || q.y != 0.0 || q.z != 0.0};
 }
 
 void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid>& solids) {
-    if (shape.kind != ShapeKind::compound) {
-        solids.push_back(makeSolid(shape));
-        solids.back().inCollider = inCollider;
+    if (shape.form != nullptr) {
+        const std::optional<Box> bounds = shape.form->bounds();
+        Solid& solid = solids.emplace_back();
+        solid.form = shape.form;
+        solid.inCollider = inCollider;
+        solid.convex = shape.form->isConvex();
+        solid.bounded = bounds.has_value();
+        if (bounds) solid.localBounds = *bounds;
         return;
     }
-    if (shape.parts.empty()) failShape("compound: has no parts");
+    if (shape.parts.empty()) fail("compound: has no parts");
     for (const Shape::Part& part : shape.parts) appendSolids(part.shape, inCollider.of(frameOf(part.pose)), solids);
 }
 
@@ -131,7 +76,7 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
     }
 
     if (!solid.bounded) {
-        solid.above.normal = solid.to.directionToWorld(std::get_if<PlaneForm>(&solid.form)->normal);
+        solid.above.normal = solid.to.directionToWorld(solid.form->nearest(dvec3(0.0)).normal);
         solid.above.offset = glm::dot(solid.above.normal, solid.to.position);
         return;
     }

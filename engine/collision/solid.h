@@ -2,25 +2,18 @@
 #pragma once
 
 #include <memory>
-#include <variant>
 #include <vector>
 
-#include "taut/collision/closed_forms.h"
-#include "taut/collision/geometry.h"
-#include "taut/collision/hull.h"
-#include "taut/collision/triangle_mesh.h"
+#include "taut/collision/colliders.h"
+#include "taut/collision/form.h"
 
 namespace taut::collision {
-
-// Hulls and meshes never change once built, so copies of a solid share them.
-using Form = std::variant<PlaneForm, BoxForm, SphereForm, CapsuleForm, CylinderForm, ConeForm,
-                          std::shared_ptr<const Hull>, std::shared_ptr<const TriangleMesh>>;
 
 // Above this speed [m/s] of any of its places a collider is taken to have jumped: see Colliders::resolve.
 inline constexpr double fastestSurface = 100.0;
 
 struct Solid {
-    Form form;
+    std::shared_ptr<const Form> form;
     Frame inCollider;
     int collider = 0;
     Material material;
@@ -29,13 +22,14 @@ struct Solid {
     std::vector<Frame> turn;  // between the two, at equal times; empty unless the solid turns far
     bool still = true;
     double travel = 0.0;  // [m] how far the collider's fastest corner goes during the step
+    bool convex = true;
     bool bounded = true;  // false: a plane
     Touch above{};        // a plane's half-space in the world at the end of the step
     Box localBounds;      // [m] unless it is a plane
     Box bounds;           // [m] in the world, of the whole step
 };
 
-// Throws core::Error(badContent) where the shape, or a part of it, cannot be built.
+// Throws core::Error(badContent) for a compound without parts or with a part whose pose is not finite.
 void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid>& solids);
 
 // The frame of a pose; throws core::Error(badContent) if it is not finite or has no rotation.

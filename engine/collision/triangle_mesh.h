@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "taut/collision/geometry.h"
+#include "taut/collision/form.h"
 #include "taut/collision/mesh_tree.h"
 
 namespace taut::collision {
 
-class TriangleMesh {
+class TriangleMesh final : public Form {
   public:
     // Throws core::Error(badContent) for a mesh without triangles of non-zero area, an index out of range, or more
     // than two million triangles. A closed mesh that is inside out is turned.
@@ -21,14 +21,14 @@ class TriangleMesh {
 
     // Distance to the surface; negative inside a closed mesh. Among triangles that are equally near (at an edge or a
     // corner) the one that faces p most decides the sign, which makes it right for every closed surface.
-    Nearest nearest(const dvec3& p) const;
+    Nearest nearest(const dvec3& p) const override;
 
     // A path that crosses a triangle ends before it; one that ends too near is pushed off on the side where it ends;
     // one that starts inside a closed mesh goes the shortest way out. `crossed` tells the first case. The thickness
     // has to be larger than the skin: a side needs a distance that rounding cannot turn round.
-    bool sweep(const Path& path, Touch& touch, bool& crossed) const;
+    bool sweep(const Path& path, Touch& touch, bool& crossed) const override;
 
-    const Box& bounds() const { return bounds_; }
+    std::optional<Box> bounds() const override { return bounds_; }
 
   private:
     struct Triangle {

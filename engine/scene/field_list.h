@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -56,6 +57,19 @@ class FieldList {
             key, FieldKind::number, unit, range, help,
             [=](Spec& s, const Value& value) { (s.*part).*member = std::get<double>(value); },
             [=](const Spec& s) -> Value { return (s.*part).*member ? Value(*((s.*part).*member)) : Value(); });
+    }
+    // A number among others that are told apart by their keys; `standard` is what is not given.
+    template <class Numbers, class Base>
+    FieldList& entry(std::string_view key, Numbers Base::*member, std::string_view unit, Range range, double standard,
+                     std::string_view help) {
+        const std::string name(key);
+        return add(
+            name.c_str(), FieldKind::number, std::string(unit).c_str(), range, std::string(help).c_str(),
+            [=](Spec& s, const Value& value) { (s.*member)[name] = std::get<double>(value); },
+            [=](const Spec& s) -> Value {
+                const auto found = (s.*member).find(name);
+                return found == (s.*member).end() ? standard : found->second;
+            });
     }
     template <class Number, class Base>
     FieldList& degrees(const char* key, Number Base::*member, Range range, const char* help) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/collision/shape_table.h"
 #include "taut/scene/field_list.h"
 #include "taut/scene/fields_of.h"
 #include "taut/scene/problems.h"
@@ -14,26 +15,48 @@ using namespace world;
 
 namespace {
 
+// The names of the shapes that have a use for this field.
+std::vector<std::string> shapesWith(std::string_view field) {
+    std::vector<std::string> names;
+    for (const collision::ShapeKind& kind : collision::builtInShapes().all())
+        if (std::find(kind.fields.begin(), kind.fields.end(), field) != kind.fields.end())
+            names.emplace_back(kind.name);
+    return names;
+}
+
+enum class In { collider, compound };
+
+std::vector<std::string> shapeNames(In where) {
+    std::vector<std::string> names;
+    for (const collision::ShapeKind& kind : collision::builtInShapes().all())
+        if (where == In::collider || kind.isBounded) names.emplace_back(kind.name);
+    if (where == In::collider) names.emplace_back("compound");
+    return names;
+}
 
 // The sizes and the place of a shape: what a collider and a part of a compound have in common.
-FieldList<ColliderSpec> shapeFields(std::vector<std::string> shapes) {
+FieldList<ColliderSpec> shapeFields(In where) {
     FieldList<ColliderSpec> list;
-    list.choice("shape", &ColliderSpec::shape, std::move(shapes), "Its shape.")
+    list.choice("shape", &ColliderSpec::shape, shapeNames(where), "Its shape.")
         .required()
         .vector("position", &ColliderSpec::position, "m", placeRange, "Its centre.")
         .rotation("rotation_deg", &ColliderSpec::rotation, "About x, then y, then z.")
         .vector("size", &ColliderSpec::size, "m", lengthRange, "Its three edges.")
-        .only({"box"})
+        .only(shapesWith("size"))
         .number("radius", &ColliderSpec::radius, "m", lengthRange, "Its radius.")
-        .only({"sphere", "capsule", "cylinder", "cone"})
+        .only(shapesWith("radius"))
         .number("height", &ColliderSpec::height, "m", lengthRange,
                 "Whole height along y; of a capsule between the centres of its half spheres.")
-        .only({"capsule", "cylinder", "cone"})
+        .only(shapesWith("height"))
         .text("mesh", &ColliderSpec::mesh, Role::mesh, "OBJ file.")
         .required()
-        .only({"hull", "mesh"})
+        .only(shapesWith("mesh"))
         .number("scale", &ColliderSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-        .only({"hull", "mesh"});
+        .only(shapesWith("scale"));
+    for (const collision::ShapeKind& kind : collision::builtInShapes().all())
+        for (const collision::OwnSize& own : kind.own)
+            list.entry(own.key, &ColliderSpec::sizes, own.unit, Range{own.least, own.most}, own.standard, own.help)
+                .only({std::string(kind.name)});
     return list;
 }
 
@@ -59,7 +82,7 @@ Section partSection() {
     Section section;
     section.variant = shapeOf;
     section.variantKey = "shape";
-    section.fields = shapeFields({"box", "sphere", "capsule", "cylinder", "cone", "hull", "mesh"}).take();
+    section.fields = shapeFields(In::compound).take();
     return section;
 }
 
@@ -169,10 +192,12 @@ Section colliderSection() {
     section.existing = findNamed(&SceneSpec::colliders);
     section.variant = shapeOf;
     section.variantKey = "shape";
+    std::vector<std::string> edged = shapesWith("edge");  // and what may have such parts
+    edged.emplace_back("compound");
     section.fields =
-        shapeFields({"plane", "box", "sphere", "capsule", "cylinder", "cone", "hull", "mesh", "compound"})
+        shapeFields(In::collider)
             .direction("normal", &ColliderSpec::normal, "Away from the solid; any length.")
-            .only({"plane"})
+            .only(shapesWith("normal"))
             .tables("parts", &ColliderSpec::parts, partSection(), "Shapes joined into one.")
             .required()
             .only({"compound"})
@@ -183,7 +208,7 @@ Section colliderSection() {
             .tables("keys", &ColliderSpec::keys, poseKeySection(), "Keyframes, in the order of time.")
             .flag("visible", &ColliderSpec::visible, "Whether it is drawn.")
             .number("edge", &ColliderSpec::edge, "m", Range{0.0, 1e3}, "Rounding of a drawn box's edges.")
-            .only({"box", "compound"})
+            .only(edged)
             .table("finish", &ColliderSpec::finish, finishSection(), "How it looks.")
             .take();
     section.check = [](const CheckInput& input, void* target) {

@@ -8,69 +8,51 @@
 namespace taut::world {
 namespace {
 
-constexpr float creaseAngle = 0.7F;    // [rad] edges of a mesh sharper than this look sharp
-constexpr float planeHalfSize = 6.0F;  // [m] of a tilted plane, drawn as a board
-
-collision::Shape shapeOf(const ColliderSpec& spec) {
-    collision::Shape shape;
-    const auto vertices = [&] {
-        TAUT_EXPECTS(spec.meshData != nullptr);
-        for (const dvec3& x : spec.meshData->positions) shape.vertices.push_back(spec.scale * x);
-    };
-    if (spec.shape == "plane") {
-        shape.kind = collision::ShapeKind::plane;
-        shape.normal = spec.normal / std::sqrt(glm::dot(spec.normal, spec.normal));
-    } else if (spec.shape == "box") {
-        shape.kind = collision::ShapeKind::box;
-        shape.halfSize = 0.5 * spec.size;
-    } else if (spec.shape == "sphere" || spec.shape == "capsule" || spec.shape == "cylinder" || spec.shape == "cone") {
-        shape.kind = spec.shape == "sphere"     ? collision::ShapeKind::sphere
-                     : spec.shape == "capsule"  ? collision::ShapeKind::capsule
-                     : spec.shape == "cylinder" ? collision::ShapeKind::cylinder
-                                                : collision::ShapeKind::cone;
-        shape.radius = spec.radius;
-        shape.height = spec.height;
-    } else if (spec.shape == "hull") {
-        shape.kind = collision::ShapeKind::hull;
-        vertices();
-    } else if (spec.shape == "mesh") {
-        shape.kind = collision::ShapeKind::mesh;
-        vertices();
+collision::ShapeSizes sizesOf(const ColliderSpec& spec) {
+    collision::ShapeSizes sizes;
+    sizes.normal = spec.normal / std::sqrt(glm::dot(spec.normal, spec.normal));
+    sizes.halfSize = 0.5 * spec.size;
+    sizes.radius = spec.radius;
+    sizes.height = spec.height;
+    sizes.edge = spec.edge;
+    sizes.own = spec.sizes;
+    if (spec.meshData != nullptr) {
+        for (const dvec3& x : spec.meshData->positions) sizes.vertices.push_back(spec.scale * x);
         for (const auto& triangle : spec.meshData->triangles)
-            for (int i : triangle) shape.triangles.push_back(static_cast<std::uint32_t>(i));
-    } else {
-        TAUT_EXPECTS(spec.shape == "compound");
-        shape.kind = collision::ShapeKind::compound;
-        for (const ColliderSpec& part : spec.parts)
-            shape.parts.push_back({shapeOf(part), {part.position, rotationOf(part.rotation)}});
+            for (int i : triangle) sizes.triangles.push_back(static_cast<std::uint32_t>(i));
     }
-    return shape;
+    return sizes;
 }
 
-view::Mesh meshOf(const ColliderSpec& spec) {
-    const auto radius = static_cast<float>(spec.radius), height = static_cast<float>(spec.height);
-    if (spec.shape == "box") return view::boxMesh(glm::vec3(0.5 * spec.size), static_cast<float>(spec.edge));
-    if (spec.shape == "sphere") return view::sphereMesh(radius);
-    if (spec.shape == "capsule") return view::capsuleMesh(radius, height);
-    if (spec.shape == "cylinder") return view::cylinderMesh(radius, height);
-    if (spec.shape == "cone") return view::coneMesh(radius, height);
-    if (spec.shape == "plane") return view::quadMesh(glm::vec3(spec.normal), planeHalfSize);
-    std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> triangles;
-    for (const dvec3& x : spec.meshData->positions) positions.emplace_back(spec.scale * x);
-    for (const auto& triangle : spec.meshData->triangles)
-        for (int i : triangle) triangles.push_back(static_cast<std::uint32_t>(i));
-    return view::creasedMesh(positions, triangles, creaseAngle);
-}
+// What is made of a collider: its shape, and the pieces that are drawn.
+class Maker {
+  public:
+    Maker(const collision::ShapeKinds& kinds, const FinishSpec& finish, std::vector<ColliderModel::Piece>* pieces)
+        : kinds_(kinds), finish_(finish), pieces_(pieces) {}
 
-void addPieces(const ColliderSpec& spec, const FinishSpec& finish, const glm::mat4& transform, ColliderModel& model) {
-    if (spec.shape != "compound") {
-        model.pieces.push_back({meshOf(spec), transform, finishOf(finish)});
-        return;
+    collision::Shape make(const ColliderSpec& spec, const glm::mat4& transform) const {
+        collision::Shape shape;
+        if (spec.shape == "compound") {
+            for (const ColliderSpec& part : spec.parts) {
+                const collision::Pose pose{part.position, rotationOf(part.rotation)};
+                shape.parts.push_back({make(part, transform * matrixOf(pose)), pose});
+            }
+            return shape;
+        }
+        const collision::ShapeKind* kind = kinds_.find(spec.shape);
+        if (kind == nullptr) throw core::Error(core::ExitCode::badContent, "there is no shape \"" + spec.shape + "\"");
+        collision::ShapeSizes sizes = sizesOf(spec);
+        for (const collision::OwnSize& own : kind->own) sizes.own.emplace(own.key, own.standard);
+        shape.form = kind->form(sizes);
+        if (pieces_ != nullptr) pieces_->push_back({kind->mesh(sizes), transform, finishOf(finish_)});
+        return shape;
     }
-    for (const ColliderSpec& part : spec.parts)
-        addPieces(part, finish, transform * matrixOf({part.position, rotationOf(part.rotation)}), model);
-}
+
+  private:
+    const collision::ShapeKinds& kinds_;
+    const FinishSpec& finish_;
+    std::vector<ColliderModel::Piece>* pieces_;  // null: it is not drawn
+};
 
 }  // namespace
 
@@ -80,14 +62,15 @@ glm::mat4 matrixOf(const collision::Pose& pose) {
     return m;
 }
 
-std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, bool mayTurn) {
+std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, const collision::ShapeKinds& kinds,
+                                                       bool mayTurn) {
     auto model = std::make_shared<ColliderModel>();
-    model->shape = shapeOf(spec);
     model->material = {spec.friction, spec.restitution};
     model->isGround = spec.shape == "plane" && spec.normal.y > 0 && spec.normal.x == 0 && spec.normal.z == 0 &&
                       spec.rotation == dvec3(0.0) && spec.keys.empty() && !mayTurn;
-    if (spec.visible && !model->isGround) addPieces(spec, spec.finish, glm::mat4(1.0F), *model);
-    try {  // a shape that Bullet cannot take is found here, where its line is known
+    const bool isDrawn = spec.visible && !model->isGround;
+    try {  // what cannot be is found here, where its line is known
+        model->shape = Maker(kinds, spec.finish, isDrawn ? &model->pieces : nullptr).make(spec, glm::mat4(1.0F));
         collision::Colliders().add(model->shape, model->material, poseAt(spec, 0.0));
     } catch (const core::Error& error) {
         throw core::Error(error.code(), spec.source.file + ":" + std::to_string(spec.source.line) + ":" +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "taut/collision/colliders.h"
+#include "taut/collision/shape_table.h"
 #include "taut/view/frame_view.h"
 #include "taut/view/primitives.h"
 #include "taut/world/body.h"
@@ -39,7 +40,8 @@ struct ColliderModel {
 };
 // A plane that mayTurn is drawn as a board, not as the floor. Throws core::Error(badContent) with file, line and column
 // for a shape that cannot be built.
-std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, bool mayTurn = false);
+std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, const collision::ShapeKinds& kinds,
+                                                       bool mayTurn);
 
 glm::mat4 matrixOf(const collision::Pose& pose);
 

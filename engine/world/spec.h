@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
@@ -14,6 +15,9 @@
 #include "taut/world/action_spec.h"
 #include "taut/world/source.h"
 
+namespace taut::collision {
+class ShapeKinds;
+}
 namespace taut::ode {
 class Methods;
 }
@@ -261,13 +265,14 @@ struct PoseKey {
 struct ColliderSpec {
     std::string name;
     Source source;
-    std::string shape = "sphere";  // plane box sphere capsule cylinder cone hull mesh compound
+    std::string shape = "sphere";  // a name from the table of shapes (collision/shape_table.h), or compound
     dvec3 position{0.0};           // [m]
     dvec3 rotation{0.0};           // [rad]
     dvec3 normal{0.0, 1.0, 0.0};   // plane
     dvec3 size{1.0};               // box: whole edges [m]
     double radius = 0.5;           // [m]
     double height = 1.0;           // [m] cylinder, cone: whole; capsule: between the centres of its half spheres
+    std::map<std::string, double, std::less<>> sizes;  // what the shape adds to these, by its key
     std::string mesh;              // hull, mesh: path of an OBJ file, resolved by the loader
     std::shared_ptr<const MeshData> meshData;  // what the file holds; null: no mesh
     double scale = 1.0;
@@ -368,6 +373,7 @@ struct SceneSpec {
     std::vector<MassSpec> masses;   // in the order of the file
     std::vector<AnchorSpec> anchors;
     std::vector<ColliderSpec> colliders;
+    std::shared_ptr<const collision::ShapeKinds> shapes;  // that colliders may have; none: the engine's own
     std::vector<WindSpec> winds;
     std::vector<CameraSpec> cameras;
     std::vector<LabelSpec> labels;

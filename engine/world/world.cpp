@@ -111,7 +111,8 @@ ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
         return action.what == Do::move && action.rotation && target.kind == "collider" &&
                matches(target.name, collider.name);
     });
-    registry.add(entity, ColliderPart{collider, makeColliderModel(collider, mayTurn)});
+    const collision::ShapeKinds& kinds = spec.shapes != nullptr ? *spec.shapes : collision::builtInShapes();
+    registry.add(entity, ColliderPart{collider, makeColliderModel(collider, kinds, mayTurn)});
     const collision::Pose pose = poseAt(collider, seconds());
     registry.add(entity, Placement{pose, pose});
     return entity;

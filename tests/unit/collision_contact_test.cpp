@@ -10,7 +10,7 @@ namespace {
 
 struct Case {
     std::string name;
-    Shape shape;
+    SizedShape shape;
     double top;  // [m] height of the surface under a point above (0.02, ·, 0.01)
 };
 
@@ -19,10 +19,10 @@ std::vector<Case> everyShape() {
     std::vector<Case> cases = {
         {"plane", planeShape(), 0.0},
         {"box", boxShape({0.5, 0.3, 0.4}), 0.3},
-        {"sphere", roundShape(ShapeKind::sphere, 0.5), std::sqrt(0.25 - rho * rho)},
-        {"capsule", roundShape(ShapeKind::capsule, 0.2, 0.6), 0.3 + std::sqrt(0.04 - rho * rho)},
-        {"cylinder", roundShape(ShapeKind::cylinder, 0.3, 0.8), 0.4},
-        {"cone", roundShape(ShapeKind::cone, 0.4, 0.8), 0.4 - 2.0 * rho},
+        {"sphere", roundShape("sphere", 0.5), std::sqrt(0.25 - rho * rho)},
+        {"capsule", roundShape("capsule", 0.2, 0.6), 0.3 + std::sqrt(0.04 - rho * rho)},
+        {"cylinder", roundShape("cylinder", 0.3, 0.8), 0.4},
+        {"cone", roundShape("cone", 0.4, 0.8), 0.4 - 2.0 * rho},
         {"hull", boxHull({0.5, 0.3, 0.4}), 0.3},
         {"mesh", boxMesh({0.5, 0.3, 0.4}), 0.3},
         {"compound", compoundOf(boxShape({0.5, 0.3, 0.4})), 0.3},

@@ -13,7 +13,7 @@
 namespace taut::collision {
 namespace {
 
-double distanceTo(const Shape& shape, const glm::dvec3& p, const Pose& pose = {}) {
+double distanceTo(const SizedShape& shape, const glm::dvec3& p, const Pose& pose = {}) {
     Colliders colliders;
     colliders.add(shape, {}, pose);
     return colliders.distance(p);
@@ -34,7 +34,7 @@ double bulletDistance(const btConvexShape& shape, const glm::dvec3& p, double ma
 
 // GJK and EPA stop at a relative 1e-12 where they converge; round shapes are met by EPA's polytope only to about
 // 1e-3 of their size, so inside only the sign is compared.
-void expectAgreement(const Shape& shape, const btConvexShape& bullet, double margin, double tolerance) {
+void expectAgreement(const SizedShape& shape, const btConvexShape& bullet, double margin, double tolerance) {
     Colliders colliders;
     colliders.add(shape, {}, {});
     Numbers numbers;
@@ -58,8 +58,8 @@ TEST(CollisionDistance, PlaneIsTheHeightAlongItsNormal) {
 }
 
 TEST(CollisionDistance, SphereIsTheRadiusAway) {
-    EXPECT_EQ(distanceTo(roundShape(ShapeKind::sphere, 0.5), {3.0, 4.0, 0.0}), 4.5);
-    EXPECT_EQ(distanceTo(roundShape(ShapeKind::sphere, 0.5), {0.0, 0.0, 0.0}), -0.5);
+    EXPECT_EQ(distanceTo(roundShape("sphere", 0.5), {3.0, 4.0, 0.0}), 4.5);
+    EXPECT_EQ(distanceTo(roundShape("sphere", 0.5), {0.0, 0.0, 0.0}), -0.5);
 }
 
 TEST(CollisionDistance, BoxAgreesWithBullet) {
@@ -73,20 +73,20 @@ TEST(CollisionDistance, BoxAgreesWithBullet) {
 TEST(CollisionDistance, CapsuleAgreesWithBullet) {
     btCapsuleShape capsule(0.3, 0.8);
     // GJK sees the segment; the radius is the margin.
-    expectAgreement(roundShape(ShapeKind::capsule, 0.3, 0.8), capsule, 0.3, 1e-9);
+    expectAgreement(roundShape("capsule", 0.3, 0.8), capsule, 0.3, 1e-9);
 }
 
 TEST(CollisionDistance, CylinderAgreesWithBullet) {
     // 1e-5: on a curved rim GJK converges linearly and Bullet stops it after 128 rounds.
     btCylinderShape cylinder(btVector3(0.4, 0.6, 0.4));
     cylinder.setMargin(0.0);
-    expectAgreement(roundShape(ShapeKind::cylinder, 0.4, 1.2), cylinder, 0.0, 1e-5);
+    expectAgreement(roundShape("cylinder", 0.4, 1.2), cylinder, 0.0, 1e-5);
 }
 
 TEST(CollisionDistance, ConeAgreesWithBullet) {
     btConeShape cone(0.5, 1.2);
     cone.setMargin(0.0);
-    expectAgreement(roundShape(ShapeKind::cone, 0.5, 1.2), cone, 0.0, 1e-5);
+    expectAgreement(roundShape("cone", 0.5, 1.2), cone, 0.0, 1e-5);
 }
 
 TEST(CollisionDistance, HullAndMeshOfABoxAreTheBox) {
@@ -131,14 +131,14 @@ TEST(CollisionDistance, FollowsThePose) {
 
 TEST(CollisionDistance, InsideIsTheDepthUnderTheNearestFace) {
     // Centre and places near each face of a cone: depth = height over the side, R cos or the base, by hand.
-    const Shape cone = roundShape(ShapeKind::cone, 0.3, 0.4);  // slant 0.5
+    const SizedShape cone = roundShape("cone", 0.3, 0.4);  // slant 0.5
     EXPECT_NEAR(distanceTo(cone, {0.0, -0.19, 0.0}), -0.01, 1e-15);
     // On the axis, 0.1 under the apex: 0.1 · 0.3 / 0.5 from the side.
     EXPECT_NEAR(distanceTo(cone, {0.0, 0.1, 0.0}), -0.06, 1e-15);
-    const Shape cylinder = roundShape(ShapeKind::cylinder, 0.3, 2.0);
+    const SizedShape cylinder = roundShape("cylinder", 0.3, 2.0);
     EXPECT_NEAR(distanceTo(cylinder, {0.0, 0.2, 0.25}), -0.05, 1e-15);
     EXPECT_NEAR(distanceTo(cylinder, {0.0, 0.95, 0.1}), -0.05, 1e-15);
-    EXPECT_NEAR(distanceTo(roundShape(ShapeKind::capsule, 0.3, 2.0), {0.1, -0.4, 0.0}), -0.2, 1e-15);
+    EXPECT_NEAR(distanceTo(roundShape("capsule", 0.3, 2.0), {0.1, -0.4, 0.0}), -0.2, 1e-15);
     EXPECT_NEAR(distanceTo(boxShape({1.0, 2.0, 3.0}), {0.9, 0.0, 0.0}), -0.1, 1e-15);
 }
 
@@ -152,8 +152,8 @@ TEST(CollisionDistance, OpenMeshHasTwoSidesAndNoInside) {
 
 TEST(CollisionDistance, SphereOfTrianglesHasItsInsideInside) {
     // A closed mesh with many edges and corners: the sign has to be right everywhere. An octahedron, divided.
-    Shape mesh;
-    mesh.kind = ShapeKind::mesh;
+    SizedShape mesh;
+    mesh.kind = "mesh";
     constexpr std::uint32_t rings = 16;
     constexpr std::uint32_t around = 32;
     mesh.vertices.emplace_back(0.0, 1.0, 0.0);
@@ -175,7 +175,7 @@ TEST(CollisionDistance, SphereOfTrianglesHasItsInsideInside) {
         }
         mesh.triangles.insert(mesh.triangles.end(), {bottom, at(rings - 1, a), at(rings - 1, a + 1)});
     }
-    Shape insideOut = mesh;
+    SizedShape insideOut = mesh;
     for (std::size_t i = 0; i < insideOut.triangles.size(); i += 3)
         std::swap(insideOut.triangles[i], insideOut.triangles[i + 1]);
     Colliders colliders;
@@ -195,7 +195,7 @@ TEST(CollisionDistance, SphereOfTrianglesHasItsInsideInside) {
 }
 
 TEST(CollisionDistance, HullOfARealModelAgreesWithBullet) {
-    const Shape shape = readObj("/usr/share/assimp/models/OBJ/spider.obj", ShapeKind::hull);
+    const SizedShape shape = readObj("/usr/share/assimp/models/OBJ/spider.obj", "hull");
     if (shape.vertices.empty()) FAIL() << "install the package assimp-testmodels; game/packages.txt lists it";
     Colliders colliders;
     colliders.add(shape, {}, {});

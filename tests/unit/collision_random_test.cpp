@@ -8,20 +8,20 @@ namespace {
 
 struct Case {
     std::string name;
-    Shape shape;
+    SizedShape shape;
 };
 
 std::vector<Case> solids() {
     const glm::dvec3 half(0.5, 0.02, 0.3);
-    Shape wedge;
-    wedge.kind = ShapeKind::hull;
+    SizedShape wedge;
+    wedge.kind = "hull";
     wedge.vertices = {{-0.5, -0.1, -0.4}, {0.6, -0.1, -0.3}, {0.4, -0.1, 0.5}, {-0.3, 0.5, 0.0}, {0.1, 0.4, 0.2}};
     return {{"plane", planeShape({0.2, 1.0, -0.1})},
             {"box", boxShape(half)},
-            {"sphere", roundShape(ShapeKind::sphere, 0.4)},
-            {"capsule", roundShape(ShapeKind::capsule, 0.05, 0.9)},
-            {"cylinder", roundShape(ShapeKind::cylinder, 0.5, 0.04)},
-            {"cone", roundShape(ShapeKind::cone, 0.3, 0.9)},
+            {"sphere", roundShape("sphere", 0.4)},
+            {"capsule", roundShape("capsule", 0.05, 0.9)},
+            {"cylinder", roundShape("cylinder", 0.5, 0.04)},
+            {"cone", roundShape("cone", 0.3, 0.9)},
             {"box hull", boxHull(half)},
             {"wedge", wedge},
             {"box mesh", boxMesh(half)}};

@@ -7,7 +7,7 @@
 namespace taut::collision {
 namespace {
 
-void expectRefused(const Shape& shape, const std::string& message, const Material& material = {},
+void expectRefused(const SizedShape& shape, const std::string& message, const Material& material = {},
                    const Pose& pose = {}) {
     Colliders colliders;
     try {
@@ -20,20 +20,18 @@ void expectRefused(const Shape& shape, const std::string& message, const Materia
     }
 }
 
-Shape hullOf(std::vector<glm::dvec3> vertices) {
-    Shape shape;
-    shape.kind = ShapeKind::hull;
+SizedShape hullOf(std::vector<glm::dvec3> vertices) {
+    SizedShape shape;
+    shape.kind = "hull";
     shape.vertices = std::move(vertices);
     return shape;
 }
 
 TEST(CollisionShape, SizesNotAboveZeroAreRefused) {
-    expectRefused(roundShape(ShapeKind::sphere, 0.0), "collider sphere: the radius has to be above zero, is 0.000000");
-    expectRefused(roundShape(ShapeKind::capsule, -1.0),
-                  "collider capsule: the radius has to be above zero, is -1.000000");
-    expectRefused(roundShape(ShapeKind::cylinder, 1.0, 0.0),
-                  "collider cylinder: the height has to be above zero, is 0.000000");
-    expectRefused(roundShape(ShapeKind::cone, 1.0, std::numeric_limits<double>::quiet_NaN()),
+    expectRefused(roundShape("sphere", 0.0), "collider sphere: the radius has to be above zero, is 0.000000");
+    expectRefused(roundShape("capsule", -1.0), "collider capsule: the radius has to be above zero, is -1.000000");
+    expectRefused(roundShape("cylinder", 1.0, 0.0), "collider cylinder: the height has to be above zero, is 0.000000");
+    expectRefused(roundShape("cone", 1.0, std::numeric_limits<double>::quiet_NaN()),
                   "collider cone: the height has to be above zero, is nan");
     expectRefused(boxShape({1.0, 0.0, 1.0}), "collider box: a half size has to be above zero, is 0.000000");
     expectRefused(boxShape({1.0, 1.0, std::numeric_limits<double>::infinity()}),
@@ -54,7 +52,7 @@ TEST(CollisionShape, HullWithoutVolumeIsRefused) {
 
 TEST(CollisionShape, FlatTurnedHullIsRefused) {
     // In one plane but for rounding.
-    Shape shape = hullOf({});
+    SizedShape shape = hullOf({});
     const glm::dquat turn = turned({1.0, 2.0, 3.0}, 0.7);
     for (int i = 0; i < 12; ++i)
         shape.vertices.push_back(turn * glm::dvec3(core::cosine(0.5 * i), 0.0, core::sine(0.5 * i)));
@@ -62,7 +60,7 @@ TEST(CollisionShape, FlatTurnedHullIsRefused) {
 }
 
 TEST(CollisionShape, MeshWithoutTrianglesIsRefused) {
-    Shape mesh = boxMesh({1.0, 1.0, 1.0});
+    SizedShape mesh = boxMesh({1.0, 1.0, 1.0});
     mesh.triangles.clear();
     expectRefused(mesh, "collider mesh: has no triangles");
     mesh.triangles = {0, 1};
@@ -77,12 +75,12 @@ TEST(CollisionShape, MeshWithoutTrianglesIsRefused) {
 }
 
 TEST(CollisionShape, BadPartsMaterialsAndPosesAreRefused) {
-    Shape compound;
-    compound.kind = ShapeKind::compound;
+    SizedShape compound;
+    compound.kind = "compound";
     expectRefused(compound, "collider compound: has no parts");
-    expectRefused(compoundOf(roundShape(ShapeKind::sphere, -2.0)),
+    expectRefused(compoundOf(roundShape("sphere", -2.0)),
                   "collider sphere: the radius has to be above zero, is -2.000000");
-    const Shape ball = roundShape(ShapeKind::sphere, 1.0);
+    const SizedShape ball = roundShape("sphere", 1.0);
     expectRefused(ball, "collider material: the friction has to be zero or more", {-0.1, 0.0});
     expectRefused(ball, "collider material: the restitution has to be from 0 to 1", {0.3, 1.1});
     expectRefused(ball, "collider pose: the position is not finite", {},
@@ -99,9 +97,9 @@ TEST(CollisionShape, RotationNeedNotBeOfUnitLength) {
 
 TEST(CollisionShape, MeshWithASliverAndRepeatedVerticesIsClosed) {
     // As in files where every face has its own corners; a sliver of no area between two of them does not matter.
-    const Shape box = boxMesh({0.5, 0.5, 0.5});
-    Shape soup;
-    soup.kind = ShapeKind::mesh;
+    const SizedShape box = boxMesh({0.5, 0.5, 0.5});
+    SizedShape soup;
+    soup.kind = "mesh";
     for (const std::uint32_t corner : box.triangles) {
         soup.triangles.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
         soup.vertices.push_back(box.vertices[corner]);
@@ -128,8 +126,8 @@ TEST(CollisionShape, CloneMovesOnItsOwn) {
 TEST(CollisionShape, RealModelsHoldAPoint) {
     // What falls on the hull or on the mesh of a model comes to rest on it, at its thickness.
     for (const char* name : {"box.obj", "spider.obj", "WusonOBJ.obj", "regr01.obj"}) {
-        for (const ShapeKind kind : {ShapeKind::hull, ShapeKind::mesh}) {
-            const Shape shape = readObj(std::string("/usr/share/assimp/models/OBJ/") + name, kind);
+        for (const std::string kind : {"hull", "mesh"}) {
+            const SizedShape shape = readObj(std::string("/usr/share/assimp/models/OBJ/") + name, kind);
             if (shape.vertices.empty()) FAIL() << "install the package assimp-testmodels; game/packages.txt lists it";
             Colliders colliders;
             colliders.add(shape, {5.0, 0.0}, {});
@@ -152,7 +150,7 @@ TEST(CollisionShape, RealModelsHoldAPoint) {
                 }
                 // 1e-9: GJK's 1e-12 and rounding, times the size. In a narrow fold of a mesh, where two sides press,
                 // a point may come nearer than its thickness, but not through.
-                if (kind == ShapeKind::hull)
+                if (kind == "hull")
                     EXPECT_GT(least, (1e-3 - 1e-9) * size) << name << i;
                 else
                     EXPECT_GT(least, 0.0) << name << i;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "taut/collision/colliders.h"
+#include "taut/collision/shape_table.h"
 #include "taut/core/trig.h"
 
 namespace taut::collision {
@@ -83,45 +84,65 @@ inline glm::dquat turned(const glm::dvec3& axis, double angle) {
     return {core::cosine(0.5 * angle), core::sine(0.5 * angle) * glm::normalize(axis)};
 }
 
-inline Shape planeShape(const glm::dvec3& normal = {0.0, 1.0, 0.0}) {
-    Shape shape;
-    shape.kind = ShapeKind::plane;
+// The sizes of a shape and the name of its kind, or parts: made when it is added to colliders.
+struct SizedShape : ShapeSizes {
+    struct Part;
+
+    std::string kind = "sphere";
+    std::vector<Part> parts;
+
+    operator Shape() const;
+};
+struct SizedShape::Part {
+    SizedShape shape;
+    Pose pose;
+};
+inline SizedShape::operator Shape() const {
+    Shape made;
+    if (kind != "compound") made.form = builtInShapes().find(kind)->form(*this);
+    for (const Part& part : parts) made.parts.push_back({part.shape, part.pose});
+    return made;
+}
+
+inline SizedShape planeShape(const glm::dvec3& normal = {0.0, 1.0, 0.0}) {
+    SizedShape shape;
+    shape.kind = "plane";
     shape.normal = normal;
     return shape;
 }
-inline Shape boxShape(const glm::dvec3& halfSize) {
-    Shape shape;
-    shape.kind = ShapeKind::box;
+inline SizedShape boxShape(const glm::dvec3& halfSize) {
+    SizedShape shape;
+    shape.kind = "box";
     shape.halfSize = halfSize;
     return shape;
 }
-inline Shape roundShape(ShapeKind kind, double radius, double height = 1.0) {
-    Shape shape;
+inline SizedShape roundShape(const std::string& kind, double radius, double height = 1.0) {
+    SizedShape shape;
     shape.kind = kind;
     shape.radius = radius;
     shape.height = height;
     return shape;
 }
 // The eight corners of a box, and its twelve triangles, counter-clockwise seen from outside.
-inline Shape boxHull(const glm::dvec3& half) {
-    Shape shape;
-    shape.kind = ShapeKind::hull;
+inline SizedShape boxHull(const glm::dvec3& half) {
+    SizedShape shape;
+    shape.kind = "hull";
     for (int i = 0; i < 8; ++i)
         shape.vertices.emplace_back((i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
                                     (i & 4) != 0 ? half.z : -half.z);
     return shape;
 }
-inline Shape boxMesh(const glm::dvec3& half) {
-    Shape shape = boxHull(half);
-    shape.kind = ShapeKind::mesh;
+inline SizedShape boxMesh(const glm::dvec3& half) {
+    SizedShape shape = boxHull(half);
+    shape.kind = "mesh";
     shape.triangles = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                        2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
     return shape;
 }
 // A square in the plane y = 0, `cells` by `cells`, without thickness.
-inline Shape sheetMesh(double half, std::uint32_t cells) {
-    Shape shape;
-    shape.kind = ShapeKind::mesh;
+inline SizedShape sheetMesh(double half, std::uint32_t cells) {
+    SizedShape shape;
+    shape.kind = "mesh";
     for (std::uint32_t i = 0; i <= cells; ++i)
         for (std::uint32_t j = 0; j <= cells; ++j)
             shape.vertices.emplace_back(half * (2.0 * i / cells - 1.0), 0.0, half * (2.0 * j / cells - 1.0));
@@ -134,16 +155,16 @@ inline Shape sheetMesh(double half, std::uint32_t cells) {
     }
     return shape;
 }
-inline Shape compoundOf(const Shape& shape, const Pose& pose = {}) {
-    Shape compound;
-    compound.kind = ShapeKind::compound;
+inline SizedShape compoundOf(const SizedShape& shape, const Pose& pose = {}) {
+    SizedShape compound;
+    compound.kind = "compound";
     compound.parts.push_back({shape, pose});
     return compound;
 }
 
 // Vertices and triangles (faces as fans) of an OBJ file; empty if there is none.
-inline Shape readObj(const std::string& path, ShapeKind kind) {
-    Shape shape;
+inline SizedShape readObj(const std::string& path, const std::string& kind) {
+    SizedShape shape;
     shape.kind = kind;
     std::ifstream file(path);
     std::string line;

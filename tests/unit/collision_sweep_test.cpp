@@ -15,13 +15,13 @@ using Precisions = testing::Types<float, double>;
 TYPED_TEST_SUITE(CollisionSweep, Precisions);
 
 // Walls of 1 cm in the plane y = 0, and a sheet without thickness.
-std::vector<std::pair<std::string, Shape>> walls() {
+std::vector<std::pair<std::string, SizedShape>> walls() {
     const glm::dvec3 half(1.0, 0.005, 1.0);
     return {{"box", boxShape(half)},
             {"hull", boxHull(half)},
             {"mesh", boxMesh(half)},
             {"compound", compoundOf(boxShape(half))},
-            {"cylinder", roundShape(ShapeKind::cylinder, 1.0, 0.01)},
+            {"cylinder", roundShape("cylinder", 1.0, 0.01)},
             {"sheet", sheetMesh(1.0, 9)}};
 }
 
@@ -71,7 +71,7 @@ TYPED_TEST(CollisionSweep, PointThatRestsOnAWallIsNotPulledThrough) {
 
 TYPED_TEST(CollisionSweep, GrazingPathThatCutsASphereEndsOutside) {
     Colliders colliders;
-    colliders.add(roundShape(ShapeKind::sphere, 0.5), {0.0, 0.0}, {});
+    colliders.add(roundShape("sphere", 0.5), {0.0, 0.0}, {});
     Flyer<TypeParam> point({-1.0, 0.45, 0.0}, {100.0, 0.0, 0.0});
     point.step(colliders, 1.0 / 50.0);
     ASSERT_EQ(point.contacts.size(), 1U);
@@ -84,8 +84,8 @@ TYPED_TEST(CollisionSweep, GrazingPathThatCutsASphereEndsOutside) {
 TYPED_TEST(CollisionSweep, PathBesideAShapeIsFree) {
     Colliders colliders;
     for (const auto& [name, shape] : walls()) colliders.add(shape, {}, {});
-    colliders.add(roundShape(ShapeKind::sphere, 0.4), {}, {});
-    colliders.add(roundShape(ShapeKind::cone, 0.4, 0.8), {}, {});
+    colliders.add(roundShape("sphere", 0.4), {}, {});
+    colliders.add(roundShape("cone", 0.4, 0.8), {}, {});
     Flyer<TypeParam> point({1.1, 1.0, 0.0}, {0.0, -100.0, 0.0});
     point.thickness = 0.05;
     point.step(colliders, 1.0 / 50.0);
@@ -118,7 +118,7 @@ TYPED_TEST(CollisionSweep, FastColliderPushesAStillPointAheadOfIt) {
 TYPED_TEST(CollisionSweep, PointRidesOnAColliderThatCarriesIt) {
     // Friction takes it along a turntable and a lift that runs sideways.
     Colliders colliders;
-    const int table = colliders.add(roundShape(ShapeKind::cylinder, 1.0, 0.2), {2.0, 0.0}, {});
+    const int table = colliders.add(roundShape("cylinder", 1.0, 0.2), {2.0, 0.0}, {});
     Flyer<TypeParam> point({0.5, 0.1, 0.0}, {0.2, 0.0, -0.5});
     const double h = 1e-3;
     Pose pose;
@@ -136,9 +136,10 @@ TYPED_TEST(CollisionSweep, PointRidesOnAColliderThatCarriesIt) {
 
 TYPED_TEST(CollisionSweep, JumpingColliderDoesNotAccelerate) {
     // 5 m in a step of 1/1000 s would be 5000 m/s. The point that finds itself inside goes the shortest way out.
-    for (const auto& [name, shape] : std::vector<std::pair<std::string, Shape>>{{"box", boxShape({0.5, 0.3, 0.5})},
-                                                                                {"hull", boxHull({0.5, 0.3, 0.5})},
-                                                                                {"mesh", boxMesh({0.5, 0.3, 0.5})}}) {
+    for (const auto& [name, shape] :
+         std::vector<std::pair<std::string, SizedShape>>{{"box", boxShape({0.5, 0.3, 0.5})},
+                                                         {"hull", boxHull({0.5, 0.3, 0.5})},
+                                                         {"mesh", boxMesh({0.5, 0.3, 0.5})}}) {
         Colliders colliders;
         const int box = colliders.add(shape, {}, {{5.0, 0.0, 0.0}});
         Flyer<TypeParam> point({0.0, 0.25, 0.1});
@@ -215,8 +216,8 @@ TYPED_TEST(CollisionSweep, PointBetweenTwoCollidersStaysBounded) {
 
 TYPED_TEST(CollisionSweep, PointInAGrooveOfAMeshStaysOnItsSide) {
     // A valley with an angle of 20 degrees at its bottom.
-    Shape valley;
-    valley.kind = ShapeKind::mesh;
+    SizedShape valley;
+    valley.kind = "mesh";
     const double wide = core::sine(core::radians(10.0));
     const double tall = core::cosine(core::radians(10.0));
     valley.vertices = {{-wide, tall, -1.0}, {-wide, tall, 1.0}, {0.0, 0.0, -1.0},
@@ -274,7 +275,7 @@ Colliders crowdedScene(int balls) {
         const Pose pose{{0.02 * (i % 100) - 1.0, 0.1, 0.3 * (i % 7) - 1.0}};
         switch (i % 4) {
             case 0:
-                colliders.add(roundShape(ShapeKind::sphere, 0.2), {}, pose);
+                colliders.add(roundShape("sphere", 0.2), {}, pose);
                 break;
             case 1:
                 colliders.add(boxHull({0.2, 0.1, 0.3}), {}, pose);
@@ -283,7 +284,7 @@ Colliders crowdedScene(int balls) {
                 colliders.add(boxMesh({0.2, 0.1, 0.3}), {}, pose);
                 break;
             default:
-                colliders.add(roundShape(ShapeKind::cone, 0.2, 0.4), {}, pose);
+                colliders.add(roundShape("cone", 0.2, 0.4), {}, pose);
         }
     }
     return colliders;

@@ -23,7 +23,7 @@ const std::map<std::string, Folders> allowed = {
     {"view", {"core"}},
     {"image", {"core"}},
     {"mechanics", {"core", "ode"}},
-    {"collision", {"core"}},
+    {"collision", {"core", "view"}},
     {"render", {"core", "view", "image"}},
     {"world", {"core", "ode", "ecs", "view", "mechanics", "collision"}},
     {"check", {"core", "ecs", "view", "ode", "mechanics", "world"}},

@@ -11,6 +11,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_islands_test.cpp
   world_motion_test.cpp
   world_own_method_test.cpp
+  world_own_shape_test.cpp
   world_publish_test.cpp
   world_ramps_test.cpp
   world_saving_test.cpp

@@ -1,32 +1,49 @@
-#include "taut/collision/hull.h"
-
+// The convex hull of a set of points. Bullet finds the hull and, near edges and corners, the distance by GJK.
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 #include <LinearMath/btConvexHullComputer.h>
 
+#include <span>
 #include <string>
+#include <vector>
 
-#include "taut/collision/convex_sweep.h"
-#include "taut/core/error.h"
+#include "taut/collision/convex_form.h"
+#include "taut/collision/shape_table.h"
+#include "taut/collision/shapes/shape_parts.h"
 
 namespace taut::collision {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
-    throw core::Error(core::ExitCode::badContent, "collider hull: " + what);
-}
+constexpr float hullCrease = 0.7F;  // [rad] edges sharper than this look sharp
 
-}  // namespace
+class Hull final : public Form {
+  public:
+    // Throws core::Error(badContent) for fewer than four vertices or a hull without volume.
+    explicit Hull(std::span<const dvec3> vertices);
+    // Exact inside and above a face as far as the faces are: each is moved out until no vertex lies before it, and
+    // Bullet rounds the vertices to about 1/10000 of the size to decide what is a face.
+    Nearest nearest(const dvec3& p) const override;
+    bool sweep(const Path& path, Touch& touch, bool& crossed) const override;
+    std::optional<Box> bounds() const override { return bounds_; }
+    bool isConvex() const override { return true; }
 
-struct Hull::Bullet {
-    btConvexHullShape shape;
+    // The highest of the faces' planes over p: never more than the distance. Costs a fraction of `nearest`.
+    Nearest highestFace(const dvec3& p) const;
+
+  private:
+    bool isUnderEveryFace(const dvec3& p, double by) const;
+    void addFace(const dvec3& normal, std::span<const dvec3> vertices);
+
+    btConvexHullShape shape_;
+    std::vector<double> normalX_, normalY_, normalZ_, offset_;  // (faces) normal · p - offset is the height [-, m]
+    Box bounds_;
 };
 
-Hull::Hull(std::span<const dvec3> vertices) : bullet_(std::make_unique<Bullet>()) {
-    if (vertices.size() < 4) fail("needs at least four vertices, has " + std::to_string(vertices.size()));
+Hull::Hull(std::span<const dvec3> vertices) {
+    if (vertices.size() < 4) failShape("hull: needs at least four vertices, has " + std::to_string(vertices.size()));
     for (const dvec3& v : vertices) {
-        if (!isFinite(v)) fail("a vertex is not finite");
+        if (!isFinite(v)) failShape("hull: a vertex is not finite");
         bounds_.add(v);
     }
     const dvec3 size = bounds_.high - bounds_.low;
@@ -52,19 +69,15 @@ Hull::Hull(std::span<const dvec3> vertices) : bullet_(std::make_unique<Bullet>()
     for (const dvec3& v : vertices) mean += v;
     mean /= static_cast<double>(vertices.size());
     const double depth = offset_.size() < 4 ? 0.0 : -highestFace(mean).distance;
-    if (!(depth > 1e-9 * longest)) fail("its vertices lie in one plane, so it has no volume");
+    if (!(depth > 1e-9 * longest)) failShape("hull: its vertices lie in one plane, so it has no volume");
 
     for (int i = 0; i < computer.vertices.size(); ++i) {
         const dvec3& v = vertices[static_cast<std::size_t>(computer.original_vertex_index[i])];
-        bullet_->shape.addPoint(btVector3(v.x, v.y, v.z), false);
+        shape_.addPoint(btVector3(v.x, v.y, v.z), false);
     }
-    bullet_->shape.recalcLocalAabb();
-    bullet_->shape.setMargin(0.0);  // the surface is where the vertices say
+    shape_.recalcLocalAabb();
+    shape_.setMargin(0.0);  // the surface is where the vertices say
 }
-
-Hull::~Hull() = default;
-Hull::Hull(Hull&&) noexcept = default;
-Hull& Hull::operator=(Hull&&) noexcept = default;
 
 void Hull::addFace(const dvec3& normal, std::span<const dvec3> vertices) {
     double offset = glm::dot(normal, vertices[0]);
@@ -110,7 +123,7 @@ Nearest Hull::nearest(const dvec3& p) const {
 
     btGjkEpaSolver2::sResults found;
     const btTransform here(btMatrix3x3::getIdentity(), btVector3(0.0, 0.0, 0.0));
-    const double gap = btGjkEpaSolver2::SignedDistance(btVector3(p.x, p.y, p.z), 0.0, &bullet_->shape, here, found);
+    const double gap = btGjkEpaSolver2::SignedDistance(btVector3(p.x, p.y, p.z), 0.0, &shape_, here, found);
     if (!(gap > 0.0 && gap < SIMD_INFINITY)) return face;  // so near that it fails or finds none
     const btVector3& q = found.witnesses[0];
     const dvec3 apart = p - dvec3(q.x(), q.y(), q.z());
@@ -119,13 +132,29 @@ Nearest Hull::nearest(const dvec3& p) const {
     return {distance, apart * (1.0 / distance)};
 }
 
-bool sweepHull(const Hull& hull, const Path& path, Touch& touch) {
-    const Nearest over = hull.highestFace(path.to);
+bool Hull::sweep(const Path& path, Touch& touch, bool&) const {
+    const Nearest over = highestFace(path.to);
     if (over.distance >= path.thickness + path.skin) {
         const double startHeight = over.distance - glm::dot(over.normal, path.to - path.from);
         if (startHeight >= path.thickness) return false;
     }
-    return sweepConvex(hull, path, touch);
+    return sweepConvex(*this, path, touch);
+}
+
+view::Mesh meshOfHull(const ShapeSizes& sizes) {
+    const std::vector<glm::vec3> positions(sizes.vertices.begin(), sizes.vertices.end());
+    return view::creasedMesh(positions, sizes.triangles, hullCrease);
+}
+
+}  // namespace
+
+ShapeKind hullKind() {
+    return {.name = "hull",
+            .fields = {"mesh", "scale"},
+            .own = {},
+            .isBounded = true,
+            .form = [](const ShapeSizes& sizes) { return std::make_shared<const Hull>(sizes.vertices); },
+            .mesh = meshOfHull};
 }
 
 }  // namespace taut::collision

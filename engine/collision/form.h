@@ -1,0 +1,48 @@
+// What a collider is made of: a surface that tells how far a place is from it, and how a path meets it. It knows
+// neither colliders nor contacts. A form of one's own derives from Form, or, when it is convex, is a ClosedForm in
+// ConvexForm (convex_form.h).
+#pragma once
+
+#include <optional>
+
+#include "taut/collision/geometry.h"
+
+namespace taut::collision {
+
+// Never changes once built: colliders, and copies of them, share it, also from several threads.
+class Form {
+  public:
+    virtual ~Form() = default;
+
+    // The signed distance from p [m], and the direction in which it grows fastest. Never more than the way from p to
+    // the surface: what stands here moves points by it.
+    virtual Nearest nearest(const dvec3& p) const = 0;
+
+    // Whether a path ends, or passes, too near to the surface; `touch` then says where it has to end:
+    // - a path that starts inside (deeper than rounding explains) goes the shortest way out from its end;
+    // - one that ends near the surface, on the side from which it came, goes straight out;
+    // - any other, which would come out elsewhere, ends on the plane where it first touched.
+    // `crossed`, false before, becomes true where the path has gone through a surface that has no inside.
+    // As it stands here it asks for nothing but `nearest`, place after place along the path.
+    virtual bool sweep(const Path& path, Touch& touch, bool& crossed) const;
+
+    // What it fills [m]; none: it is the half-space behind a plane through the origin.
+    virtual std::optional<Box> bounds() const = 0;
+
+    // A convex form presses a point once; any other perhaps from several sides.
+    virtual bool isConvex() const { return false; }
+};
+
+// How near a path may come before it counts as touching: a start that is nearer than the thickness already must not
+// touch at once, or nothing could move along the surface.
+inline double sweepGap(double startDistance, double thickness) {
+    if (startDistance >= thickness) return thickness;
+    return startDistance > 0.0 ? 0.5 * startDistance : startDistance;
+}
+
+// [m] as near as a search along a path needs to come.
+inline double nearEnough(const Path& path) {
+    return path.skin > 1e-10 ? path.skin : 1e-10;
+}
+
+}  // namespace taut::collision

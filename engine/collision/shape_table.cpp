@@ -1,0 +1,44 @@
+#include "taut/collision/shape_table.h"
+
+#include "taut/core/error.h"
+
+// A line a shape, in the order in which texts name them: the function that returns its row, in a file of its own.
+#define TAUT_SHAPES(SHAPE) \
+    SHAPE(planeKind)       \
+    SHAPE(boxKind)         \
+    SHAPE(sphereKind)      \
+    SHAPE(capsuleKind)     \
+    SHAPE(cylinderKind)    \
+    SHAPE(coneKind)        \
+    SHAPE(hullKind)        \
+    SHAPE(meshKind)
+
+namespace taut::collision {
+
+#define TAUT_DECLARE(kind) ShapeKind kind();
+TAUT_SHAPES(TAUT_DECLARE)
+#undef TAUT_DECLARE
+
+const ShapeKinds& builtInShapes() {
+    static const ShapeKinds table = [] {
+        ShapeKinds all;
+#define TAUT_ADD(kind) all.add(kind());
+        TAUT_SHAPES(TAUT_ADD)
+#undef TAUT_ADD
+        return all;
+    }();
+    return table;
+}
+
+void ShapeKinds::add(ShapeKind kind) {
+    TAUT_EXPECTS(!kind.name.empty() && find(kind.name) == nullptr && kind.form != nullptr && kind.mesh != nullptr);
+    rows_.push_back(std::move(kind));
+}
+
+const ShapeKind* ShapeKinds::find(std::string_view name) const {
+    for (const ShapeKind& kind : rows_)
+        if (kind.name == name) return &kind;
+    return nullptr;
+}
+
+}  // namespace taut::collision

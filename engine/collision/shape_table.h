@@ -1,0 +1,74 @@
+// All shapes of colliders by name: a value, to which a program may add shapes of its own. A new one of the engine's is
+// one file in shapes/, with its distance, its mesh and its row, and one line in shape_table.cpp.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "taut/collision/form.h"
+#include "taut/view/primitives.h"
+
+namespace taut::collision {
+
+// What shapes are made from; each takes what it has a use for. Lengths in metres, about the shape's own origin; the
+// axis of what is round is y.
+struct ShapeSizes {
+    dvec3 normal{0.0, 1.0, 0.0};           // of a plane through the origin, away from the solid; of any length
+    dvec3 halfSize{0.5};                   //
+    double radius = 0.5;                   //
+    double height = 1.0;                   // of a capsule between the two centres, else whole
+    std::vector<dvec3> vertices;           //
+    std::vector<std::uint32_t> triangles;  // (3 · triangles) counter-clockwise seen from outside
+    double edge = 0.0;                     // rounding of edges, for the eye
+    std::map<std::string, double, std::less<>> own;  // what a shape adds to these, by its key
+};
+
+// A size that one shape has and the fields of a collider do not.
+struct OwnSize {
+    std::string_view key;  // as scenes write it, "tube_m"
+    std::string_view unit;
+    double least, most;  // closed limits
+    double standard;     // when a scene does not say
+    std::string_view help;
+};
+
+// A row of the table of shapes. The texts are not copied.
+struct ShapeKind {
+    std::string_view name;                 // as scenes write it
+    std::vector<std::string_view> fields;  // of a collider, besides its place: "radius", "height", "size", …
+    std::vector<OwnSize> own;
+    bool isBounded;  // else it cannot be a part of a compound
+
+    // Throws core::Error(badContent) for sizes of which no form can be made.
+    std::function<std::shared_ptr<const Form>(const ShapeSizes& sizes)> form;
+    std::function<view::Mesh(const ShapeSizes& sizes)> mesh;  // about the same origin
+};
+
+class ShapeKinds {
+  public:
+    ShapeKinds() = default;  // none
+
+    // Puts it last. Expects a name that no other has, and both functions.
+    void add(ShapeKind kind);
+
+    // In the order in which they were added; valid until the next is.
+    std::span<const ShapeKind> all() const { return rows_; }
+
+    // nullptr when there is none of that name.
+    const ShapeKind* find(std::string_view name) const;
+
+  private:
+    std::vector<ShapeKind> rows_;
+};
+
+// The engine's own.
+const ShapeKinds& builtInShapes();
+
+}  // namespace taut::collision

@@ -1,0 +1,151 @@
+// A shape from outside the engine: a torus about y, which is not convex. Its form gives no more than its distance.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "collision_support.h"
+#include "support/small_scenes.h"
+#include "taut/world/world.h"
+
+namespace taut::world::own_shape {
+namespace {
+
+using collision::Flyer;
+using collision::Nearest;
+
+// How far p is from a tube of radius r whose middle is the circle of radius R in y = 0.
+class Torus final : public collision::Form {
+  public:
+    Torus(double ring, double tube) : ring_(ring), tube_(tube) {}
+    Nearest nearest(const dvec3& p) const override {
+        const double rho = std::sqrt(p.x * p.x + p.z * p.z);
+        const dvec3 out = rho > 0.0 ? dvec3(p.x / rho, 0.0, p.z / rho) : dvec3(1.0, 0.0, 0.0);
+        const dvec3 apart = p - ring_ * out;
+        const double d = std::sqrt(glm::dot(apart, apart));
+        return {d - tube_, d > 0.0 ? apart / d : dvec3(0.0, 1.0, 0.0)};
+    }
+    std::optional<collision::Box> bounds() const override {
+        const dvec3 half(ring_ + tube_, tube_, ring_ + tube_);
+        return collision::Box{-half, half};
+    }
+
+  private:
+    double ring_, tube_;
+};
+
+view::Mesh meshOfTorus(const collision::ShapeSizes& sizes) {
+    constexpr int around = 24, across = 12;
+    constexpr double turn = 2.0 * core::pi;
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> triangles;
+    for (int i = 0; i < around; ++i)
+        for (int k = 0; k < across; ++k) {
+            const double a = turn * i / around, b = turn * k / across;
+            const double rho = sizes.radius + sizes.own.at("tube_m") * std::cos(b);
+            positions.emplace_back(rho * std::cos(a), sizes.own.at("tube_m") * std::sin(b), rho * std::sin(a));
+            const auto at = [](int row, int column) {
+                return static_cast<std::uint32_t>(row % around * across + column % across);
+            };
+            for (std::uint32_t corner :
+                 {at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i, k), at(i + 1, k + 1), at(i + 1, k)})
+                triangles.push_back(corner);
+        }
+    return view::creasedMesh(positions, triangles, 1.0F);
+}
+
+std::shared_ptr<const collision::ShapeKinds> withTorus() {
+    collision::ShapeKinds kinds = collision::builtInShapes();
+    kinds.add({.name = "torus",
+               .fields = {"radius"},
+               .own = {{"tube_m", "m", 1e-3, 10.0, 0.125, "Radius of the tube."}},
+               .isBounded = true,
+               .form =
+                   [](const collision::ShapeSizes& sizes) {
+                       return std::make_shared<Torus>(sizes.radius, sizes.own.at("tube_m"));
+                   },
+               .mesh = meshOfTorus});
+    return std::make_shared<const collision::ShapeKinds>(std::move(kinds));
+}
+
+// Ring 0.5 m, tube 0.125 m.
+collision::Colliders torus(const collision::Pose& pose = {}) {
+    collision::ShapeSizes sizes;
+    sizes.radius = 0.5;
+    sizes.own["tube_m"] = 0.125;
+    collision::Colliders colliders;
+    colliders.add({withTorus()->find("torus")->form(sizes), {}}, {2.0, 0.0}, pose);
+    return colliders;
+}
+
+TEST(OwnShape, HasTheDistanceToTheNearestOfItsCircles) {
+    const collision::Pose pose{{0.1, 0.2, 0.3}, collision::turned({1.0, 2.0, 3.0}, 0.7)};
+    const collision::Colliders colliders = torus(pose);
+    collision::Numbers numbers;
+    for (int i = 0; i < 200; ++i) {
+        const dvec3 p = numbers.point(1.0);
+        double exact = 1e300;
+        for (int k = 0; k < 4000; ++k) {
+            const double a = 2.0 * core::pi * k / 4000;
+            const dvec3 centre = pose.position + pose.rotation * dvec3(0.5 * std::cos(a), 0.0, 0.5 * std::sin(a));
+            exact = std::min(exact, glm::length(p - centre) - 0.125);
+        }
+        // One of 4000 centres lies within s = 4e-4 m of the nearest one: at most (s²/2)(1/d + 1/R) too far.
+        EXPECT_NEAR(colliders.distance(p), exact, 8e-8 * (1.0 / (exact + 0.125) + 1.0 / 0.5)) << i;
+    }
+}
+
+TEST(OwnShape, LetsPointsThroughItsHoleAndNotThroughItsTube) {
+    const collision::Colliders colliders = torus();
+    const double h = 0.01;
+    Flyer<double> through({0.0, 1.0, 0.0}, {0.0, -200.0, 0.0});
+    through.step(colliders, h);
+    EXPECT_DOUBLE_EQ(through.x[1], -1.0);
+    EXPECT_TRUE(through.contacts.empty());
+    // From above through the tube; from outside through one side of the tube to the hole, and to beyond both.
+    struct Throw {
+        dvec3 from, to, stopped;
+    };
+    for (const Throw& thrown : {Throw{{0.5, 1.0, 0.0}, {0.5, -1.0, 0.0}, {0.5, 0.135, 0.0}},
+                                Throw{{-2.0, 0.0, 0.0}, {0.25, 0.0, 0.0}, {-0.635, 0.0, 0.0}},
+                                Throw{{-2.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {-0.635, 0.0, 0.0}}}) {
+        Flyer<double> point(thrown.from, (thrown.to - thrown.from) / h);
+        point.thickness = 0.01;
+        point.step(colliders, h);
+        EXPECT_EQ(point.contacts.size(), 1U);
+        EXPECT_LT(glm::length(point.position() - thrown.stopped), 1e-9);  // as near as the search comes
+    }
+}
+
+TEST(OwnShape, BearsAPointThatRestsOnIt) {
+    const collision::Colliders colliders = torus();
+    Flyer<double> point({0.5, 0.2, 0.0});
+    point.thickness = 0.01;
+    for (int i = 0; i < 200; ++i) point.step(colliders, 0.005, {0.0, -collision::gravity, 0.0});
+    EXPECT_NEAR(point.x[1], 0.135, 1e-12);  // rounding
+    EXPECT_NEAR(point.v[1], 0.0, 1e-12);
+}
+
+TEST(OwnShape, IsSeenAndFeltInAWorld) {
+    SceneSpec scene;
+    scene.colliders = {support::ball("ring", {0.0, 1.0, 0.0}, 0.5)};
+    scene.colliders[0].shape = "torus";
+    scene.ropes = {support::rope("line", {-0.8, 1.2, 0.0}, {0.8, 1.2, 0.0}, 40)};
+    EXPECT_THROW(World{scene}, core::Error);
+    scene.shapes = withTorus();
+    World world(scene);
+    const view::FrameView view = world.view(false);
+    ASSERT_EQ(view.surfaces.size(), 2U);
+    const view::Surface& ring = view.surfaces[0];
+    EXPECT_EQ(ring.name, "ring");
+    EXPECT_EQ(ring.transform[3].y, 1.0F);
+    ASSERT_GE(ring.geometry->positions.size(), 24U * 12U);
+    for (const glm::vec3& x : ring.geometry->positions)
+        EXPECT_NEAR(Torus(0.5, 0.125).nearest(x).distance, 0.0, 1e-7);  // rounding to float
+    // Across both sides of the ring, above which it falls 7 cm.
+    for (int i = 0; i < 20; ++i) ASSERT_FALSE(world.advance());
+    EXPECT_GT(world.metrics().contacts, 1);
+    EXPECT_LT(world.metrics().penetration, 1e-6);  // rounding of a state in float
+}
+
+}  // namespace
+}  // namespace taut::world::own_shape

@@ -17,18 +17,23 @@ std::string csvText(const std::string& text) {
     return out + "\"";
 }
 
-std::string exact(const Cell& cell) {
-    if (const auto* text = std::get_if<std::string>(&cell)) return csvText(*text);
+// Numbers as the format says.
+std::string textOf(const Cell& cell, const char* format) {
+    if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&cell))
+        return fmt::format("{}", fmt::join(*texts, ", "));
     if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
+    if (const auto* truth = std::get_if<bool>(&cell)) return *truth ? "1" : "0";
     const double value = std::get<double>(cell);
-    return std::isnan(value) ? "" : fmt::format("{}", value);
+    return std::isnan(value) ? "" : fmt::format(fmt::runtime(format), value);
+}
+
+std::string exact(const Cell& cell) {
+    return csvText(textOf(cell, "{}"));
 }
 
 std::string brief(const Cell& cell) {
-    if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-    if (const auto* whole = std::get_if<long long>(&cell)) return fmt::format("{}", *whole);
-    const double value = std::get<double>(cell);
-    return std::isnan(value) ? "" : fmt::format("{:.4g}", value);
+    return textOf(cell, "{:.4g}");
 }
 
 // Characters, not bytes: names may hold letters beyond ASCII.

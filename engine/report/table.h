@@ -7,9 +7,9 @@
 
 namespace taut::report {
 
-// A text, a number (written with as many digits as it takes to read the same number again; not a number: empty), or a
-// whole number.
-using Cell = std::variant<std::string, double, long long>;
+// A text, a number (in CSV with as many digits as it takes to read the same number again; not a number: empty), a whole
+// number, a truth (0 or 1), or several texts (with commas between them).
+using Cell = std::variant<std::string, double, long long, bool, std::vector<std::string>>;
 
 struct Table {
     std::vector<std::string> columns;

@@ -6,17 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "taut/report/table.h"
+#include "taut/report/column.h"
 
 namespace taut::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// JSON has no infinity: a limit that is none is null.
-Json finite(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+using report::In;
 
 double orEmpty(double value) {
     return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
@@ -56,6 +52,49 @@ std::string measuredText(const MethodThreshold& threshold) {
     if (threshold.kind == ThresholdKind::aboveMost) return "> " + stepText(threshold.stands);
     if (threshold.kind == ThresholdKind::belowLeast) return "< " + stepText(threshold.fails);
     return stepText(threshold.stands);
+}
+
+report::Columns<IslandFrequencies> islandColumns() {
+    using Island = IslandFrequencies;
+    return {{"name", &Island::name, "island"},
+            {"bodies", &Island::bodies},
+            {"points", &Island::points, "points"},
+            {"omega_B1_per_s", &Island::boundAnywhere, "B1 [1/s]"},
+            {"omega_B2_per_s", &Island::boundHere, "B2 [1/s]"},
+            {"omega_lanczos_per_s", &Island::lanczos, "Lanczos [1/s]"},
+            {"omega_closed_form_per_s", &Island::closedForm, "closed form [1/s]"},
+            {"closed_form",
+             [](const Island& i) { return std::isfinite(i.closedForm) ? report::Cell(i.formula) : i.closedForm; }},
+            {"damping_time_s", [](const Island& i) { return i.mode.tau; }}};
+}
+
+// A step that no run has shown is 0 in CSV, and null in JSON.
+report::Columns<MethodThreshold> thresholdColumns(const SceneThresholds& thresholds) {
+    using Threshold = MethodThreshold;
+    using Column = report::Column<Threshold>;
+    const auto orNone = [](double Threshold::*step) {
+        return [step](const Threshold& t) { return t.*step > 0 ? t.*step : std::numeric_limits<double>::quiet_NaN(); };
+    };
+    const auto predicted = [](const char* name, double PredictedSteps::*step, const char* heading) {
+        return Column(
+            name, [step](const Threshold& t) { return orEmpty(t.predicted.*step); }, heading,
+            [step](const Threshold& t) { return stepText(t.predicted.*step); });
+    };
+    return {{"scene", [&thresholds](const Threshold&) { return thresholds.name; }, In::csv},
+            {"method", &Threshold::method, "method"},
+            {"result", [](const Threshold& t) { return nameOf(t.kind); }, "measured [ms]", measuredText},
+            {"stands_s", &Threshold::stands, In::csv},
+            {"stands_s", orNone(&Threshold::stands), In::json},
+            {"fails_s", &Threshold::fails, In::csv},
+            {"fails_s", orNone(&Threshold::fails), In::json},
+            {"has_predicted_limit", [](const Threshold& t) { return std::isfinite(t.predicted.lanczos); }, In::json},
+            predicted("by_B1_s", &PredictedSteps::boundAnywhere, "by B1"),
+            predicted("by_B2_s", &PredictedSteps::boundHere, "by B2"),
+            predicted("by_lanczos_s", &PredictedSteps::lanczos, "by Lanczos"),
+            predicted("by_closed_form_s", &PredictedSteps::closedForm, "by closed form"),
+            {"limited_by", &Threshold::limitedBy, "limited by"},
+            {"runs", &Threshold::runs, "runs"},
+            {"note", &Threshold::note}};
 }
 
 }  // namespace
@@ -99,12 +138,11 @@ std::string stabilityJson(const StabilityMap& map, const MachineFacts& machine) 
     for (const StabilityPanel& panel : map.panels) {
         Json boundaries = Json::array();
         for (const Boundary& b : panel.boundaries)
-            boundaries.push_back(
-                {{"zeta", rounded(b.zeta)}, {"predicted", finite(b.predicted)}, {"measured", finite(b.measured)}});
+            boundaries.push_back({{"zeta", rounded(b.zeta)}, {"predicted", b.predicted}, {"measured", b.measured}});
         json["methods"].push_back({{"method", panel.method},
                                    {"damping", nameOf(panel.damping)},
                                    {"no_limit", panel.isWithoutLimit},
-                                   {"largest_gap", finite(panel.largestGap)},
+                                   {"largest_gap", panel.largestGap},
                                    {"largest_gap_at_zeta", panel.gapZeta},
                                    {"boundaries", std::move(boundaries)}});
     }
@@ -141,15 +179,7 @@ std::string phasePlaneCsv(const std::vector<PhasePath>& paths) {
 }
 
 std::string thresholdsCsv(const SceneThresholds& thresholds) {
-    report::Table table;
-    table.columns = {"scene",   "method",       "result",           "stands_s",   "fails_s", "by_B1_s",
-                     "by_B2_s", "by_lanczos_s", "by_closed_form_s", "limited_by", "runs",    "note"};
-    for (const MethodThreshold& t : thresholds.methods)
-        table.rows.push_back({thresholds.name, t.method, std::string(nameOf(t.kind)), t.stands, t.fails,
-                              orEmpty(t.predicted.boundAnywhere), orEmpty(t.predicted.boundHere),
-                              orEmpty(t.predicted.lanczos), orEmpty(t.predicted.closedForm), t.limitedBy,
-                              static_cast<long long>(t.runs), t.note});
-    return report::csv(table);
+    return csv(tableOf(thresholdColumns(thresholds), thresholds.methods, In::csv));
 }
 
 std::string thresholdsJson(const SceneThresholds& thresholds, const MachineFacts& machine) {
@@ -162,57 +192,23 @@ std::string thresholdsJson(const SceneThresholds& thresholds, const MachineFacts
     json["criterion"] = thresholds.criterion;
     json["reference_kinetic_energy_J"] = thresholds.kinetic;
     json["kinetic_energy_allowed_J"] = thresholds.allowance;
-    json["islands"] = Json::array();
-    for (const IslandFrequencies& i : thresholds.islands)
-        json["islands"].push_back({{"name", i.name},
-                                   {"bodies", i.bodies},
-                                   {"points", i.points},
-                                   {"omega_B1_per_s", i.boundAnywhere},
-                                   {"omega_B2_per_s", i.boundHere},
-                                   {"omega_lanczos_per_s", i.lanczos},
-                                   {"omega_closed_form_per_s", finite(i.closedForm)},
-                                   {"closed_form", std::isfinite(i.closedForm) ? Json(i.formula) : Json(nullptr)},
-                                   {"damping_time_s", i.mode.tau}});
-    json["methods"] = Json::array();
-    for (const MethodThreshold& t : thresholds.methods)
-        json["methods"].push_back({{"method", t.method},
-                                   {"result", nameOf(t.kind)},
-                                   {"stands_s", t.stands > 0 ? Json(t.stands) : Json(nullptr)},
-                                   {"fails_s", t.fails > 0 ? Json(t.fails) : Json(nullptr)},
-                                   {"has_predicted_limit", std::isfinite(t.predicted.lanczos)},
-                                   {"by_B1_s", finite(t.predicted.boundAnywhere)},
-                                   {"by_B2_s", finite(t.predicted.boundHere)},
-                                   {"by_lanczos_s", finite(t.predicted.lanczos)},
-                                   {"by_closed_form_s", finite(t.predicted.closedForm)},
-                                   {"limited_by", t.limitedBy},
-                                   {"runs", t.runs},
-                                   {"note", t.note}});
+    json["islands"] = report::jsonOf<Json>(islandColumns(), thresholds.islands);
+    json["methods"] = report::jsonOf<Json>(thresholdColumns(thresholds), thresholds.methods);
     json["interrupted"] = thresholds.isInterrupted;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string thresholdsSummary(const SceneThresholds& thresholds) {
-    report::Table islands, methods;
-    islands.columns = {"island", "points", "B1 [1/s]", "B2 [1/s]", "Lanczos [1/s]", "closed form [1/s]"};
-    std::string formulas;
-    for (const IslandFrequencies& i : thresholds.islands) {
-        islands.rows.push_back(
-            {i.name, static_cast<long long>(i.points), i.boundAnywhere, i.boundHere, i.lanczos, i.closedForm});
+    std::string formulas, notes;
+    for (const IslandFrequencies& i : thresholds.islands)
         if (std::isfinite(i.closedForm)) formulas += fmt::format("closed form of {}: {}\n", i.name, i.formula);
-    }
-    methods.columns = {"method",     "measured [ms]",  "by B1",      "by B2",
-                       "by Lanczos", "by closed form", "limited by", "runs"};
-    std::string notes;
-    for (const MethodThreshold& t : thresholds.methods) {
-        methods.rows.push_back({t.method, measuredText(t), stepText(t.predicted.boundAnywhere),
-                                stepText(t.predicted.boundHere), stepText(t.predicted.lanczos),
-                                stepText(t.predicted.closedForm), t.limitedBy, static_cast<long long>(t.runs)});
+    for (const MethodThreshold& t : thresholds.methods)
         if (!t.note.empty()) notes += fmt::format("{}: {}\n", t.title, t.note);
-    }
     return fmt::format(
         "{}\n\nHighest frequencies as the scene starts; B1 and B2 are bounds\n\n{}{}\nLargest steps [ms]: "
         "{}\n\n{}{}{}",
-        thresholds.title, report::aligned(islands), formulas, thresholds.criterion, report::aligned(methods),
+        thresholds.title, aligned(tableOf(islandColumns(), thresholds.islands, In::people)), formulas,
+        thresholds.criterion, aligned(tableOf(thresholdColumns(thresholds), thresholds.methods, In::people)),
         notes.empty() ? "" : "\n", notes);
 }
 

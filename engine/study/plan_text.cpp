@@ -6,17 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "taut/report/table.h"
+#include "taut/report/column.h"
 
 namespace taut::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// JSON has no infinity.
-Json finite(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+using report::In;
 
 std::string numberText(double value, const char* format) {
     return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
@@ -26,43 +22,69 @@ std::string countText(int count) {
     return count > 0 ? std::to_string(count) : "as written";
 }
 
-std::string generatorTable(const Plan& plan) {
-    if (plan.generators.empty()) return "";
-    report::Table table;
-    table.columns = {"without", "changes", "verdict"};
-    for (const GeneratorTrial& trial : plan.generators)
-        table.rows.push_back(
-            {trial.name, std::isfinite(trial.change) ? lengthText(trial.change) : "diverges", trial.verdict});
-    return "\nForce generators\n" + report::aligned(table);
+report::Columns<GeneratorTrial> generatorColumns() {
+    using Trial = GeneratorTrial;
+    return {{"name", &Trial::name, "without"},
+            {"change_m", &Trial::change, "changes",
+             [](const Trial& t) { return std::isfinite(t.change) ? lengthText(t.change) : "diverges"; }},
+            {"left_out", &Trial::isLeftOut},
+            {"verdict", &Trial::verdict, "verdict"}};
 }
 
-std::string resolutionTable(const Plan& plan) {
-    if (plan.resolutions.empty()) return "";
-    report::Table table;
-    table.columns = {"cells", "springs", "error", "verdict"};
-    for (const ResolutionTrial& trial : plan.resolutions)
-        table.rows.push_back({static_cast<long long>(trial.count), static_cast<long long>(trial.springs),
-                              lengthText(trial.error), std::string(trial.isEnough ? "enough" : "too coarse")});
-    const std::string order =
-        std::isfinite(plan.order) ? fmt::format(", measured order {:.2f}", plan.order) : std::string();
-    return fmt::format("\nResolution: cells along the longest edge{}\n", order) + report::aligned(table);
+report::Columns<ResolutionTrial> resolutionColumns() {
+    using Trial = ResolutionTrial;
+    return {
+        {"cells", &Trial::count, "cells"},
+        {"springs", &Trial::springs, "springs", [](const Trial& t) { return static_cast<long long>(t.springs); }},
+        {"error_m", &Trial::error, "error", [](const Trial& t) { return lengthText(t.error); }},
+        {"enough", &Trial::isEnough, "verdict", [](const Trial& t) { return t.isEnough ? "enough" : "too coarse"; }}};
 }
 
-std::string trialTable(const Plan& plan) {
-    report::Table table;
-    table.columns = {"",           "method", "precision", "cells", "h [ms]", "error", "spring evals a frame",
-                     "ms a frame", "verdict"};
-    for (std::size_t i = 0; i < plan.trials.size(); ++i) {
-        const PlanTrial& trial = plan.trials[i];
-        const std::string bound = trial.hasWholeCost() ? "" : "> ";
-        table.rows.push_back({std::string(plan.chosen == i ? "*" : ""), trial.candidate.method,
-                              std::string(nameOf(trial.candidate.precision)), countText(trial.candidate.count),
-                              numberText(1e3 * trial.step, "{:.3g}"), lengthText(trial.error),
-                              std::isfinite(trial.cost) ? bound + fmt::format("{:.0f}", trial.cost) : "-",
-                              numberText(trial.milliseconds, "{:.3f}"),
-                              trial.isAsWritten ? "as written: " + trial.verdict : trial.verdict});
+report::Columns<PlanTrial> trialColumns(const Plan& plan) {
+    using Trial = PlanTrial;
+    const auto isChosen = [&plan](const Trial& t) { return plan.chosen && &t == &plan.trials[*plan.chosen]; };
+    const auto without = [](const Trial& t) {
+        std::vector<std::string> names;
+        for (const Generator& generator : t.candidate.without) names.push_back(generator.name);
+        return names;
+    };
+    const auto cost = [](const Trial& t) {
+        return (t.hasWholeCost() || !std::isfinite(t.cost) ? "" : "> ") + numberText(t.cost, "{:.0f}");
+    };
+    const auto verdict = [](const Trial& t) { return t.isAsWritten ? "as written: " + t.verdict : t.verdict; };
+    return {{"", [=](const Trial& t) { return isChosen(t) ? "*" : ""; }, In::people},
+            {"method", [](const Trial& t) { return t.candidate.method; }, "method"},
+            {"precision", [](const Trial& t) { return nameOf(t.candidate.precision); }, "precision"},
+            {"cells", [](const Trial& t) { return t.candidate.count; }, "cells",
+             [](const Trial& t) { return countText(t.candidate.count); }},
+            {"as_written", &Trial::isAsWritten},
+            {"without", without},
+            {"step_s", &Trial::step, "h [ms]", [](const Trial& t) { return numberText(1e3 * t.step, "{:.3g}"); }},
+            {"springs", &Trial::springs},
+            {"was_run", &Trial::wasRun},
+            {"was_stopped", &Trial::wasStopped},
+            {"cost_is_lower_bound", [](const Trial& t) { return !t.hasWholeCost(); }},
+            {"error_m", &Trial::error, "error", [](const Trial& t) { return lengthText(t.error); }},
+            {"spring_evaluations_per_frame", &Trial::cost, "spring evals a frame", cost},
+            {"force_evaluations_per_frame", &Trial::evaluations},
+            {"ms_per_frame", &Trial::milliseconds, "ms a frame",
+             [](const Trial& t) { return numberText(t.milliseconds, "{:.3f}"); }},
+            {"meets", &Trial::meets},
+            {"chosen", isChosen},
+            {"verdict", &Trial::verdict, "verdict", verdict}};
+}
+
+std::string evidenceText(const Plan& plan) {
+    std::string text;
+    if (!plan.generators.empty())
+        text += "\nForce generators\n" + aligned(tableOf(generatorColumns(), plan.generators, In::people));
+    if (!plan.resolutions.empty()) {
+        const std::string order = std::isfinite(plan.order) ? fmt::format(", measured order {:.2f}", plan.order) : "";
+        text += fmt::format("\nResolution: cells along the longest edge{}\n", order) +
+                aligned(tableOf(resolutionColumns(), plan.resolutions, In::people));
     }
-    return "\nCandidates (evaluations of a long run: those of the start alone are left out)\n" + report::aligned(table);
+    return text + "\nCandidates (evaluations of a long run: those of the start alone are left out)\n" +
+           aligned(tableOf(trialColumns(plan), plan.trials, In::people));
 }
 
 std::string verificationText(const Plan& plan) {
@@ -100,28 +122,6 @@ const PlanTrial* nearest(const Plan& plan) {
     for (const PlanTrial& trial : plan.trials)
         if (std::isfinite(trial.error) && (best == nullptr || trial.error < best->error)) best = &trial;
     return best;
-}
-
-Json trialJson(const PlanTrial& trial, bool isChosen) {
-    Json without = Json::array();
-    for (const Generator& generator : trial.candidate.without) without.push_back(generator.name);
-    return {{"method", trial.candidate.method},
-            {"precision", nameOf(trial.candidate.precision)},
-            {"cells", trial.candidate.count},
-            {"as_written", trial.isAsWritten},
-            {"without", without},
-            {"step_s", finite(trial.step)},
-            {"springs", trial.springs},
-            {"was_run", trial.wasRun},
-            {"was_stopped", trial.wasStopped},
-            {"cost_is_lower_bound", !trial.hasWholeCost()},
-            {"error_m", finite(trial.error)},
-            {"spring_evaluations_per_frame", finite(trial.cost)},
-            {"force_evaluations_per_frame", finite(trial.evaluations)},
-            {"ms_per_frame", finite(trial.milliseconds)},
-            {"meets", trial.meets},
-            {"chosen", isChosen},
-            {"verdict", trial.verdict}};
 }
 
 }  // namespace
@@ -163,8 +163,7 @@ std::string planSummary(const Plan& plan) {
     std::string text = fmt::format("{}\nNeeds an RMS error of at most {} ({}) up to {:.3g} s", plan.name,
                                    lengthText(plan.need.target), plan.need.stated, plan.need.horizon);
     if (plan.need.budget) text += fmt::format(", at {:.3g} ms a frame", *plan.need.budget);
-    text += ".\n" + generatorTable(plan) + resolutionTable(plan) + trialTable(plan) + verificationText(plan) +
-            resultText(plan) + "\n" + planVerdict(plan) + "\n";
+    text += ".\n" + evidenceText(plan) + verificationText(plan) + resultText(plan) + "\n" + planVerdict(plan) + "\n";
     for (const std::string& remark : plan.remarks) text += remark + "\n";
     return text;
 }
@@ -184,29 +183,16 @@ std::string planJson(const Plan& plan, const MachineFacts& machine) {
     json["chaotic"] = plan.isChaotic;
     json["met"] = plan.isMet();
     json["verdict"] = planVerdict(plan);
-    json["generators"] = Json::array();
-    for (const GeneratorTrial& trial : plan.generators)
-        json["generators"].push_back({{"name", trial.name},
-                                      {"change_m", finite(trial.change)},
-                                      {"left_out", trial.isLeftOut},
-                                      {"verdict", trial.verdict}});
-    json["resolutions"] = Json::array();
-    for (const ResolutionTrial& trial : plan.resolutions)
-        json["resolutions"].push_back({{"cells", trial.count},
-                                       {"springs", trial.springs},
-                                       {"error_m", finite(trial.error)},
-                                       {"enough", trial.isEnough}});
-    json["reference"] = {
-        {"cells", plan.referenceCount}, {"error_m", finite(plan.referenceError)}, {"order", finite(plan.order)}};
-    json["candidates"] = Json::array();
-    for (std::size_t i = 0; i < plan.trials.size(); ++i)
-        json["candidates"].push_back(trialJson(plan.trials[i], plan.chosen == i));
-    json["verification"] = {{"change_at_quarter_step_m", finite(plan.verification.step)},
-                            {"change_at_twice_resolution_m", finite(plan.verification.finer)},
+    json["generators"] = report::jsonOf<Json>(generatorColumns(), plan.generators);
+    json["resolutions"] = report::jsonOf<Json>(resolutionColumns(), plan.resolutions);
+    json["reference"] = {{"cells", plan.referenceCount}, {"error_m", plan.referenceError}, {"order", plan.order}};
+    json["candidates"] = report::jsonOf<Json>(trialColumns(plan), plan.trials);
+    json["verification"] = {{"change_at_quarter_step_m", plan.verification.step},
+                            {"change_at_twice_resolution_m", plan.verification.finer},
                             {"cells", plan.verification.count},
                             {"passed", plan.verification.isPassed}};
-    json["seconds_per_force_evaluation"] = finite(plan.secondsAnEvaluation);
-    json["cost_as_written_over_planned"] = finite(plan.ratio);
+    json["seconds_per_force_evaluation"] = plan.secondsAnEvaluation;
+    json["cost_as_written_over_planned"] = plan.ratio;
     json["changes"] = Json::array();
     for (const scene::Change& change : plan.changes)
         json["changes"].push_back({{"key", change.key}, {"value", change.value}});

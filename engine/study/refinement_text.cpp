@@ -6,35 +6,40 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "taut/report/table.h"
+#include "taut/report/column.h"
 
 namespace taut::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json finite(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+using report::In;
 
 const RefinementFacts& factsOf(const RefinementStudy& study, const std::string& body) {
     return *std::find_if(study.bodies.begin(), study.bodies.end(),
                          [&](const RefinementFacts& facts) { return facts.body->name == body; });
 }
 
+report::Columns<RefinementRun> runColumns(const RefinementStudy& study) {
+    return {
+        {"body", &RefinementRun::body},
+        {"quantity", [&study](const RefinementRun& run) { return factsOf(study, run.body).body->quantity; }, In::csv},
+        {"treatment", &RefinementRun::treatment},
+        {"cells", &RefinementRun::cells},
+        {"points", &RefinementRun::points},
+        {"springs", &RefinementRun::springs},
+        {"value_m", &RefinementRun::value},
+        {"reference_m", [&study](const RefinementRun& run) { return factsOf(study, run.body).reference; }, In::csv},
+        {"relative_error", &RefinementRun::error},
+        {"order", &RefinementRun::order},
+        {"residual", &RefinementRun::residual},
+        {"steps", &RefinementRun::steps, In::json},
+        {"settled", &RefinementRun::isAtRest}};
+}
+
 }  // namespace
 
 std::string refinementCsv(const RefinementStudy& study) {
-    report::Table table;
-    table.columns = {"body",    "quantity",    "treatment",      "cells", "points",   "springs",
-                     "value_m", "reference_m", "relative_error", "order", "residual", "settled"};
-    for (const RefinementRun& run : study.runs) {
-        const RefinementFacts& facts = factsOf(study, run.body);
-        table.rows.push_back({run.body, facts.body->quantity, run.treatment, static_cast<long long>(run.cells),
-                              run.points, run.springs, run.value, facts.reference, run.error, run.order, run.residual,
-                              static_cast<long long>(run.isAtRest)});
-    }
-    return report::csv(table);
+    return csv(tableOf(runColumns(study), study.runs, In::csv));
 }
 
 std::string refinementJson(const RefinementStudy& study, const MachineFacts& machine) {
@@ -49,22 +54,10 @@ std::string refinementJson(const RefinementStudy& study, const MachineFacts& mac
                       {"quantity", body.quantity}, {"reference_m", facts.reference},
                       {"reference", body.theory},  {"is_theory", body.exact.has_value()}};
         for (const Treatment& treatment : treatments())
-            entry["order"][treatment.name] = finite(measuredOrder(study, body.name, treatment.name));
+            entry["order"][treatment.name] = measuredOrder(study, body.name, treatment.name);
         json["bodies"].push_back(std::move(entry));
     }
-    json["runs"] = Json::array();
-    for (const RefinementRun& run : study.runs)
-        json["runs"].push_back({{"body", run.body},
-                                {"treatment", run.treatment},
-                                {"cells", run.cells},
-                                {"points", run.points},
-                                {"springs", run.springs},
-                                {"value_m", finite(run.value)},
-                                {"relative_error", finite(run.error)},
-                                {"order", finite(run.order)},
-                                {"residual", finite(run.residual)},
-                                {"steps", run.steps},
-                                {"settled", run.isAtRest}});
+    json["runs"] = report::jsonOf<Json>(runColumns(study), study.runs);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -6,46 +6,62 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "taut/report/table.h"
+#include "taut/report/column.h"
 
 namespace taut::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using report::Cell;
+using report::In;
 
-// JSON has no infinity: a limit that is none is null.
-Json finite(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
+// The errors' columns carry their unit.
+report::Columns<RunPoint> runColumns(const WorkPrecision& study) {
+    const std::string unit = study.unit.empty() ? "" : "_" + study.unit;
+    return {{"problem", [&study](const RunPoint&) { return study.name; }, In::csv},
+            {"method", &RunPoint::method},
+            {"precision", [](const RunPoint& p) { return nameOf(p.precision); }},
+            {"step_s", &RunPoint::step},
+            {"steps", &RunPoint::steps},
+            {"status", [](const RunPoint& p) { return nameOf(p.status); }},
+            {"rms_error" + unit, &RunPoint::rmsError},
+            {"final_error" + unit, &RunPoint::finalError},
+            {"max_error" + unit, &RunPoint::maxError},
+            {"at_reference_floor", &RunPoint::isAtFloor},
+            {"energy_error", &RunPoint::energyError},
+            {"energy_at_reference_floor", &RunPoint::isEnergyAtFloor},
+            {"beyond_mean_energy_error", &RunPoint::meanEnergyError},
+            {"beyond_extent_error_m", &RunPoint::extentError},
+            {"beyond_height_error_m", &RunPoint::heightError},
+            {"evaluations", &RunPoint::evaluations},
+            {"iterations", &RunPoint::iterations},
+            {"unconverged", &RunPoint::unconverged},
+            {"run_s", &RunPoint::seconds},
+            {"run_quarter_s", &RunPoint::fastSeconds},
+            {"run_three_quarters_s", &RunPoint::slowSeconds},
+            {"repeats", &RunPoint::repeats},
+            {"simulated_s", [&study](const RunPoint&) { return study.grid.duration(); }, In::csv}};
 }
 
-// The errors' columns carry their unit, in both files.
-std::string errorName(const char* name, const WorkPrecision& study) {
-    return study.unit.empty() ? name : std::string(name) + "_" + study.unit;
+report::Columns<MethodFacts> methodColumns(const WorkPrecision& study) {
+    const auto order = [&study](Precision precision) {
+        return [&study, precision](const MethodFacts& m) { return measuredOrder(study, m.name, precision); };
+    };
+    return {{"name", &MethodFacts::name},
+            {"order", &MethodFacts::order},
+            {"step_limit_s", &MethodFacts::stepLimit},
+            {"measured_order_single", order(Precision::single_)},
+            {"measured_order_double", order(Precision::double_)}};
 }
 
-Json pointJson(const WorkPrecision& study, const RunPoint& p) {
-    return {{"method", p.method},
-            {"precision", nameOf(p.precision)},
-            {"step_s", p.step},
-            {"steps", p.steps},
-            {"status", nameOf(p.status)},
-            {errorName("rms_error", study), finite(p.rmsError)},
-            {errorName("final_error", study), finite(p.finalError)},
-            {errorName("max_error", study), finite(p.maxError)},
-            {"at_reference_floor", p.isAtFloor},
-            {"energy_error", finite(p.energyError)},
-            {"energy_at_reference_floor", p.isEnergyAtFloor},
-            {"beyond_mean_energy_error", finite(p.meanEnergyError)},
-            {"beyond_extent_error_m", finite(p.extentError)},
-            {"beyond_height_error_m", finite(p.heightError)},
-            {"evaluations", p.evaluations},
-            {"iterations", p.iterations},
-            {"unconverged", p.unconverged},
-            {"run_s", finite(p.seconds)},
-            {"run_quarter_s", finite(p.fastSeconds)},
-            {"run_three_quarters_s", finite(p.slowSeconds)},
-            {"repeats", p.repeats}};
+report::Columns<GrowthRow> growthColumns() {
+    return {{"method", &GrowthRow::method, "method"},
+            {"tolerance", &GrowthRow::tolerance},
+            {"steps", &GrowthRow::steps, "steps to 1e-6"},
+            {"evaluations", &GrowthRow::evaluations, "evaluations"},
+            {"error", &GrowthRow::error, "error"},
+            {"steps_with_four_evaluations", &GrowthRow::stepsForFour, "steps with 4 evaluations"},
+            {"error_with_four_evaluations", &GrowthRow::errorForFour, "error then"}};
 }
 
 // The cheapest run of a curve whose error is below a bound; nullptr when there is none.
@@ -65,55 +81,7 @@ std::string limitText(double limit) {
 }  // namespace
 
 std::string workPrecisionCsv(const WorkPrecision& study) {
-    report::Table table;
-    table.columns = {"problem",
-                     "method",
-                     "precision",
-                     "step_s",
-                     "steps",
-                     "status",
-                     errorName("rms_error", study),
-                     errorName("final_error", study),
-                     errorName("max_error", study),
-                     "at_reference_floor",
-                     "energy_error",
-                     "energy_at_reference_floor",
-                     "beyond_mean_energy_error",
-                     "beyond_extent_error_m",
-                     "beyond_height_error_m",
-                     "evaluations",
-                     "iterations",
-                     "unconverged",
-                     "run_s",
-                     "run_quarter_s",
-                     "run_three_quarters_s",
-                     "repeats",
-                     "simulated_s"};
-    for (const RunPoint& p : study.points)
-        table.rows.push_back({study.name,
-                              p.method,
-                              std::string(nameOf(p.precision)),
-                              p.step,
-                              p.steps,
-                              std::string(nameOf(p.status)),
-                              p.rmsError,
-                              p.finalError,
-                              p.maxError,
-                              static_cast<long long>(p.isAtFloor),
-                              p.energyError,
-                              static_cast<long long>(p.isEnergyAtFloor),
-                              p.meanEnergyError,
-                              p.extentError,
-                              p.heightError,
-                              static_cast<long long>(p.evaluations),
-                              static_cast<long long>(p.iterations),
-                              static_cast<long long>(p.unconverged),
-                              p.seconds,
-                              p.fastSeconds,
-                              p.slowSeconds,
-                              static_cast<long long>(p.repeats),
-                              study.grid.duration()});
-    return report::csv(table);
+    return csv(tableOf(runColumns(study), study.points, In::csv));
 }
 
 std::string workPrecisionJson(const WorkPrecision& study, const std::vector<GrowthRow>& growth,
@@ -130,32 +98,18 @@ std::string workPrecisionJson(const WorkPrecision& study, const std::vector<Grow
                        {"growth_that_ends_it", horizonGrowth},
                        {"is_reached", study.horizon.isReached},
                        {"seconds", study.horizon.seconds},
-                       {"largest_growth", finite(study.horizon.growth)}};
+                       {"largest_growth", study.horizon.growth}};
     json["reference"] = {{"kind", study.reference.isExact ? "exact" : "rk4 at two steps"},
                          {"step_s", study.reference.step},
                          {"rms_difference", study.reference.difference},
                          {"floor", study.reference.floor},
                          {"extent", study.reference.extent},
                          {"largest_kinetic_energy_J", study.reference.kinetic}};
-    for (const MethodFacts& method : study.methods) {
-        Json row = {{"name", method.name}, {"order", method.order}, {"step_limit_s", finite(method.stepLimit)}};
-        for (const Precision precision : {Precision::single_, Precision::double_})
-            row["measured_order_" + std::string(nameOf(precision))] =
-                finite(measuredOrder(study, method.name, precision));
-        json["methods"].push_back(std::move(row));
-    }
+    json["methods"] = report::jsonOf<Json>(methodColumns(study), study.methods);
     json["contacts"] = study.hasContacts;
     json["remarks"] = study.remarks;
-    for (const GrowthRow& row : growth)
-        json["growth_table"].push_back({{"method", row.method},
-                                        {"tolerance", row.tolerance},
-                                        {"steps", row.steps},
-                                        {"evaluations", row.evaluations},
-                                        {"error", row.error},
-                                        {"steps_with_four_evaluations", row.stepsForFour},
-                                        {"error_with_four_evaluations", row.errorForFour}});
-    json["runs"] = Json::array();
-    for (const RunPoint& point : study.points) json["runs"].push_back(pointJson(study, point));
+    if (!growth.empty()) json["growth_table"] = report::jsonOf<Json>(growthColumns(), growth);
+    json["runs"] = report::jsonOf<Json>(runColumns(study), study.points);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -195,12 +149,7 @@ std::string workPrecisionSummary(const WorkPrecision& study) {
 }
 
 std::string growthSummary(const std::vector<GrowthRow>& rows) {
-    report::Table table;
-    table.columns = {"method", "steps to 1e-6", "evaluations", "error", "steps with 4 evaluations", "error then"};
-    for (const GrowthRow& row : rows)
-        table.rows.push_back({row.method, row.steps, row.evaluations, row.error,
-                              static_cast<long long>(row.stepsForFour), row.errorForFour});
-    return report::aligned(table);
+    return aligned(tableOf(growthColumns(), rows, In::people));
 }
 
 }  // namespace taut::study

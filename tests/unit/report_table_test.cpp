@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <nlohmann/json.hpp>
+
+#include "taut/report/column.h"
 
 namespace taut::report {
 namespace {
@@ -29,6 +32,27 @@ TEST(ReportTable, WhatIsNoNumberIsEmpty) {
 TEST(ReportTable, ColumnsAlignByLettersNotBytes) {
     EXPECT_EQ(aligned({{"ω", "n"}, {{std::string("größer"), 7LL}, {std::string("x"), 12LL}}}),
               "ω        n\ngrößer   7\nx       12\n");
+}
+
+struct Lap {
+    std::string name;
+    int steps = 0;
+    double error = 0;
+    bool isGood = false;
+};
+
+TEST(ReportColumn, OfOneRecordMakesEveryText) {
+    const Columns<Lap> columns = {
+        {"name", &Lap::name, "run"},
+        {"steps", &Lap::steps},
+        {"error_m", &Lap::error, "error", [](const Lap& r) { return r.isGood ? "ok" : "bad"; }},
+        {"good", &Lap::isGood, In::json}};
+    const std::vector<Lap> runs = {{"a", 3, 0.5, true}, {"b", 4, std::nan(""), false}};
+    EXPECT_EQ(csv(tableOf(columns, runs, In::csv)), "name,steps,error_m\na,3,0.5\nb,4,\n");
+    EXPECT_EQ(aligned(tableOf(columns, runs, In::people)), "run  error\na    ok\nb    bad\n");
+    EXPECT_EQ(
+        jsonOf<nlohmann::ordered_json>(columns, runs).dump(),
+        R"([{"name":"a","steps":3,"error_m":0.5,"good":true},{"name":"b","steps":4,"error_m":null,"good":false}])");
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ void LivePlay::rebuild(std::vector<std::string> changes, const std::string& said
     for (const std::string& warning : session_->world().warnings())
         if (!settings_.isQuiet) printWarnings({warning});
     overlay_ = std::make_unique<pipeline::Overlay>(fontFile(), pipeline::smallestStep(session_->world()));
-    overlay_->add(pipeline::momentOf(session_->tick(), session_->metrics()));
+    overlay_->add({session_->metrics(), session_->tick()});
     pace_ = live::Pace(session_->world().tickSeconds());
     session_->showMarks(showsMarks_);
     shownCamera_ = session_->now().camera;
@@ -109,7 +109,7 @@ void LivePlay::run(const std::atomic<bool>& stop) {
         report();
         ticks_ += session_->tick() - before;
         if (session_->tick() != before) {
-            overlay_->add(pipeline::momentOf(session_->tick(), session_->metrics()));
+            overlay_->add({session_->metrics(), session_->tick()});
             hasChanged_ = true;
         }
         if (const double left = leastPicture - secondsSince(last); left > 0.0)

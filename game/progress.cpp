@@ -44,7 +44,7 @@ std::string Progress::line(const pipeline::FrameRecord& record, double elapsed, 
                         1e3 * facts_.step, 1e3 * facts_.stepLimit);
     if (record.metrics) {
         const world::Metrics& m = *record.metrics;
-        const double energy = m.kinetic + m.elastic + m.gravitational;
+        const double energy = m.energy();
         if (!firstEnergy_) firstEnergy_ = energy;
         text += fmt::format("  strain {:.1f} %  energy {:.4g} J, drift {:+.2g} J", 100.0 * m.maxStrain, energy,
                             energy - *firstEnergy_);

@@ -158,7 +158,7 @@ pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunO
     pipeline::RunListener listener;
     if (overlay != nullptr)
         listener.frameSimulated = [overlay, ticksPerFrame](const pipeline::FrameRecord& record) {
-            overlay->add(pipeline::momentOf(record.frame * ticksPerFrame, *record.metrics));
+            overlay->add({*record.metrics, record.frame * ticksPerFrame});
         };
     const bool everyTick = flags.hashEvery == "tick";
     const bool everyFrame = flags.hash && !everyTick;
@@ -219,7 +219,7 @@ int render(const RenderFlags& flags) {
     if (flags.overlay && draw) {
         overlay = std::make_unique<pipeline::Overlay>(fontFile(), pipeline::smallestStep(world));
         for (const pipeline::FrameRecord& record : options.before)
-            if (record.metrics) overlay->add(pipeline::momentOf(record.frame * world.ticksPerFrame(), *record.metrics));
+            if (record.metrics) overlay->add({*record.metrics, record.frame * world.ticksPerFrame()});
         draw = [&](const view::FrameView& view) {
             image::Image picture = renderer->draw(view);
             overlay->paint(picture, view.time);

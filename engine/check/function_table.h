@@ -1,6 +1,7 @@
 // The functions that a claim may call: one row each. To add one, write a row and the function that it names.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,8 +25,8 @@ struct Function {
     bool isVector = false;
     std::string unit;  // "m"; empty: a plain number
     std::string help;
-    Quantity (*value)(const Now& now, std::span<const Expression> arguments) = nullptr;
-    std::string (*place)(const Now& now, std::span<const Expression> arguments) = nullptr;  // null: nowhere
+    std::function<Quantity(const Now& now, std::span<const Expression> arguments)> value;
+    std::function<std::string(const Now& now, std::span<const Expression> arguments)> place;  // empty: nowhere
 
     std::string signature() const;  // "distance(POINTS or [x, y, z], POINTS or [x, y, z])"
 };

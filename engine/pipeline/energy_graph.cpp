@@ -13,27 +13,15 @@ namespace {
 
 constexpr Ink gridInk{150, 160, 175}, scaleInk{176, 184, 196};
 
-double kineticOf(const Moment& moment) {
-    return moment.kinetic;
-}
-double elasticOf(const Moment& moment) {
-    return moment.elastic;
-}
-double gravitationalOf(const Moment& moment) {
-    return moment.gravitational;
-}
-double totalOf(const Moment& moment) {
-    return moment.kinetic + moment.elastic + moment.gravitational;
-}
-
 struct Curve {
     const char* name;
     Ink ink;
     double (*energy)(const Moment&);
 };
-constexpr std::array curves{Curve{"gravity", gravitationalInk, gravitationalOf},
-                            Curve{"elastic", elasticInk, elasticOf}, Curve{"kinetic", kineticInk, kineticOf},
-                            Curve{"total", totalInk, totalOf}};
+constexpr std::array curves{Curve{"gravity", gravitationalInk, [](const Moment& m) { return m.gravitational; }},
+                            Curve{"elastic", elasticInk, [](const Moment& m) { return m.elastic; }},
+                            Curve{"kinetic", kineticInk, [](const Moment& m) { return m.kinetic; }},
+                            Curve{"total", totalInk, [](const Moment& m) { return m.energy(); }}};
 
 void paintGrid(Painting& painting, const Box& box, float em, const EnergyScale& scale) {
     const int first = static_cast<int>(std::lround(scale.low / scale.spacing));

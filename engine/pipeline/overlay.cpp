@@ -38,10 +38,6 @@ StepFacts smallestStep(const world::World& world) {
     return facts;
 }
 
-Moment momentOf(std::int64_t tick, const world::Metrics& metrics) {
-    return {tick, metrics.time, metrics.kinetic, metrics.elastic, metrics.gravitational, metrics.maxStrain};
-}
-
 float typeSize(int pictureHeight) {
     return std::max(11.0F, 0.02F * static_cast<float>(pictureHeight));
 }

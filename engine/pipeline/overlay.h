@@ -24,14 +24,9 @@ struct StepFacts {
 };
 StepFacts smallestStep(const world::World& world);
 
-// What the graph shows of a moment.
-struct Moment {
+struct Moment : world::Metrics {
     std::int64_t tick = 0;
-    double time = 0.0;                                         // [s]
-    double kinetic = 0.0, elastic = 0.0, gravitational = 0.0;  // [J]
-    double maxStrain = 0.0;
 };
-Moment momentOf(std::int64_t tick, const world::Metrics& metrics);
 
 // A name and its value: a line of the panel above those of the run.
 using OverlayLine = std::pair<std::string, std::string>;

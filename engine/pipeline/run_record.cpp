@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "taut/world/metric_table.h"
 
 namespace taut::pipeline {
 namespace {
@@ -125,20 +126,19 @@ std::string runJson(const world::SceneSpec& spec, const world::World& world, con
 }
 
 std::string metricsCsv(const RunResult& result) {
-    std::string text =
-        "frame,time_s,kinetic_J,elastic_J,gravitational_J,total_J,momentum_x_kg_m_per_s,momentum_y_kg_m_per_s,"
-        "momentum_z_kg_m_per_s,angular_x_kg_m2_per_s,angular_y_kg_m2_per_s,angular_z_kg_m2_per_s,max_strain,contacts,"
-        "inverted_cells,min_volume_ratio,evaluations,solver_iterations,unconverged_solves\n";
+    std::string text = "frame,time_s";
+    for (const world::Metric& metric : world::metricTable()) text += fmt::format(",{}", metric.columns);
     for (const FrameRecord& frame : result.frames) {
         if (!frame.metrics) continue;
-        const world::Metrics& m = *frame.metrics;
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame.frame,
-                       frame.time, m.kinetic, m.elastic, m.gravitational, m.kinetic + m.elastic + m.gravitational,
-                       m.momentum.x, m.momentum.y, m.momentum.z, m.angularMomentum.x, m.angularMomentum.y,
-                       m.angularMomentum.z, m.maxStrain, m.contacts, m.invertedCells, m.minVolumeRatio,
-                       m.work.evaluations, m.work.iterations, m.work.unconverged);
+        text += fmt::format("\n{},{}", frame.frame, frame.time);
+        for (const world::Metric& metric : world::metricTable()) {
+            const world::MetricValue value = metric.value(*frame.metrics);
+            if (const auto* v = std::get_if<glm::dvec3>(&value)) text += fmt::format(",{},{},{}", v->x, v->y, v->z);
+            if (const auto* number = std::get_if<double>(&value)) text += fmt::format(",{}", *number);
+            if (const auto* count = std::get_if<std::int64_t>(&value)) text += fmt::format(",{}", *count);
+        }
     }
-    return text;
+    return text + "\n";
 }
 
 }  // namespace taut::pipeline

@@ -64,7 +64,7 @@ class SceneTrial final : public Trial {
         });
         const world::Metrics metrics = world_.metrics();
         seen.kinetic = metrics.kinetic;
-        seen.energy = metrics.kinetic + metrics.elastic + metrics.gravitational;
+        seen.energy = metrics.energy();
         seen.contacts = metrics.contacts;
         return seen;
     }

@@ -58,6 +58,8 @@ struct Metrics {                      // at a published tick, velocities synchro
     double penetration = 0;     // [m] largest depth of a free, colliding point inside a collider
     double minVolumeRatio = 1;  // smallest V/V0
     ode::Work work{};           // of the methods since the start
+
+    double energy() const { return kinetic + elastic + gravitational; }  // [J]
 };
 
 // Points of a target at a published tick, velocities synchronised; body by body, in the order of authoring.

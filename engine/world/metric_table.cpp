@@ -1,0 +1,54 @@
+#include "taut/world/metric_table.h"
+
+#include <functional>
+
+namespace taut::world {
+namespace {
+
+template <auto member>
+MetricValue plain(const Metrics& metrics) {
+    return std::invoke(member, metrics);
+}
+
+MetricValue volumeRatio(const Metrics& metrics) {
+    return metrics.restVolume > 0 ? metrics.volume / metrics.restVolume : 1.0;  // of nothing nothing is missing
+}
+
+template <auto member>
+MetricValue done(const Metrics& metrics) {
+    return metrics.work.*member;
+}
+
+}  // namespace
+
+std::span<const Metric> metricTable() {
+    using M = Metrics;
+    static constexpr Metric table[] = {
+        {"kinetic_J", "kinetic_energy", "J", "Of motion.", plain<&M::kinetic>, 1},
+        {"elastic_J", "elastic_energy", "J", "Of springs and volumes.", plain<&M::elastic>, 1},
+        {"gravitational_J", "potential_energy", "J", "Of gravity; 0 for a point at the origin.",
+         plain<&M::gravitational>},
+        {"total_J", "energy", "J", "Kinetic, elastic and gravitational energy.", plain<&M::energy>},
+        {"momentum_x_kg_m_per_s,momentum_y_kg_m_per_s,momentum_z_kg_m_per_s", "momentum", "kg m/s",
+         "Sum of mass times velocity.", plain<&M::momentum>},
+        {"angular_x_kg_m2_per_s,angular_y_kg_m2_per_s,angular_z_kg_m2_per_s", "angular_momentum", "kg m²/s",
+         "About the origin.", plain<&M::angularMomentum>},
+        {"max_strain", "max_strain", "", "Largest |l - L|/L of any spring but those of bending.", plain<&M::maxStrain>,
+         1},
+        {"contacts", "contacts", "", "Number of points that touch a collider.", plain<&M::contacts>, 1},
+        {"inverted_cells", "inverted", "", "Number of cells of blocks that are turned inside out.",
+         plain<&M::invertedCells>, 1},
+        {"min_volume_ratio", "cell_volume", "", "Volume over that at rest of the cell of a block that has shrunk most.",
+         plain<&M::minVolumeRatio>, -1},
+        {"evaluations", "", "", "", done<&ode::Work::evaluations>},
+        {"solver_iterations", "", "", "", done<&ode::Work::iterations>},
+        {"unconverged_solves", "", "", "", done<&ode::Work::unconverged>},
+        {"torn_springs", "torn", "", "Number of springs that were cut or have torn.", plain<&M::brokenSprings>, 1},
+        {"volume_ratio", "volume", "", "Volume of blocks over that at rest; 1 of none.", volumeRatio},
+        {"penetration_m", "penetration", "m", "Largest depth of a free point inside a collider.",
+         plain<&M::penetration>, 1},
+    };
+    return table;
+}
+
+}  // namespace taut::world

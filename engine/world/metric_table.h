@@ -1,0 +1,29 @@
+// What is measured of bodies, one row each: claims call it, metrics.csv has it a frame. To add a metric, measure it
+// (Metrics), and write its row.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "taut/world/world.h"
+
+namespace taut::world {
+
+using MetricValue = std::variant<double, std::int64_t, glm::dvec3>;
+
+struct Metric {
+    std::string_view columns;   // of metrics.csv, with their unit; of a vector three with commas between them
+    std::string_view function;  // of claims; empty: none
+    std::string_view unit;      // "kg m/s"; empty: a plain number
+    std::string_view help;
+    MetricValue (*value)(const Metrics& metrics) = nullptr;
+    int extreme = 0;  // which body a claim names as the place: 1 the one with the largest value, -1 smallest, 0 none
+
+    bool isVector() const { return std::holds_alternative<glm::dvec3>(value({})); }
+};
+
+std::span<const Metric> metricTable();
+
+}  // namespace taut::world

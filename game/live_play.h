@@ -54,7 +54,6 @@ class LivePlay {
     void changeStep(double factor);
     void toggleRecording();
     void writeRecording();
-    void slower();
     void say(const std::string& text);
     void report();
     int ticksDue(double wall);

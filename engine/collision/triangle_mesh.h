@@ -16,9 +16,6 @@ class TriangleMesh final : public Form {
     // than two million triangles. A closed mesh that is inside out is turned.
     TriangleMesh(std::span<const dvec3> vertices, std::span<const std::uint32_t> triangles);
 
-    // Every edge belongs to two triangles that run through it in opposite directions.
-    bool isClosed() const { return closed_; }
-
     // Distance to the surface; negative inside a closed mesh. Among triangles that are equally near (at an edge or a
     // corner) the one that faces p most decides the sign, which makes it right for every closed surface.
     Nearest nearest(const dvec3& p) const override;
@@ -61,7 +58,7 @@ class TriangleMesh final : public Form {
     MeshTree tree_;
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> corners_;  // (3 · triangles)
-    bool closed_ = false;
+    bool closed_ = false;  // every edge belongs to two triangles that run through it in opposite directions
     Box bounds_;
 
     glm::ivec3 cellCount_{0};

@@ -16,7 +16,6 @@ class Orbit {
     void zoom(double factor, const view::Camera& from);
     // Back to the scene's camera.
     void follow() { own_.reset(); }
-    bool isFree() const { return own_.has_value(); }
 
     view::Camera camera(const view::Camera& ofScene) const { return own_.value_or(ofScene); }
 

@@ -34,13 +34,6 @@ Anchor<Real>::Anchor(std::vector<int> points, const glm::dvec3& place, std::vect
 }
 
 template <class Real>
-void Anchor<Real>::setStiffness(double stiffness, double damping) {
-    TAUT_EXPECTS(stiffness >= 0.0 && damping >= 0.0);
-    std::fill(stiffness_.begin(), stiffness_.end(), stiffness);
-    std::fill(damping_.begin(), damping_.end(), damping);
-}
-
-template <class Real>
 void Anchor<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
     const glm::dvec3 place = place_.at(motion.t), velocity = place_.rate(motion.t);
     const auto begin = std::lower_bound(points_.begin(), points_.end(), first);

@@ -27,7 +27,6 @@ class Anchor final : public ForceGenerator<Real> {
     void setPlace(const LinearPath& path) { place_ = path; }
     glm::dvec3 place(double t) const { return place_.at(t); }
 
-    void setStiffness(double stiffness, double damping);
     const std::vector<int>& points() const { return points_; }  // ascending
 
     bool isLocal() const override { return true; }

@@ -48,8 +48,8 @@ struct SpringSingles {
 
 template <class Real>
 struct SpringNetwork {
-    // Bodies are ranges of points that a block never spans: `bounds` ascends from 0 to the number of points. A body
-    // of rows of `row` points each gets blocks of whole rows; 0 for none.
+    // Bodies are ranges of points that a block never spans, ascending from point 0. A body of rows of `row` points
+    // each gets blocks of whole rows; 0 for none.
     struct Body {
         int firstPoint;
         int row;

@@ -55,13 +55,6 @@ Style styleOf(std::string_view name) {
     return spare()[hash % spare().size()];
 }
 
-Style seriesStyle(int index) {
-    // Neighbours far apart in hue: the pairs of the table are two apart.
-    static constexpr std::array<std::size_t, 8> order = {4, 0, 7, 2, 6, 1, 5, 3};
-    const auto i = static_cast<std::size_t>(index < 0 ? 0 : index) % (order.size() + spare().size());
-    return i < order.size() ? named()[order[i]].style : spare()[i - order.size()];
-}
-
 ColourScale divergingScale(double least, double middle, double most) {
     const auto below = [&](double part) { return middle + part * (least - middle); };
     const auto above = [&](double part) { return middle + part * (most - middle); };
@@ -73,17 +66,6 @@ ColourScale divergingScale(double least, double middle, double most) {
              {above(0.15), "#fbd9b0"},
              {above(0.5), "#e8813a"},
              {most, "#8f2d04"}},
-            {}};
-}
-
-ColourScale sequentialScale(double least, double most) {
-    const auto at = [&](double part) { return least + part * (most - least); };
-    return {"",
-            {{at(0.0), "#fbfbf0"},
-             {at(0.25), "#b7dfc3"},
-             {at(0.5), "#5cb3b0"},
-             {at(0.75), "#2a6f97"},
-             {at(1.0), "#14213d"}},
             {}};
 }
 

@@ -12,13 +12,7 @@ namespace taut::report {
 // The style of a series by its name: methods have theirs for good, other names get one of the same kind by a hash.
 Style styleOf(std::string_view name);
 
-// Styles in turn for series without lasting names.
-Style seriesStyle(int index);
-
 // A scale for growth per step: cool below 1 (stable), white at 1, warm above.
 ColourScale divergingScale(double least, double middle, double most);
-
-// Light to dark in one hue order that stays readable in grey.
-ColourScale sequentialScale(double least, double most);
 
 }  // namespace taut::report

@@ -1,13 +1,13 @@
 // The surface of a damaged cloth or block: what is left of its triangles, and the parts of severed ones up to the
 // cut, each fastened to its own side. It knows no picture.
 //
-//      b                    A triangle of which the edges ab and ac are severed is drawn as a, p, q and as b, c, q',
-//      p'. | \                  p and p' lie at the same share of the edge; p goes with the surface at a, p' with that
-//      at
-//    p'+  \                 b, as if it went on beyond them as flat as it is there.
-//    p +   \                .
-//      |    \               .
-//      a-+-+-c              .
+//      b
+//      |.          A triangle of which the edges ab and ac are severed is drawn as a, p, q and as b, c, q', p'.
+//      | .
+//   p' +  .        p and p' lie at the same share of the edge; p goes with the surface at a, p' with that at b, as if
+//   p  +   .       it went on beyond them as flat as it is there.
+//      |    .
+//      a-+-+-c
 //        q q'
 #pragma once
 

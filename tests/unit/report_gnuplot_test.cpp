@@ -181,7 +181,6 @@ TEST(ReportPalette, MethodsAreToldApartByMoreThanColour) {
     EXPECT_EQ(looks.size(), 8U);
     EXPECT_EQ(styleOf("a new one").colour, styleOf("a new one").colour);
     EXPECT_FALSE(colours.contains(styleOf("a new one").colour));
-    for (int i = 0; i < 8; ++i) EXPECT_TRUE(colours.contains(seriesStyle(i).colour)) << i;
 }
 
 }  // namespace

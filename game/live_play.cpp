@@ -10,9 +10,9 @@
 #include "taut/core/error.h"
 #include "game/folders.h"
 #include "game/messages.h"
+#include "game/renderers.h"
 #include "game/scene_file.h"
 #include "taut/live/between.h"
-#include "taut/pipeline/self_test.h"
 #include "taut/scene/method_names.h"
 
 namespace taut::game {
@@ -23,16 +23,12 @@ constexpr double tickBudget = 0.037;       // [s] of wall time for the ticks of 
 constexpr double leastPicture = 1.0 / 60;  // [s] no display shows more
 constexpr double idlePause = 0.012;        // [s] between looks for events while nothing changes
 
-std::unique_ptr<render::Renderer> makeRenderer(const PlaySettings& settings, const world::PictureSpec& picture) {
-    if (settings.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(settings.threads).c_str(), 0);
-    render::RendererOptions options;
-    options.width = settings.width;
-    options.height = settings.height;
-    options.samples = settings.samples > 0 ? settings.samples : picture.samples;
-    options.shadowSize = settings.shadowSize > 0 ? settings.shadowSize : picture.shadowSize;
-    options.shaders = shaderFolder();
-    options.font = fontFile();
-    return pipeline::workingRenderer(options, {render::Backend::osmesa, render::Backend::egl});
+// The scene's picture as the window has it.
+world::PictureSpec pictureOf(const PlaySettings& settings, world::PictureSpec picture) {
+    picture.size = {settings.width, settings.height};
+    if (settings.samples > 0) picture.samples = settings.samples;
+    if (settings.shadowSize > 0) picture.shadowSize = settings.shadowSize;
+    return picture;
 }
 
 std::string titleOf(const std::string& scene) {
@@ -44,7 +40,7 @@ std::string titleOf(const std::string& scene) {
 LivePlay::LivePlay(PlaySettings settings) : settings_(std::move(settings)) {
     rebuild({}, "");
     window_ = std::make_unique<Window>(titleOf(settings_.scene), settings_.width, settings_.height);
-    renderer_ = makeRenderer(settings_, session_->spec().picture);
+    renderer_ = makeRenderer(pictureOf(settings_, session_->spec().picture), settings_.threads);
     isRecording_ = settings_.records;
     screen_.say("h: help", 5.0);
 }

@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "commit.h"
 #include "taut/core/error.h"
 #include "game/commands.h"
-#include "game/folders.h"
 #include "game/interruption.h"
+#include "game/lab.h"
 #include "game/live_line.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
@@ -31,13 +30,6 @@ struct PlanFlags {
     double effort = 3.0;
     bool write = false, quiet = false;
 };
-
-study::MachineFacts machineFacts() {
-    const pipeline::Machine machine = pipeline::machine();
-    return {{"processor", machine.processor}, {"compiler", machine.compiler}, {"flags", TAUT_FLAGS},
-            {"simd", machine.simd},           {"program", machine.program},   {"commit", TAUT_COMMIT},
-            {"system", machine.system}};
-}
 
 study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const std::atomic<bool>& stop) {
     LiveLine line(flags.quiet);
@@ -59,9 +51,7 @@ study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const s
 void write(const std::filesystem::path& file, const std::string& text, const study::Plan& plan) {
     if (plan.changes.empty()) return fmt::print("\n{}: nothing to write\n", file.string());
     const std::string changed = scene::spliced(text, plan.changes);
-    scene::LoadOptions options;
-    if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
-    (void)scene::loadSceneText(changed, file.string(), options);  // throws for what a scene may not say
+    (void)scene::loadSceneText(changed, file.string(), loadOptions());  // throws for what a scene may not say
     if (plan.unseen() > 0)
         fmt::print(stderr, "warning: what happens between {:.3g} s and {:.3g} s was not looked at; look at the film\n",
                    plan.seconds, plan.runSeconds);
@@ -92,7 +82,7 @@ int plan(const PlanFlags& flags) {
         throw;
     }
     fmt::print("{}", study::planSummary(result));
-    if (!flags.json.empty()) core::writeWholeFile(flags.json, study::planJson(result, machineFacts()));
+    if (!flags.json.empty()) core::writeWholeFile(flags.json, study::planJson(result, machineFacts(pipeline::machine())));
     if (!result.isMet()) {
         if (flags.write) fmt::print("\n{}: nothing is written, as the need is not met\n", file.string());
         return static_cast<int>(core::ExitCode::needNotMet);

@@ -39,10 +39,7 @@ world::SceneSpec readRecorded(const std::filesystem::path& file, const RecordFla
     tape.origin.text = core::fileContent(file);
     tape.origin.overrides = flags.overrides;
     if (flags.seconds > 0.0) tape.origin.overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
-    scene::LoadOptions options;
-    options.overrides = tape.origin.overrides;
-    if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
-    scene::Loaded loaded = scene::loadSceneText(tape.origin.text, tape.origin.scene, options);
+    scene::Loaded loaded = scene::loadSceneText(tape.origin.text, tape.origin.scene, loadOptions(tape.origin.overrides));
     printWarnings(loaded.warnings);
     return std::move(loaded.spec);
 }

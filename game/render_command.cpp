@@ -20,6 +20,7 @@
 #include "game/messages.h"
 #include "game/outputs.h"
 #include "game/progress.h"
+#include "game/renderers.h"
 #include "game/scene_file.h"
 #include "taut/image/several_sinks.h"
 #include "taut/image/video_writer.h"
@@ -27,7 +28,6 @@
 #include "taut/pipeline/overlay.h"
 #include "taut/pipeline/run.h"
 #include "taut/pipeline/run_record.h"
-#include "taut/pipeline/self_test.h"
 
 namespace taut::game {
 namespace {
@@ -97,22 +97,6 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec
     // Who goes on from a checkpoint may want the figures of the frames before it.
     options.metrics = flags.metrics || flags.overlay || !flags.quiet || options.checkpointEvery > 0;
     return options;
-}
-
-std::unique_ptr<render::Renderer> makeRenderer(const RenderFlags& flags, const world::PictureSpec& picture) {
-    // The software renderer reads from the environment how many threads it may use.
-    if (flags.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(flags.threads).c_str(), 0);
-    std::vector<render::Backend> backends = {render::Backend::osmesa, render::Backend::egl};
-    if (!flags.gl.empty())
-        std::erase_if(backends, [&](render::Backend backend) { return pipeline::nameOf(backend) != flags.gl; });
-    render::RendererOptions options;
-    options.width = picture.size.x;
-    options.height = picture.size.y;
-    options.samples = picture.samples;
-    options.shadowSize = picture.shadowSize;
-    options.shaders = shaderFolder();
-    options.font = fontFile();
-    return pipeline::workingRenderer(options, backends);
 }
 
 // Everything that was asked for, or null; asks before it overwrites.
@@ -212,7 +196,7 @@ int render(const RenderFlags& flags) {
     pipeline::Draw draw;
     std::unique_ptr<render::Renderer> renderer;
     if (!flags.noPictures) {
-        renderer = makeRenderer(flags, spec.picture);
+        renderer = makeRenderer(spec.picture, flags.threads, flags.gl);
         draw = [&](const view::FrameView& view) { return renderer->draw(view); };
     }
     std::unique_ptr<pipeline::Overlay> overlay;

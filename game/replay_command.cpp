@@ -46,9 +46,7 @@ void printFacts(const std::string& name, const regression::Tape& tape) {
 
 // What a tape was made from, or the scene that is to be held against it.
 world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape) {
-    scene::LoadOptions options;
-    options.overrides = tape.origin.overrides;
-    if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
+    const scene::LoadOptions options = loadOptions(tape.origin.overrides);
     if (!flags.scene.empty()) {
         scene::Loaded loaded = scene::loadScene(sceneFile(flags.scene), options);
         printWarnings(loaded.warnings);

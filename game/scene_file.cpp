@@ -42,11 +42,15 @@ world::SceneSpec readScene(const std::string& argument, const std::vector<std::s
     return readSceneWithKeys(argument, overrides).spec;
 }
 
-scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides) {
+scene::LoadOptions loadOptions(const std::vector<std::string>& overrides) {
     scene::LoadOptions options;
     options.overrides = overrides;
     if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
-    scene::Loaded loaded = scene::loadScene(sceneFile(argument), options);
+    return options;
+}
+
+scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides) {
+    scene::Loaded loaded = scene::loadScene(sceneFile(argument), loadOptions(overrides));
     printWarnings(loaded.warnings);
     return loaded;
 }

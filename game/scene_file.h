@@ -14,6 +14,9 @@ namespace taut::game {
 // core::Error(inputOutput), with the nearest shipped scene when it was a bare name.
 std::filesystem::path sceneFile(const std::string& argument);
 
+// With the asset folder.
+scene::LoadOptions loadOptions(const std::vector<std::string>& overrides = {});
+
 // Reads the scene with overrides ("key=value") and prints its warnings to standard error. Throws core::Error, also for
 // a scene that needs more memory than the machine can give.
 world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides);

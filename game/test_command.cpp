@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
+#include "taut/core/glob.h"
 #include "taut/core/parallel.h"
 #include "game/calibration_run.h"
 #include "game/commands.h"
@@ -18,12 +19,12 @@
 #include "game/interruption.h"
 #include "game/live_line.h"
 #include "game/messages.h"
+#include "game/renderers.h"
 #include "game/scene_file.h"
 #include "game/shell_word.h"
 #include "game/suggestion.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
-#include "taut/pipeline/self_test.h"
 #include "taut/regression/goldens.h"
 #include "taut/regression/suite.h"
 #include "taut/report/junit.h"
@@ -40,13 +41,6 @@ struct TestFlags {
 };
 
 using Clock = std::chrono::steady_clock;
-
-// '*' stands for any letters.
-bool matches(std::string_view pattern, std::string_view name) {
-    if (pattern.empty()) return name.empty();
-    if (pattern[0] != '*') return !name.empty() && pattern[0] == name[0] && matches(pattern.substr(1), name.substr(1));
-    return matches(pattern.substr(1), name) || (!name.empty() && matches(pattern, name.substr(1)));
-}
 
 // A file or folder as named, or a shipped scenario or scene of that name.
 std::filesystem::path scenarioPath(const std::string& argument) {
@@ -76,7 +70,7 @@ void choose(const TestFlags& flags, std::vector<regression::Scenario>& scenarios
     const std::vector<std::string>& wanted = updates ? flags.updates : flags.filters;
     if (wanted.empty()) return;
     const auto fits = [&](const std::string& word, const std::string& name) {
-        return updates ? word == name : matches(word, name);
+        return updates ? word == name : core::matches(word, name);
     };
     const std::vector<std::string> names = namesOf(scenarios);
     for (const std::string& word : wanted)
@@ -105,13 +99,11 @@ void checkFlags(const TestFlags& flags) {
 }
 
 regression::DrawingOptions drawingOptions(const TestFlags& flags, int threads) {
-    // The software renderer reads from the environment how many threads it may use.
-    ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+    limitSoftwareRenderer(threads);
     regression::DrawingOptions options;
     options.shaders = shaderFolder();
     options.font = fontFile();
-    if (!flags.gl.empty())
-        std::erase_if(options.backends, [&](render::Backend backend) { return pipeline::nameOf(backend) != flags.gl; });
+    options.backends = backendsNamed(flags.gl);
     return options;
 }
 
@@ -126,9 +118,7 @@ Run prepare(const TestFlags& flags) {
     checkFlags(flags);
     Run run;
     for (const std::string& path : flags.paths) run.paths.push_back(scenarioPath(path));
-    scene::LoadOptions load;
-    if (const std::filesystem::path assets = assetFolder(); !assets.empty()) load.assetFolders.push_back(assets);
-    run.scenarios = regression::readScenarios(regression::scenarioFiles(run.paths), load);
+    run.scenarios = regression::readScenarios(regression::scenarioFiles(run.paths), loadOptions());
     choose(flags, run.scenarios);
     run.suite.goldens = goldenFolder(flags, run.paths);
     run.manifest = regression::readManifest(run.suite.goldens);

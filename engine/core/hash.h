@@ -1,4 +1,4 @@
-// The state hash: FNV-1a with 64 bits, fed number by number in a fixed order. Negative zero counts as zero.
+// Numbers from numbers. The state hash: FNV-1a with 64 bits, fed number by number in a fixed order. Negative zero counts as zero.
 // A number at a time instead of a byte at a time costs an eighth; the fold makes up for the bits that a
 // multiplication only carries upwards.
 #pragma once
@@ -29,5 +29,13 @@ class Hash {
     }
     std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
+
+// All bits of a number spread over all of another: SplitMix64 (Steele, Lea and Flood 2014) over a counter.
+inline std::uint64_t mixed(std::uint64_t z) {
+    z += 0x9e3779b97f4a7c15ULL;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+}
 
 }  // namespace taut::core

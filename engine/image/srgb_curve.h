@@ -3,19 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+
+#include "taut/core/srgb.h"
 
 namespace taut::image {
 
 class SrgbCurve {
   public:
     SrgbCurve() {
-        for (std::size_t i = 0; i < 256; ++i) {
-            const double c = static_cast<double>(i) / 255.0;
-            light_[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-        }
+        for (std::size_t i = 0; i < 256; ++i)
+            light_[i] = static_cast<float>(core::lightOf(static_cast<double>(i) / 255.0));
         for (std::size_t i = 0; i < 255; ++i) middle_[i] = 0.5F * (light_[i] + light_[i + 1]);
     }
     float light(std::uint8_t byte) const { return light_[byte]; }

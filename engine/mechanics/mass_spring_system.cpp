@@ -6,6 +6,22 @@
 #include "taut/core/parallel.h"
 
 namespace taut::mechanics {
+namespace {
+
+template <class PointMass>
+std::vector<PointMass> pointMassesOf(const Model& model) {
+    std::vector<PointMass> points;
+    for (std::size_t i = 0; i < model.masses.size(); ++i)
+        points.push_back({model.masses[i], model.dragRates[i], model.held[i]});
+    return points;
+}
+
+}  // namespace
+
+template <class Real>
+MassSpringSystem<Real>::MassSpringSystem(const Model& model)
+    : MassSpringSystem(pointMassesOf<PointMass>(model),
+                       std::vector<Body>{{0, model.grid[0] > 0 ? model.grid[0] + 1 : 0}}, model.springs) {}
 
 template <class Real>
 MassSpringSystem<Real>::MassSpringSystem(std::span<const PointMass> points, std::span<const Body> bodies,

@@ -27,6 +27,9 @@ struct LedPoints {
     std::function<void(double t, std::span<glm::dvec3> x, std::span<glm::dvec3> v)> path;
 };
 
+// Faster than this nothing moves: a point that does has left its stable step behind. [m/s]
+inline constexpr double speedLimit = 3000.0;
+
 template <class Real>
 class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::ImplicitSystem<Real> {
   public:
@@ -39,6 +42,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
 
     // Bodies give the first point and row length of each body, ascending from point 0.
     MassSpringSystem(std::span<const PointMass> points, std::span<const Body> bodies, std::span<const Spring> springs);
+    explicit MassSpringSystem(const Model& model);  // of a single body
 
     // Adds a generator; they act in the order of adding.
     void add(std::unique_ptr<ForceGenerator<Real>> generator);

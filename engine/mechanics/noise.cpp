@@ -2,24 +2,17 @@
 
 #include <cmath>
 
+#include "taut/core/hash.h"
 #include "taut/core/trig.h"
 
 namespace taut::mechanics {
 namespace {
 
-// The finaliser of SplitMix64 (Steele, Lea, Flood 2014) over a counter.
-std::uint64_t mixed(std::uint64_t z) {
-    z += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-}
-
 // Uniform in 0 … 1, one value for each seed, wave, quantity and step.
 double uniform(std::int64_t seed, int wave, int quantity, std::int64_t step) {
-    std::uint64_t z = mixed(static_cast<std::uint64_t>(seed));
-    z = mixed(z ^ static_cast<std::uint64_t>(wave * 16 + quantity));
-    z = mixed(z ^ static_cast<std::uint64_t>(step));
+    std::uint64_t z = core::mixed(static_cast<std::uint64_t>(seed));
+    z = core::mixed(z ^ static_cast<std::uint64_t>(wave * 16 + quantity));
+    z = core::mixed(z ^ static_cast<std::uint64_t>(step));
     return static_cast<double>(z >> 11) * 0x1p-53;
 }
 

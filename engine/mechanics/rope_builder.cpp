@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "taut/core/bisect.h"
 #include "taut/core/error.h"
 #include "taut/core/trig.h"
 #include "taut/mechanics/builder_support.h"
@@ -14,16 +15,6 @@ using glm::dvec3;
 dvec3 perpendicularTo(dvec3 v) {
     const dvec3 axis = std::abs(v.x) <= std::abs(v.z) ? dvec3(1, 0, 0) : dvec3(0, 0, 1);
     return glm::normalize(glm::cross(v, axis));
-}
-
-// Where `f`, which falls from above zero to below it, crosses zero between low and high.
-template <class F>
-double rootOf(F f, double low, double high) {
-    for (int i = 0; i < 100; ++i) {
-        const double middle = 0.5 * (low + high);
-        (f(middle) > 0.0 ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
 }
 
 // Slack hangs in the catenary of a chain: link i runs along e + t_i g, g the sag, e at a right angle to it, and
@@ -44,19 +35,19 @@ struct Catenary {
     // The way down grows with a, the way along shrinks with κ.
     void fit(double level, double drop) {
         const double steepest = 1.0 / std::sqrt(1.0 - (drop / links) * (drop / links));
-        kappa = rootOf(
+        kappa = core::rootOf(
             [&](double k) {
                 kappa = k;
                 const double most = steepest + k * links;
-                a = rootOf(
+                a = core::rootOf(
                     [&](double slopeOffset) {
                         a = slopeOffset;
                         return drop - reach().y;
                     },
-                    -most, most);
+                    -most, most, 100);
                 return reach().x - level;
             },
-            0.0, 1e4);
+            0.0, 1e4, 100);
     }
 };
 
@@ -88,11 +79,11 @@ void bendArc(const RopeShape& shape, double distance, double link, std::vector<d
     dvec3 bulge = shape.sag - glm::dot(shape.sag, chord) * chord;
     bulge = glm::length(bulge) < 1e-3 ? perpendicularTo(chord) : glm::normalize(bulge);
     // n links that turn by δ end sin(nδ/2)/sin(δ/2) links away.
-    const double turn = rootOf(
+    const double turn = core::rootOf(
         [&](double delta) {
             return core::sine(0.5 * n * delta) / core::sine(0.5 * delta) - (isRing ? 0.0 : distance / link);
         },
-        0.0, 2.0 * core::pi / n);
+        0.0, 2.0 * core::pi / n, 100);
     dvec3 at = shape.start;
     for (int i = 0; i + 1 < n; ++i) {
         const double angle = turn * (0.5 * (n - 1) - i);

@@ -8,6 +8,7 @@
 
 #include "taut/core/error.h"
 #include "taut/pipeline/stages.h"
+#include "taut/world/ticks.h"
 
 namespace taut::pipeline {
 namespace {
@@ -124,7 +125,7 @@ class Player {
 }  // namespace
 
 std::int64_t frameCount(const world::RunSpec& run) {
-    return std::max<std::int64_t>(1, std::llround(run.seconds * run.fps));
+    return world::Ticks(run).lastFrame + 1;
 }
 
 RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "taut/world/each_body.h"
 #include "taut/world/metric_table.h"
 
 namespace taut::pipeline {
@@ -31,14 +32,9 @@ Json rendererJson(const std::optional<render::RendererInfo>& info) {
 
 Json seedsJson(const world::SceneSpec& spec) {
     Json seeds = Json::object();
-    const auto addBodies = [&](const char* kind, const auto& bodies) {
-        for (const auto& body : bodies)
-            if (body.jitter > 0.0) seeds[fmt::format("{}.{}.seed", kind, body.name)] = body.seed;
-    };
-    addBodies("cloth", spec.cloths);
-    addBodies("rope", spec.ropes);
-    addBodies("block", spec.blocks);
-    addBodies("net", spec.nets);
+    forEachBody(spec, [&](const char* kind, const world::BodySpec& body) {
+        if (body.jitter > 0.0) seeds[fmt::format("{}.{}.seed", kind, body.name)] = body.seed;
+    });
     for (const world::WindSpec& wind : spec.winds)
         if (wind.gustAmplitude > 0.0) seeds[fmt::format("wind.{}.gust.seed", wind.name)] = wind.gustSeed;
     return seeds;

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/world/each_body.h"
+
 namespace taut::regression {
 namespace {
 
 using Islands = std::vector<world::IslandInfo>;
-
-template <class Call>
-void eachBody(world::SceneSpec& spec, const Call& call) {
-    for (auto& body : spec.cloths) call("cloth." + body.name, body);
-    for (auto& body : spec.ropes) call("rope." + body.name, body);
-    for (auto& body : spec.blocks) call("block." + body.name, body);
-    for (auto& body : spec.nets) call("net." + body.name, body);
-}
 
 // Of the body itself, or of its first copy when it is an array.
 bool isOf(const std::string& name, const std::string& body) {
@@ -24,12 +18,12 @@ bool isOf(const std::string& name, const std::string& body) {
 // Each island with half as many steps a tick; one that takes a single step, which cannot be longer, with two.
 std::optional<world::SceneSpec> withOtherStep(world::SceneSpec spec, const Islands& islands) {
     bool changed = false;
-    eachBody(spec, [&](const std::string& body, world::BodySpec& of) {
+    forEachBody(spec, [&](const std::string& kind, world::BodySpec& body) {
         for (const world::IslandInfo& island : islands)
             for (const std::string& name : island.bodies) {
-                if (!isOf(name, body)) continue;
+                if (!isOf(name, kind + "." + body.name)) continue;
                 // A hundredth of leeway: the step is the tick over a whole number, and rounding decides which.
-                of.solver.dt = (island.substeps > 1 ? 2.0 : 0.5) * island.step * 1.01;
+                body.solver.dt = (island.substeps > 1 ? 2.0 : 0.5) * island.step * 1.01;
                 changed = true;
             }
     });

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "taut/core/glob.h"
 #include "taut/scene/body_size.h"
 #include "taut/scene/problems.h"
 
@@ -32,32 +33,11 @@ std::string_view kindOf(std::string_view title) {
     return title.substr(0, title.find('.'));
 }
 
-// Whether a pattern, in which * stands for any text, fits the whole of a text.
-bool fits(std::string_view pattern, std::string_view text) {
-    std::size_t p = 0, t = 0;
-    std::size_t star = std::string_view::npos, resume = 0;
-    while (t < text.size()) {
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = p++;
-            resume = t;
-        } else if (p < pattern.size() && pattern[p] == text[t]) {
-            ++p;
-            ++t;
-        } else if (star != std::string_view::npos) {
-            p = star + 1;
-            t = ++resume;
-        } else {
-            return false;
-        }
-    }
-    return pattern.substr(p).find_first_not_of('*') == std::string_view::npos;
-}
-
 bool fits(std::string_view pattern, const BodyEntry& body) {
     if (kindOf(pattern) != body.kind) return false;
-    if (body.copies == 1) return fits(pattern, body.title());
+    if (body.copies == 1) return core::matches(pattern, body.title());
     for (int i = 0; i < body.copies; ++i) {
-        if (fits(pattern, fmt::format("{}.{}", body.title(), i))) return true;
+        if (core::matches(pattern, fmt::format("{}.{}", body.title(), i))) return true;
     }
     return false;
 }
@@ -205,7 +185,7 @@ std::vector<std::string> BodyIndex::names(const std::string& target) const {
         if (body->copies == 1) found.push_back(body->title());
         for (int i = 0; body->copies > 1 && i < body->copies; ++i) {
             std::string name = fmt::format("{}.{}", body->title(), i);
-            if (fits(pattern, name)) found.push_back(std::move(name));
+            if (core::matches(pattern, name)) found.push_back(std::move(name));
         }
     }
     return found;

@@ -16,6 +16,12 @@ std::vector<Section> sceneSections() {
             backgroundSection(), labelSection(),  handSection(),     atSection(),    checkSection(),  goldenSection()};
 }
 
+bool isName(const std::string& name) {
+    return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    });
+}
+
 Place CheckInput::at(const std::string& key) const {
     const Member* member = table.find(key);
     return member == nullptr ? place : member->value.place;

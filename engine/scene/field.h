@@ -128,6 +128,9 @@ struct Section {
     std::vector<std::string> keys() const;
 };
 
+// Whether something may be called so: letters, digits, - and _, at most 100.
+bool isName(const std::string& name);
+
 // All sections of a scene file. `schema` and `title` stand in the one without a name.
 std::vector<Section> sceneSections();
 

@@ -104,12 +104,6 @@ FieldList<Spec> withLosses(FieldList<Spec> list) {
     return list;
 }
 
-bool isName(const std::string& name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-    });
-}
-
 }  // namespace
 
 std::vector<std::string> lumpingNames() {

@@ -10,12 +10,6 @@ namespace taut::scene {
 
 namespace {
 
-bool isName(const std::string& name) {
-    return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-    });
-}
-
 class SceneReader {
   public:
     SceneReader(const std::vector<Section>& sections, Problems& problems, ReadScene& out)

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/world/ticks.h"
+
 namespace taut::scene {
 
 void reportSuspicions(const ReadScene& scene, Problems& problems) {
     const world::SceneSpec& spec = scene.spec;
-    const double ticks = spec.run.fps * std::ceil(60.0 / spec.run.fps);  // a second
+    const double ticks = world::Ticks(spec.run).perSecond;
     for (const Reference& reference : scene.references) {
         if (reference.role != Role::time) continue;
         const double nearest = std::round(reference.time * ticks);

@@ -14,8 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double speedLimit = 3000.0;  // [m/s] faster than this nothing moves that has not diverged
-constexpr int checkEvery = 64;         // steps between looks at the speed
+constexpr int checkEvery = 64;  // steps between looks at the speed
 
 template <class Real>
 class MechanicalTrial final : public Trial {
@@ -23,7 +22,7 @@ class MechanicalTrial final : public Trial {
     MechanicalTrial(const MechanicalProblem& problem, const RunPlan& plan)
         : problem_(problem),
           plan_(plan),
-          system_(pointsOf(problem.model), bodiesOf(problem.model), problem.model.springs),
+          system_(problem.model),
           method_(ode::makeMethod<Real>(plan.method)),
           state_(system_.layout()),
           velocity_(system_.layout().size()) {
@@ -71,22 +70,11 @@ class MechanicalTrial final : public Trial {
     ode::Work work() const override { return method_->work(); }
 
   private:
-    using System = mechanics::MassSpringSystem<Real>;
-
-    static std::vector<typename System::PointMass> pointsOf(const mechanics::Model& model) {
-        std::vector<typename System::PointMass> points;
-        for (std::size_t i = 0; i < model.positions.size(); ++i)
-            points.push_back({model.masses[i], model.dragRates[i], model.held[i]});
-        return points;
-    }
-    static std::vector<typename System::Body> bodiesOf(const mechanics::Model& model) {
-        return {{0, model.grid[0] > 0 ? model.grid[0] + 1 : 0}};
-    }
     std::size_t index(int point, int plane) const {
         return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(plane) * state_.layout.stride + point);
     }
     bool isSlow() const {
-        const Real limit = static_cast<Real>(speedLimit);
+        const Real limit = static_cast<Real>(mechanics::speedLimit);
         bool slow = true;
         for (const Real v : state_.v) slow &= v < limit && v > -limit;
         return slow;
@@ -94,7 +82,7 @@ class MechanicalTrial final : public Trial {
 
     const MechanicalProblem& problem_;
     RunPlan plan_;
-    System system_;
+    mechanics::MassSpringSystem<Real> system_;
     std::unique_ptr<ode::Method<Real>> method_;
     ode::State<Real> state_;
     core::AlignedArray<Real> velocity_;

@@ -7,10 +7,10 @@
 
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
-#include "taut/study/plan_bodies.h"
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_search.h"
 #include "taut/study/scene_subject.h"
+#include "taut/world/each_body.h"
 
 namespace taut::study {
 namespace {
@@ -107,16 +107,12 @@ void verify(const PlanContext& context, Plan& plan) {
         candidate.substeps = std::max(candidate.substeps, facts.leastSubsteps);
         return candidate;
     };
-    const auto asIs = [&] {
-        if (!trial.isAsWritten) return sceneOf(context, trial.candidate);
-        world::SceneSpec model = context.spec;
-        forEachBody(model, [](world::BodySpec& body) { body.jitter = 0.0; });
-        return model;
-    };
+    const world::SceneSpec model =
+        trial.isAsWritten ? withoutJitter(context.spec) : sceneOf(context, trial.candidate);
     context.tell("verification", 0.9);
-    PlanRun chosen = play(asIs(), context.resolution, context.grid);
+    PlanRun chosen = play(model, context.resolution, context.grid);
     std::vector<double> seconds{chosen.seconds};
-    for (int i = 0; i < 2; ++i) seconds.push_back(play(asIs(), context.resolution, context.grid).seconds);
+    for (int i = 0; i < 2; ++i) seconds.push_back(play(model, context.resolution, context.grid).seconds);
     std::sort(seconds.begin(), seconds.end());
     plan.trials[*plan.chosen].milliseconds = 1e3 * seconds[1] / context.grid.frames();
     plan.secondsAnEvaluation =
@@ -169,7 +165,8 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
         add(fmt::format("Warning: what happens between {:.3g} s and the end of the run at {:.3g} s was not looked at.",
                         plan.seconds, plan.runSeconds));
     bool hasJitter = false;
-    forEachBody(context.spec, [&](const world::BodySpec& body) { hasJitter = hasJitter || body.jitter > 0; });
+    forEachBody(context.spec,
+                [&](const char*, const world::BodySpec& body) { hasJitter = hasJitter || body.jitter > 0; });
     if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");

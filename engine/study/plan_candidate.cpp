@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "taut/core/error.h"
-#include "taut/study/plan_bodies.h"
 #include "taut/world/body.h"
+#include "taut/world/each_body.h"
 #include "taut/world/targets.h"
 #include "taut/world/world.h"
 
@@ -60,13 +60,6 @@ void scaleBodies(SceneSpec& spec, const Resolution& resolution, int count) {
             for (int i = 0; i < 3; ++i) block.cells[i] = scaled(block.cells[i], scale, 1);
 }
 
-template <class Predicate>
-bool anyBody(const SceneSpec& spec, const Predicate& predicate) {
-    bool any = false;
-    forEachBody(spec, [&](const auto& body) { any = any || predicate(body); });
-    return any;
-}
-
 // To seven digits and a little up: readable, and as a maximum it allows the step itself.
 double roundedUp(double value) {
     char text[32];
@@ -74,62 +67,55 @@ double roundedUp(double value) {
     return std::strtod(text, nullptr);
 }
 
-void dropWind(SceneSpec& spec, const std::string& which) {
+using Visit = std::function<void(double&)>;
+
+void eachOfWind(SceneSpec& spec, const std::string& which, const Visit& visit) {
     for (world::WindSpec& wind : spec.winds)
-        if (wind.name == which) wind.drag = wind.lift = 0.0;
+        if (wind.name == which) visit(wind.drag), visit(wind.lift);
 }
 
-void dropDrag(SceneSpec& spec, const std::string&) {
-    for (auto& [name, material] : spec.materials) material.drag = 0.0;
-    for (auto& rope : spec.ropes) rope.drag = 0.0;
-    for (auto& block : spec.blocks) block.drag = 0.0;
-    for (auto& net : spec.nets) net.drag = 0.0;
+void eachDrag(SceneSpec& spec, const std::string&, const Visit& visit) {
+    for (auto& [name, material] : spec.materials) visit(material.drag);
+    for (auto& rope : spec.ropes) visit(rope.drag);
+    for (auto& block : spec.blocks) visit(block.drag);
+    for (auto& net : spec.nets) visit(net.drag);
 }
 
-void dropDamping(SceneSpec& spec, const std::string&) {
-    for (auto& [name, material] : spec.materials) material.dampingTime = 0.0;
-    for (auto& rope : spec.ropes) rope.dampingTime = 0.0;
-    for (auto& block : spec.blocks) block.dampingTime = 0.0;
+void eachDamping(SceneSpec& spec, const std::string&, const Visit& visit) {
+    for (auto& [name, material] : spec.materials) visit(material.dampingTime);
+    for (auto& rope : spec.ropes) visit(rope.dampingTime);
+    for (auto& block : spec.blocks) visit(block.dampingTime);
     for (auto& net : spec.nets) {
-        net.dampingTime = 0.0;
+        visit(net.dampingTime);
         for (auto& spring : net.springs)
-            if (spring.dampingTime) spring.dampingTime = 0.0;
+            if (spring.dampingTime) visit(*spring.dampingTime);
     }
 }
 
-void dropBending(SceneSpec& spec, const std::string&) {
-    for (auto& [name, material] : spec.materials) material.bend = 0.0;
-    for (auto& rope : spec.ropes) rope.bend = 0.0;
+void eachBending(SceneSpec& spec, const std::string&, const Visit& visit) {
+    for (auto& [name, material] : spec.materials) visit(material.bend);
+    for (auto& rope : spec.ropes) visit(rope.bend);
 }
 
-void dropVolumes(SceneSpec& spec, const std::string&) {
-    for (auto& block : spec.blocks) block.bulk = 0.0;
+void eachBulk(SceneSpec& spec, const std::string&, const Visit& visit) {
+    for (auto& block : spec.blocks) visit(block.bulk);
 }
 
 }  // namespace
 
 std::vector<Generator> generatorsOf(const SceneSpec& spec) {
-    std::vector<Generator> found;
-    for (const world::WindSpec& wind : spec.winds)
-        if (wind.drag > 0 || wind.lift > 0) found.push_back({"wind " + wind.name, dropWind, wind.name});
-    const auto addIf = [&](const char* name, void (*leaveOut)(SceneSpec&, const std::string&), bool isThere) {
-        if (isThere) found.push_back({name, leaveOut, ""});
-    };
-    const auto anyMaterial = [&](double world::MaterialSpec::*member) {
-        return std::any_of(spec.materials.begin(), spec.materials.end(),
-                           [&](const auto& entry) { return entry.second.*member > 0; });
-    };
-    addIf("drag", dropDrag,
-          anyMaterial(&world::MaterialSpec::drag) || anyBody(spec, [](const auto& body) { return dragOf(body) > 0; }));
-    addIf("inner friction", dropDamping,
-          anyMaterial(&world::MaterialSpec::dampingTime) ||
-              anyBody(spec, [](const auto& body) { return dampingOf(body) > 0; }));
-    addIf("bend springs", dropBending,
-          anyMaterial(&world::MaterialSpec::bend) ||
-              std::any_of(spec.ropes.begin(), spec.ropes.end(), [](const auto& rope) { return rope.bend > 0; }));
-    addIf("volume terms", dropVolumes,
-          std::any_of(spec.blocks.begin(), spec.blocks.end(), [](const auto& block) { return block.bulk > 0; }));
-    return found;
+    std::vector<Generator> all;
+    for (const world::WindSpec& wind : spec.winds) all.push_back({"wind " + wind.name, eachOfWind, wind.name});
+    for (const Generator& generator : {Generator{"drag", eachDrag}, Generator{"inner friction", eachDamping},
+                                       Generator{"bend springs", eachBending}, Generator{"volume terms", eachBulk}})
+        all.push_back(generator);
+    SceneSpec scene = spec;
+    std::erase_if(all, [&](const Generator& generator) {
+        bool isThere = false;
+        generator.strengths(scene, generator.which, [&](double& strength) { isThere = isThere || strength > 0; });
+        return !isThere;
+    });
+    return all;
 }
 
 Resolution resolutionOf(const SceneSpec& spec) {
@@ -154,16 +140,21 @@ Resolution resolutionOf(const SceneSpec& spec) {
     return resolution;
 }
 
+SceneSpec withoutJitter(SceneSpec spec) {
+    forEachBody(spec, [](const char*, world::BodySpec& body) { body.jitter = 0.0; });
+    return spec;
+}
+
 SceneSpec modelOf(const SceneSpec& spec, const Resolution& resolution, const Candidate& candidate) {
-    SceneSpec model = spec;
+    SceneSpec model = withoutJitter(spec);
     if (resolution.count > 0) scaleBodies(model, resolution, candidate.count);
-    for (const Generator& generator : candidate.without) generator.leaveOut(model, generator.which);
+    for (const Generator& generator : candidate.without)
+        generator.strengths(model, generator.which, [](double& strength) { strength = 0.0; });
     model.solver.integrator = candidate.method;
     model.solver.precision = candidate.precision;
     model.solver.dt.reset();
     model.solver.onDivergence = world::OnDivergence::stop;
-    forEachBody(model, [](world::BodySpec& body) {
-        body.jitter = 0.0;
+    forEachBody(model, [](const char*, world::BodySpec& body) {
         body.solver.integrator.reset();
         body.solver.dt.reset();
         body.solver.safety.reset();

@@ -2,6 +2,7 @@
 // that comes of it. It runs nothing.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,8 +14,9 @@ namespace taut::study {
 // What can be left out of a scene.
 struct Generator {
     std::string name;  // "wind breeze", "drag", "bend springs", …
-    void (*leaveOut)(world::SceneSpec& spec, const std::string& which) = nullptr;
-    std::string which;  // of several, e.g. the wind's name
+    // Visits the numbers of a scene that are all zero without it.
+    void (*strengths)(world::SceneSpec& spec, const std::string& which, const std::function<void(double&)>& visit);
+    std::string which{};  // of several, e.g. the wind's name
 };
 
 // Those that the scene has.
@@ -47,6 +49,9 @@ struct StepFacts {
     int islands = 1;
     double tick = 0;  // [s]
 };
+
+// Every resolution would be shaken in another way.
+world::SceneSpec withoutJitter(world::SceneSpec spec);
 
 // The scene without jitter, overrides of its bodies aligned, at `count` cells and without `without`; its step is
 // "auto".

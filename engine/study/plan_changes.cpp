@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "taut/study/one_method.h"
+#include "taut/world/each_body.h"
 #include "taut/world/world.h"
 
 namespace taut::study {
@@ -88,18 +90,17 @@ double stepOf(const std::vector<world::IslandInfo>& islands, const std::string& 
     for (const world::IslandInfo& island : islands)
         for (const std::string& name : island.bodies)
             if (name == body || name.starts_with(body + ".")) step = std::min(step, island.step);
-    return step * (1 + 1e-9);  // a maximum: rounding may not cost a substep
+    return atMost(step);
 }
 
-template <class Bodies>
-void compareOverrides(const std::string& kind, const Bodies& bodies, const world::SceneSpec& planned,
+void compareOverrides(const world::SceneSpec& written, const world::SceneSpec& planned,
                       const std::vector<world::IslandInfo>& islands, Differences& all) {
-    for (const auto& body : bodies) {
-        const std::string key = kind + "." + body.name + ".solver.";
+    forEachBody(written, [&](const std::string& kind, const world::BodySpec& body) {
+        const std::string name = kind + "." + body.name, key = name + ".solver.";
         if (body.solver.integrator) all.text(key + "integrator", *body.solver.integrator, planned.solver.integrator);
-        if (body.solver.dt) all.number(key + "dt", *body.solver.dt, stepOf(islands, kind + "." + body.name));
+        if (body.solver.dt) all.number(key + "dt", *body.solver.dt, stepOf(islands, name));
         if (body.solver.safety) all.number(key + "safety", *body.solver.safety, planned.solver.safety);
-    }
+    });
 }
 
 }  // namespace
@@ -114,11 +115,7 @@ std::vector<Change> planChanges(const world::SceneSpec& written, const world::Sc
     all.number("solver.safety", written.solver.safety, planned.solver.safety);
     all.text("solver.precision", written.solver.precision == world::Precision::single_ ? "single" : "double",
              planned.solver.precision == world::Precision::single_ ? "single" : "double");
-    const std::vector<world::IslandInfo> islands = world::World(planned, {.threads = 1}).islands();
-    compareOverrides("cloth", written.cloths, planned, islands, all);
-    compareOverrides("rope", written.ropes, planned, islands, all);
-    compareOverrides("block", written.blocks, planned, islands, all);
-    compareOverrides("net", written.nets, planned, islands, all);
+    compareOverrides(written, planned, world::World(planned, {.threads = 1}).islands(), all);
     return all.changes;
 }
 

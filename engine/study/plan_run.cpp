@@ -8,6 +8,7 @@
 #include "taut/core/error.h"
 #include "taut/world/body.h"
 #include "taut/world/components.h"
+#include "taut/world/ticks.h"
 #include "taut/world/world.h"
 
 namespace taut::study {
@@ -183,8 +184,9 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
 
 PlanGrid planGrid(const world::SceneSpec& spec, double horizon) {
     PlanGrid grid;
-    grid.ticksPerFrame = std::max(1, static_cast<int>(std::ceil(60.0 / spec.run.fps)));
-    grid.tick = 1.0 / (spec.run.fps * grid.ticksPerFrame);
+    const world::Ticks tickings(spec.run);
+    grid.ticksPerFrame = tickings.perFrame;
+    grid.tick = 1.0 / tickings.perSecond;
     const int ticks = std::max(1, static_cast<int>(std::llround(horizon / grid.tick)));
     grid.every = std::max(1, ticks / 10);
     while (ticks % grid.every != 0) --grid.every;  // the last look is at the horizon itself

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "taut/ode/method_table.h"
-#include "taut/study/plan_bodies.h"
 
 namespace taut::study {
 namespace {
@@ -23,9 +22,8 @@ class Search {
         : context_(context), reference_(reference), without_(without), plan_(plan) {}
 
     void tryAsWritten() {
-        world::SceneSpec model = context_.spec;
+        world::SceneSpec model = withoutJitter(context_.spec);
         model.solver.onDivergence = world::OnDivergence::stop;
-        forEachBody(model, [](world::BodySpec& body) { body.jitter = 0.0; });
         PlanTrial trial;
         trial.isAsWritten = true;
         trial.candidate.count = context_.resolution.count;

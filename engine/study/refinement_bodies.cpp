@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "taut/core/bisect.h"
 #include "taut/mechanics/builders.h"
 
 namespace taut::study {
@@ -13,16 +14,6 @@ using mechanics::Lumping;
 using mechanics::Model;
 
 constexpr double g = -refinementGravity.y;
-
-// Where `f`, which falls, crosses zero.
-template <class F>
-double fallsThroughZero(F f, double low, double high) {
-    for (int i = 0; i < 200; ++i) {
-        const double middle = 0.5 * (low + high);
-        (f(middle) > 0.0 ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
 
 void hold(Model& model, const char* group) {
     for (const int i : model.groups.at(group)) model.held[static_cast<std::size_t>(i)] = true;
@@ -63,8 +54,8 @@ struct Rope {
     }
     double sag() const {
         const double v = 0.5 * mass * g, perWeight = length / (mass * g);
-        const double pull = fallsThroughZero(
-            [&](double h) { return 1.0 - h * length / stretch - 2.0 * h * perWeight * std::asinh(v / h); }, 1e-6, 1e6);
+        const double pull = core::rootOf(
+            [&](double h) { return 1.0 - h * length / stretch - 2.0 * h * perWeight * std::asinh(v / h); }, 1e-6, 1e6, 200);
         return pull * perWeight * (std::hypot(1.0, v / pull) - 1.0) + v * length / (4.0 * stretch);
     }
 };

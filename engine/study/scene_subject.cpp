@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/study/one_method.h"
 #include "taut/world/components.h"
 #include "taut/world/world.h"
 
@@ -13,25 +14,10 @@ namespace {
 
 constexpr double longestStudied = 2.0;  // [s] studied of a scene unless asked for more
 
-template <class Action>
-void forEachBody(world::SceneSpec& spec, const Action& action) {
-    for (auto& body : spec.cloths) action(body);
-    for (auto& body : spec.ropes) action(body);
-    for (auto& body : spec.blocks) action(body);
-    for (auto& body : spec.nets) action(body);
-}
-
-world::SceneSpec overridden(const world::SceneSpec& spec, const std::string& method, Precision precision, double step,
-                            double perturbation) {
-    world::SceneSpec scene = spec;
-    scene.solver.integrator = method;
-    scene.solver.precision = precision;
-    scene.solver.dt = step * (1 + 1e-9);  // a maximum: rounding may not cost a substep
-    scene.solver.onDivergence = world::OnDivergence::stop;
-    forEachBody(scene, [&](world::BodySpec& body) {
-        body.solver = {};
-        body.jitter += perturbation;  // moves points by perturbation times a number between -1 and 1
-    });
+world::SceneSpec played(const world::SceneSpec& spec, std::string_view method, Precision precision, double step,
+                        double shift) {
+    world::SceneSpec scene = byMethod(spec, method, precision, shift);
+    scene.solver.dt = atMost(step);
     return scene;
 }
 
@@ -80,7 +66,7 @@ class SceneSubject final : public Subject {
   public:
     SceneSubject(const world::SceneSpec& spec, std::string name)
         : spec_(spec), name_(std::move(name)), title_(spec.title.empty() ? name_ : spec.title) {
-        world::World world(overridden(spec, "leapfrog", Precision::double_, 1.0, 0.0), {.threads = 1});
+        world::World world(played(spec, "leapfrog", Precision::double_, 1.0, 0.0), {.threads = 1});
         tick_ = world.tickSeconds();
         if (!hasFreePoint(world))
             throw core::Error(core::ExitCode::badContent,
@@ -105,11 +91,11 @@ class SceneSubject final : public Subject {
 
     std::unique_ptr<Trial> begin(const RunPlan& plan) const override {
         return std::make_unique<SceneTrial>(
-            overridden(spec_, plan.method, plan.precision, plan.step(), plan.perturbation), quantum(plan.grid));
+            played(spec_, plan.method, plan.precision, plan.step(), plan.perturbation), quantum(plan.grid));
     }
 
     double stepLimit(const ode::MethodInfo& method) const override {
-        const world::World world(overridden(spec_, std::string(method.name), Precision::double_, tick_, 0.0),
+        const world::World world(played(spec_, method.name, Precision::double_, tick_, 0.0),
                                  {.threads = 1});
         double limit = HUGE_VAL;
         for (const world::IslandInfo& island : world.islands()) limit = std::min(limit, island.stepLimit);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 
+#include "taut/core/bisect.h"
 #include "taut/core/parallel.h"
 #include "taut/ode/method_table.h"
 
@@ -198,11 +199,8 @@ double measuredLimit(std::string_view method, double zeta, Damping damping, doub
         if (stands(method, zeta, damping, high)) low = high;
     }
     if (low == high) return none;
-    for (int i = 0; i < 18; ++i) {  // to 1e-6
-        const double middle = 0.5 * (low + high);
-        (stands(method, zeta, damping, middle) ? low : high) = middle;
-    }
-    return high;
+    constexpr int halvings = 18;  // to 1e-6
+    return core::bisected(low, high, halvings, [&](double z) { return stands(method, zeta, damping, z); }).second;
 }
 
 StabilityMap measureStability(const StabilityMapSettings& settings) {

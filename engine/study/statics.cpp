@@ -12,16 +12,9 @@ namespace taut::study {
 namespace {
 
 using glm::dvec3;
-using System = mechanics::MassSpringSystem<double>;
 
 constexpr double shortestStep = 0.02, longestStep = 1e3;  // [s] steps
 constexpr int mostRestSteps = 400;
-
-std::vector<System::PointMass> pointsOf(const mechanics::Model& model) {
-    std::vector<System::PointMass> points;
-    for (std::size_t i = 0; i < model.masses.size(); ++i) points.push_back({model.masses[i], 0.0, model.held[i]});
-    return points;
-}
 
 // The largest |a| of a free point.
 class LargestAcceleration final : public ode::AccelerationSink<double> {
@@ -53,8 +46,7 @@ class Settling {
     Settling(const mechanics::Model& model, const dvec3& gravity)
         : model_(model),
           weight_(glm::length(gravity)),
-          system_(pointsOf(model), std::vector<System::Body>{{0, model.grid[0] > 0 ? model.grid[0] + 1 : 0}},
-                  model.springs),
+          system_(model),
           method_(ode::makeMethod<double>("implicit-euler", {1, 1e-10, 20000})),
           state_(system_.layout()),
           still_(system_.layout().size()) {
@@ -99,7 +91,7 @@ class Settling {
 
     const mechanics::Model& model_;
     double weight_;  // [m/s²]
-    System system_;
+    mechanics::MassSpringSystem<double> system_;
     std::unique_ptr<ode::Method<double>> method_;
     ode::State<double> state_;
     core::AlignedArray<double> still_;  // velocities of zero

@@ -9,6 +9,7 @@
 
 #include "taut/core/parallel.h"
 #include "taut/ode/method_table.h"
+#include "taut/study/one_method.h"
 #include "taut/world/world.h"
 
 namespace taut::study {
@@ -27,27 +28,13 @@ constexpr int patience = 1000;           // steps for which a run that has faile
 constexpr double slowSpeed = 0.1;        // [m/s] up to which everything may always move
 
 // The scene with one step a tick of exactly h, or, with h = 0, with the steps that it would choose.
-world::SceneSpec overridden(const world::SceneSpec& spec, std::string_view method, double h) {
-    world::SceneSpec scene = spec;
-    scene.solver.integrator = method;
-    scene.solver.precision = world::Precision::double_;
-    scene.solver.onDivergence = world::OnDivergence::stop;
-    scene.solver.dt.reset();
+world::SceneSpec inSteps(const world::SceneSpec& spec, std::string_view method, double h) {
+    world::SceneSpec scene = byMethod(spec, method, world::Precision::double_, stir);
     scene.solver.safety = 0.3;
     if (h > 0) {
-        scene.solver.dt = h * (1 + 1e-9);  // a maximum: rounding may not cost a substep
+        scene.solver.dt = atMost(h);
         scene.run.fps = 1 / h;
     }
-    const auto change = [](auto& bodies) {
-        for (world::BodySpec& body : bodies) {
-            body.solver = {};
-            body.jitter += stir;
-        }
-    };
-    change(scene.cloths);
-    change(scene.ropes);
-    change(scene.blocks);
-    change(scene.nets);
     return scene;
 }
 
@@ -83,7 +70,7 @@ class Search {
     bool isStopped() const { return settings_.stop != nullptr && *settings_.stop; }
 
     void lookAtIslands() {
-        const world::World world(overridden(spec_, "leapfrog", mostStep));
+        const world::World world(inSteps(spec_, "leapfrog", mostStep));
         for (const world::IslandInfo& info : world.islands()) {
             IslandFrequencies island;
             island.name = info.name;
@@ -99,7 +86,7 @@ class Search {
     }
 
     void playReference() {
-        world::World world(overridden(spec_, "rk4", 0.0));
+        world::World world(inSteps(spec_, "rk4", 0.0));
         const auto ticks = static_cast<long long>(std::ceil(result_.seconds / world.tickSeconds()));
         double mass = 0;
         for (const world::IslandInfo& info : world.islands()) mass += info.mass;
@@ -135,7 +122,7 @@ class Search {
     // Empty when the step stands, else what went first.
     std::string failure(MethodThreshold& threshold, double h) const {
         ++threshold.runs;
-        world::World world(overridden(spec_, threshold.method, h));
+        world::World world(inSteps(spec_, threshold.method, h));
         const auto steps = static_cast<long long>(std::ceil(result_.seconds / h));
         for (long long n = 1; n <= steps; ++n) {
             if (const auto divergence = world.advance()) return divergence->body;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/core/hash.h"
 #include "taut/mechanics/builders.h"
 #include "taut/world/rotation.h"
 #include "taut/world/targets.h"
@@ -20,17 +21,11 @@ mechanics::Lumping lumpingOf(const std::string& name) {
 
 dvec3 unit(const dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 
-// A number in [-1, 1) from a seed and two indices: a few rounds of SplitMix64 (Steele, Lea and Flood 2014).
+// A number in [-1, 1) from a seed and two indices.
 double randomNumber(std::int64_t seed, int point, int axis) {
-    std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x9e3779b97f4a7c15ULL +
-                      static_cast<std::uint64_t>(3 * static_cast<std::int64_t>(point) + axis + 1);
-    for (int round = 0; round < 2; ++round) {
-        z += 0x9e3779b97f4a7c15ULL;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-        z ^= z >> 31;
-    }
-    return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+    const std::uint64_t z = static_cast<std::uint64_t>(seed) * 0x9e3779b97f4a7c15ULL +
+                            static_cast<std::uint64_t>(3 * static_cast<std::int64_t>(point) + axis + 1);
+    return static_cast<double>(core::mixed(core::mixed(z)) >> 11) * 0x1p-52 - 1.0;
 }
 
 void holdPoints(Body& body) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "taut/core/srgb.h"
 #include "taut/view/tube.h"
 #include "taut/world/skin_pieces.h"
 
@@ -12,10 +13,6 @@ namespace {
 
 constexpr int tubeSides = 10;
 constexpr int tubeSubdivisions = 2;
-
-float linear(double c) {
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-}
 
 // A rope, or the pieces of one that has been cut. Each piece goes on straight beyond its last point up to the cut.
 class RopeDrawing final : public BodyDrawing {
@@ -252,7 +249,7 @@ class NetDrawing final : public BodyDrawing {
 }  // namespace
 
 glm::vec3 linearColour(const dvec3& srgb) {
-    return {linear(srgb.x), linear(srgb.y), linear(srgb.z)};
+    return glm::vec3(dvec3(core::lightOf(srgb.x), core::lightOf(srgb.y), core::lightOf(srgb.z)));
 }
 
 std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {

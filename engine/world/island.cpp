@@ -9,12 +9,6 @@
 #include "taut/world/motion.h"
 
 namespace taut::world {
-namespace {
-
-// Faster than this nothing in a scene moves: a point that does has left its stable step behind. [m/s]
-constexpr double speedLimit = 3000.0;
-
-}  // namespace
 
 template <class Real>
 IslandOf<Real>::IslandOf(IslandPlan plan, const ForceList& forces, Envelope envelope, double ticksPerSecond,
@@ -100,7 +94,7 @@ void IslandOf<Real>::copyState(const ode::State<Real>& from, ode::State<Real>& t
 // Every velocity is a number below the limit; written so that NaN fails.
 template <class Real>
 bool IslandOf<Real>::isBounded() const {
-    const Real limit = static_cast<Real>(speedLimit);
+    const Real limit = static_cast<Real>(mechanics::speedLimit);
     const Real* v = state_.v.data();
     const int size = static_cast<int>(state_.v.size());
     int bad = 0;

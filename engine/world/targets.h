@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "taut/core/glob.h"
 #include "taut/mechanics/model.h"
 
 namespace taut::world {
@@ -18,8 +19,7 @@ struct Target {
 // Splits KIND.NAME@SELECTOR; the parts may be empty when the text is malformed (the loader has checked it).
 Target parseTarget(std::string_view text);
 
-// Whether the pattern, in which * stands for any characters, fits the name.
-bool matches(std::string_view pattern, std::string_view name);
+using core::matches;
 
 // The points that a selector names, ascending: a group of the model ("left", "corners", "all" …), "#12" (by index),
 // "(u,v)" (the grid point nearest to that fraction of width and height, from the top left), "50%" (along a rope).

@@ -9,13 +9,14 @@
 #include "taut/world/impl.h"
 #include "taut/world/motion.h"
 #include "taut/world/targets.h"
+#include "taut/world/ticks.h"
 
 namespace taut::world {
 
 World::Impl::Impl(const SceneSpec& scene, const Options& options)
     : spec(scene), threads(options.threads), added(options.forces), start(std::make_unique<const SceneSpec>(scene)) {
-    ticksPerFrame = std::max(1, static_cast<int>(std::ceil(60.0 / spec.run.fps)));
-    ticksPerSecond = spec.run.fps * ticksPerFrame;
+    ticksPerFrame = Ticks(spec.run).perFrame;
+    ticksPerSecond = Ticks(spec.run).perSecond;
     const auto add = [&](const char* kind, const std::string& name, auto part) {
         const ecs::Entity entity = registry.create();
         registry.add(entity, Identity{kind, name});

@@ -40,7 +40,7 @@ class NetworkOf {
   public:
     NetworkOf(const mechanics::Model& model, std::string_view method, double h, dvec3 gravity = dvec3(0.0),
               const ode::MethodOptions& options = exactSolves)
-        : model_(model), system_(pointsOf(model), rowsOf(model), model.springs), options_(options) {
+        : model_(model), system_(model), options_(options) {
         auto field = std::make_unique<mechanics::Gravity<Real>>(gravity);
         gravity_ = field.get();
         system_.add(std::move(field));
@@ -109,17 +109,6 @@ class NetworkOf {
     }
 
   private:
-    using System = mechanics::MassSpringSystem<Real>;
-    static std::vector<typename System::PointMass> pointsOf(const mechanics::Model& model) {
-        std::vector<typename System::PointMass> points;
-        for (std::size_t i = 0; i < model.masses.size(); ++i)
-            points.push_back({model.masses[i], model.dragRates[i], model.held[i]});
-        return points;
-    }
-    static std::vector<typename System::Body> rowsOf(const mechanics::Model& model) {
-        return {{0, model.grid[0] > 0 ? model.grid[0] + 1 : 0}};
-    }
-
     void start(std::string_view method, double h) {
         const ode::Layout layout = system_.layout();
         std::vector<Real> x(layout.size()), v(layout.size());
@@ -143,7 +132,7 @@ class NetworkOf {
     }
 
     mechanics::Model model_;
-    System system_;
+    mechanics::MassSpringSystem<Real> system_;
     ode::MethodOptions options_;
     const mechanics::Gravity<Real>* gravity_ = nullptr;
     std::unique_ptr<Integration<Real>> run_;

@@ -15,17 +15,6 @@ TEST(Targets, SplitIntoKindNameAndSelector) {
     EXPECT_EQ(parseTarget("rope.rail").selector, "");
 }
 
-TEST(Targets, WildcardsMatchAnyCharacters) {
-    EXPECT_TRUE(matches("*", "flag"));
-    EXPECT_TRUE(matches("fl*g", "flag"));
-    EXPECT_TRUE(matches("row.*", "row.12"));
-    EXPECT_TRUE(matches("*a*a*", "banana"));
-    EXPECT_FALSE(matches("fl*g", "flags"));
-    EXPECT_FALSE(matches("flag", "fla"));
-    EXPECT_FALSE(matches("", "flag"));
-    EXPECT_TRUE(matches("flag**", "flag"));
-}
-
 class Selectors : public testing::Test {
   protected:
     // 4 by 2 cells: five points a row, three rows.

@@ -1,17 +1,26 @@
-# How every target of the project is compiled.
+# How every target of the project is compiled, and what of it is installed.
 
-add_library(taut_options INTERFACE)
-target_compile_options(taut_options INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror>
-  # With sanitizers g++ 12 takes variables of the standard library for uninitialised.
-  $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<CONFIG:Asan>>:-Wno-maybe-uninitialized>
-  # Same bits everywhere: no fused multiply-add unless the source says so, never fast-math.
-  # The two others change no value; without them loops with a square root do not vectorise.
-  -ffp-contract=off -fno-math-errno -fno-trapping-math)
 # Headers are included as "taut/FOLDER/FILE.h", in the checkout as where they are installed.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/engine ${PROJECT_BINARY_DIR}/include/taut SYMBOLIC)
-target_include_directories(taut_options INTERFACE ${PROJECT_BINARY_DIR}/include)
+add_library(taut_headers INTERFACE)
+set_target_properties(taut_headers PROPERTIES EXPORT_NAME headers)
+target_include_directories(taut_headers INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
+target_compile_features(taut_headers INTERFACE cxx_std_20)
+
+# For our own targets alone: linked privately, so that a program that uses the engine keeps its own flags.
+add_library(taut_options INTERFACE)
+target_link_libraries(taut_options INTERFACE taut_headers)
+target_compile_options(taut_options INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${TAUT_WERROR}>:-Werror>>
+  # With sanitizers g++ 12 takes variables of the standard library for uninitialised.
+  $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<CONFIG:Asan>>:-Wno-maybe-uninitialized>
+  # Same bits everywhere, whatever a project that adds this one compiles with: no fused multiply-add unless the source
+  # says so, never fast-math.
+  # The two others change no value; without them loops with a square root do not vectorise.
+  $<$<NOT:$<BOOL:${PROJECT_IS_TOP_LEVEL}>>:-fno-fast-math>
+  -ffp-contract=off -fno-math-errno -fno-trapping-math)
 
 # One compiler run reads the sources of up to eight files as one: most of a file's time goes into reading headers.
 # -DTAUT_UNITY=OFF compiles file by file, as tests/run.sh does with clang, so that every file includes what it needs.
@@ -19,12 +28,23 @@ option(TAUT_UNITY "Compile the files of a folder together" ON)
 set(CMAKE_UNITY_BUILD ${TAUT_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 
-# taut_library(core SOURCES a.cpp LINK taut::ode): the library of one folder, known as taut::core.
+# taut_library(core SOURCES a.cpp HEADERS a.h LINK taut::ode PRIVATE_LINK fmt::fmt): the library of one folder, known
+# as taut::core. LINK is what its headers include, PRIVATE_LINK what only its sources do. With HEADERS, those that others
+# may include and what they include themselves, it is installed.
 function(taut_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
   add_library(taut_${name} STATIC ${ARG_SOURCES})
   add_library(taut::${name} ALIAS taut_${name})
-  target_link_libraries(taut_${name} PUBLIC taut_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  set_target_properties(taut_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(taut_${name}
+    PUBLIC taut_headers ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:taut_options> ${ARG_PRIVATE_LINK})
+  if(TAUT_INSTALL AND ARG_HEADERS)
+    install(TARGETS taut_${name} EXPORT taut ARCHIVE DESTINATION lib)
+    foreach(header ${ARG_HEADERS})
+      get_filename_component(folder ${name}/${header} DIRECTORY)
+      install(FILES ${header} DESTINATION include/taut/${folder})
+    endforeach()
+  endif()
 endfunction()
 
 # taut_kernel(mechanics spring_kernel.cpp): compiles one file once per instruction set into the library.

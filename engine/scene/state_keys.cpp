@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "taut/core/hash.h"
+#include "taut/scene/document.h"
 #include "taut/world/ticks.h"
 
 namespace taut::scene {

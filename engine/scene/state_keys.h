@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "taut/scene/document.h"
 #include "taut/world/spec.h"
 
 namespace taut::scene {
+
+struct Node;
 
 class StateKeys {
   public:

@@ -1,17 +1,19 @@
 #!/bin/sh
 # Builds everything and passes every test: g++ all of them, clang the determinism tests (its hashes against those of
-# g++), and under AddressSanitizer and UndefinedBehaviorSanitizer the unit and physics tests.
+# g++) in a project that has taut as a subproject, and under AddressSanitizer and UndefinedBehaviorSanitizer the unit
+# and physics tests.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/game/install.sh"
 taut_install run test
 
-# build NAME "TARGETS" CMAKE-ARGUMENTS...: configures and builds into an ignored folder.
+# build NAME SOURCE "TARGETS" CMAKE-ARGUMENTS...: configures and builds into an ignored folder.
 build() {
     folder=$root/build-$1
-    targets=$2
-    shift 2
-    cmake -G Ninja -S "$root" -B "$folder" "$@" >"$folder.log" 2>&1 || { tail -n 30 "$folder.log" >&2; exit 1; }
+    source=$2
+    targets=$3
+    shift 3
+    cmake -G Ninja -S "$source" -B "$folder" "$@" >"$folder.log" 2>&1 || { tail -n 30 "$folder.log" >&2; exit 1; }
     echo "Building $folder"
     # shellcheck disable=SC2086  # one word a target
     cmake --build "$folder" --target $targets >>"$folder.log" 2>&1 || { grep -A 12 -E 'error|FAILED' "$folder.log" | head -n 60 >&2; exit 1; }
@@ -19,9 +21,10 @@ build() {
 mkdir -p "$root/out"
 jobs=$(nproc 2>/dev/null || echo 2)
 
-build gcc all -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release -DTAUT_BENCH=ON
-build clang taut_determinism -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Release
-build asan "taut taut_unit taut_physics" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan
+build gcc "$root" all -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release -DTAUT_BENCH=ON
+build clang "$root/tests/consumer" "taut_determinism consumer_all" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
+    -DCMAKE_BUILD_TYPE=Release -DTAUT_PROGRAM=ON -DTAUT_TESTS=ON -DTAUT_WERROR=ON
+build asan "$root" "taut taut_unit taut_physics" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan
 
 ctest --test-dir "$root/build-clang" --output-on-failure -j "$jobs" -L determinism
 ctest --test-dir "$root/build-asan" --output-on-failure -j "$jobs" -L 'unit|physics'

@@ -47,6 +47,7 @@ class Check {
     // Throws Fault, also for a claim that speaks of nothing that changes.
     static Check parse(std::string_view text);
 
+    // In the order of the text.
     const std::vector<Mention>& mentions() const;
 
     // At a published tick. Throws core::Error(badContent) for a target that finds no points.

@@ -34,6 +34,7 @@ class ByteWriter {
         add(static_cast<std::uint64_t>(items.size()));
         append(items.data(), items.size_bytes());
     }
+    // All that was written; nothing of it stays here.
     std::vector<std::byte> take() { return std::move(bytes_); }
 
   private:
@@ -63,6 +64,7 @@ class ByteReader {
         const std::span<const std::byte> part = next(length(1));
         return {reinterpret_cast<const char*>(part.data()), part.size()};
     }
+    // Expects the type that addList() was given; a wrong one is noticed only where the length does not fit.
     template <class Item>
     std::vector<Item> list() {
         std::vector<Item> items(length(sizeof(Item)));

@@ -7,8 +7,9 @@ namespace taut::core {
 
 enum class InstructionSet { sse2, avx2, avx512 };
 
-std::string_view nameOf(InstructionSet set);
+std::string_view nameOf(InstructionSet set);  // "avx2", as TAUT_SIMD takes it
 
+// Whether this processor has it.
 bool isSupported(InstructionSet set);
 
 // The set in use. At start the best supported one, at most avx2: wider vectors gain little and cost clock speed.

@@ -6,14 +6,15 @@
 
 namespace taut::core {
 
-// Calls task(0) … task(count - 1), each once, in any order and on any thread; returns when all are done.
+// Calls task(0) … task(count - 1), each once, in any order and on any thread; returns when all are done. Throws what
+// a task throws; then some may not have run.
 void parallelFor(int count, const std::function<void(int)>& task);
 
 // How many threads parallelFor uses: at most that many in the whole process while a limit lives, and that many, even
 // if the machine has fewer processors, within its run(). 0 leaves it to the machine.
 class ThreadLimit {
   public:
-    explicit ThreadLimit(int threads);
+    explicit ThreadLimit(int threads);  // expects >= 0
     ~ThreadLimit();
 
     // Calls the task with that many threads at its disposal, and returns when it is done.

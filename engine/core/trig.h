@@ -10,6 +10,7 @@ inline constexpr double pi = 3.14159265358979323846;
 double sine(double angle);
 double cosine(double angle);
 
+// [rad] from degrees.
 inline constexpr double radians(double degrees) { return degrees * (pi / 180.0); }
 
 }  // namespace taut::core

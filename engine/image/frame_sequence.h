@@ -34,6 +34,7 @@ class FrameSequence : public FrameSink {
     // Makes the folder; throws core::Error: usage for a bad pattern, inputOutput when nothing can be written there.
     explicit FrameSequence(const FramePattern& pattern);
 
+    // The file of that number; replaces one that is there.
     void write(std::int64_t frame, const Image& image) override;
     void finish() override {}
     std::filesystem::path companion(const std::string& name) const override;

@@ -10,7 +10,7 @@ namespace taut::image {
 
 class SeveralSinks : public FrameSink {
   public:
-    // Expects at least one; files that accompany the output lie with the first.
+    // Expects at least one, none null; files that accompany the output lie with the first.
     explicit SeveralSinks(std::vector<std::unique_ptr<FrameSink>> sinks);
 
     void write(std::int64_t frame, const Image& image) override;

@@ -17,7 +17,7 @@ namespace taut::mechanics {
 enum class Lumping { weighted, uniform };
 
 struct RopeShape {
-    glm::dvec3 start{0.0}, end{1.0, 0.0, 0.0};
+    glm::dvec3 start{0.0}, end{1.0, 0.0, 0.0};  // [m]
     int segments = 20;
     double length = 0.0;       // natural length [m]; 0 means the distance; longer hangs slack along `sag`
     glm::dvec3 sag{0, -1, 0};  // direction of the slack, unit
@@ -28,7 +28,8 @@ struct RopeShape {
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
 };
-// Groups: start, end, ends, all.
+// Points from start to end. Groups: start, end, ends, all. Expects segments >= 1 and mass > 0; throws
+// core::Error(badContent) when there is neither a length nor a distance.
 Model buildRope(const RopeShape& shape);
 
 struct ClothMaterial {
@@ -42,7 +43,7 @@ struct ClothMaterial {
 };
 
 struct ClothShape {
-    glm::dvec3 origin{0.0};          // top left corner
+    glm::dvec3 origin{0.0};          // top left corner [m]
     glm::dvec3 across{1, 0, 0};      // unit, from left to right
     glm::dvec3 down{0, -1, 0};       // unit, from top to bottom
     glm::dvec2 size{1.0, 1.0};       // across, down [m]
@@ -52,12 +53,13 @@ struct ClothShape {
 // Points row by row from the top left. Structural springs on the boundary are halved when lumping is weighted.
 // A cell of a by b (not square): k_s b/a along its side a, so that stretch stays per metre.
 // Groups: left, right, top, bottom, the four corners (top-left, …), corners, edges, all.
+// Expects at least one cell, and a size above zero, each way.
 Model buildCloth(const ClothShape& shape);
 
 struct MeshClothShape {
-    std::vector<glm::dvec3> positions;          // welded vertices, each used by a triangle
+    std::vector<glm::dvec3> positions;          // (vertices) [m] welded, each used by a triangle
     std::vector<glm::dvec2> uv;                 // (vertices) [m], or empty: then made from the longest two axes
-    std::vector<std::array<int, 3>> triangles;  // consistently oriented, edge-manifold
+    std::vector<std::array<int, 3>> triangles;  // (triangles) vertices; consistently oriented, edge-manifold
     ClothMaterial material;                     // shear is not used: triangles carry it
 };
 // Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch; bend springs across inner edges.
@@ -67,7 +69,7 @@ struct MeshClothShape {
 Model buildMeshCloth(const MeshClothShape& shape);
 
 struct BlockShape {
-    glm::dvec3 centre{0.0};
+    glm::dvec3 centre{0.0};       // [m]
     glm::dmat3 axes{1.0};         // columns: the block's own x, y, z
     glm::dvec3 size{1.0};         // [m]
     glm::ivec3 cells{4};
@@ -80,14 +82,15 @@ struct BlockShape {
 };
 // Points x fastest, then y, then z. Springs shared by several cells add up, so that faces and edges carry their
 // share. Six tetrahedra a cell. Groups: left right bottom top back front (-x +x -y +y -z +z), corners, all.
+// Expects at least one cell, and a size above zero, each way, and right-handed axes.
 Model buildBlock(const BlockShape& shape);
 
 struct NetPoint {
     std::string name;
-    glm::dvec3 position{0.0};
-    glm::dvec3 velocity{0.0};
-    double mass = 1.0;  // [kg]
-    double dragRate = 0.0;
+    glm::dvec3 position{0.0};  // [m]
+    glm::dvec3 velocity{0.0};  // [m/s]
+    double mass = 1.0;      // [kg] > 0
+    double dragRate = 0.0;  // γ/m [1/s]
     bool held = false;
 };
 struct NetSpring {
@@ -96,7 +99,8 @@ struct NetSpring {
     std::optional<double> restLength;  // [m]; none: the distance at the start
     double dampingTime = 0.0;          // [s]
 };
-// An explicit network. Groups: each point's name, all. Expects names that exist (the loader checks them).
+// An explicit network, points in the order given. Groups: each point's name, all. Expects every name once, and springs
+// between two different points that exist (the loader checks them).
 Model buildNet(std::span<const NetPoint> points, std::span<const NetSpring> springs);
 
 }  // namespace taut::mechanics

@@ -40,14 +40,15 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     };
     using Body = typename SpringNetwork<Real>::Body;
 
-    // Bodies give the first point and row length of each body, ascending from point 0.
+    // Bodies give the first point and row length of each body, ascending from point 0. Springs name points by number;
+    // expects those to exist.
     MassSpringSystem(std::span<const PointMass> points, std::span<const Body> bodies, std::span<const Spring> springs);
     explicit MassSpringSystem(const Model& model);  // of a single body
 
-    // Adds a generator; they act in the order of adding.
+    // Adds a generator, not null; they act in the order of adding.
     void add(std::unique_ptr<ForceGenerator<Real>> generator);
     std::span<const std::unique_ptr<ForceGenerator<Real>>> generators() const { return generators_; }
-    void removeGenerators();
+    void removeGenerators();  // all of them
 
     // Expects points that are held, each led once. Takes effect when the method is started, or started again.
     void lead(LedPoints led);
@@ -63,11 +64,12 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     void addProduct(const Real* u, Real* out) const override;
     void addDiagonal(Real* out) const override;
 
+    // What generators are told: x and v (layout().size()) [m], [m/s] as they are passed in, not copied.
     Motion<Real> motion(double t, const Real* x, const Real* v) const;
     const Real* masses() const override { return mass_.data(); }
     const Real* inverseMasses() const override { return inverseMass_.data(); }
     const SpringNetwork<Real>& network() const { return network_; }
-    std::uint64_t bytes() const;
+    std::uint64_t bytes() const;  // memory that it takes
 
   private:
     // The forces of the points that a sweep is at: from the block in work to as far as springs reached.

@@ -26,16 +26,16 @@ struct FrequencyBound {
 FrequencyBound boundAnywhere(const NetworkView& network, std::span<const double> extraStiffness);
 
 // B2: ω² <= max over springs of a_i + a_j, a_i = w_i λ_max(Σ k [nnᵀ + max(0, 1 - L/l)(I - nnᵀ)]): holds where the
-// points are now; within 1–20 % of ω_max. positions (points).
+// points are now; within 1–20 % of ω_max. positions (points) [m].
 FrequencyBound boundHere(const NetworkView& network, std::span<const double> extraStiffness,
                          std::span<const glm::dvec3> positions);
 
-// K u for all springs at these positions, K = -∂f/∂x, added to out (points).
+// K u for all springs at these positions (points) [m], K = -∂f/∂x [N/m], u (points) [m], added to out (points).
 void addSpringStiffness(std::span<const Spring> springs, std::span<const glm::dvec3> positions,
                         std::span<const glm::dvec3> u, std::span<glm::dvec3> out);
 
 // ω_max by Lanczos on M^{-1/2} K M^{-1/2}: the largest Ritz value plus its residual, within about 1 % after 20
-// products. `multiply(u, out)` adds K u.
+// products. `multiply(u, out)` adds K u, both (points). [1/s]; 0 when nothing is free or stiff.
 using StiffnessProduct = std::function<void(std::span<const glm::dvec3>, std::span<glm::dvec3>)>;
 double estimateFrequency(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products = 20);
 

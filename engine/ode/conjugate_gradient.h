@@ -20,8 +20,8 @@ class ConjugateGradient {
 
     explicit ConjugateGradient(std::size_t size) : size_(size), r_(size), p_(size), q_(size) {}
 
-    // `inverse` (size) holds 1/A_ii; 0 where x stays as given, which the other equations then see. The other x are the
-    // first guess. A must be symmetric and positive definite.
+    // b and x (size); `inverse` (size) holds 1/A_ii, 0 where x stays as given, which the other equations then see. The
+    // other x are the first guess. Expects A to be symmetric and positive definite.
     Solution solve(const Product& multiply, const Real* inverse, const Real* b, double tolerance, int maxIterations,
                    Real* x);
 
@@ -32,7 +32,7 @@ class ConjugateGradient {
     core::AlignedArray<Real> r_, p_, q_;
 };
 
-// Σ w a b in double, in an order that depends on the size alone.
+// Σ w a b over `size` numbers each, in double, in an order that depends on the size alone.
 template <class Real>
 double weightedSum(std::size_t size, const Real* w, const Real* a, const Real* b);
 

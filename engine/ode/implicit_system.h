@@ -15,7 +15,7 @@ class ImplicitSystem {
 
     // Fixes W = stiffness K + damping C at (t, x, v) for the products to come.
     virtual void linearise(double t, const Real* x, const Real* v, double stiffness, double damping) = 0;
-    virtual void addProduct(const Real* u, Real* out) const = 0;  // out += W u, both laid out as positions
+    virtual void addProduct(const Real* u, Real* out) const = 0;  // out += W u, both (layout.size()) as positions
     virtual void addDiagonal(Real* out) const = 0;                // out += the diagonal of W
 };
 

@@ -18,6 +18,7 @@ struct Tableau {
     int divisor;
 };
 
+// Expects 1 … most stages and Σ w = divisor.
 template <class Real>
 std::unique_ptr<FirstOrderMethod<Real>> makeRungeKutta(const Tableau& tableau);
 

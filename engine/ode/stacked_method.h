@@ -8,6 +8,7 @@
 
 namespace taut::ode {
 
+// Expects a method. The state keeps the velocities at t.
 template <class Real>
 std::unique_ptr<Method<Real>> makeStacked(std::unique_ptr<FirstOrderMethod<Real>> method);
 

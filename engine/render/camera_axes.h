@@ -11,9 +11,10 @@ struct CameraAxes {
     glm::vec3 right, up, forward;  // unit, at right angles
 };
 
+// Where eye and target are the same it looks along -z.
 CameraAxes axesOf(const view::Camera& camera);
 
-// World to clip coordinates. `aspect` is width / height of the picture.
+// World to clip coordinates of GL. `aspect` is width / height of the picture, above zero.
 glm::mat4 projectionOf(const view::Camera& camera, float aspect);
 
 }  // namespace taut::render

@@ -10,6 +10,7 @@
 
 namespace taut::render {
 
+// Which library gives the GL context: Mesa off-screen, in software and the same everywhere, or EGL, with what it finds.
 enum class Backend { osmesa, egl };
 
 struct RendererOptions {
@@ -42,11 +43,11 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    // Throws Error(inputOutput) for a texture, or a font that a label needs, that cannot be read, Error(badContent) for
-    // one that is no picture or no font.
+    // A picture of width × height. Throws Error(inputOutput) for a texture, or a font that a label needs, that cannot
+    // be read, Error(badContent) for one that is no picture or no font.
     image::Image draw(const view::FrameView& view);
 
-    RendererInfo info() const;
+    RendererInfo info() const;  // of the context in use
 
   private:
     struct Impl;

@@ -27,9 +27,9 @@ struct Loaded {
     StateKeys keys;                     // of stored states
 };
 
-// Throws core::Error: inputOutput if the file cannot be read; usage for an override without key and value; badContent
-// for everything that is wrong with the content, all of it in the order of the file (of syntax errors the first),
-// each as "file:line:col: error: …" with the line, a caret and a remedy.
+// A scene that world::World takes as it is. Throws core::Error: inputOutput if the file cannot be read; usage for an
+// override without key and value; badContent for everything that is wrong with the content, all of it in the order of
+// the file (of syntax errors the first), each as "file:line:col: error: …" with the line, a caret and a remedy.
 Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options);
 
 // The same for a text. fileName is used in messages, and its folder to look up models and textures.

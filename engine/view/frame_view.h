@@ -52,8 +52,8 @@ struct Surface {
 };
 
 struct Camera {
-    glm::vec3 eye{0.0F, 1.5F, 5.0F};
-    glm::vec3 target{0.0F, 1.0F, 0.0F};
+    glm::vec3 eye{0.0F, 1.5F, 5.0F};     // [m]
+    glm::vec3 target{0.0F, 1.0F, 0.0F};  // [m]
     glm::vec3 up{0.0F, 1.0F, 0.0F};
     float fieldOfView = 0.7F;  // [rad] vertical
     float nearPlane = 0.05F;   // [m]
@@ -109,6 +109,7 @@ struct Label {
     float plate = 0.0F;            // darkness of a plate behind the text, 0 (none) … 1
 };
 
+// Expects of every surface topology, geometry and finish, and as many uv, positions and normals.
 struct FrameView {
     std::int64_t frame = 0;
     double time = 0.0;  // [s]

@@ -1,4 +1,5 @@
-// Meshes of the collider shapes, centred at the origin, for drawing. Sizes in metres; axis of revolution is y.
+// Meshes of the collider shapes, centred at the origin, for drawing. Sizes in metres, all expected to be above zero but
+// where a function says else; axis of revolution is y.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,16 +16,17 @@ struct Mesh {
 };
 
 Mesh sphereMesh(float radius);
-Mesh boxMesh(glm::vec3 halfSize, float edgeRadius);  // edges rounded for the eye: catch the light
+Mesh boxMesh(glm::vec3 halfSize, float edgeRadius);  // edges rounded for the eye: catch the light; radius >= 0
 Mesh cylinderMesh(float radius, float height);
 Mesh coneMesh(float radius, float height);        // centre at half height, tip up
-Mesh capsuleMesh(float radius, float height);     // height between the centres of the two half spheres
+Mesh capsuleMesh(float radius, float height);     // height >= 0 between the centres of the two half spheres
 Mesh quadMesh(glm::vec3 normal, float halfSize);  // a finite piece of a tilted plane through the origin
 
-// A triangle mesh with normals: smooth where neighbours meet at less than creaseAngle [rad], sharp elsewhere.
+// A triangle mesh with normals: smooth where neighbours meet at less than creaseAngle [rad], sharp elsewhere. positions
+// (vertices) [m], triangles (3 · triangles) numbers of vertices; expects those to exist.
 Mesh creasedMesh(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles, float creaseAngle);
 
-// Area-weighted vertex normals of an indexed mesh; a vertex without area gets (0, 1, 0).
+// Area-weighted vertex normals (vertices) of an indexed mesh, arrays as above; a vertex without area gets (0, 1, 0).
 void smoothNormals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles,
                    std::span<glm::vec3> normals);
 

@@ -51,7 +51,7 @@ int main() {
         worst = std::max(worst, std::abs(shown - (2.0 + 5.0 * t - 0.5 * 9.81 * t * t)));
         if (picture == 30) saved = world.save();
     }
-    std::printf("off the parabola by %.4e m at most\n", worst);  // its chord over a tick: by g tick²/8
+    std::printf("off the parabola by %.6e m at most\n", worst);  // its chord over a tick: by g tick²/8
 
     world::World again(throwRope());
     again.restore(saved);

@@ -16,13 +16,14 @@ namespace {
 constexpr std::size_t maxWidth = 120;  // of a printed source line
 constexpr std::size_t maxShown = 200;  // errors printed; more help nobody
 
-std::string_view lineOf(std::string_view text, int line) {
-    for (int i = 1; i < line; ++i) {
-        const std::size_t end = text.find('\n');
-        if (end == std::string_view::npos) return {};
-        text.remove_prefix(end + 1);
-    }
-    return text.substr(0, text.find('\n'));
+// Where each line begins.
+std::vector<std::size_t> lineStartsOf(std::string_view text) {
+    std::vector<std::size_t> starts{0};
+    for (std::size_t end = text.find('
+'); end != std::string_view::npos; end = text.find('
+', end + 1))
+        starts.push_back(end + 1);
+    return starts;
 }
 
 // Whether the first byte of a character announces as many bytes as there are.
@@ -87,11 +88,12 @@ std::string lowerCase(std::string_view word) {
 }  // namespace
 
 Problems::Problems(std::string_view text, std::string fileName, std::vector<std::string> labels)
-    : text_(text), fileName_(std::move(fileName)), labels_(std::move(labels)) {}
+    : text_(text), fileName_(std::move(fileName)), labels_(std::move(labels)), lines_(lineStartsOf(text)) {}
 
 void Problems::setBase(std::string text, std::string fileName) {
     baseText_ = std::move(text);
     baseName_ = std::move(fileName);
+    baseLines_ = lineStartsOf(baseText_);
 }
 
 const std::string& Problems::fileOf(Place place) const {
@@ -99,10 +101,19 @@ const std::string& Problems::fileOf(Place place) const {
     return place.origin < 0 ? baseName_ : fileName_;
 }
 
+std::string_view Problems::lineOf(Place place) const {
+    const std::string_view text = place.origin < 0 ? std::string_view(baseText_) : text_;
+    const std::vector<std::size_t>& starts = place.origin < 0 ? baseLines_ : lines_;
+    const auto line = static_cast<std::size_t>(std::max(place.line, 1)) - 1;
+    if (line >= starts.size()) return {};
+    const std::string_view rest = text.substr(starts[line]);
+    return rest.substr(0, rest.find('\n'));
+}
+
 Place Problems::placeInside(Place place, std::string_view value, std::size_t byte) const {
     if (place.origin > 0) return place;
     // To the quotes, a character of several bytes counting as one.
-    std::string_view line = lineOf(textOf(place), place.line);
+    std::string_view line = lineOf(place);
     for (int skipped = 1; !line.empty() && skipped < place.column; ++skipped) line.remove_prefix(characterLength(line));
     const char quote = line.empty() ? '\0' : line.front();
     const std::size_t quotes = line.starts_with(std::string(3, quote)) && !value.empty() ? 3 : 1;
@@ -159,7 +170,7 @@ std::string Problems::print(const Problem& problem, std::string_view severity) c
         const std::string remedy = problem.remedy.empty() ? "" : "; " + problem.remedy;
         return fmt::format("{}: {}: {}{}", fileOf(place), severity, problem.message, remedy);
     }
-    const auto [line, caret] = excerpt(lineOf(textOf(place), place.line), place.column);
+    const auto [line, caret] = excerpt(lineOf(place), place.column);
     const std::string remedy = problem.remedy.empty() ? "" : " " + problem.remedy;
     return fmt::format("{}:{}:{}: {}: {}\n  {}\n  {}^{}", fileOf(place), place.line, place.column, severity,
                        problem.message, line, std::string(caret, ' '), remedy);

@@ -42,11 +42,12 @@ class Problems {
     static std::vector<Problem> sorted(std::vector<Problem> problems);
     std::string print(const Problem& problem, std::string_view severity) const;
 
-    std::string_view textOf(Place place) const { return place.origin < 0 ? std::string_view(baseText_) : text_; }
+    std::string_view lineOf(Place place) const;
 
     std::string_view text_;
     std::string fileName_, baseText_, baseName_;
     std::vector<std::string> labels_;
+    std::vector<std::size_t> lines_, baseLines_;  // where each begins in its text
     std::vector<Problem> errors_, warnings_;
 };
 

@@ -52,8 +52,8 @@ class Island {
     // Expects that the island is not open.
     virtual std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving) = 0;
 
-    // After a tick that went well, at the time when it ends: springs give way and break.
-    virtual void settle(const TickTime& time) = 0;
+    // After a tick that went well, at the time when it ends: springs give way and break. Whether any broke.
+    virtual bool settle(const TickTime& time) = 0;
 
     // Puts the state back that the last tick began with.
     virtual void undoTick() = 0;

@@ -21,7 +21,7 @@ class IslandOf final : public Island {
 
     void setColliders(collision::Colliders colliders) override { colliders_ = std::move(colliders); }
     std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving) override;
-    void settle(const TickTime& time) override;
+    bool settle(const TickTime& time) override;
     void undoTick() override { copyState(good_, state_); }
     void freeze(const Fault& fault, const TickTime& time) override;
     const FrozenIsland* frozen() const override { return frozen_ ? &*frozen_ : nullptr; }

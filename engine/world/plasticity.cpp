@@ -24,11 +24,11 @@ double yieldedLength(double l, double restLength, double y) {
 // Beyond the break strain, against the length that it was made with, a spring is gone; beyond the yield strain its
 // rest length follows, so that the elastic strain stays at it.
 template <class Real>
-void IslandOf<Real>::settle(const TickTime& time) {
+bool IslandOf<Real>::settle(const TickTime& time) {
     const bool mayGive = std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* body) {
         return body->plasticity.yieldStrain || body->plasticity.breakStrain;
     });
-    if (frozen_ || !mayGive) return;
+    if (frozen_ || !mayGive) return false;
     std::vector<std::pair<std::size_t, double>> yielded;  // spring, new rest length
     Crossing torn;
     for (std::size_t s = 0; s < plan_.springs.size(); ++s) {
@@ -48,14 +48,15 @@ void IslandOf<Real>::settle(const TickTime& time) {
             if (const double next = yieldedLength(l, restLength, *limits.yieldStrain); next != restLength)
                 yielded.emplace_back(s, next);
     }
-    if (yielded.empty() && torn.isEmpty()) return;
+    if (yielded.empty() && torn.isEmpty()) return false;
     IslandPlan& plan = change(time);
     for (const auto& [s, restLength] : yielded) plan.springs[s].restLength = restLength;
     if (!torn.isEmpty()) sever(torn, plan);
     close(time);
+    return !torn.isEmpty();
 }
 
-template void IslandOf<float>::settle(const TickTime&);
-template void IslandOf<double>::settle(const TickTime&);
+template bool IslandOf<float>::settle(const TickTime&);
+template bool IslandOf<double>::settle(const TickTime&);
 
 }  // namespace taut::world

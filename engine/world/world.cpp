@@ -1,6 +1,7 @@
 #include "taut/world/world.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "taut/core/error.h"
@@ -266,11 +267,13 @@ std::optional<Divergence> World::advance() {
             return w.islands[i]->diagnose(*faults[i], now);
         }
     ++w.tick;
+    std::atomic<bool> anyBroke = false;
     w.threads.run([&] {
-        core::parallelFor(static_cast<int>(w.islands.size()),
-                          [&](int i) { w.islands[static_cast<std::size_t>(i)]->settle(w.now()); });
+        core::parallelFor(static_cast<int>(w.islands.size()), [&](int i) {
+            if (w.islands[static_cast<std::size_t>(i)]->settle(w.now())) anyBroke = true;
+        });
     });
-    w.redrawDamage();
+    if (anyBroke) w.redrawDamage();
     w.changePicture();
     w.updateHash();
     return std::nullopt;

@@ -1,0 +1,72 @@
+// What many bodies cost: both figures are to stay flat a body.
+#include <benchmark/benchmark.h>
+
+#include "taut/world/world.h"
+
+namespace taut {
+namespace {
+
+// Ropes of two points, apart from each other: nothing but the bookkeeping of bodies.
+world::SceneSpec manyRopes(int count) {
+    world::SceneSpec scene;
+    for (int i = 0; i < count; ++i) {
+        world::RopeSpec rope;
+        rope.name = "r" + std::to_string(i);
+        rope.segments = 1;
+        rope.start = {0.0, 0.0, 1.0 * i};
+        rope.end = {1.0, 0.0, 1.0 * i};
+        scene.ropes.push_back(rope);
+    }
+    return scene;
+}
+
+void buildBodies(benchmark::State& state) {
+    const world::SceneSpec scene = manyRopes(static_cast<int>(state.range(0)));
+    for (auto _ : state) {
+        world::World world(scene, {.threads = 1});
+        benchmark::DoNotOptimize(world.stateHash());
+    }
+    state.counters["per body"] = benchmark::Counter(
+        static_cast<double>(state.range(0)), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(buildBodies)->Arg(250)->Arg(1000)->Arg(4000)->Arg(8000)->Unit(benchmark::kMillisecond);
+
+void tickBodies(benchmark::State& state) {
+    world::World world(manyRopes(static_cast<int>(state.range(0))), {.threads = 1});
+    for (auto _ : state) (void)world.advance();
+    state.counters["per body"] = benchmark::Counter(
+        static_cast<double>(state.range(0)), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(tickBodies)->Arg(250)->Arg(1000)->Arg(4000)->Arg(8000)->Unit(benchmark::kMillisecond);
+
+// A tick in which the stiffness of a hanging cloth, or none of it, is on its way.
+void tickRamp(benchmark::State& state) {
+    world::SceneSpec scene;
+    scene.materials["m"] = {};
+    world::ClothSpec cloth;
+    cloth.name = "c";
+    cloth.material = "m";
+    cloth.cells = {64, 64};
+    cloth.hold = {"top"};
+    scene.cloths = {cloth};
+    if (state.range(0) == 1) {
+        world::ActionSpec ramp;
+        ramp.what = world::Do::ramp;
+        ramp.key = "material.m.stretch_N_per_m";
+        ramp.value = {scene.materials["m"].stretch * 1.1};
+        ramp.over = 1e6;
+        ramp.field.affects = world::RampField::Affects::springs;
+        ramp.field.owner = "material.m";
+        ramp.field.read = [](const world::SceneSpec& s) { return std::vector{s.materials.at("m").stretch}; };
+        ramp.field.write = [](world::SceneSpec& s, const std::vector<double>& v) { s.materials["m"].stretch = v[0]; };
+        scene.actions = {ramp};
+    }
+    world::World world(scene, {.threads = 1});
+    for (auto _ : state) (void)world.advance();
+}
+BENCHMARK(tickRamp)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace taut
+
+BENCHMARK_MAIN();

@@ -23,10 +23,13 @@ target_compile_options(taut_options INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 
 # One compiler run reads the sources of up to eight files as one: most of a file's time goes into reading headers.
-# -DTAUT_UNITY=OFF compiles file by file, as tests/run.sh does with clang, so that every file includes what it needs.
+# -DTAUT_UNITY=OFF compiles file by file, as `sh tests/run.sh --long` does, so that every file includes what it needs.
 option(TAUT_UNITY "Compile the files of a folder together" ON)
 set(CMAKE_UNITY_BUILD ${TAUT_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+
+# The folders where a scene's time goes.
+set(TAUT_COMPUTES core ode mechanics collision world image)
 
 # taut_library(core SOURCES a.cpp HEADERS a.h LINK taut::ode PRIVATE_LINK fmt::fmt): the library of one folder, known
 # as taut::core. LINK is what its headers include, PRIVATE_LINK what only its sources do. With HEADERS, those that others
@@ -38,6 +41,9 @@ function(taut_library name)
   set_target_properties(taut_${name} PROPERTIES EXPORT_NAME ${name})
   target_link_libraries(taut_${name}
     PUBLIC taut_headers ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:taut_options> ${ARG_PRIVATE_LINK})
+  if(name IN_LIST TAUT_COMPUTES)
+    target_compile_options(taut_${name} PRIVATE $<$<CONFIG:Asan>:-O1>)
+  endif()
   if(TAUT_INSTALL AND ARG_HEADERS)
     install(TARGETS taut_${name} EXPORT taut ARCHIVE DESTINATION lib)
     foreach(header ${ARG_HEADERS})
@@ -60,7 +66,7 @@ function(taut_kernel name file)
     add_library(${object} OBJECT ${file})
     target_link_libraries(${object} PRIVATE taut_options)
     target_compile_definitions(${object} PRIVATE TAUT_ISA=${isa})
-    target_compile_options(${object} PRIVATE ${flags_${isa}} $<$<NOT:$<CONFIG:Asan>>:-O3>)
+    target_compile_options(${object} PRIVATE ${flags_${isa}} $<IF:$<CONFIG:Asan>,-O1,-O3>)
     target_sources(taut_${name} PRIVATE $<TARGET_OBJECTS:${object}>)
   endforeach()
 endfunction()

@@ -19,9 +19,7 @@ constexpr std::size_t maxShown = 200;  // errors printed; more help nobody
 // Where each line begins.
 std::vector<std::size_t> lineStartsOf(std::string_view text) {
     std::vector<std::size_t> starts{0};
-    for (std::size_t end = text.find('
-'); end != std::string_view::npos; end = text.find('
-', end + 1))
+    for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', end + 1))
         starts.push_back(end + 1);
     return starts;
 }

@@ -65,7 +65,7 @@ class Colliders {
     // Returns the collider's number, counting from 0. Throws core::Error(badContent) for a compound without parts, a
     // material out of range, or a pose that is not finite. Rotations need not be of unit length.
     int add(const Shape& shape, const Material& material, const Pose& pose);
-    int size() const;
+    int size() const;  // how many there are
 
     // The same colliders, to be moved on their own; their forms are shared.
     Colliders clone() const;
@@ -74,7 +74,7 @@ class Colliders {
     // told once more, with twice the same pose. Still colliders never call it. Between the two the position runs
     // straight and the rotation turns the short way. A collider of which any corner would be faster than 100 m/s is
     // taken to have jumped: for this step it stands still at its end, has no speed, and passes through what lay
-    // between.
+    // between. Expects a number below size(); throws core::Error(badContent) for a pose that is not finite.
     void move(int collider, const Pose& from, const Pose& to);
 
     // Brings the points of one body out of all colliders at the end of a step of length h [s]. Swept: a point that

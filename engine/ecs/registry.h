@@ -24,11 +24,11 @@ struct Entity {
 
 class Registry {
   public:
-    Entity create();
+    Entity create();  // without components
     // Removes the entity and all its components; expects that it is alive.
     void destroy(Entity entity);
     bool isAlive(Entity entity) const;
-    std::size_t size() const { return alive_; }
+    std::size_t size() const { return alive_; }  // entities alive
 
     // Gives the entity a component, replacing one of the same type. The reference holds until the next add or remove
     // of that type.

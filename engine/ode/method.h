@@ -60,7 +60,7 @@ class Method {
     // Takes state.x and state.v, both at time t, and prepares the first step: at the start and after every event.
     virtual void start(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) = 0;
 
-    // From t to t + h.
+    // From t to t + h [s], h that of start(). Reports nothing: a state that diverges is for the caller to find.
     virtual void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) = 0;
 
     // The velocities at time t into v (layout.size()); may cost an evaluation. The state stays as it is.
@@ -70,7 +70,7 @@ class Method {
     // Tells that the x and v of these points were changed after the step, by a contact.
     virtual void touch(State<Real>& state, std::span<const int> points) = 0;
 
-    virtual Work work() const { return work_; }
+    virtual Work work() const { return work_; }  // since it was made
 
   protected:
     Work work_;

@@ -13,7 +13,7 @@ namespace taut::ode {
 // damp some modes and not others, drag may differ from point to point: the smallest of the limits counts.
 double explicitLimit(const FastestMode& mode, double rate, double (*z)(double zeta));
 
-// ζ of a mode of rate ω when other things damp it at `rate`.
+// ζ of a mode of rate ω > 0 when other things damp it at `rate` [1/s].
 inline double dampingRatio(const FastestMode& mode, double rate) {
     return 0.5 * (mode.tau * mode.omega + rate / mode.omega);
 }
@@ -29,8 +29,8 @@ double cubeRoot(double x);
 
 // Heun and midpoint let undamped motion grow by 1 + z⁴/8 a step, so no step is stable for ever,
 // but a short one is good for long: the step at which motion of that frequency grows e-fold in `patience` seconds.
-inline constexpr double patience = 10.0;  // [s]
-double slowGrowthStep(double omega, double drag);
+inline constexpr double patience = 10.0;           // [s]
+double slowGrowthStep(double omega, double drag);  // [s], of omega > 0 and drag >= 0 [1/s]
 inline constexpr std::string_view growthCaution =
     "motion that nothing damps grows at every step: dt = \"auto\" keeps it to a factor of e in 10 s";
 

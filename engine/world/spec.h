@@ -1,5 +1,8 @@
 // What a scene asks for, as plain data with defaults. The loader fills it, the world is built from it; it knows
 // neither files nor pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
+//
+// The loader refuses what is out of range (scene::manual() has every range). Who fills a scene in code keeps to the same
+// ranges and words, which the world does not check again; that targets and materials exist it does.
 #pragma once
 
 #include <array>
@@ -47,7 +50,7 @@ struct SolverSpec {
     std::shared_ptr<const ode::Methods> methods;  // that integrators are names of; none: the engine's own
 };
 
-// A body may override these parts of [solver].
+// A body may override these parts of [solver]; none: as the scene has it.
 struct SolverOverride {
     std::optional<std::string> integrator;
     std::optional<double> dt;
@@ -94,11 +97,11 @@ struct CheckSpec {
 // Pictures to compare with recorded ones.
 struct GoldenSpec {
     Source source;
-    std::vector<int> frames;
-    bool restart = false;  // drawn from the state stored with the picture instead of the one just computed
-    bool debug = false;    // with springs, points and contacts
-    std::string camera;    // name; empty: that of [picture]
-    ivec2 size{640, 360};  // [px]
+    std::vector<int> frames;  // numbers, from 0
+    bool restart = false;     // drawn from the state stored with the picture instead of the one just computed
+    bool debug = false;       // with springs, points and contacts
+    std::string camera;       // name; empty: that of [picture]
+    ivec2 size{640, 360};     // [px]
 };
 
 // When a material stops being elastic.
@@ -183,7 +186,7 @@ struct RopeSpec : BodySpec {
     double length = 0.0;        // natural length [m]; 0: the distance of the ends
     double mass = 1.0;          // [kg]
     double stretch = 1e4;       // EA [N]
-    double bend = 0.0;          // [N]
+    double bend = 0.0;          // EA of the span-2 springs [N]
     double dampingTime = 1e-4;  // [s]
     double drag = 0.3;          // [1/s]
     double radius = 0.02;       // [m] drawn
@@ -208,15 +211,15 @@ struct BlockSpec : BodySpec {
 
 struct NetPointSpec {
     std::string name;
-    dvec3 position{0.0};
-    double mass = 1.0;  // [kg]
+    dvec3 position{0.0};  // [m]
+    double mass = 1.0;    // [kg]
     bool hold = false;
     Source source;
 };
 struct NetSpringSpec {
-    std::string a, b;
+    std::string a, b;                   // names of two points
     double stiffness = 100.0;           // [N/m]
-    std::optional<double> restLength;   // [m]
+    std::optional<double> restLength;   // [m]; none: the distance
     std::optional<double> dampingTime;  // [s]; none: the net's
     Source source;
 };
@@ -277,8 +280,8 @@ struct ColliderSpec {
     std::shared_ptr<const MeshData> meshData;  // what the file holds; null: no mesh
     double scale = 1.0;
     std::vector<ColliderSpec> parts;  // compound
-    double friction = 0.3;
-    double restitution = 0.0;
+    double friction = 0.3;     // Coulomb's μ [-]
+    double restitution = 0.0;  // 0 … 1: speed after a bounce / speed before [-]
     std::vector<PoseKey> keys;  // keyframes; then position and rotation are not used
     bool visible = true;
     double edge = 0.01;  // [m] rounding of a drawn box's edges
@@ -299,8 +302,8 @@ struct WindSpec {
 };
 
 struct CameraKey {
-    double t = 0.0;
-    dvec3 eye{0.0}, target{0.0};
+    double t = 0.0;               // [s]
+    dvec3 eye{0.0}, target{0.0};  // [m]
     std::optional<double> fieldOfView;  // [rad]
     Ease ease = Ease::smooth;
 };
@@ -316,11 +319,11 @@ struct CameraSpec {
 struct LightSpec {
     dvec3 direction{-0.5, -1.0, -0.4};  // the way the light travels
     dvec3 colour{1.0, 0.96, 0.9};
-    double intensity = 3.0;
+    double intensity = 3.0;  // factor on colour
     double softness = 0.03;  // [rad]
     dvec3 sky{0.62, 0.70, 0.82};
     dvec3 ground{0.50, 0.48, 0.45};
-    double ambient = 0.6;
+    double ambient = 0.6;  // factor on sky and ground
 };
 
 struct BackgroundSpec {

@@ -99,16 +99,17 @@ struct Options {
 
 class World {
   public:
-    // Builds everything; throws core::Error(badContent) with file:line:column where the scene is at fault.
+    // Builds everything; throws core::Error(badContent) with file:line:column where the scene is at fault. Of a scene
+    // made in code it expects what spec.h says.
     explicit World(const SceneSpec& spec, const Options& options = {});
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
 
-    double tickSeconds() const;
+    double tickSeconds() const;  // [s]
     int ticksPerFrame() const;
-    std::int64_t tick() const;
-    double time() const;  // [s] = tick / ticks per second, computed from whole numbers
+    std::int64_t tick() const;  // how many there have been
+    double time() const;        // [s] = tick / ticks per second, computed from whole numbers
 
     // One tick: forces, integration, collision, substeps times for every island, side by side. On divergence the
     // state of the tick before is kept and the diagnosis returned; nothing else may be called then but the views.
@@ -124,19 +125,21 @@ class World {
     // Where a hand is [m]; none if there is no hand of that name.
     std::optional<glm::dvec3> handPlace(const std::string& id) const;
 
-    // The picture of this moment; size in pixels sets the scale of the debug marks only.
+    // The picture of this moment; with springs, points and contacts where debug.
     view::FrameView view(bool debug) const;
 
     std::uint64_t stateHash() const;                                 // chained over ticks
     std::vector<BodyHash> bodyHashes() const;                        // in the order of the state hash; not chained
     std::vector<std::uint64_t> pointHashes(ecs::Entity body) const;  // of x and the stored v, in the order of authoring
     Metrics metrics() const;
-    Metrics metrics(const std::string& bodies) const;  // of those that "cloth.*" names
+    Metrics metrics(const std::string& bodies) const;  // of those that "cloth.*" names; zeros where it names none
+    // Of KIND.NAME@SELECTOR, as action_spec.h has them; without @ all points, empty where it names none.
     PointsNow points(const std::string& target) const;
 
     // Everything that the ticks so far have changed, as bytes, and back into a world that was built from the same scene
-    // up to that tick; what a scene says of later ticks may differ as long as it leads to the same steps. restore()
-    // throws core::Error(badContent) for bytes that do not fit this world, and leaves it unusable then.
+    // up to that tick, with the same forces, and has not ticked yet; what a scene says of later ticks may differ as long
+    // as it leads to the same steps. restore() throws core::Error(badContent) for bytes that do not fit this world, and
+    // leaves it unusable then.
     std::vector<std::byte> save() const;
     void restore(std::span<const std::byte> bytes);
 
@@ -159,7 +162,8 @@ class World {
     // warnings() says so; Options::forces are allowed for. Throws core::Error(usage) where one of that name acts already.
     void addForce(std::shared_ptr<const Force> force);
 
-    // In mid-run. A new body is an island of its own, felt by the winds and colliders that are there.
+    // In mid-run. A new body is an island of its own, felt by the winds and colliders that are there. Throws and expects
+    // what the constructor does.
     ecs::Entity spawn(const ColliderSpec& spec);
     ecs::Entity spawn(const ClothSpec& spec);
     ecs::Entity spawn(const RopeSpec& spec);
@@ -178,7 +182,7 @@ class World {
 
 // What a scene would need, computed from the numbers in it before anything is allocated.
 struct Estimate {
-    double points = 0, springs = 0, bytes = 0;
+    double points = 0, springs = 0, bytes = 0;  // bytes of memory; doubles, as a scene may ask for too much
 };
 Estimate estimate(const SceneSpec& spec);
 

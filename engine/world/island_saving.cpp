@@ -53,8 +53,13 @@ void visitPart(StateBytes& bytes, Body& body) {
     bytes.notNegative(bulk);
     if (bytes.isReading())
         for (mechanics::VolumeCell& cell : body.model.cells) cell.bulkModulus = bulk;
-    for (auto* limit : {&body.plasticity.yieldStrain, &body.plasticity.breakStrain})
-        bytes.optional(*limit, [&](double& strain) { bytes.notNegative(strain); });
+    for (auto* limit : {&body.plasticity.yieldStrain, &body.plasticity.breakStrain}) {
+        bool has = limit->has_value();
+        double strain = limit->value_or(0.0);
+        bytes(has);
+        bytes.notNegative(strain);
+        *limit = has ? std::optional<double>(strain) : std::nullopt;
+    }
 }
 
 void visitPart(StateBytes& bytes, Divergence& d) {

@@ -10,9 +10,9 @@ namespace {
 // Ways in ticks: none takes longer than any run.
 constexpr std::int64_t longestWay = std::int64_t{1} << 40;
 
-void visitWay(StateBytes& bytes, std::int64_t& start, std::int64_t& length, Ease& ease, std::int64_t shortest = 1) {
+void visitWay(StateBytes& bytes, std::int64_t& start, std::int64_t& length, Ease& ease) {
     bytes.atLeast(start, 0, longestWay);
-    bytes.atLeast(length, shortest, longestWay);
+    bytes.atLeast(length, 1, longestWay);
     bytes.choice(ease, Ease::hold);
 }
 
@@ -48,15 +48,35 @@ void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, SceneSpec&
     std::vector<double> now = ramp.action.field.read(spec);
     const std::size_t size = now.size();
     visitValue(bytes, ramp.action.value, size);
+    bytes.choice(ramp.action.ease, Ease::hold);
     visitValue(bytes, ramp.from, size);
-    visitWay(bytes, ramp.start, ramp.length, ramp.action.ease, 0);
+    bytes.atLeast(ramp.start, 0, longestWay);
+    bytes.atLeast(ramp.length, 0, longestWay);
     visitValue(bytes, now, size);
     if (bytes.isReading()) ramp.action.field.write(spec, now);
+}
+
+// Before the bytes of a world with forces of its own; no frame rate, with which all others begin.
+constexpr std::uint64_t ownForcesMark = 0xfff8'7461'7574'0001ULL;  // a NaN
+
+// The names of the forces that were added, so that a world without them refuses the bytes by name.
+void visitNames(StateBytes& bytes, const ForceList& added) {
+    std::vector<std::string> names;
+    if (bytes.mark(ownForcesMark, !added.empty())) {
+        for (const auto& force : added) names.push_back(force->name());
+        bytes.each(names, [&](std::string& name) { bytes(name); });
+    }
+    for (std::size_t i = 0; i < std::max(names.size(), added.size()); ++i) {
+        if (i >= added.size() || (i < names.size() && names[i] != added[i]->name()))
+            misfit("they need the force " + names[i] + ", which this world has not, or not in this place");
+        if (i >= names.size()) misfit("they know nothing of the force " + added[i]->name());
+    }
 }
 
 }  // namespace
 
 void World::Impl::visit(StateBytes& bytes) {
+    visitNames(bytes, added);
     double rate = ticksPerSecond;
     bytes(rate);
     if (rate != ticksPerSecond) misfit("its frame rate is another");

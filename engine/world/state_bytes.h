@@ -32,6 +32,18 @@ class StateBytes {
         if (isReading() && !condition) core::ByteReader::fail();
     }
 
+    // Writes the mark where it is wanted; reading, takes it where it is. Whether it is there.
+    bool mark(std::uint64_t mark, bool isWanted) {
+        if (!isReading()) {
+            if (isWanted) writer_->add(mark);
+            return isWanted;
+        }
+        core::ByteReader ahead = *reader_;
+        if (ahead.number<std::uint64_t>() != mark) return false;
+        *reader_ = ahead;
+        return true;
+    }
+
     template <class Number>
     requires std::is_arithmetic_v<Number>
     void operator()(Number& number) {

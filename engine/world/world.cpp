@@ -315,6 +315,9 @@ ecs::Registry& World::registry() {
 void World::addForce(std::shared_ptr<const Force> force) {
     TAUT_EXPECTS(force != nullptr);
     Impl& w = *impl_;
+    const std::string kind = force->name().substr(0, force->name().find('.'));
+    if (kind == "wind" || kind == "anchor" || kind == "world")
+        throw core::Error(core::ExitCode::usage, force->name() + ": forces of this kind come with the scene");
     for (const auto& other : w.forces())
         if (other->name() == force->name())
             throw core::Error(core::ExitCode::usage, "there is a force " + force->name() + " already");

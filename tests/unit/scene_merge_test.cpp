@@ -8,7 +8,7 @@ using glm::dvec3;
 
 constexpr const char* mergedYard =
     "schema = 1\n"
-    "title = \"a mergedYard\"\n"
+    "title = \"a yard\"\n"
     "[run]\nfps = 30\nseconds = 2\n"
     "[rope.line]\nends = [[0, 1, 0], [1, 1, 0]]\nsegments = 8\nhold = [\"ends\"]\n"
     "finish = { weave = 0.5, roughness = 0.25 }\n"
@@ -22,7 +22,7 @@ TEST(SceneMerge, TablesAreMergedDeeplyAndAllElseIsReplaced) {
         "[rope.line]\nhold = [\"start\"]\nfinish = { weave = 0.75 }\n"
         "[rope.other]\nends = [[0, 2, 0], [1, 2, 0]]\n");
     const world::SceneSpec& scene = loaded.spec;
-    EXPECT_EQ(scene.title, "a mergedYard");
+    EXPECT_EQ(scene.title, "a yard");
     EXPECT_EQ(scene.run.fps, 30.0);
     EXPECT_EQ(scene.run.seconds, 3.0);
     ASSERT_EQ(scene.ropes.size(), 2U);
@@ -46,7 +46,7 @@ TEST(SceneMerge, OverridesComeOnTop) {
     LoadOptions options;
     options.overrides = {"rope.line.segments=16", "run.seconds=4"};
     const world::SceneSpec scene =
-        folder.load("schema = 1\nscene = \"mergedYard\"\n[rope.line]\nsegments = 12\n", options).spec;
+        folder.load("schema = 1\nscene = \"yard\"\n[rope.line]\nsegments = 12\n", options).spec;
     EXPECT_EQ(scene.ropes[0].segments, 16);
     EXPECT_EQ(scene.run.seconds, 4.0);
 }
@@ -126,7 +126,7 @@ TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {
     };
     const std::string start = "s.toml:2:9: error: ";
     EXPECT_EQ(messageOf("\"yart\""),
-              start + "there is no scene \"yart\"\n  scene = \"yart\"\n          ^ did you mean \"mergedYard\"?");
+              start + "there is no scene \"yart\"\n  scene = \"yart\"\n          ^ did you mean \"yard\"?");
     EXPECT_EQ(messageOf("\"wood.toml\""),
               start + "there is no scene \"wood.toml\"\n  scene = \"wood.toml\"\n          ^ looked for wood.toml");
     EXPECT_EQ(messageOf("\"s\""), start + "this scene names itself\n  scene = \"s\"\n          ^");
@@ -136,7 +136,7 @@ TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {
 
 TEST(SceneMerge, TheSceneCannotBeSet) {
     LoadOptions options;
-    options.overrides = {"scene=mergedYard"};
+    options.overrides = {"scene=yard"};
     EXPECT_EQ(messageOver(mergedYard, "", options), "--set scene: error: the scene that a file builds on cannot be set");
 }
 

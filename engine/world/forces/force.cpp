@@ -29,18 +29,22 @@ bool goesOn(const ForceList& before, const ForceList& now) {
 }
 
 void visit(StateBytes& bytes, ForceList& forces) {
-    auto count = static_cast<std::uint64_t>(forces.size());
-    bytes(count);
-    if (count < forces.size()) misfit("they know nothing of " + forces[static_cast<std::size_t>(count)]->name());
-    for (std::size_t i = 0; i < count; ++i) {
-        std::string name = i < forces.size() ? forces[i]->name() : "";
-        bytes(name);
-        if (i >= forces.size() || name != forces[i]->name())
-            misfit("they need the force " + name + ", which this world has not, or not in this place");
-        const std::shared_ptr<Force> force = forces[i]->copy();
+    std::size_t next = 0;
+    const auto visitNext = [&] {
+        const std::shared_ptr<Force> force = forces[next]->copy();
         force->visit(bytes);
-        forces[i] = force;
+        forces[next++] = force;
+    };
+    if (!forces.empty()) visitNext();
+    for (const char* kind : {"wind.", "anchor."}) {
+        std::size_t end = next;
+        while (end < forces.size() && forces[end]->name().starts_with(kind)) ++end;
+        auto count = static_cast<std::uint64_t>(end - next);
+        bytes(count);
+        bytes.require(count == end - next);
+        while (next < end) visitNext();
     }
+    while (next < forces.size()) visitNext();
 }
 
 }  // namespace taut::world

@@ -91,8 +91,8 @@ ForceList during(const ForceList& from, const ForceList& middle, const ForceList
 // Whether all go on without a jump, none more and none less.
 bool goesOn(const ForceList& before, const ForceList& now);
 
-// Writes the forces, or reads them over those that the scene begins with. Throws core::Error(badContent) naming a force
-// that the bytes have and the list has not, or the other way round.
+// Writes the forces, or reads them over those that the scene begins with: gravity, winds, anchors, then those that were
+// added, of which the world has compared the names. Throws core::Error(badContent) where the bytes have others.
 void visit(StateBytes& bytes, ForceList& forces);
 
 }  // namespace taut::world

@@ -1,13 +1,16 @@
 // Encodes pictures as an H.264 video by piping them to ffmpeg. It knows neither scenes nor GL.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "taut/image/frame_sink.h"
+
+namespace taut::core {
+class ChildProcess;
+}
 
 namespace taut::image {
 
@@ -39,16 +42,13 @@ class VideoWriter : public FrameSink {
 
   private:
     void start(int width, int height);
-    int waitForEnd();
     [[noreturn]] void fail(const std::string& what);
 
     std::filesystem::path path_;
     std::filesystem::path temporary_;
     VideoOptions options_;
     int width_ = 0, height_ = 0;
-    pid_t process_ = -1;
-    int pipe_ = -1;      // our end of ffmpeg's standard input
-    int messages_ = -1;  // a file in memory that takes ffmpeg's standard error
+    std::unique_ptr<core::ChildProcess> encoder_;  // ffmpeg, from the first picture on
 };
 
 // The first line that "ffmpeg -version" prints; empty when it does not run.

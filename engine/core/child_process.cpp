@@ -1,0 +1,174 @@
+#include "taut/core/child_process.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+#include "taut/core/error.h"
+
+namespace taut::core {
+namespace {
+
+// "NAME=value" of every variable that the child is to have.
+std::vector<std::string> environmentOf(const ChildCommand& command) {
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        const std::string_view text = *variable;
+        if (!command.environment.contains(std::string(text.substr(0, text.find('='))))) variables.emplace_back(text);
+    }
+    for (const auto& [name, value] : command.environment)
+        if (value) variables.push_back(name + "=" + *value);
+    return variables;
+}
+
+// As C wants them; the texts have to live on.
+std::vector<char*> pointersTo(std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    for (std::string& text : texts) pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+// Starts the program with the three standard streams given; `process` is its id. Returns an error number or 0.
+int spawn(const ChildCommand& command, int input, int output, int errors, pid_t& process) {
+    std::vector<std::string> arguments = command.arguments, variables = environmentOf(command);
+    const std::vector<char*> argv = pointersTo(arguments), environment = pointersTo(variables);
+
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
+
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+
+    const int error = ::posix_spawnp(&process, argv[0], &files, &attributes, argv.data(), environment.data());
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return error;
+}
+
+ChildEnd endOf(int status) {
+    if (WIFSIGNALED(status)) return {0, WTERMSIG(status)};
+    return {WEXITSTATUS(status), 0};
+}
+
+std::string contentOf(int descriptor) {
+    std::string text;
+    char buffer[4096];
+    // By place and not by position: that of the file is the child's, which may still be writing.
+    for (ssize_t got = 0; (got = ::pread(descriptor, buffer, sizeof buffer, static_cast<off_t>(text.size()))) > 0;)
+        text.append(buffer, static_cast<std::size_t>(got));
+    text.erase(text.find_last_not_of(" \n") + 1);
+    return text;
+}
+
+}  // namespace
+
+bool isInPath(const std::string& program) {
+    if (program.find('/') != std::string::npos) return ::access(program.c_str(), X_OK) == 0;
+    const char* variable = std::getenv("PATH");
+    std::istringstream folders(variable != nullptr ? variable : "/usr/bin:/bin");
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (::access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
+    return false;
+}
+
+std::string ChildEnd::text() const {
+    if (signal != 0) return "was ended by signal " + std::to_string(signal);
+    return code == 0 ? "ended well" : "failed with exit code " + std::to_string(code);
+}
+
+ChildProcess::ChildProcess(const ChildCommand& command) {
+    TAUT_EXPECTS(!command.arguments.empty());
+    // A socket and not a pipe: writing to one whose reader has gone can be asked to return an error instead of
+    // raising SIGPIPE, whatever the rest of the process does with signals.
+    int ends[2] = {-1, -1};
+    int error = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 ? 0 : errno;
+    input_ = ends[0];
+    output_ = ::memfd_create("output", MFD_CLOEXEC);
+    errors_ = ::memfd_create("errors", MFD_CLOEXEC);
+    if (error == 0 && (output_ < 0 || errors_ < 0)) error = errno;
+    if (error == 0) error = spawn(command, ends[1], output_, errors_, process_);
+    if (ends[1] >= 0) ::close(ends[1]);
+    if (error == 0) return;
+    for (const int descriptor : {input_, output_, errors_})
+        if (descriptor >= 0) ::close(descriptor);
+    throw Error(ExitCode::inputOutput, "cannot run " + command.arguments.front() + ": " + std::strerror(error));
+}
+
+ChildProcess::~ChildProcess() {
+    if (process_ > 0) {
+        ::kill(process_, SIGKILL);
+        wait();
+    }
+    ::close(output_);
+    ::close(errors_);
+}
+
+bool ChildProcess::write(std::span<const std::byte> bytes) {
+    TAUT_EXPECTS(input_ >= 0);
+    while (!bytes.empty()) {
+        const ssize_t done = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        if (done < 0 && errno == EINTR) continue;
+        if (done < 0) return false;
+        bytes = bytes.subspan(static_cast<std::size_t>(done));
+    }
+    return true;
+}
+
+void ChildProcess::closeInput() {
+    if (input_ >= 0) ::close(input_);
+    input_ = -1;
+}
+
+ChildEnd ChildProcess::wait(const std::atomic<bool>* stop) {
+    closeInput();
+    if (process_ < 0) return end_;
+    int status = 0;
+    pid_t ended = 0;
+    while (stop != nullptr && !*stop && (ended = ::waitpid(process_, &status, WNOHANG)) == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (ended == 0) {
+        if (stop != nullptr) ::kill(process_, SIGKILL);
+        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+    }
+    process_ = -1;
+    return end_ = endOf(status);
+}
+
+std::string ChildProcess::output() const {
+    return contentOf(output_);
+}
+
+std::string ChildProcess::errors() const {
+    return contentOf(errors_);
+}
+
+ChildResult runChild(const ChildCommand& command, std::string_view input, const std::atomic<bool>* stop) {
+    ChildProcess child(command);
+    child.write(std::as_bytes(std::span(input.data(), input.size())));  // who does not read it all says why, by its end
+    const ChildEnd end = child.wait(stop);
+    return {end, child.output(), child.errors()};
+}
+
+}  // namespace taut::core

@@ -2,41 +2,51 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
-#include "taut/core/error.h"
 #include "game/lab.h"
-#include "game/shell_word.h"
+#include "taut/core/child_process.h"
+#include "taut/core/error.h"
 #include "taut/image/frame_sequence.h"
-#include "taut/core/whole_file.h"
 
 namespace taut::game {
 namespace {
 
-// Draws a golden picture in a process of its own, where the software renderer has so many threads.
+// Draws a golden picture in a process of its own; empty when it was stopped.
 std::string drawApart(const std::string& gl, const regression::Scenario& scenario,
-                      const regression::GoldenRequest& golden, int threads, const std::filesystem::path& png) {
+                      const regression::GoldenRequest& golden, const regression::Apart& how,
+                      const std::filesystem::path& png, const std::atomic<bool>& stop) {
     const std::filesystem::path frames = png.parent_path() / (png.stem().string() + "_######.png");
-    std::string command = fmt::format(
-        "exec env -u LP_NUM_THREADS {} render {} -o {} --frames {} --size {}x{} --threads {} --hash --quiet -y{}{}{}",
-        shellWord(std::filesystem::read_symlink("/proc/self/exe").string()), shellWord(scenario.file.string()),
-        shellWord(frames.string()), golden.frame, golden.size.x, golden.size.y, threads, golden.debug ? " --debug" : "",
-        golden.camera.empty() ? "" : " --camera " + shellWord(golden.camera), gl.empty() ? "" : " --gl " + gl);
-    const std::filesystem::path complaints = png.parent_path() / "said.txt";  // warnings, known from elsewhere
-    command += " 2>" + shellWord(complaints.string());
-    FILE* pipe = ::popen(command.c_str(), "r");
-    std::array<char, 256> text{};
-    std::string said;
-    while (pipe != nullptr && std::fgets(text.data(), text.size(), pipe) != nullptr) said += text.data();
-    if (pipe == nullptr || ::pclose(pipe) != 0)
-        throw core::Error(core::ExitCode::inputOutput,
-                          fmt::format("this failed: {}\n{}", command, core::fileContent(complaints)));
+    core::ChildCommand command;
+    command.arguments = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                         "render",
+                         scenario.file.string(),
+                         "-o",
+                         frames.string(),
+                         "--frames",
+                         std::to_string(golden.frame),
+                         "--size",
+                         fmt::format("{}x{}", golden.size.x, golden.size.y),
+                         "--threads",
+                         std::to_string(how.threads),
+                         "--hash",
+                         "--quiet",
+                         "-y"};
+    if (golden.debug) command.arguments.emplace_back("--debug");
+    if (!golden.camera.empty()) command.arguments.insert(command.arguments.end(), {"--camera", golden.camera});
+    if (!gl.empty()) command.arguments.insert(command.arguments.end(), {"--gl", gl});
+    // How many threads the renderer may use, and for which processor it compiles.
+    command.environment["LP_NUM_THREADS"] = std::nullopt;
+    if (!how.processor.empty()) command.environment["GALLIUM_OVERRIDE_CPU_CAPS"] = how.processor;
+    const core::ChildResult result = core::runChild(command, {}, &stop);
+    if (stop) return "";
+    if (!result.end.succeeded())
+        throw core::Error(core::ExitCode::inputOutput, fmt::format("{} {}:\n{}", fmt::join(command.arguments, " "),
+                                                                   result.end.text(), result.errors));
     std::filesystem::rename(image::FramePattern(frames).pathOf(golden.frame), png);
-    const std::size_t space = said.find(' ');
-    return space == std::string::npos ? "" : said.substr(space + 1, 16);
+    const std::size_t space = result.output.find(' ');
+    return space == std::string::npos ? "" : result.output.substr(space + 1, 16);
 }
 
 // A folder that goes with everything in it.
@@ -67,8 +77,8 @@ std::vector<report::CalibrationRow> runCalibration(const CalibrationRequest& req
     options.drawing = request.drawing;
     options.tolerance = request.tolerance;
     options.scratch = scratch.path();
-    options.drawApart = [&](const auto& scenario, const auto& golden, int threads, const auto& png) {
-        return drawApart(request.gl, scenario, golden, threads, png);
+    options.drawApart = [&](const auto& scenario, const auto& golden, const auto& how, const auto& png) {
+        return drawApart(request.gl, scenario, golden, how, png, stop);
     };
     options.progress = [&](double done, const std::string& doing) { progress.show(done, doing); };
     return regression::calibrate(request.scenarios, options, stop);

@@ -1,5 +1,5 @@
-// The calibration of golden pictures as a command runs it: with processes of their own for other numbers of threads. It
-// knows neither goldens nor reports.
+// The calibration of golden pictures as a command runs it: with processes of their own for other numbers of threads and
+// other processors. It knows neither goldens nor reports.
 #pragma once
 
 #include <atomic>

@@ -186,10 +186,10 @@ report::TestReport blankReport(const Run& run) {
     report.machine = fmt::format("{}, {}", machine.processor, machine.simd);
     const image::Tolerance& tolerance = run.manifest.tolerance;
     report.tolerance = fmt::format(
-        "A picture is right when at most {:.4g} % of its pixels are off by more than {}/255 in any channel, and no "
-        "tile "
-        "of 16 × 16 pixels by more than {:.3g}/255 in the mean. A state is right to the last bit.",
-        100.0 * tolerance.share, tolerance.channel, tolerance.tileMean);
+        "A picture is right when at most {:.4g} % of its pixels are off by more than {}/255 in any channel, and of no "
+        "tile of {} × {} pixels more than {:.3g} % by more than {}/255. A state is right to the last bit.",
+        100.0 * tolerance.share, tolerance.channel, image::tileSize, image::tileSize, 100.0 * tolerance.tileShare,
+        tolerance.tileChannel);
     return report;
 }
 

@@ -12,11 +12,12 @@ namespace {
 
 struct PixelSums {
     long total = 0;      // of differences over pixels and channels
-    long different = 0;  // pixels with a channel off by more than the tolerance
+    long different = 0;  // pixels with a channel off by more than the first rule's tolerance
+    long weak = 0;       // the same for the second rule
     int largest = 0;
 };
 
-PixelSums tileSums(const Image& a, const Image& b, int left, int top, int channelTolerance) {
+PixelSums tileSums(const Image& a, const Image& b, int left, int top, const Tolerance& tolerance) {
     PixelSums sums;
     const int right = std::min(left + tileSize, a.width);
     const int bottom = std::min(top + tileSize, a.height);
@@ -30,7 +31,8 @@ PixelSums tileSums(const Image& a, const Image& b, int left, int top, int channe
                 sums.total += difference;
                 worst = std::max(worst, difference);
             }
-            sums.different += worst > channelTolerance ? 1 : 0;
+            sums.different += worst > tolerance.channel ? 1 : 0;
+            sums.weak += worst > tolerance.tileChannel ? 1 : 0;
             sums.largest = std::max(sums.largest, worst);
         }
     }
@@ -49,11 +51,11 @@ Comparison compare(const Image& a, const Image& b, const Tolerance& tolerance) {
     PixelSums all;
     for (int top = 0; top < a.height; top += tileSize) {
         for (int left = 0; left < a.width; left += tileSize) {
-            const PixelSums sums = tileSums(a, b, left, top, tolerance.channel);
+            const PixelSums sums = tileSums(a, b, left, top, tolerance);
             const int pixels = std::min(tileSize, a.width - left) * std::min(tileSize, a.height - top);
-            const double mean = static_cast<double>(sums.total) / (3.0 * pixels);
-            if (mean > result.worstTileMean) {
-                result.worstTileMean = mean;
+            const double share = static_cast<double>(sums.weak) / pixels;
+            if (share > result.worstTileShare) {
+                result.worstTileShare = share;
                 result.worstTileX = left;
                 result.worstTileY = top;
             }
@@ -66,17 +68,18 @@ Comparison compare(const Image& a, const Image& b, const Tolerance& tolerance) {
     result.share = static_cast<double>(all.different) / pixels;
     result.mean = static_cast<double>(all.total) / (3.0 * pixels);
     result.largest = all.largest;
-    result.within = result.share <= tolerance.share && result.worstTileMean <= tolerance.tileMean;
+    result.within = result.share <= tolerance.share && result.worstTileShare <= tolerance.tileShare;
     return result;
 }
 
 std::string describe(const Comparison& c, const Tolerance& tolerance) {
     if (!c.sameSize) return "the pictures differ in size";
     return fmt::format(
-        "{:.4f} % of pixels differ by more than {} (at most {:.4f} %), worst tile at ({}, {}) differs by {:.3f} in the "
-        "mean (at most {:.3f}), largest difference {}, mean {:.4f}",
-        100.0 * c.share, tolerance.channel, 100.0 * tolerance.share, c.worstTileX, c.worstTileY, c.worstTileMean,
-        tolerance.tileMean, c.largest, c.mean);
+        "{:.4f} % of pixels differ by more than {} (at most {:.4g} %), of the tile at ({}, {}) {:.1f} % by more than "
+        "{} "
+        "(at most {:.3g} %), largest difference {}, mean {:.4f}",
+        100.0 * c.share, tolerance.channel, 100.0 * tolerance.share, c.worstTileX, c.worstTileY,
+        100.0 * c.worstTileShare, tolerance.tileChannel, 100.0 * tolerance.tileShare, c.largest, c.mean);
 }
 
 Image differencePicture(const Image& a, const Image& b) {

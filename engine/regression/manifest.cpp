@@ -138,8 +138,11 @@ Manifest readManifest(const GoldenFolder& folder) {
         reader.below("schema", fmt::format("is {}, and this taut reads {}", version, schema));
     if (reader.has("tolerance")) {
         const Reader tolerance = reader.object("tolerance");
-        manifest.tolerance = {static_cast<int>(std::min<std::int64_t>(255, tolerance.whole("channel", 0))),
-                              tolerance.number("share"), tolerance.number("tile_mean")};
+        const auto channel = [&](const char* key) {
+            return static_cast<int>(std::min<std::int64_t>(255, tolerance.whole(key, 0)));
+        };
+        manifest.tolerance = {channel("channel"), tolerance.number("share"), channel("tile_channel"),
+                              tolerance.number("tile_share")};
     }
     if (reader.has("scenarios"))
         reader.object("scenarios").each([&](const std::string& name, const Reader& scenario) {
@@ -154,7 +157,8 @@ void writeManifest(const GoldenFolder& folder, const Manifest& manifest) {
     json["schema"] = schema;
     json["tolerance"] = {{"channel", manifest.tolerance.channel},
                          {"share", manifest.tolerance.share},
-                         {"tile_mean", manifest.tolerance.tileMean}};
+                         {"tile_channel", manifest.tolerance.tileChannel},
+                         {"tile_share", manifest.tolerance.tileShare}};
     json["scenarios"] = Json::object();
     for (const auto& [name, scenario] : manifest.scenarios) json["scenarios"][name] = jsonOf(scenario);
     core::prepareFolderOf(folder.manifest());

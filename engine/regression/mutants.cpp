@@ -78,6 +78,11 @@ void turnByOnePixel(view::FrameView& view, int height) {
     view.camera.target += right * (glm::length(ahead) * pixel);
 }
 
+// Too weak for any pixel to count alone in most pictures.
+void dim(view::FrameView& view, int) {
+    for (glm::vec3* light : {&view.light.colour, &view.light.sky, &view.light.ground}) *light *= 0.98F;
+}
+
 }  // namespace
 
 std::vector<Mutant> mutants() {
@@ -86,6 +91,7 @@ std::vector<Mutant> mutants() {
         {.name = "damping − 20 %", .ofScene = withLessDamping},
         {.name = "one spring missing", .ofScene = withoutOneSpring},
         {.name = "camera one pixel off", .ofView = turnByOnePixel},
+        {.name = "light − 2 %", .ofView = dim},
         {.name = "shadow off", .withoutShadows = true},
     };
 }

@@ -27,7 +27,8 @@ struct Mutant {
     bool isOfState() const { return static_cast<bool>(ofScene); }
 };
 
-// Twice the time step, a fifth less damping, one spring missing; the camera one pixel off, no shadows.
+// Twice the time step, a fifth less damping, one spring missing; the camera one pixel off, a fiftieth less light, no
+// shadows.
 std::vector<Mutant> mutants();
 
 }  // namespace taut::regression

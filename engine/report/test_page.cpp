@@ -151,9 +151,9 @@ std::string calibrationPart(const std::vector<CalibrationRow>& rows) {
                             htmlText(row.picture), htmlText(row.what));
         if (row.hasPicture)
             text += fmt::format(
-                "<td class=\"number\">{:.4f} %</td><td class=\"number\">{:.3f}</td><td "
+                "<td class=\"number\">{:.4f} %</td><td class=\"number\">{:.1f} %</td><td "
                 "class=\"number\">{}</td>",
-                100.0 * row.share, row.tileMean, row.largest);
+                100.0 * row.share, 100.0 * row.tileShare, row.largest);
         else
             text +=
                 "<td class=\"number quiet\">–</td><td class=\"number quiet\">–</td><td class=\"number quiet\">–</td>";

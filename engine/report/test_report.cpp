@@ -133,7 +133,7 @@ std::string calibrationTable(const TestReport& report) {
         const auto word = [&](bool has, bool differs) { return !has ? "-" : differs ? "differs" : "same"; };
         table.rows.push_back({row.scenario, row.picture, row.what,
                               row.hasPicture ? fmt::format("{:.4f} %", 100.0 * row.share) : "-",
-                              row.hasPicture ? fmt::format("{:.3f}", row.tileMean) : "-",
+                              row.hasPicture ? fmt::format("{:.1f} %", 100.0 * row.tileShare) : "-",
                               row.hasPicture ? fmt::format("{}", row.largest) : "-",
                               word(row.hasPicture, row.pictureDiffers), word(row.hasState, row.stateDiffers),
                               row.isMutant ? row.meantFor : "noise", row.refusal.empty() ? "" : "REFUSED"});

@@ -69,7 +69,7 @@ struct CalibrationRow {
     bool isMutant = false;
     bool hasPicture = true, hasState = true;            // false: this row does not concern it
     double share = 0;                                   // of pixels that differ [-]
-    double tileMean = 0;                                // of the worst tile [1/255]
+    double tileShare = 0;                               // of those of the worst tile [-]
     int largest = 0;                                    // [1/255]
     bool pictureDiffers = false, stateDiffers = false;  // as the tests see it
     std::string meantFor;                               // "picture", "state"

@@ -18,7 +18,7 @@ TEST(Manifest, IsEmptyWhereThereIsNone) {
 TEST(Manifest, ComesBackAsItWas) {
     const TemporaryFolder folder;
     Manifest manifest;
-    manifest.tolerance = {3, 0.0002, 0.5};
+    manifest.tolerance = {3, 0.0002, 2, 0.5};
     manifest.scenarios["flag"].state = {"Because.", "0123456789abcdef", 479, "taut 1", "g++", "avx2"};
     manifest.scenarios["flag"].pictures["000120"] = {"For \"beauty\", é", "00000000000000ff", "llvmpipe"};
     writeManifest({folder / "new/golden"}, manifest);
@@ -30,9 +30,7 @@ TEST(Manifest, ComesBackAsItWas) {
     EXPECT_EQ(flag.state->lastHash, "0123456789abcdef");
     EXPECT_EQ(flag.pictures.at("000120").why, "For \"beauty\", é");
     EXPECT_EQ(flag.pictures.at("000120").stateHash, "00000000000000ff");
-    EXPECT_EQ(back.tolerance.channel, 3);
-    EXPECT_EQ(back.tolerance.share, 0.0002);
-    EXPECT_EQ(back.tolerance.tileMean, 0.5);
+    EXPECT_EQ(back.tolerance, manifest.tolerance);
     writeManifest({folder / "again"}, back);
     EXPECT_EQ(test::contentOf(folder / "again/manifest.json"), test::contentOf(folder / "new/golden/manifest.json"));
 }
@@ -59,7 +57,7 @@ TEST(Manifest, SaysWhatIsWrongInIt) {
         {R"({"schema": 1, "scenarios": {"a": {"pictures": {"000001": {"why": 3}}}}})",
          "scenarios.a.pictures.000001.why is no text"},
         {R"({"schema": 1, "scenarios": {"a": {"pictures": {"x/y": {"why": "z"}}}}})", "pictures has the name 'x/y'"},
-        {R"({"schema": 1, "tolerance": {"channel": 2, "share": -1, "tile_mean": 0}})",
+        {R"({"schema": 1, "tolerance": {"channel": 2, "share": -1, "tile_channel": 1, "tile_share": 0}})",
          "tolerance.share is no number of at least 0"},
     };
     const TemporaryFolder folder;

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -8,7 +7,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/flags.h"
 #include "game/interruption.h"
 #include "game/lab.h"
@@ -112,33 +111,36 @@ int atlas(const AtlasFlags& flags) {
     return flags.scene.empty() ? oscillatorAtlas(flags) : sceneAtlas(flags);
 }
 
-}  // namespace
-
-void addAtlas(CLI::App& app, Action& chosen) {
+Action declareAtlas(Options& options) {
     const auto flags = std::make_shared<AtlasFlags>();
-    CLI::App* command = app.add_subcommand("atlas", "Map where each method becomes unstable");
-    command->add_option("SCENE", flags->scene,
-                        "A scene file, a shipped scene, or the built-in rope or cloth: the largest step that each "
-                        "method stands there. Without it, maps of the damped oscillator");
-    command->add_option("-o,--output", flags->output, "The folder for CSV, JSON, SVG and PNG; else out/atlas")
-        ->type_name("FOLDER");
-    command->add_option("--methods", flags->methods, "Only these, separated by commas")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("A,B");
-    command->add_option("--cells", flags->cells, "Points of a map along either axis")->check(CLI::Range(3, 1001));
-    command->add_option("--seconds", flags->seconds, "Length of motion in each run of a scene; else 0.5 at most")
-        ->check(numberWithin(leastSeconds, mostSeconds));
-    command->add_option("--set", flags->overrides, "Override a field of a scene; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command->add_flag("--quiet", flags->quiet, "No progress");
-    command->footer(
+    options.value("SCENE", flags->scene,
+                  "A scene file, a shipped scene, or the built-in rope or cloth: the largest step that each "
+                  "method stands there. Without it, maps of the damped oscillator");
+    options.value("-o,--output", flags->output, "The folder for CSV, JSON, SVG and PNG; else out/atlas")
+        .typeName("FOLDER");
+    options.value("--methods", flags->methods, "Only these, separated by commas")
+        .separatedBy(',')
+        .oneValue()
+        .typeName("A,B");
+    options.value("--cells", flags->cells, "Points of a map along either axis").within(3, 1001);
+    options.value("--seconds", flags->seconds, "Length of motion in each run of a scene; else 0.5 at most")
+        .check(numberWithin(leastSeconds, mostSeconds));
+    options.value("--set", flags->overrides, "Override a field of a scene; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    options.flag("--quiet", flags->quiet, "No progress");
+    options.footer(
         "Examples:\n"
         "  taut atlas\n"
         "  taut atlas rope\n"
         "  taut atlas flag --methods leapfrog,rk4 --seconds 0.5");
-    command->callback([&chosen, flags] { chosen = [flags] { return atlas(*flags); }; });
+    return [flags] { return atlas(*flags); };
+}
+
+}  // namespace
+
+Command atlasCommand() {
+    return {"atlas", "Map where each method becomes unstable", declareAtlas};
 }
 
 }  // namespace taut::game

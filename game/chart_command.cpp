@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
@@ -10,7 +9,7 @@
 
 #include "taut/core/error.h"
 #include "game/chart_refinement.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
@@ -140,36 +139,37 @@ int chart(const ChartFlags& flags) {
     return output.finish(interruption);
 }
 
-}  // namespace
-
-void addChart(CLI::App& app, Action& chosen) {
+Action declareChart(Options& options) {
     const auto flags = std::make_shared<ChartFlags>();
-    CLI::App* command = app.add_subcommand("chart", "Chart error against cost for every method and step");
-    command->add_option("PROBLEM", flags->subject, "A built-in problem, a scene file, a shipped scene, or refinement");
-    command->add_flag("--list", flags->list, "List the built-in problems");
-    command->add_option("-o,--output", flags->output, "The folder for CSV, JSON, SVG and PNG; else out/charts/NAME")
-        ->type_name("FOLDER");
-    command->add_option("--methods", flags->methods, "Only these, separated by commas")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("A,B");
-    command->add_option("--precision", flags->precision, "single, double or both")
-        ->check(CLI::IsMember({"single", "double", "both"}));
-    command->add_option("--seconds", flags->seconds, "Length of motion to study")
-        ->check(numberWithin(leastSeconds, mostSeconds));
-    command->add_option("--budget", flags->budget, "Wall time to aim at, in seconds")
-        ->check(numberWithin(0.5, mostSeconds));
-    command->add_option("--set", flags->overrides, "Override a field of a scene; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command->add_flag("--quiet", flags->quiet, "No progress");
-    command->footer(
+    options.value("PROBLEM", flags->subject, "A built-in problem, a scene file, a shipped scene, or refinement");
+    options.flag("--list", flags->list, "List the built-in problems");
+    options.value("-o,--output", flags->output, "The folder for CSV, JSON, SVG and PNG; else out/charts/NAME")
+        .typeName("FOLDER");
+    options.value("--methods", flags->methods, "Only these, separated by commas")
+        .separatedBy(',')
+        .oneValue()
+        .typeName("A,B");
+    options.value("--precision", flags->precision, "single, double or both").oneOf({"single", "double", "both"});
+    options.value("--seconds", flags->seconds, "Length of motion to study")
+        .check(numberWithin(leastSeconds, mostSeconds));
+    options.value("--budget", flags->budget, "Wall time to aim at, in seconds").check(numberWithin(0.5, mostSeconds));
+    options.value("--set", flags->overrides, "Override a field of a scene; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    options.flag("--quiet", flags->quiet, "No progress");
+    options.footer(
         "Examples:\n"
         "  taut chart cloth-corners\n"
         "  taut chart growth --methods euler,rk4 -o out/growth\n"
         "  taut chart flag --seconds 0.5 --precision double\n"
         "  taut chart refinement");
-    command->callback([&chosen, flags] { chosen = [flags] { return chart(*flags); }; });
+    return [flags] { return chart(*flags); };
+}
+
+}  // namespace
+
+Command chartCommand() {
+    return {"chart", "Chart error against cost for every method and step", declareChart};
 }
 
 }  // namespace taut::game

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "taut/core/error.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "taut/world/world.h"
@@ -36,16 +35,19 @@ int check(const CheckFlags& flags) {
     return static_cast<int>(code);
 }
 
+Action declareCheck(Options& options) {
+    const auto flags = std::make_shared<CheckFlags>();
+    options.value("SCENE", flags->scenes, "Scene files, or names of shipped scenes").required();
+    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    return [flags] { return check(*flags); };
+}
+
 }  // namespace
 
-void addCheck(CLI::App& app, Action& chosen) {
-    const auto flags = std::make_shared<CheckFlags>();
-    CLI::App* command = app.add_subcommand("check", "Say whether scene files are right, with all their errors");
-    command->add_option("SCENE", flags->scenes, "Scene files, or names of shipped scenes")->required();
-    command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command->callback([&chosen, flags] { chosen = [flags] { return check(*flags); }; });
+Command checkCommand() {
+    return {"check", "Say whether scene files are right, with all their errors", declareCheck};
 }
 
 }  // namespace taut::game

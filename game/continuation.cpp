@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -27,21 +26,17 @@ std::int64_t firstMissing(const std::string& output, const pipeline::RunOptions&
 
 }  // namespace
 
-void addContinuationFlags(CLI::App& command, ContinuationFlags& flags) {
-    command.add_option("--checkpoint-every", flags.every, "Keep the state every so many frames, to go on from")
-        ->type_name("FRAMES")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
-    command
-        .add_option("--checkpoints", flags.folder,
-                    "Where states are kept; `checkpoints` beside the output if not given")
-        ->type_name("FOLDER");
-    command.add_flag("--resume", flags.resume, "Go on where the frames on disk end, from the last state kept before");
-    command
-        .add_option_function<std::int64_t>(
-            "--from", [&flags](const std::int64_t& frame) { flags.from = frame; },
-            "Draw from this frame on, from the last state kept before it")
-        ->type_name("FRAME")
-        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40));
+void addContinuationFlags(Options& options, ContinuationFlags& flags) {
+    constexpr std::int64_t mostFrames = std::int64_t{1} << 40;
+    options.value("--checkpoint-every", flags.every, "Keep the state every so many frames, to go on from")
+        .typeName("FRAMES")
+        .within(std::int64_t{1}, mostFrames);
+    options.value("--checkpoints", flags.folder, "Where states are kept; `checkpoints` beside the output if not given")
+        .typeName("FOLDER");
+    options.flag("--resume", flags.resume, "Go on where the frames on disk end, from the last state kept before");
+    options.value("--from", flags.from, "Draw from this frame on, from the last state kept before it")
+        .typeName("FRAME")
+        .within(std::int64_t{0}, mostFrames);
 }
 
 RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const world::World& world) {

@@ -7,13 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "game/command_line.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/state_keys.h"
 #include "taut/world/world.h"
-
-namespace CLI {
-class App;
-}
 
 namespace taut::game {
 
@@ -26,7 +23,7 @@ struct ContinuationFlags {
     bool isWanted() const { return every > 0 || resume || from; }
 };
 
-void addContinuationFlags(CLI::App& command, ContinuationFlags& flags);
+void addContinuationFlags(Options& options, ContinuationFlags& flags);
 
 // What a state and a picture have been made by, so that they are not taken for those of another scene.
 struct RunKeys {

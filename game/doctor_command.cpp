@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "taut/core/error.h"
 #include "taut/core/instruction_set.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/folders.h"
 #include "taut/image/video_writer.h"
 #include "taut/core/whole_file.h"
@@ -95,7 +94,8 @@ int doctor(const std::string& folder) {
     const std::string ffmpeg = image::ffmpegVersion();
     printFact("ffmpeg", ffmpeg.empty() ? "MISSING: videos need the package ffmpeg, picture files do not" : ffmpeg);
     const std::string gnuplot = report::gnuplotVersion();
-    printFact("gnuplot", gnuplot.empty() ? "MISSING: charts need the package gnuplot-nox, their CSV does not" : gnuplot);
+    printFact("gnuplot",
+              gnuplot.empty() ? "MISSING: charts need the package gnuplot-nox, their CSV does not" : gnuplot);
     bool files = printFolder("shaders", shaderFolder(), "TAUT_SHADERS");
     files = printFolder("assets", assetFolder(), "TAUT_ASSETS") && files;
     printFont();
@@ -107,13 +107,16 @@ int doctor(const std::string& folder) {
     return static_cast<int>(code);
 }
 
+Action declareDoctor(Options& options) {
+    const auto folder = std::make_shared<std::string>(".");
+    options.value("-o,--output", *folder, "The folder for the write test").typeName("FOLDER");
+    return [folder] { return doctor(*folder); };
+}
+
 }  // namespace
 
-void addDoctor(CLI::App& app, Action& chosen) {
-    const auto folder = std::make_shared<std::string>(".");
-    CLI::App* command = app.add_subcommand("doctor", "Tell what is installed and whether drawing and writing work");
-    command->add_option("-o,--output", *folder, "The folder for the write test")->type_name("FOLDER");
-    command->callback([&chosen, folder] { chosen = [folder] { return doctor(*folder); }; });
+Command doctorCommand() {
+    return {"doctor", "Tell what is installed and whether drawing and writing work", declareDoctor};
 }
 
 }  // namespace taut::game

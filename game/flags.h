@@ -23,8 +23,8 @@ struct Size {
 // "1280x720", each side 1 … 16384; throws core::Error(usage).
 Size pictureSize(const std::string& text);
 
-// A check for a flag: empty when its text is a number in least … most, else what is wrong. Unlike CLI::Range it lets
-// neither nan nor numbers of hundreds of digits through.
+// A check for a flag: empty when its text is a number in least … most, else what is wrong. Unlike Option::within it
+// lets neither nan nor numbers of hundreds of digits through.
 std::function<std::string(const std::string&)> numberWithin(double least, double most);
 
 // What `--seconds` takes: more motion, or less, than anybody waits for is a slip of the hand.

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,7 +9,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
 #include "taut/ode/method_table.h"
@@ -211,18 +210,21 @@ int info(const InfoFlags& flags) {
     return static_cast<int>(core::ExitCode::ok);
 }
 
+Action declareInfo(Options& options) {
+    const auto flags = std::make_shared<InfoFlags>();
+    options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene");
+    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    options.flag("--methods", flags->methods, "List the methods of integration instead");
+    options.flag("--json", flags->json, "Print it as JSON");
+    return [flags] { return info(*flags); };
+}
+
 }  // namespace
 
-void addInfo(CLI::App& app, Action& chosen) {
-    const auto flags = std::make_shared<InfoFlags>();
-    CLI::App* command = app.add_subcommand("info", "Tell what a scene builds, its time step, memory and cost");
-    command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene");
-    command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command->add_flag("--methods", flags->methods, "List the methods of integration instead");
-    command->add_flag("--json", flags->json, "Print it as JSON");
-    command->callback([&chosen, flags] { chosen = [flags] { return info(*flags); }; });
+Command infoCommand() {
+    return {"info", "Tell what a scene builds, its time step, memory and cost", declareInfo};
 }
 
 }  // namespace taut::game

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -8,7 +7,8 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "game/commands.h"
+#include "game/command_line.h"
+#include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/live_line.h"
@@ -67,10 +67,11 @@ int plan(const PlanFlags& flags) {
     const std::string text = core::fileContent(file);
     const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
     if (flags.write && !spec.base.empty())
-        throw core::Error(core::ExitCode::usage,
-                          fmt::format("{}: --write needs a scene that is one file; this one builds on {}: plan that, or "
-                                      "leave --write out and copy the values",
-                                      file.string(), spec.base));
+        throw core::Error(
+            core::ExitCode::usage,
+            fmt::format("{}: --write needs a scene that is one file; this one builds on {}: plan that, or "
+                        "leave --write out and copy the values",
+                        file.string(), spec.base));
     if (!flags.json.empty()) core::prepareFolderOf(flags.json);
 
     const Interruption interruption;
@@ -91,28 +92,30 @@ int plan(const PlanFlags& flags) {
     return static_cast<int>(core::ExitCode::ok);
 }
 
-}  // namespace
-
-void addPlan(CLI::App& app, Action& chosen) {
+Action declarePlan(Options& options) {
     const auto flags = std::make_shared<PlanFlags>();
-    CLI::App* command = app.add_subcommand("plan", "Find the cheapest way to compute a scene as well as it needs");
-    command->add_option("SCENE", flags->scene, "A scene file, or a shipped scene; it says in [need] what it needs")
-        ->required();
-    command->add_option("-o,--json", flags->json, "Everything that was found, as JSON")->type_name("FILE");
-    command->add_flag("--write", flags->write, "Write the changed values into the scene file; the rest of it stays");
-    command->add_option("--effort", flags->effort, "Spring evaluations that one run may cost, in 1e9")
-        ->check(CLI::Range(1e-3, 1e6));
-    command->add_option("--set", flags->overrides, "Override a field of the scene; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command->add_flag("--quiet", flags->quiet, "No progress");
-    command->footer(
+    options.value("SCENE", flags->scene, "A scene file, or a shipped scene; it says in [need] what it needs")
+        .required();
+    options.value("-o,--json", flags->json, "Everything that was found, as JSON").typeName("FILE");
+    options.flag("--write", flags->write, "Write the changed values into the scene file; the rest of it stays");
+    options.value("--effort", flags->effort, "Spring evaluations that one run may cost, in 1e9").within(1e-3, 1e6);
+    options.value("--set", flags->overrides, "Override a field of the scene; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    options.flag("--quiet", flags->quiet, "No progress");
+    options.footer(
         "Ends with 5 when the need cannot be met, and says how near it came.\n"
         "Examples:\n"
         "  taut plan drape\n"
         "  taut plan my.toml --json out/plan.json --write\n"
         "  taut plan flag --set need.rms_pixels=2 --set need.horizon_s=0.1 --effort 0.05");
-    command->callback([&chosen, flags] { chosen = [flags] { return plan(*flags); }; });
+    return [flags] { return plan(*flags); };
+}
+
+}  // namespace
+
+Command planCommand() {
+    return {"plan", "Find the cheapest way to compute a scene as well as it needs", declarePlan};
 }
 
 }  // namespace taut::game

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/flags.h"
 #include "game/interruption.h"
 #include "game/live_play.h"
@@ -56,36 +55,40 @@ int play(const PlayFlags& flags) {
     return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
 }
 
-}  // namespace
-
-void addPlay(CLI::App& app, Action& chosen) {
+Action declarePlay(Options& options) {
     const auto flags = std::make_shared<PlayFlags>();
     PlaySettings& settings = flags->settings;
-    CLI::App* command = app.add_subcommand("play", "Play a scene in a window: pull, look around, record");
-    command->add_option("SCENE", settings.scene, "A scene file, or the name of a shipped scene")->required();
-    command->add_option("--size", flags->size, "Size of the picture in pixels; 512x288 when not given; the window can be drawn larger")
-        ->type_name("WxH");
-    command
-        ->add_option("--quality", flags->quality,
-                     "draft: coarse shadows; normal: no anti-aliasing; full: as the scene has it")
-        ->check(CLI::IsMember({"draft", "normal", "full"}));
-    command->add_option("--seconds", settings.seconds, "End by itself after this time, and tell the pictures a second")
-        ->check(numberWithin(leastSeconds, mostSeconds));
-    command->add_option("--record", flags->record, "Record from the start into this scenario file")->type_name("FILE");
-    command->add_option("--threads", settings.threads, "Threads to use; all of the machine when not given")
-        ->check(CLI::Range(1, 1024));
-    command->add_option("--set", settings.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    auto* quiet = command->add_flag("--quiet", settings.isQuiet, "Warnings and errors only");
-    command->add_flag("--verbose", settings.isVerbose, "Print every action as it is done")->excludes(quiet);
-    command->footer(
+    options.value("SCENE", settings.scene, "A scene file, or the name of a shipped scene").required();
+    options
+        .value("--size", flags->size,
+               "Size of the picture in pixels; 512x288 when not given; the window can be drawn larger")
+        .typeName("WxH");
+    options
+        .value("--quality", flags->quality,
+               "draft: coarse shadows; normal: no anti-aliasing; full: as the scene has it")
+        .oneOf({"draft", "normal", "full"});
+    options.value("--seconds", settings.seconds, "End by itself after this time, and tell the pictures a second")
+        .check(numberWithin(leastSeconds, mostSeconds));
+    options.value("--record", flags->record, "Record from the start into this scenario file").typeName("FILE");
+    options.value("--threads", settings.threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    options.value("--set", settings.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    const Option quiet = options.flag("--quiet", settings.isQuiet, "Warnings and errors only");
+    options.flag("--verbose", settings.isVerbose, "Print every action as it is done").excludes(quiet);
+    options.footer(
         "In the window h shows the keys. R records: the session becomes a scenario file, which\n"
         "taut render and taut test play again to the same state.\n"
         "Examples:\n"
         "  taut play curtain\n"
         "  taut play flag --size 1280x720 --quality full --record pulled.toml");
-    command->callback([&chosen, flags] { chosen = [flags] { return play(*flags); }; });
+    return [flags] { return play(*flags); };
+}
+
+}  // namespace
+
+Command playCommand() {
+    return {"play", "Play a scene in a window: pull, look around, record", declarePlay};
 }
 
 }  // namespace taut::game

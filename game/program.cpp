@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <array>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -12,16 +10,12 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "game/commands.h"
+#include "game/command_table.h"
 #include "game/folders.h"
 #include "game/messages.h"
-#include "game/suggestion.h"
 
 namespace taut::game {
 namespace {
-
-constexpr std::array commands{addRender, addPlay,   addCheck,  addInfo,  addChart,  addAtlas, addPlan,
-                              addTest,   addRecord, addReplay, addSheet, addSchema, addDoctor};
 
 int codeOf(core::ExitCode code) {
     return static_cast<int>(code);
@@ -42,43 +36,6 @@ void printShortHelp() {
         "taut --help lists the commands, taut COMMAND --help their flags.\n");
     const std::vector<std::string> scenes = shippedScenes();
     if (!scenes.empty()) fmt::print("Shipped scenes: {}\n", fmt::join(scenes, ", "));
-}
-
-std::vector<std::string> commandNames(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        names.push_back(command->get_name());
-    return names;
-}
-
-std::vector<std::string> flagNames(const CLI::App& command) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-        for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-    }
-    return names;
-}
-
-// What stood on the command line and means nothing, with what may have been meant.
-std::string unknownWord(const CLI::App& app) {
-    const std::vector<std::string> words = app.remaining(true);
-    const std::string word = words.empty() ? "" : words.front();
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    if (word.starts_with('-')) {
-        const std::string flag = word.substr(0, word.find('='));
-        return fmt::format("unknown flag {}{}", flag,
-                           didYouMean(flag, flagNames(chosen.empty() ? app : *chosen.front())));
-    }
-    if (chosen.empty()) return fmt::format("unknown command '{}'{}", word, didYouMean(word, commandNames(app)));
-    return fmt::format("'{}' is one word too many", word);
-}
-
-int usageError(const CLI::App& app, const std::string& message) {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    const std::string command = chosen.empty() ? "taut" : "taut " + chosen.front()->get_name();
-    fmt::print(stderr, "taut: {}\nTry {} --help.\n", message, command);
-    return codeOf(core::ExitCode::usage);
 }
 
 int runAction(const Action& action) {
@@ -102,35 +59,34 @@ int runAction(const Action& action) {
 
 }  // namespace
 
-int runProgram(int argc, const char* const* argv) {
-    CLI::App app{"Plays scenes of ropes, cloth and soft bodies and renders them without a display.", "taut"};
-    app.set_version_flag("--version", "taut " TAUT_VERSION);
-    app.set_help_flag("-h,--help", "Print this help");
-    app.require_subcommand(0, 1);
-    app.footer(
-        "Exit codes: 0 ok, 1 a check or golden failed, 2 usage, 3 bad content, 4 diverged, 5 need not met,\n"
-        "6 input or output, 7 nothing to draw with, 8 golden missing, 130 and 143 interrupted.");
-    Action chosen;
-    for (const auto add : commands) add(app, chosen);
+int runProgram(int argc, const char* const* argv, std::span<const Command> commands) {
+    CommandLine line(
+        {.name = "taut",
+         .description = "Plays scenes of ropes, cloth and soft bodies and renders them without a display.",
+         .version = "taut " TAUT_VERSION,
+         .footer = "Exit codes: 0 ok, 1 a check or golden failed, 2 usage, 3 bad content, 4 diverged, 5 "
+                   "need not met,\n"
+                   "6 input or output, 7 nothing to draw with, 8 golden missing, 130 and 143 interrupted."},
+        commands);
+    const Request request = line.read(argc, argv);
+    switch (request.kind) {
+        case Request::Kind::run:
+            return runAction(request.action);
+        case Request::Kind::text:
+            fmt::print("{}", request.text);
+            return codeOf(core::ExitCode::ok);
+        case Request::Kind::wrong:
+            fmt::print(stderr, "taut: {}\nTry {} --help.\n", request.text, request.command);
+            return codeOf(core::ExitCode::usage);
+        case Request::Kind::nothing:
+            break;
+    }
+    printShortHelp();
+    return codeOf(core::ExitCode::ok);
+}
 
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        fmt::print("{}", app.help());
-        return codeOf(core::ExitCode::ok);
-    } catch (const CLI::CallForVersion& version) {
-        fmt::print("{}\n", version.what());
-        return codeOf(core::ExitCode::ok);
-    } catch (const CLI::ExtrasError&) {
-        return usageError(app, unknownWord(app));
-    } catch (const CLI::ParseError& error) {
-        return usageError(app, error.what());
-    }
-    if (!chosen) {
-        printShortHelp();
-        return codeOf(core::ExitCode::ok);
-    }
-    return runAction(chosen);
+int runProgram(int argc, const char* const* argv) {
+    return runProgram(argc, argv, builtInCommands());
 }
 
 }  // namespace taut::game

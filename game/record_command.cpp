@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,7 +7,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
@@ -75,24 +74,25 @@ int record(const RecordFlags& flags) {
     return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
 }
 
+Action declareRecord(Options& options) {
+    const auto flags = std::make_shared<RecordFlags>();
+    options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene").required();
+    options.value("-o,--output", flags->output, "The tape to write, e.g. run.tape").required();
+    options.flag("-y,--yes", flags->yes, "Overwrite what exists");
+    options.flag("--no-points", flags->noPoints, "Hashes of bodies only: a small tape that names no point");
+    options.value("--seconds", flags->seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    options.flag("--quiet", flags->quiet, "No progress");
+    return [flags] { return record(*flags); };
+}
+
 }  // namespace
 
-void addRecord(CLI::App& app, Action& chosen) {
-    const auto flags = std::make_shared<RecordFlags>();
-    CLI::App* command = app.add_subcommand("record", "Keep the state of every tick as hashes, for taut replay");
-    command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene")->required();
-    command->add_option("-o,--output", flags->output, "The tape to write, e.g. run.tape")->required();
-    command->add_flag("-y,--yes", flags->yes, "Overwrite what exists");
-    command->add_flag("--no-points", flags->noPoints, "Hashes of bodies only: a small tape that names no point");
-    command->add_option("--seconds", flags->seconds, "Length of scene time")
-        ->check(numberWithin(leastSeconds, mostSeconds));
-    command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
-        ->check(CLI::Range(1, 1024));
-    command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command->add_flag("--quiet", flags->quiet, "No progress");
-    command->callback([&chosen, flags] { chosen = [flags] { return record(*flags); }; });
+Command recordCommand() {
+    return {"record", "Keep the state of every tick as hashes, for taut replay", declareRecord};
 }
 
 }  // namespace taut::game

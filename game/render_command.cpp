@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -12,7 +11,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/continuation.h"
 #include "game/flags.h"
 #include "game/folders.h"
@@ -232,55 +231,54 @@ int render(const RenderFlags& flags) {
     return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
 }
 
-void addOutputFlags(CLI::App& command, RenderFlags& flags) {
-    command.add_option("-o,--output", flags.output, "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv)");
-    command.add_option("--video", flags.video, "A video besides the frames of -o")->type_name("FILE");
-    auto* yes = command.add_flag("-y,--yes", flags.yes, "Overwrite what exists");
-    command.add_flag("-n,--no", flags.no, "Never overwrite")->excludes(yes);
-    command.add_flag("--metrics", flags.metrics, "Write metrics.csv: energy, momentum, strain, contacts of each frame");
-    command.add_flag("--hash", flags.hash, "Print the state hash of each frame");
-    command.add_option("--hash-every", flags.hashEvery, "Print the state hash of each frame or each tick")
-        ->check(CLI::IsMember({"frame", "tick"}))
-        ->each([&flags](const std::string&) { flags.hash = true; });
-    command.add_flag("--quiet", flags.quiet, "No progress; warnings and errors only");
+void addOutputFlags(Options& options, RenderFlags& flags) {
+    options.value("-o,--output", flags.output, "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv)");
+    options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
+    const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
+    options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
+    options.flag("--metrics", flags.metrics, "Write metrics.csv: energy, momentum, strain, contacts of each frame");
+    options.flag("--hash", flags.hash, "Print the state hash of each frame");
+    options.value("--hash-every", flags.hashEvery, "Print the state hash of each frame or each tick")
+        .oneOf({"frame", "tick"})
+        .each([&flags](const std::string&) { flags.hash = true; });
+    options.flag("--quiet", flags.quiet, "No progress; warnings and errors only");
 }
 
-void addPictureFlags(CLI::App& command, RenderFlags& flags) {
-    command.add_option("--frames", flags.frames, "Draw these frames only: 0-119, 60, or 60-")->type_name("A-B");
-    command.add_option("--fps", flags.fps, "Pictures a second of scene time")->check(numberWithin(1e-3, 1e6));
-    command.add_option("--seconds", flags.seconds, "Length of scene time")
-        ->check(numberWithin(leastSeconds, mostSeconds));
-    command.add_option("--size", flags.size, "Size of the pictures in pixels")->type_name("WxH");
-    command.add_option("--camera", flags.camera, "Look through this camera of the scene")->type_name("NAME");
-    command.add_option("--gl", flags.gl, "What draws; the first that works when not given")
-        ->check(CLI::IsMember({"osmesa", "egl"}));
-    command.add_flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
-    command.add_flag("--overlay", flags.overlay,
-                     "Show time, step and limit, largest strain, and the energies as a graph");
-    command.add_flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
+void addPictureFlags(Options& options, RenderFlags& flags) {
+    options.value("--frames", flags.frames, "Draw these frames only: 0-119, 60, or 60-").typeName("A-B");
+    options.value("--fps", flags.fps, "Pictures a second of scene time").check(numberWithin(1e-3, 1e6));
+    options.value("--seconds", flags.seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+    options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
+    options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
+    options.value("--gl", flags.gl, "What draws; the first that works when not given").oneOf({"osmesa", "egl"});
+    options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
+    options.flag("--overlay", flags.overlay, "Show time, step and limit, largest strain, and the energies as a graph");
+    options.flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
 }
 
-}  // namespace
-
-void addRender(CLI::App& app, Action& chosen) {
+Action declareRender(Options& options) {
     const auto flags = std::make_shared<RenderFlags>();
-    CLI::App* command = app.add_subcommand("render", "Play a scene into picture files or a video");
-    command->add_option("SCENE", flags->scene, "A scene file, or the name of a shipped scene")->required();
-    addOutputFlags(*command, *flags);
-    addPictureFlags(*command, *flags);
-    addContinuationFlags(*command, flags->continuation);
-    command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
-        ->check(CLI::Range(1, 1024));
-    command->add_option("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    command->footer(
+    options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene").required();
+    addOutputFlags(options, *flags);
+    addPictureFlags(options, *flags);
+    addContinuationFlags(options, flags->continuation);
+    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    options.footer(
         "Examples:\n"
         "  taut render flag -o flag.mp4\n"
         "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
         "  taut render show -o out/show --checkpoint-every 60 --resume\n"
         "  taut render drape -o late.mp4 --frames 120-179 --set material.linen.bend_N_per_m=4");
-    command->callback([&chosen, flags] { chosen = [flags] { return render(*flags); }; });
+    return [flags] { return render(*flags); };
+}
+
+}  // namespace
+
+Command renderCommand() {
+    return {"render", "Play a scene into picture files or a video", declareRender};
 }
 
 }  // namespace taut::game

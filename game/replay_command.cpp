@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,7 +8,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
@@ -121,26 +120,28 @@ int replay(const ReplayFlags& flags) {
     return verdict(flags, tape, now);
 }
 
+Action declareReplay(Options& options) {
+    const auto flags = std::make_shared<ReplayFlags>();
+    options.value("TAPE", flags->tape, "What taut record wrote").required();
+    const Option verify =
+        options
+            .value("--verify", flags->other,
+                   "Simulate again, or read the tape OTHER, and name the first tick, body and point that differ")
+            .typeName("[OTHER]")
+            .mayBeBare();
+    options.value("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
+    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    options.flag("--quiet", flags->quiet, "No progress");
+    return [flags, verify] {
+        flags->verify = verify.isGiven();
+        return replay(*flags);
+    };
+}
+
 }  // namespace
 
-void addReplay(CLI::App& app, Action& chosen) {
-    const auto flags = std::make_shared<ReplayFlags>();
-    CLI::App* command = app.add_subcommand("replay", "Tell what a tape holds, or where another run differs from it");
-    command->add_option("TAPE", flags->tape, "What taut record wrote")->required();
-    command
-        ->add_option("--verify", flags->other,
-                     "Simulate again, or read the tape OTHER, and name the first tick, body and point that differ")
-        ->type_name("[OTHER]")
-        ->expected(0, 1);
-    command->add_option("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
-    command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
-        ->check(CLI::Range(1, 1024));
-    command->add_flag("--quiet", flags->quiet, "No progress");
-    CLI::Option* verify = command->get_option("--verify");
-    command->callback([&chosen, flags, verify] {
-        flags->verify = verify->count() > 0;
-        chosen = [flags] { return replay(*flags); };
-    });
+Command replayCommand() {
+    return {"replay", "Tell what a tape holds, or where another run differs from it", declareReplay};
 }
 
 }  // namespace taut::game

@@ -1,24 +1,27 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "taut/core/error.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "taut/scene/load.h"
 
 namespace taut::game {
+namespace {
 
-void addSchema(CLI::App& app, Action& chosen) {
+Action declareSchema(Options& options) {
     const auto manual = std::make_shared<bool>(false);
-    CLI::App* command = app.add_subcommand("schema", "Print the scene format as a JSON schema, for editors");
-    command->add_flag("--manual", *manual, "Print it for people: every field with its unit, range and default");
-    command->callback([&chosen, manual] {
-        chosen = [manual] {
-            fmt::print("{}\n", *manual ? scene::manual() : scene::jsonSchema());
-            return static_cast<int>(core::ExitCode::ok);
-        };
-    });
+    options.flag("--manual", *manual, "Print it for people: every field with its unit, range and default");
+    return [manual] {
+        fmt::print("{}\n", *manual ? scene::manual() : scene::jsonSchema());
+        return static_cast<int>(core::ExitCode::ok);
+    };
+}
+
+}  // namespace
+
+Command schemaCommand() {
+    return {"schema", "Print the scene format as a JSON schema, for editors", declareSchema};
 }
 
 }  // namespace taut::game

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "taut/core/error.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "taut/image/png.h"
 #include "taut/report/contact_sheet.h"
 
@@ -20,7 +19,8 @@ struct SheetFlags {
 
 int sheet(const SheetFlags& flags) {
     const image::FramePattern pattern(flags.frames);
-    const std::filesystem::path output = flags.output.empty() ? pattern.folder() / "sheet.png" : std::filesystem::path(flags.output);
+    const std::filesystem::path output =
+        flags.output.empty() ? pattern.folder() / "sheet.png" : std::filesystem::path(flags.output);
     if (output.extension() != ".png")
         throw core::Error(core::ExitCode::usage,
                           fmt::format("{}: let the name of the sheet end in .png", output.string()));
@@ -30,24 +30,20 @@ int sheet(const SheetFlags& flags) {
     return static_cast<int>(core::ExitCode::ok);
 }
 
+Action declareSheet(Options& options) {
+    const auto flags = std::make_shared<SheetFlags>();
+    options.value("FRAMES", flags->frames, "The folder of the frames, or their names: out/frame_######.png").required();
+    options.value("-o,--output", flags->output, "The PNG to write; sheet.png in that folder when left out");
+    options.value("--pictures", flags->layout.pictures, "How many frames to show").within(1, 400).showDefault();
+    options.value("--columns", flags->layout.columns, "How many stand side by side").within(1, 100).showDefault();
+    options.value("--width", flags->layout.width, "Width of the sheet in pixels").within(64, 16384).showDefault();
+    return [flags] { return sheet(*flags); };
+}
+
 }  // namespace
 
-void addSheet(CLI::App& app, Action& chosen) {
-    const auto flags = std::make_shared<SheetFlags>();
-    CLI::App* command = app.add_subcommand("sheet", "Put evenly spaced frames of a run into one picture");
-    command->add_option("FRAMES", flags->frames, "The folder of the frames, or their names: out/frame_######.png")
-        ->required();
-    command->add_option("-o,--output", flags->output, "The PNG to write; sheet.png in that folder when left out");
-    command->add_option("--pictures", flags->layout.pictures, "How many frames to show")
-        ->check(CLI::Range(1, 400))
-        ->capture_default_str();
-    command->add_option("--columns", flags->layout.columns, "How many stand side by side")
-        ->check(CLI::Range(1, 100))
-        ->capture_default_str();
-    command->add_option("--width", flags->layout.width, "Width of the sheet in pixels")
-        ->check(CLI::Range(64, 16384))
-        ->capture_default_str();
-    command->callback([&chosen, flags] { chosen = [flags] { return sheet(*flags); }; });
+Command sheetCommand() {
+    return {"sheet", "Put evenly spaced frames of a run into one picture", declareSheet};
 }
 
 }  // namespace taut::game

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -14,7 +13,7 @@
 #include "taut/core/glob.h"
 #include "taut/core/parallel.h"
 #include "game/calibration_run.h"
-#include "game/commands.h"
+#include "game/command_line.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/live_line.h"
@@ -301,40 +300,37 @@ int update(const TestFlags& flags) {
     return static_cast<int>(core::ExitCode::ok);
 }
 
-}  // namespace
-
-void addTest(CLI::App& app, Action& chosen) {
+Action declareTest(Options& options) {
     const auto flags = std::make_shared<TestFlags>();
-    CLI::App* command = app.add_subcommand("test", "Play scenarios and compare their states and pictures with goldens");
-    command->add_option("SCENARIOS", flags->paths, "Scenario files, folders of them, or names of shipped ones")
-        ->required();
-    command->add_option("-o,--output", flags->output, "The folder for report.html and the pictures of this run")
-        ->capture_default_str();
-    command->add_option("--goldens", flags->goldens,
-                        "The folder of goldens; the first folder's 'golden' when left out");
-    command->add_option("--junit", flags->junit, "Write the results as JUnit XML too")->type_name("FILE");
-    command->add_option("--filter", flags->filters, "Only scenarios of this name, * for any letters; repeatable")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    command->add_option("--update", flags->updates, "Make what this scenario does its golden; repeatable, with --why")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    command->add_option("--why", flags->why, "The reason for an update, kept in the manifest")->type_name("TEXT");
-    command->add_option("--gl", flags->gl, "What draws; the first that works when not given")
-        ->check(CLI::IsMember({"osmesa", "egl"}));
-    command->add_option("--threads", flags->threads, "Threads to use; all of the machine when not given")
-        ->check(CLI::Range(1, 1024));
-    command->add_flag("--calibrate", flags->calibrate,
-                      "Measure what the thresholds of pictures let through: noise, and mistakes made on purpose");
-    command->add_flag("--quiet", flags->quiet, "No progress");
-    command->footer(
+    options.value("SCENARIOS", flags->paths, "Scenario files, folders of them, or names of shipped ones").required();
+    options.value("-o,--output", flags->output, "The folder for report.html and the pictures of this run")
+        .showDefault();
+    options.value("--goldens", flags->goldens, "The folder of goldens; the first folder's 'golden' when left out");
+    options.value("--junit", flags->junit, "Write the results as JUnit XML too").typeName("FILE");
+    options.value("--filter", flags->filters, "Only scenarios of this name, * for any letters; repeatable")
+        .typeName("NAME")
+        .oneValue();
+    options.value("--update", flags->updates, "Make what this scenario does its golden; repeatable, with --why")
+        .typeName("NAME")
+        .oneValue();
+    options.value("--why", flags->why, "The reason for an update, kept in the manifest").typeName("TEXT");
+    options.value("--gl", flags->gl, "What draws; the first that works when not given").oneOf({"osmesa", "egl"});
+    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    options.flag("--calibrate", flags->calibrate,
+                 "Measure what the thresholds of pictures let through: noise, and mistakes made on purpose");
+    options.flag("--quiet", flags->quiet, "No progress");
+    options.footer(
         "Examples:\n"
         "  taut test assets/scenarios --goldens tests/golden --junit out/test/junit.xml\n"
         "  taut test my --update flag --why \"the wind blows from the left now\"\n"
         "Exit codes: 0 all right, 1 a check or golden failed, 4 a scenario diverged, 8 a golden is missing.");
-    command->callback([&chosen, flags] {
-        chosen = [flags] { return flags->updates.empty() && flags->why.empty() ? test(*flags) : update(*flags); };
-    });
+    return [flags] { return flags->updates.empty() && flags->why.empty() ? test(*flags) : update(*flags); };
+}
+
+}  // namespace
+
+Command testCommand() {
+    return {"test", "Play scenarios and compare their states and pictures with goldens", declareTest};
 }
 
 }  // namespace taut::game

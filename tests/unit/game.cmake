@@ -3,6 +3,7 @@ list(APPEND TAUT_UNIT_TESTS
   game_flags_test.cpp
   game_interruption_test.cpp
   game_outputs_test.cpp
+  game_own_command_test.cpp
   game_play_test.cpp
   game_program_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::game)

@@ -112,6 +112,18 @@ TEST(House, ThirdPartyHeadersStayOutOfPublicOnes) {
         }
 }
 
+// A heavy library is read by the compiler once, and can be replaced in one place.
+TEST(House, HeavyLibrariesHaveOneDoorEach) {
+    const std::map<std::string, std::string> doors = {{"CLI/", "game/command_line.cpp"}};
+    for (const auto& [library, door] : doors) {
+        std::set<std::string> files;
+        for (const char* folder : {"engine", "game"})
+            for (const Include& include : includesBelow(source / folder))
+                if (include.what.starts_with(library)) files.insert(relative(include.file, source));
+        EXPECT_EQ(files, std::set<std::string>{door});
+    }
+}
+
 TEST(House, FilesStayShort) {
     for (const char* folder : {"engine", "game", "tests"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder)) {

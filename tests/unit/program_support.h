@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "game/command_table.h"
 #include "game/program.h"
 #include "support/text.h"
 
@@ -16,13 +17,14 @@ struct Outcome {
     std::string out, err;
 };
 
-inline Outcome run(const std::vector<std::string>& arguments) {
+inline Outcome run(const std::vector<std::string>& arguments,
+                   const std::vector<game::Command>& commands = game::builtInCommands()) {
     std::vector<const char*> argv = {"taut"};
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     Outcome outcome;
-    outcome.code = game::runProgram(static_cast<int>(argv.size()), argv.data());
+    outcome.code = game::runProgram(static_cast<int>(argv.size()), argv.data(), commands);
     outcome.out = testing::internal::GetCapturedStdout();
     outcome.err = testing::internal::GetCapturedStderr();
     return outcome;

@@ -1,0 +1,178 @@
+#include "game/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "game/suggestion.h"
+
+namespace taut::game {
+namespace {
+
+std::vector<std::string> commandNames(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> flagNames(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    }
+    return names;
+}
+
+// What stood on the command line and means nothing, with what may have been meant.
+std::string unknownWord(const CLI::App& app) {
+    const std::vector<std::string> words = app.remaining(true);
+    const std::string word = words.empty() ? "" : words.front();
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    if (word.starts_with('-')) {
+        const std::string flag = word.substr(0, word.find('='));
+        return fmt::format("unknown flag {}{}", flag,
+                           didYouMean(flag, flagNames(chosen.empty() ? app : *chosen.front())));
+    }
+    if (chosen.empty()) return fmt::format("unknown command '{}'{}", word, didYouMean(word, commandNames(app)));
+    return fmt::format("'{}' is one word too many", word);
+}
+
+Request wrong(const CLI::App& app, const std::string& message) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    return {Request::Kind::wrong, {}, message, app.get_name() + command};
+}
+
+}  // namespace
+
+Option Option::required() const {
+    option_->required();
+    return *this;
+}
+
+Option Option::typeName(const std::string& name) const {
+    option_->type_name(name);
+    return *this;
+}
+
+Option Option::showDefault() const {
+    option_->capture_default_str();
+    return *this;
+}
+
+Option Option::separatedBy(char separator) const {
+    option_->delimiter(separator);
+    return *this;
+}
+
+Option Option::oneValue() const {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
+Option Option::mayBeBare() const {
+    option_->expected(0, 1);
+    return *this;
+}
+
+template <class Number>
+Option Option::within(Number least, Number most) const {
+    option_->check(CLI::Range(least, most));
+    return *this;
+}
+template Option Option::within(int, int) const;
+template Option Option::within(std::int64_t, std::int64_t) const;
+template Option Option::within(double, double) const;
+
+Option Option::oneOf(const std::vector<std::string>& words) const {
+    option_->check(CLI::IsMember(words));
+    return *this;
+}
+
+Option Option::check(std::function<std::string(const std::string&)> check) const {
+    option_->check(std::move(check));
+    return *this;
+}
+
+Option Option::excludes(const Option& other) const {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+Option Option::each(std::function<void(const std::string&)> take) const {
+    option_->each(std::move(take));
+    return *this;
+}
+
+bool Option::isGiven() const {
+    return option_->count() > 0;
+}
+
+Option Options::flag(const std::string& names, bool& target, const std::string& help) {
+    return Option(app_.add_flag(names, target, help));
+}
+
+template <class Target>
+Option Options::value(const std::string& names, Target& target, const std::string& help) {
+    return Option(app_.add_option(names, target, help));
+}
+template Option Options::value(const std::string&, std::string&, const std::string&);
+template Option Options::value(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Options::value(const std::string&, int&, const std::string&);
+template Option Options::value(const std::string&, std::int64_t&, const std::string&);
+template Option Options::value(const std::string&, double&, const std::string&);
+template Option Options::value(const std::string&, std::optional<std::string>&, const std::string&);
+template Option Options::value(const std::string&, std::optional<std::int64_t>&, const std::string&);
+template Option Options::value(const std::string&, std::optional<double>&, const std::string&);
+
+void Options::footer(const std::string& text) {
+    app_.footer(text);
+}
+
+struct CommandLine::Impl {
+    explicit Impl(const About& about) : app(about.description, about.name) {}
+    std::vector<Action> actions;  // hold the targets of the options
+    CLI::App app;
+    const Action* chosen = nullptr;
+};
+
+CommandLine::CommandLine(const About& about, std::span<const Command> commands) : impl_(std::make_unique<Impl>(about)) {
+    CLI::App& app = impl_->app;
+    app.set_version_flag("--version", about.version);
+    app.set_help_flag("-h,--help", "Print this help");
+    app.require_subcommand(0, 1);
+    app.footer(about.footer);
+    impl_->actions.reserve(commands.size());
+    for (const Command& command : commands) {
+        CLI::App& added = *app.add_subcommand(std::string(command.name), std::string(command.help));
+        Options options(added);
+        const Action& action = impl_->actions.emplace_back(command.declare(options));
+        added.callback([this, &action] { impl_->chosen = &action; });
+    }
+}
+
+CommandLine::~CommandLine() = default;
+
+Request CommandLine::read(int argc, const char* const* argv) {
+    CLI::App& app = impl_->app;
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return {Request::Kind::text, {}, app.help(), {}};
+    } catch (const CLI::CallForVersion& version) {
+        return {Request::Kind::text, {}, std::string(version.what()) + "\n", {}};
+    } catch (const CLI::ExtrasError&) {
+        return wrong(app, unknownWord(app));
+    } catch (const CLI::ParseError& error) {
+        return wrong(app, error.what());
+    }
+    if (impl_->chosen == nullptr) return {};
+    return {Request::Kind::run, *impl_->chosen, {}, {}};
+}
+
+}  // namespace taut::game

@@ -1,0 +1,14 @@
+// All commands of the program: a value, to which another program may add commands of its own. A new one is one file
+// with what it takes, what it does and its row, and one line in command_table.cpp.
+#pragma once
+
+#include <vector>
+
+#include "game/command_line.h"
+
+namespace taut::game {
+
+// In the order in which the help names them.
+std::vector<Command> builtInCommands();
+
+}  // namespace taut::game

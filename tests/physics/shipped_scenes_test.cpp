@@ -18,23 +18,18 @@ world::World shipped(const std::string& name, std::vector<std::string> overrides
     return world::World(scene::loadScene(assets / "scenes" / (name + ".toml"), options).spec);
 }
 
-// Four seconds: the blocks have tumbled down all stairs.
-TEST(ShippedScenes, JellyTumblesWithoutInverting) {
+// The hardest impact comes after 1.7 s. That no cell turns inside out and how small one gets is a matter of the
+// scenario of that name.
+TEST(ShippedScenes, JellyStaysWithinItsWorkingStretch) {
     world::World world = shipped("jelly");
-    double smallest = 1.0;
-    while (world.time() < 4.0) {
-        ASSERT_FALSE(world.advance());
-        const world::Metrics metrics = world.metrics();
-        ASSERT_EQ(metrics.invertedCells, 0) << world.time();
-        smallest = std::min(smallest, metrics.minVolumeRatio);
-    }
-    EXPECT_GT(smallest, 0.1);  // where a collapse would be reported
+    while (world.time() < 2.0) ASSERT_FALSE(world.advance());
     EXPECT_TRUE(world.warnings().empty());
 }
 
-// A cloth of about half a kilogram that moved on as a whole at 5 cm/s would have 0.6 mJ.
+// At half the resolution, which friction does not know; the scenario of that name plays the whole cloth for as long as
+// its golden pictures need. A cloth of about half a kilogram that moved on as a whole at 5 cm/s would have 0.6 mJ.
 TEST(ShippedScenes, DrapeComesToRestOnBallAndBox) {
-    world::World world = shipped("drape");
+    world::World world = shipped("drape", {"cloth.tablecloth.cells=[38, 28]"});
     while (world.time() < 5.0) ASSERT_FALSE(world.advance());
     const std::vector<dvec3> early = positionsOf(world, "cloth.tablecloth");
     EXPECT_LT(world.metrics().kinetic, 6e-4);

@@ -57,6 +57,8 @@ fps = 60
 seconds = 10000
 [picture]
 size = [64, 48]
+samples = 1
+shadow_size = 256
 [net.spring]
 points = [ { name = "nail", position = [0, 2, 0], hold = true }, { name = "bob", position = [0, 1, 0] } ]
 springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]

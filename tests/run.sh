@@ -1,8 +1,13 @@
 #!/bin/sh
 # Builds everything and passes every test: g++ all of them, clang the determinism tests (its hashes against those of
 # g++) in a project that has taut as a subproject, and under AddressSanitizer and UndefinedBehaviorSanitizer the unit
-# and physics tests.
+# and physics tests. With --long also the tests labelled so, which take minutes and rarely break.
 set -eu
+case ${1-} in
+    '') without='-LE long' ;;
+    --long) without= ;;
+    *) echo "usage: sh tests/run.sh [--long]" >&2 && exit 2 ;;
+esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/game/install.sh"
 taut_install run test
@@ -29,4 +34,5 @@ build asan "$root" "taut taut_unit taut_physics" -DCMAKE_CXX_COMPILER=g++ -DCMAK
 ctest --test-dir "$root/build-clang" --output-on-failure -j "$jobs" -L determinism
 ctest --test-dir "$root/build-asan" --output-on-failure -j "$jobs" -L 'unit|physics'
 # Last, so that the closing lines are those of the whole suite.
-ctest --test-dir "$root/build-gcc" --output-on-failure -j "$jobs"
+# shellcheck disable=SC2086  # two words or none
+ctest --test-dir "$root/build-gcc" --output-on-failure -j "$jobs" $without

@@ -10,56 +10,11 @@ namespace taut::check {
 
 namespace {
 
-const char* sign(Relation relation, bool isFlipped) {
-    switch (relation) {
-        case Relation::less:
-            return isFlipped ? ">" : "<";
-        case Relation::lessOrEqual:
-            return isFlipped ? ">=" : "<=";
-        case Relation::greater:
-            return isFlipped ? "<" : ">";
-        case Relation::greaterOrEqual:
-            return isFlipped ? "<=" : ">=";
-        case Relation::equal:
-            return "==";
-        case Relation::unequal:
-            return "!=";
-    }
-    return "";
+double upTo(double a, double b) {
+    return b - a;
 }
-
-bool holds(double a, Relation relation, double b) {
-    switch (relation) {
-        case Relation::less:
-            return a < b;
-        case Relation::lessOrEqual:
-            return a <= b;
-        case Relation::greater:
-            return a > b;
-        case Relation::greaterOrEqual:
-            return a >= b;
-        case Relation::equal:
-            return a == b;
-        case Relation::unequal:
-            return a != b && !std::isnan(a) && !std::isnan(b);
-    }
-    return false;
-}
-
-double margin(double a, Relation relation, double b) {
-    switch (relation) {
-        case Relation::less:
-        case Relation::lessOrEqual:
-            return b - a;
-        case Relation::greater:
-        case Relation::greaterOrEqual:
-            return a - b;
-        case Relation::equal:
-            return -std::abs(a - b);
-        case Relation::unequal:
-            return std::abs(a - b);
-    }
-    return 0;
+double downTo(double a, double b) {
+    return a - b;
 }
 
 // One comparison of a claim: the side that is measured is the value, of two the left one.
@@ -73,11 +28,12 @@ Compared compared(const Claim& claim, std::size_t i, double left, double right) 
     const Expression& subject = claim.terms[isFlipped ? i + 1 : i];
     Compared result;
     result.subject = &subject;
-    result.outcome.holds = holds(left, claim.relations[i], right);
+    const Relation& relation = *claim.relations[i];
+    result.outcome.holds = relation.holds(left, right);
     result.outcome.value = isFlipped ? right : left;
     result.outcome.bound = isFlipped ? left : right;
-    result.outcome.relation = sign(claim.relations[i], isFlipped);
-    result.outcome.margin = margin(left, claim.relations[i], right);
+    result.outcome.relation = isFlipped ? relation.flipped : relation.sign;
+    result.outcome.margin = relation.margin(left, right);
     result.outcome.unit = unitOf(subject);
     result.outcome.subject = claim.text.substr(subject.begin, subject.end - subject.begin);
     return result;
@@ -100,6 +56,19 @@ Compared worst(const Claim& claim, const Now& now) {
 }
 
 }  // namespace
+
+std::span<const Relation> relations() {
+    static constexpr Relation all[] = {
+        {"<=", ">=", 1, [](double a, double b) { return a <= b; }, upTo},
+        {"<", ">", 1, [](double a, double b) { return a < b; }, upTo},
+        {">=", "<=", -1, [](double a, double b) { return a >= b; }, downTo},
+        {">", "<", -1, [](double a, double b) { return a > b; }, downTo},
+        {"==", "==", 0, [](double a, double b) { return a == b; }, [](double a, double b) { return -std::abs(a - b); }},
+        {"!=", "!=", 0, [](double a, double b) { return a < b || a > b; },
+         [](double a, double b) { return std::abs(a - b); }},
+    };
+    return all;
+}
 
 Check Check::parse(std::string_view text) {
     Check check;

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "taut/world/world.h"
@@ -56,13 +58,20 @@ std::string placeOf(const Expression& expression, const Now& now);
 // Of an expression that is one function, or a part or a multiple of one; else empty.
 std::string unitOf(const Expression& expression);
 
-enum class Relation { less, lessOrEqual, greater, greaterOrEqual, equal, unequal };
+// How two numbers are compared. No relation holds with what is no number.
+struct Relation {
+    std::string_view sign, flipped;  // "<", and what stands there with the sides exchanged
+    int way;                         // of a chain: 1 upwards, -1 downwards, 0 neither
+    bool (*holds)(double a, double b);
+    double (*margin)(double a, double b);  // how far they are inside; negative where it does not hold
+};
+std::span<const Relation> relations();  // no sign comes before a longer one that it begins
 
 // terms[0] relations[0] terms[1] relations[1] …
 struct Claim {
     std::string text;
     std::vector<Expression> terms;
-    std::vector<Relation> relations;
+    std::vector<const Relation*> relations;
 };
 
 }  // namespace taut::check

@@ -9,41 +9,24 @@ namespace {
 
 using Arguments = std::span<const Expression>;
 
-Quantity number(double value) {
-    return {glm::dvec3(value, 0, 0)};
+Quantity time(const Now& now, Arguments) {
+    return {glm::dvec3(now.world().time(), 0, 0)};
+}
+Quantity absolute(const Now& now, Arguments a) {
+    return {glm::dvec3(std::abs(valueOf(a[0], now).x.x), 0, 0)};
+}
+Quantity length(const Now& now, Arguments a) {
+    const glm::dvec3 x = valueOf(a[0], now).x;
+    return {glm::dvec3(std::sqrt(glm::dot(x, x)), 0, 0)};
 }
 
 }  // namespace
 
 std::vector<Function> numberFunctions() {
     return {
-        {"time",
-         {},
-         true,
-         false,
-         "s",
-         "Since the start.",
-         [](const Now& now, Arguments) { return number(now.world().time()); },
-         nullptr},
-        {"abs",
-         {Takes::number},
-         false,
-         false,
-         "",
-         "A number without its sign.",
-         [](const Now& now, Arguments a) { return number(std::abs(valueOf(a[0], now).x.x)); },
-         nullptr},
-        {"length",
-         {Takes::vector},
-         false,
-         false,
-         "",
-         "Length of a vector.",
-         [](const Now& now, Arguments a) {
-             const glm::dvec3 x = valueOf(a[0], now).x;
-             return number(std::sqrt(glm::dot(x, x)));
-         },
-         nullptr},
+        {"time", {}, true, false, "s", "Since the start.", time, {}},
+        {"abs", {Takes::number}, false, false, "", "A number without its sign.", absolute, {}},
+        {"length", {Takes::vector}, false, false, "", "Length of a vector.", length, {}},
     };
 }
 

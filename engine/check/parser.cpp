@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -50,9 +51,10 @@ class Parser {
         claim.terms.push_back(scalar(sum()));
         while (!isAtEnd()) {
             const std::size_t at = at_;
-            const Relation relation = this->relation();
-            if (!claim.relations.empty()) checkChain(claim.relations.back(), relation, at);
-            claim.relations.push_back(relation);
+            const Relation& relation = this->relation();
+            const bool isOneWay = claim.relations.empty() || claim.relations.back()->way * relation.way == 1;
+            if (!isOneWay) fail(at, "a chain of comparisons must go one way, as in 0.1 < x < 0.2");
+            claim.relations.push_back(&relation);
             claim.terms.push_back(scalar(sum()));
         }
         if (claim.relations.empty()) fail(at_, "a claim compares two things", "add e.g. < 0.1");
@@ -88,22 +90,11 @@ class Parser {
         return fmt::format("\"{}\"", text_.substr(at_, end - at_));
     }
 
-    Relation relation() {
-        if (take("<=")) return Relation::lessOrEqual;
-        if (take("<")) return Relation::less;
-        if (take(">=")) return Relation::greaterOrEqual;
-        if (take(">")) return Relation::greater;
-        if (take("==")) return Relation::equal;
-        if (take("!=")) return Relation::unequal;
+    const Relation& relation() {
+        for (const Relation& relation : relations())
+            if (take(relation.sign)) return relation;
         if (next() == '=') fail(at_, "a claim compares with ==, not =");
         fail(at_, fmt::format("{} stands where a comparison is expected", found()), "use < <= > >= == or !=");
-    }
-
-    static void checkChain(Relation first, Relation second, std::size_t at) {
-        const auto isUp = [](Relation r) { return r == Relation::less || r == Relation::lessOrEqual; };
-        const auto isDown = [](Relation r) { return r == Relation::greater || r == Relation::greaterOrEqual; };
-        if ((isUp(first) && isUp(second)) || (isDown(first) && isDown(second))) return;
-        fail(at, "a chain of comparisons must go one way, as in 0.1 < x < 0.2");
     }
 
     static Expression scalar(Expression expression) {
@@ -127,30 +118,19 @@ class Parser {
     }
 
     Expression sum() {
-        Expression left = product();
-        while (true) {
-            const std::size_t at = at_;
-            if (take("+")) {
-                left = joined(Part::sum, std::move(left), product(), at);
-            } else if (take("-")) {
-                left = joined(Part::difference, std::move(left), product(), at);
-            } else {
-                return left;
-            }
-        }
+        return series({{{"+", Part::sum}, {"-", Part::difference}}}, [&] { return product(); });
     }
-
     Expression product() {
-        Expression left = factor();
+        return series({{{"*", Part::product}, {"/", Part::quotient}}}, [&] { return factor(); });
+    }
+    template <class Operand>
+    Expression series(std::array<std::pair<const char*, Part>, 2> signs, const Operand& operand) {
+        Expression left = operand();
         while (true) {
             const std::size_t at = at_;
-            if (take("*")) {
-                left = joined(Part::product, std::move(left), factor(), at);
-            } else if (take("/")) {
-                left = joined(Part::quotient, std::move(left), factor(), at);
-            } else {
-                return left;
-            }
+            const auto sign = std::find_if(signs.begin(), signs.end(), [&](const auto& s) { return take(s.first); });
+            if (sign == signs.end()) return left;
+            left = joined(sign->second, std::move(left), operand(), at);
         }
     }
 

@@ -53,72 +53,52 @@ dvec3 place(const Expression& argument, const Now& now) {
     return weightedMean(points, points.x);
 }
 
-template <double (*measure)(const PointsNow&, std::size_t)>
-std::string placeOfLargest(const Now& now, Arguments arguments) {
-    return extremePoint(now, arguments[0].target, measure);
-}
-
 Quantity numberOf(double value) {
     return {dvec3(value, 0, 0)};
+}
+
+Quantity position(const Now& now, Arguments a) {
+    return {place(a[0], now)};
+}
+Quantity velocity(const Now& now, Arguments a) {
+    const PointsNow& points = pointsOf(now, a);
+    return {weightedMean(points, points.v)};
+}
+Quantity distance(const Now& now, Arguments a) {
+    const dvec3 way = place(a[0], now) - place(a[1], now);
+    return numberOf(std::sqrt(glm::dot(way, way)));
+}
+
+// `sign` times the largest of a measure.
+template <auto measure, int sign = 1>
+Quantity largestOf(const Now& now, Arguments a) {
+    return numberOf(sign * largest(pointsOf(now, a), measure));
+}
+template <auto measure>
+std::string placeOfLargest(const Now& now, Arguments a) {
+    return extremePoint(now, a[0].target, measure);
 }
 
 }  // namespace
 
 std::vector<Function> pointFunctions() {
+    const std::vector<Takes> points{Takes::points};
     return {
-        {"position",
-         {Takes::points},
-         false,
-         true,
-         "m",
-         "The points' centre of mass.",
-         [](const Now& now, Arguments a) -> Quantity { return {place(a[0], now)}; },
-         nullptr},
-        {"velocity",
-         {Takes::points},
-         false,
-         true,
-         "m/s",
-         "Velocity of the points' centre of mass.",
-         [](const Now& now, Arguments a) -> Quantity {
-             const PointsNow& points = pointsOf(now, a);
-             return {weightedMean(points, points.v)};
-         },
-         nullptr},
+        {"position", points, false, true, "m", "The points' centre of mass.", position, {}},
+        {"velocity", points, false, true, "m/s", "Velocity of the points' centre of mass.", velocity, {}},
         {"distance",
          {Takes::place, Takes::place},
          false,
          false,
          "m",
          "How far two places are from each other.",
-         [](const Now& now, Arguments a) {
-             const dvec3 way = place(a[0], now) - place(a[1], now);
-             return numberOf(std::sqrt(glm::dot(way, way)));
-         },
-         nullptr},
-        {"speed",
-         {Takes::points},
-         false,
-         false,
-         "m/s",
-         "Speed of the fastest of the points.",
-         [](const Now& now, Arguments a) { return numberOf(largest(pointsOf(now, a), speed)); },
+         distance,
+         {}},
+        {"speed", points, false, false, "m/s", "Speed of the fastest of the points.", largestOf<speed>,
          placeOfLargest<speed>},
-        {"height",
-         {Takes::points},
-         false,
-         false,
-         "m",
-         "Height y of the highest of the points.",
-         [](const Now& now, Arguments a) { return numberOf(largest(pointsOf(now, a), up)); },
+        {"height", points, false, false, "m", "Height y of the highest of the points.", largestOf<up>,
          placeOfLargest<up>},
-        {"lowest",
-         {Takes::points},
-         false,
-         false,
-         "m",
-         "Height y of the lowest of the points.",
-         [](const Now& now, Arguments a) { return numberOf(-largest(pointsOf(now, a), down)); },
+        {"lowest", points, false, false, "m", "Height y of the lowest of the points.", largestOf<down, -1>,
          placeOfLargest<down>},
     };
 }

@@ -176,8 +176,8 @@ TestScenario judged(const Scenario& scenario, const Played& played, const Golden
         result.notes.push_back(fmt::format("the golden picture {} is asked for no more; --update drops it", key));
 
     result.verdict = result.state.verdict;
-    for (const report::TestCheck& check : result.checks) result.verdict = worse(result.verdict, check.verdict);
-    for (const TestPicture& picture : result.pictures) result.verdict = worse(result.verdict, picture.verdict);
+    for (const report::TestCheck& check : result.checks) result.verdict = std::max(result.verdict, check.verdict);
+    for (const TestPicture& picture : result.pictures) result.verdict = std::max(result.verdict, picture.verdict);
     return result;
 }
 

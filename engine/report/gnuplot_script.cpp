@@ -32,34 +32,11 @@ int dashType(Dash dash) {
     return 1 + static_cast<int>(dash);
 }
 
-// gnuplot's number of a mark, and whether it comes open and filled.
+// gnuplot's number of a mark, and of those that come open and filled.
 int pointType(Mark mark, bool isFilled) {
-    const int fill = isFilled ? 1 : 0;
-    switch (mark) {
-        case Mark::none:
-            return 0;
-        case Mark::circle:
-            return 6 + fill;
-        case Mark::square:
-            return 4 + fill;
-        case Mark::triangle:
-            return 8 + fill;
-        case Mark::down:
-            return 10 + fill;
-        case Mark::diamond:
-            return 12 + fill;
-        case Mark::pentagon:
-            return 14 + fill;
-        case Mark::cross:
-            return 2;
-        case Mark::plus:
-            return 1;
-        case Mark::star:
-            return 3;
-        case Mark::bar:
-            return 1;
-    }
-    return 0;
+    static constexpr int open[] = {0, 6, 4, 8, 10, 12, 14, 2, 1, 3, 1};  // in the order of the enumeration
+    const int type = open[static_cast<int>(mark)];
+    return type + (type >= 4 && isFilled ? 1 : 0);
 }
 
 constexpr double stripRow = 11;  // [px] height of a row of the strip

@@ -20,19 +20,10 @@ std::string countPassed(const Items& items) {
 }
 
 std::string stateWord(const TestScenario& scenario) {
-    switch (scenario.state.verdict) {
-        case Verdict::passed:
-            return fmt::format("same, {} ticks", scenario.state.ticks);
-        case Verdict::failed:
-            return "differs !";
-        case Verdict::missing:
-            return "missing !";
-        case Verdict::diverged:
-            return "diverged !";
-        case Verdict::skipped:
-            break;
-    }
-    return "-";
+    const Verdict verdict = scenario.state.verdict;
+    if (verdict == Verdict::passed) return fmt::format("same, {} ticks", scenario.state.ticks);
+    if (verdict == Verdict::skipped) return "-";
+    return (verdict == Verdict::failed ? "differs" : nameOf(verdict)) + " !";
 }
 
 void addLine(std::string& text, const std::string& line) {
@@ -44,27 +35,11 @@ void addLine(std::string& text, const std::string& line) {
     text += '\n';
 }
 
-int rank(Verdict verdict) {
-    constexpr std::array order{Verdict::passed, Verdict::skipped, Verdict::missing, Verdict::failed, Verdict::diverged};
-    return static_cast<int>(std::find(order.begin(), order.end(), verdict) - order.begin());
-}
-
 }  // namespace
 
 std::string nameOf(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::passed:
-            return "passed";
-        case Verdict::failed:
-            return "failed";
-        case Verdict::missing:
-            return "missing";
-        case Verdict::diverged:
-            return "diverged";
-        case Verdict::skipped:
-            break;
-    }
-    return "skipped";
+    constexpr std::array names{"passed", "skipped", "missing", "failed", "diverged"};
+    return names[static_cast<std::size_t>(verdict)];
 }
 
 std::string acceptHeading(const TestScenario& scenario) {
@@ -73,15 +48,11 @@ std::string acceptHeading(const TestScenario& scenario) {
     return fails ? "Where this is meant, once its checks hold" : "Where this is meant";
 }
 
-Verdict worse(Verdict a, Verdict b) {
-    return rank(a) < rank(b) ? b : a;
-}
-
 Verdict verdictOf(const TestReport& report) {
     Verdict verdict = Verdict::passed;
-    for (const TestScenario& scenario : report.scenarios) verdict = worse(verdict, scenario.verdict);
+    for (const TestScenario& scenario : report.scenarios) verdict = std::max(verdict, scenario.verdict);
     for (const CalibrationRow& row : report.calibration)
-        if (!row.refusal.empty()) verdict = worse(verdict, Verdict::failed);
+        if (!row.refusal.empty()) verdict = std::max(verdict, Verdict::failed);
     return verdict;
 }
 

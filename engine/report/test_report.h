@@ -9,7 +9,7 @@
 
 namespace taut::report {
 
-enum class Verdict { passed, failed, missing, diverged, skipped };
+enum class Verdict { passed, skipped, missing, failed, diverged };  // the later the worse
 
 struct TestCheck {
     Verdict verdict = Verdict::passed;
@@ -90,9 +90,6 @@ std::string nameOf(Verdict verdict);  // "passed"
 
 // What stands before the command that accepts it: "Where this is meant", and that its checks come first if one fails.
 std::string acceptHeading(const TestScenario& scenario);
-
-// The worse of two: diverged, failed, missing, skipped, passed.
-Verdict worse(Verdict a, Verdict b);
 
 // Of all scenarios and the calibration.
 Verdict verdictOf(const TestReport& report);

@@ -26,8 +26,8 @@ namespace {
 
 constexpr int maxDots = 16;  // in one key; toml++ itself limits the nesting of values
 
-Place placeOf(const toml::source_region& region, int origin) {
-    return {origin, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+Place placeOf(const toml::source_position& position, int origin) {
+    return {origin, static_cast<int>(position.line), static_cast<int>(position.column)};
 }
 
 bool isBefore(const Member& a, const Member& b) {
@@ -36,11 +36,12 @@ bool isBefore(const Member& a, const Member& b) {
 
 Node nodeOf(const toml::node& source, int origin) {
     Node node;
-    node.place = placeOf(source.source(), origin);
+    node.place = placeOf(source.source().begin, origin);
+    node.end = placeOf(source.source().end, origin);
     if (const toml::table* table = source.as_table()) {
         node.kind = NodeKind::table;
         for (const auto& [key, value] : *table) {
-            node.members.push_back({std::string(key.str()), placeOf(key.source(), origin), nodeOf(value, origin)});
+            node.members.push_back({std::string(key.str()), placeOf(key.source().begin, origin), nodeOf(value, origin)});
         }
         std::stable_sort(node.members.begin(), node.members.end(), isBefore);
     } else if (const toml::array* list = source.as_array()) {
@@ -195,7 +196,7 @@ Node documentTree(std::string_view text, int origin) {
         std::string_view message = error.description();
         constexpr std::string_view opening = "Error while parsing ";
         if (message.starts_with(opening)) message.remove_prefix(opening.size());
-        throw SyntaxError(placeOf(error.source(), origin), std::string(message));
+        throw SyntaxError(placeOf(error.source().begin, origin), std::string(message));
     } catch (const Stumble&) {
         throw SyntaxError({origin, stumbleLine(text), 1}, "this line is not TOML");
     }

@@ -23,7 +23,8 @@ struct Member;
 
 struct Node {
     NodeKind kind = NodeKind::table;
-    Place place;
+    Place place;  // of a table under a header the header's
+    Place end;    // behind it; of a table without braces nothing in particular
     bool flag = false;
     std::int64_t whole = 0;
     double number = 0;  // of a whole number too

@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <vector>
 
 #include "taut/core/error.h"
 #include "taut/scene/document.h"
-#include "taut/scene/toml_outline.h"
 
 namespace taut::scene {
 
 namespace {
+
+// Keys from the root; elements of a list by their number.
+using KeyPath = std::vector<std::string>;
 
 [[noreturn]] void fail(const Change& change, const std::string& why) {
     throw core::Error(core::ExitCode::badContent,
@@ -60,10 +62,6 @@ void set(Node& root, const KeyPath& path, const Node& value, const Change& chang
     *node = value;
 }
 
-bool startsWith(const KeyPath& path, const KeyPath& prefix) {
-    return path.size() >= prefix.size() && std::equal(prefix.begin(), prefix.end(), path.begin());
-}
-
 std::string keyText(const KeyPath& path, std::size_t from) {
     std::string text;
     for (std::size_t i = from; i < path.size(); ++i) {
@@ -74,155 +72,6 @@ std::string keyText(const KeyPath& path, std::size_t from) {
     }
     return text;
 }
-
-// One change of one text.
-class Splicer {
-  public:
-    Splicer(std::string_view text, KeyPath path, const std::string& value)
-        : text_(text), path_(std::move(path)), value_(value), outline_(outlineOf(text)) {}
-
-    std::string result() const {
-        for (const OutlineValue& there : outline_.values)
-            if (there.path == path_) return replaced(there.begin, there.end, value_);
-        for (std::size_t depth = path_.size() - 1; depth > 0; --depth) {
-            const KeyPath table(path_.begin(), path_.begin() + static_cast<std::ptrdiff_t>(depth));
-            if (auto text = intoBraces(table)) return *text;
-            if (auto text = besideDotted(table)) return *text;
-            if (auto text = underHeader(table)) return *text;
-        }
-        return path_.size() == 1 ? underTop() : withNewTable();
-    }
-
-  private:
-    std::string replaced(std::size_t begin, std::size_t end, const std::string& by) const {
-        return std::string(text_.substr(0, begin)) + by + std::string(text_.substr(end));
-    }
-
-    std::string lineEnd() const {
-        const std::size_t first = text_.find('\n');
-        return first != std::string_view::npos && first > 0 && text_[first - 1] == '\r' ? "\r\n" : "\n";
-    }
-
-    // key = value on a line of its own, behind the line in which `place` lies and with the indentation given.
-    std::string withLineBehind(std::size_t place, const std::string& indentation, std::size_t from) const {
-        const std::string line = indentation + keyText(path_, from) + " = " + value_;
-        const std::size_t end = text_.find('\n', place);
-        if (end == std::string_view::npos) return std::string(text_) + lineEnd() + line;
-        return replaced(end + 1, end + 1, line + lineEnd());
-    }
-
-    std::string indentationOf(const OutlineValue& value) const {
-        const std::size_t before = text_.substr(0, value.keyBegin).rfind('\n');
-        const std::size_t start = before == std::string_view::npos ? 0 : before + 1;
-        const std::string_view blanks = text_.substr(start, value.keyBegin - start);
-        return blanks.find_first_not_of(" \t") == std::string_view::npos ? std::string(blanks) : "";
-    }
-
-    std::optional<std::string> intoBraces(const KeyPath& table) const {
-        const auto braces = std::find_if(outline_.values.begin(), outline_.values.end(), [&](const OutlineValue& v) {
-            return v.path == table && text_[v.begin] == '{';
-        });
-        if (braces == outline_.values.end()) return std::nullopt;
-        const std::string pair = keyText(path_, table.size()) + " = " + value_;
-        std::size_t last = 0;
-        for (const OutlineValue& inside : outline_.values)
-            if (inside.begin > braces->begin && inside.end < braces->end) last = std::max(last, inside.end);
-        if (last == 0) return replaced(braces->begin, braces->end, "{ " + pair + " }");
-        return replaced(last, last, ", " + pair);
-    }
-
-    // Where others of the table are written as table.key = value.
-    std::optional<std::string> besideDotted(const KeyPath& table) const {
-        const OutlineValue* last = nullptr;
-        for (const OutlineValue& value : outline_.values)
-            if (value.isStatement && value.path.size() > table.size() && startsWith(value.path, table) &&
-                outline_.headers[value.section].path.size() < table.size())
-                last = &value;
-        if (last == nullptr) return std::nullopt;
-        return withLineBehind(last->end, indentationOf(*last), outline_.headers[last->section].path.size());
-    }
-
-    std::optional<std::string> underHeader(const KeyPath& table) const {
-        for (std::size_t i = 1; i < outline_.headers.size(); ++i)
-            if (outline_.headers[i].path == table) return underSection(i);
-        return std::nullopt;
-    }
-
-    std::string underSection(std::size_t section) const {
-        const OutlineHeader& header = outline_.headers[section];
-        const OutlineValue* last = nullptr;
-        for (const OutlineValue& value : outline_.values)
-            if (value.section == section && value.isStatement) last = &value;
-        return last == nullptr ? withLineBehind(header.end, "", header.path.size())
-                               : withLineBehind(last->end, indentationOf(*last), header.path.size());
-    }
-
-    std::string underTop() const {
-        for (const OutlineValue& value : outline_.values)
-            if (value.section == 0) return underSection(0);
-        const std::size_t start = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-        return replaced(start, start, keyText(path_, 0) + " = " + value_ + lineEnd());
-    }
-
-    std::string withNewTable() const {
-        const std::string end = lineEnd();
-        std::string text(text_);
-        if (!text.empty() && text.back() != '\n') text += end;
-        const KeyPath table(path_.begin(), path_.end() - 1);
-        return text + (text.empty() ? "" : end) + "[" + keyText(table, 0) + "]" + end +
-               keyText(path_, path_.size() - 1) + " = " + value_ + end;
-    }
-
-    std::string_view text_;
-    KeyPath path_;
-    const std::string& value_;
-    Outline outline_;
-};
-
-// The changes of the single elements that a change of a list comes to where it keeps its length; else itself.
-class Elements {
-  public:
-    Elements(std::string_view text, const std::string& value)
-        : value_("value = " + value), inFile_(outlineOf(text)), inValue_(outlineOf(value_)) {}
-
-    struct Element {
-        KeyPath path;
-        std::string value;
-    };
-
-    std::vector<Element> changed(const KeyPath& path, const Node* before, const Node& after) {
-        add(path, {"value"}, before, after);
-        return std::move(found_);
-    }
-
-  private:
-    static const OutlineValue* find(const Outline& outline, const KeyPath& path) {
-        for (const OutlineValue& value : outline.values)
-            if (value.path == path) return &value;
-        return nullptr;
-    }
-
-    void add(const KeyPath& path, const KeyPath& pathInValue, const Node* before, const Node& after) {
-        const bool isElementwise = before != nullptr && before->kind == NodeKind::list &&
-                                   after.kind == NodeKind::list && before->items.size() == after.items.size() &&
-                                   find(inFile_, path) != nullptr;
-        if (!isElementwise) {
-            const OutlineValue& value = *find(inValue_, pathInValue);
-            return found_.push_back({path, value_.substr(value.begin, value.end - value.begin)});
-        }
-        for (std::size_t i = 0; i < after.items.size(); ++i) {
-            if (isSame(before->items[i], after.items[i])) continue;
-            KeyPath item = path, itemInValue = pathInValue;
-            item.push_back(std::to_string(i));
-            itemInValue.push_back(std::to_string(i));
-            add(item, itemInValue, &before->items[i], after.items[i]);
-        }
-    }
-
-    std::string value_;
-    Outline inFile_, inValue_;
-    std::vector<Element> found_;
-};
 
 const Node* nodeAt(const Node& root, const KeyPath& path) {
     const Node* node = &root;
@@ -236,6 +85,141 @@ const Node* nodeAt(const Node& root, const KeyPath& path) {
         node = &member->value;
     }
     return node;
+}
+
+// A text, and where in it everything stands.
+class Written {
+  public:
+    // Throws SyntaxError.
+    explicit Written(std::string_view text) : text_(text), tree_(documentTree(text, 0)) {
+        lines_.push_back(text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+        for (std::size_t i = 0; i < text.size(); ++i)
+            if (text[i] == '\n') lines_.push_back(i + 1);
+    }
+
+    const Node& tree() const { return tree_; }
+    std::string textOf(const Node& node) const {
+        return std::string(text_.substr(at(node.place), at(node.end) - at(node.place)));
+    }
+
+    // Whether it is a table under a header of its own or of one inside it, or a list of such tables.
+    bool hasHeader(const Node& node) const {
+        if (node.kind == NodeKind::table) return sign(node) == '[';
+        return node.kind == NodeKind::list && !node.items.empty() && at(node.items.front().place) == at(node.place);
+    }
+
+    // The text with that value: where it stands, else behind the last one of its table, as that is written.
+    std::string with(const KeyPath& path, const std::string& value) const {
+        if (const Node* there = nodeAt(tree_, path)) return replaced(at(there->place), at(there->end), value);
+        const auto pair = [&](std::size_t from) { return keyText(path, from) + " = " + value; };
+        // The innermost table on the way that is written in braces, under its own header, or by dotted keys.
+        const Node* table = path.size() == 1 ? &tree_ : nullptr;
+        std::size_t depth = 0, header = 0;  // keys that lead to it, and to the header that it stands under
+        for (std::size_t d = 1; d < path.size(); ++d) {
+            const Node* next = nodeAt(tree_, KeyPath(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(d)));
+            if (next == nullptr) break;
+            const bool isInBraces = table != nullptr && sign(*table) == '{';
+            if (next->kind != NodeKind::table || (isInBraces && sign(*next) != '{') || isImplied(*next)) continue;
+            table = next;
+            depth = d;
+            if (hasHeader(*next)) header = d;
+        }
+        if (table == nullptr) return withNewTable(path, pair(path.size() - 1));
+        const Statement last = lastOf(*table);
+        if (table != &tree_ && sign(*table) == '{')
+            return last.value == nullptr ? replaced(at(table->place), at(table->end), "{ " + pair(depth) + " }")
+                                         : replaced(at(last.value->end), at(last.value->end), ", " + pair(depth));
+        if (last.value != nullptr) return withLineBehind(at(last.value->end), indentationOf(last.key), pair(header));
+        if (table != &tree_) return withLineBehind(at(table->place), "", pair(header));
+        return replaced(lines_[0], lines_[0], pair(0) + lineEnd());
+    }
+
+  private:
+    std::size_t at(Place place) const {
+        std::size_t byte = lines_[static_cast<std::size_t>(place.line) - 1];
+        for (int column = 1; column < place.column && byte < text_.size(); ++column) do
+                ++byte;
+            while (byte < text_.size() && (static_cast<unsigned char>(text_[byte]) & 0xC0U) == 0x80U);
+        return byte;
+    }
+    // With what it begins: { in braces, [ under a header or as a list, else a value or the first of dotted keys.
+    char sign(const Node& node) const { return at(node.place) < text_.size() ? text_[at(node.place)] : '\0'; }
+
+    // A table that there is only because a header says one inside it.
+    bool isImplied(const Node& table) const {
+        return std::any_of(table.members.begin(), table.members.end(), [&](const Member& member) {
+            return hasHeader(member.value) && at(member.value.place) == at(table.place);
+        });
+    }
+
+    // key = value, of a table itself or of one that dotted keys make in it.
+    struct Statement {
+        const Node* value = nullptr;
+        Place key{};
+    };
+    Statement lastOf(const Node& table) const {
+        Statement last;
+        for (const Member& member : table.members) {
+            if (hasHeader(member.value)) continue;
+            const bool isDotted = member.value.kind == NodeKind::table && sign(member.value) != '{';
+            const Statement next = isDotted ? lastOf(member.value) : Statement{&member.value, member.place};
+            if (next.value != nullptr && (last.value == nullptr || at(next.value->place) > at(last.value->place)))
+                last = next;
+        }
+        return last;
+    }
+
+    std::string replaced(std::size_t begin, std::size_t end, const std::string& by) const {
+        return std::string(text_.substr(0, begin)) + by + std::string(text_.substr(end));
+    }
+
+    std::string lineEnd() const {
+        const std::size_t first = text_.find('\n');
+        return first != std::string_view::npos && first > 0 && text_[first - 1] == '\r' ? "\r\n" : "\n";
+    }
+
+    // On a line of its own, behind the line in which `place` lies.
+    std::string withLineBehind(std::size_t place, const std::string& indentation, const std::string& pair) const {
+        const std::size_t end = text_.find('\n', place);
+        if (end == std::string_view::npos) return std::string(text_) + lineEnd() + indentation + pair;
+        return replaced(end + 1, end + 1, indentation + pair + lineEnd());
+    }
+
+    std::string indentationOf(Place place) const {
+        const std::size_t line = lines_[static_cast<std::size_t>(place.line) - 1];
+        return std::string(text_.substr(line, text_.find_first_not_of(" \t", line) - line));
+    }
+
+    std::string withNewTable(const KeyPath& path, const std::string& pair) const {
+        const std::string end = lineEnd();
+        std::string text(text_);
+        if (!text.empty() && text.back() != '\n') text += end;
+        const KeyPath table(path.begin(), path.end() - 1);
+        return text + (text.empty() ? "" : end) + "[" + keyText(table, 0) + "]" + end + pair + end;
+    }
+
+    std::string_view text_;
+    Node tree_;
+    std::vector<std::size_t> lines_;  // bytes at which they begin
+};
+
+struct Part {
+    KeyPath path;
+    std::string value;
+};
+
+// The changes of the single elements that a change of a list comes to where it keeps its length; else itself.
+void addParts(const Written& file, const Node* before, const Written& given, const Node& after, const KeyPath& path,
+              std::vector<Part>& parts) {
+    const bool isElementwise = before != nullptr && before->kind == NodeKind::list && after.kind == NodeKind::list &&
+                               before->items.size() == after.items.size() && !file.hasHeader(*before);
+    if (!isElementwise) return parts.push_back({path, given.textOf(after)});
+    for (std::size_t i = 0; i < after.items.size(); ++i) {
+        if (isSame(before->items[i], after.items[i])) continue;
+        KeyPath item = path;
+        item.push_back(std::to_string(i));
+        addParts(file, &before->items[i], given, after.items[i], item, parts);
+    }
 }
 
 KeyPath pathOf(const std::string& key) {
@@ -256,19 +240,16 @@ std::string spliced(std::string_view text, std::span<const Change> changes) {
     Node expected = treeOf(text);
     for (const Change& change : changes) {
         const KeyPath path = pathOf(change.key);
-        Node value;
         try {
-            const Node alone = documentTree("value = " + change.value, 0);
-            if (alone.members.size() != 1) fail(change, "it is more than one value");
-            value = alone.find("value")->value;
-        } catch (const SyntaxError& error) {
-            fail(change, error.what());
-        }
-        const Node before = expected;
-        set(expected, path, value, change);
-        for (const auto& [place, part] : Elements(result, change.value).changed(path, nodeAt(before, path), value))
-            result = Splicer(result, place, part).result();
-        try {
+            const std::string alone = "value = " + change.value;
+            const Written given(alone);
+            if (given.tree().members.size() != 1) fail(change, "it is more than one value");
+            const Node& value = given.tree().find("value")->value;
+            set(expected, path, value, change);
+            const Written file(result);
+            std::vector<Part> parts;
+            addParts(file, nodeAt(file.tree(), path), given, value, path, parts);
+            for (const auto& [place, part] : parts) result = Written(result).with(place, part);
             if (!isSame(documentTree(result, 0), expected)) fail(change, "other values would change with it");
         } catch (const SyntaxError& error) {
             fail(change, error.what());

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/scene/toml_outline.h"
 
 namespace taut::scene {
 namespace {
@@ -125,17 +124,6 @@ TEST(Splice, RefusesWhatCannotBeWritten) {
     EXPECT_NE(refusal("a = 1\n", "a", "1\nb = 2"), "") << "one value, not a line more";
     EXPECT_NE(refusal("a = 1\n", "a.b", "2").find("plain value"), std::string::npos);
     EXPECT_NE(refusal("a = [1]\n", "a.1", "2").find("no such element"), std::string::npos);
-}
-
-TEST(Outline, SaysWhereValuesBeginAndEnd) {
-    const std::string text = "[a]\nb = { c = [1, 'x'] }\n";
-    const Outline outline = outlineOf(text);
-    ASSERT_EQ(outline.headers.size(), 2U);
-    EXPECT_EQ(outline.headers[1].path, (KeyPath{"a"}));
-    ASSERT_EQ(outline.values.size(), 4U);
-    EXPECT_EQ(outline.values[1].path, (KeyPath{"a", "b", "c"}));
-    EXPECT_EQ(outline.values[3].path, (KeyPath{"a", "b", "c", "1"}));
-    EXPECT_EQ(text.substr(outline.values[3].begin, outline.values[3].end - outline.values[3].begin), "'x'");
 }
 
 }  // namespace

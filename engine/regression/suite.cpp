@@ -10,6 +10,7 @@
 #include "taut/core/error.h"
 #include "taut/regression/goldens.h"
 #include "taut/regression/judging.h"
+#include "taut/scene/body_size.h"
 
 namespace taut::regression {
 namespace {
@@ -21,7 +22,7 @@ class Suite {
         : scenarios_(scenarios), options_(options), manifest_(manifest), stop_(stop), results_(scenarios.size()) {
         std::vector<double> costs;
         for (const Scenario& scenario : scenarios)
-            costs.push_back(world::estimate(scenario.spec).springs * scenario.spec.run.seconds);
+            costs.push_back(scene::sizeOf(scenario.spec).bytes() * scenario.spec.run.seconds);
         order_.resize(scenarios.size());
         std::iota(order_.begin(), order_.end(), std::size_t{0});
         std::stable_sort(order_.begin(), order_.end(),

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include "taut/world/each_body.h"
+
 namespace taut::scene {
 
 namespace {
@@ -15,7 +17,8 @@ BodySize sizeOfCopies(const world::BodySpec& body, double points, double springs
 }  // namespace
 
 double BodySize::bytes() const {
-    // As world::estimate counts them; a cell of a block has six tetrahedra, each as large as a spring.
+    // Both precisions' worst, measured on a cloth and rounded up; a cell of a block has six tetrahedra, each as large
+    // as a spring.
     return 600.0 * points + 120.0 * (springs + 6.0 * cells);
 }
 
@@ -44,6 +47,17 @@ BodySize sizeOf(const world::BlockSpec& block) {
 
 BodySize sizeOf(const world::NetSpec& net) {
     return sizeOfCopies(net, static_cast<double>(net.points.size()), static_cast<double>(net.springs.size()), 0.0);
+}
+
+BodySize sizeOf(const world::SceneSpec& scene) {
+    BodySize sum;
+    forEachBody(scene, [&](const char*, const auto& body) {
+        const BodySize size = sizeOf(body);
+        sum.points += size.points;
+        sum.springs += size.springs;
+        sum.cells += size.cells;
+    });
+    return sum;
 }
 
 double memoryLimit() {

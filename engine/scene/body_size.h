@@ -17,6 +17,7 @@ BodySize sizeOf(const world::ClothSpec& cloth);
 BodySize sizeOf(const world::RopeSpec& rope);
 BodySize sizeOf(const world::BlockSpec& block);
 BodySize sizeOf(const world::NetSpec& net);
+BodySize sizeOf(const world::SceneSpec& scene);  // of all bodies together
 
 // Half of the machine's memory [bytes].
 double memoryLimit();

@@ -18,6 +18,7 @@
 #include "taut/scene/suspicions.h"
 #include "taut/scene/text_file.h"
 #include "taut/scene/timeline.h"
+#include "taut/world/each_body.h"
 
 namespace taut::scene {
 
@@ -31,25 +32,16 @@ void throwIfAny(const Problems& problems) {
 
 // Refuses a scene that asks for too much, at the body that asks for most.
 void checkSize(const ReadScene& scene, double limit, Problems& problems) {
-    BodySize total;
-    double bytes = 0, largest = 0;
-    std::string largestTitle;
-    const auto add = [&](const char* kind, const auto& bodies) {
-        for (const auto& body : bodies) {
-            const BodySize size = sizeOf(body);
-            total.points += size.points;
-            total.springs += size.springs;
-            bytes += size.bytes();
-            if (size.bytes() <= largest) continue;
-            largest = size.bytes();
-            largestTitle = fmt::format("{}.{}", kind, body.name);
-        }
-    };
-    add("cloth", scene.spec.cloths);
-    add("rope", scene.spec.ropes);
-    add("block", scene.spec.blocks);
-    add("net", scene.spec.nets);
+    const BodySize total = sizeOf(scene.spec);
+    const double bytes = total.bytes();
     if (bytes <= limit && total.points <= maxPoints) return;
+    double largest = 0;
+    std::string largestTitle;
+    forEachBody(scene.spec, [&](const char* kind, const auto& body) {
+        if (sizeOf(body).bytes() <= largest) return;
+        largest = sizeOf(body).bytes();
+        largestTitle = fmt::format("{}.{}", kind, body.name);
+    });
     constexpr double gigabyte = 1e9;
     problems.addError(scene.owners.at(largestTitle),
                       fmt::format("the scene is too large: {:.4g} points and {:.4g} springs need about {:.4g} GB; "

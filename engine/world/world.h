@@ -180,10 +180,4 @@ class World {
     std::unique_ptr<Impl> impl_;
 };
 
-// What a scene would need, computed from the numbers in it before anything is allocated.
-struct Estimate {
-    double points = 0, springs = 0, bytes = 0;  // bytes of memory; doubles, as a scene may ask for too much
-};
-Estimate estimate(const SceneSpec& spec);
-
 }  // namespace taut::world

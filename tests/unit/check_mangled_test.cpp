@@ -3,6 +3,7 @@
 
 #include "taut/check/watcher.h"
 #include "taut/core/error.h"
+#include "taut/scene/body_size.h"
 #include "unit/check_support.h"
 #include "taut/world/ticks.h"
 
@@ -216,8 +217,7 @@ std::string mangled(std::string text, std::mt19937& random) {
 
 // Whether the scenario ran; one that asks for very small steps or very many points is left alone.
 bool runs(const world::SceneSpec& spec) {
-    const world::Estimate size = world::estimate(spec);
-    if (size.points > 2000) return true;
+    if (scene::sizeOf(spec).points > 2000) return true;
     world::World world(spec, {.threads = 1});
     for (const world::IslandInfo& island : world.islands())
         if (island.substeps > 2000) return true;

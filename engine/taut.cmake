@@ -23,7 +23,7 @@ target_compile_options(taut_options INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 
 # One compiler run reads the sources of up to eight files as one: most of a file's time goes into reading headers.
-# -DTAUT_UNITY=OFF compiles file by file, as `sh tests/run.sh --long` does, so that every file includes what it needs.
+# -DTAUT_UNITY=OFF compiles file by file: that every file includes what it needs is seen only then.
 option(TAUT_UNITY "Compile the files of a folder together" ON)
 set(CMAKE_UNITY_BUILD ${TAUT_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)

@@ -8,7 +8,7 @@
 
 #include "taut/core/glob.h"
 #include "taut/scene/body_size.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 

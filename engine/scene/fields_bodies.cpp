@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "taut/scene/field_list.h"
-#include "taut/scene/fields_of.h"
+#include "taut/fields/field_list.h"
+#include "taut/scene/sections.h"
 #include "taut/scene/method_names.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 
@@ -22,7 +22,7 @@ constexpr Range dragRate{0.0, 1e6};     // [1/s]
 constexpr Range strain{1e-6, 1e3};      // |l - L|/L
 constexpr Range copies{1.0, 100000.0};
 constexpr double maxCopies = 100000;
-constexpr auto springs = RampField::Affects::springs;
+constexpr auto springs = Affects::springs;
 
 Section arraySection() {
     Section section;
@@ -134,8 +134,8 @@ Section finishSection() {
     return section;
 }
 
-Section materialSection() {
-    Section section;
+SceneSection materialSection() {
+    SceneSection section;
     section.name = "material";
     section.layout = Layout::named;
     section.help = "What cloth is made of. Per metre of material: the number of cells does not change the stiffness.";
@@ -162,8 +162,8 @@ Section materialSection() {
     return section;
 }
 
-Section clothSection() {
-    Section section;
+SceneSection clothSection() {
+    SceneSection section;
     section.name = "cloth";
     section.layout = Layout::named;
     section.help = "A cloth: a grid, or a mesh from an OBJ file.";
@@ -212,8 +212,8 @@ Section clothSection() {
     return section;
 }
 
-Section ropeSection() {
-    Section section;
+SceneSection ropeSection() {
+    SceneSection section;
     section.name = "rope";
     section.layout = Layout::named;
     section.help = "A rope between two points.";
@@ -243,8 +243,8 @@ Section ropeSection() {
     return section;
 }
 
-Section blockSection() {
-    Section section;
+SceneSection blockSection() {
+    SceneSection section;
     section.name = "block";
     section.layout = Layout::named;
     section.help = "A deformable block.";
@@ -335,8 +335,8 @@ void checkNet(const CheckInput& input, const NetSpec& net) {
 
 }  // namespace
 
-Section netSection() {
-    Section section;
+SceneSection netSection() {
+    SceneSection section;
     section.name = "net";
     section.layout = Layout::named;
     section.help = "Points and springs listed one by one.";

@@ -1,9 +1,9 @@
 // The field table, part four: text in the picture.
 #include <fmt/format.h>
 
-#include "taut/scene/field_list.h"
-#include "taut/scene/fields_of.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/field_list.h"
+#include "taut/scene/sections.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 
@@ -30,8 +30,8 @@ void checkLabel(const CheckInput& input, const LabelSpec& label) {
 
 }  // namespace
 
-Section labelSection() {
-    Section section;
+SceneSection labelSection() {
+    SceneSection section;
     section.name = "label";
     section.layout = Layout::named;
     section.help = "A line of text in the picture, with a font of Debian's package fonts-dejavu-core.";

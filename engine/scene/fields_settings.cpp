@@ -1,8 +1,8 @@
 // The field table, part one: settings of the whole scene.
-#include "taut/scene/field_list.h"
-#include "taut/scene/fields_of.h"
+#include "taut/fields/field_list.h"
+#include "taut/scene/sections.h"
 #include "taut/scene/method_names.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr Range seconds{1e-3, 1e6};
 constexpr Range fieldOfView{1.0, 170.0};
-constexpr auto picture = RampField::Affects::picture;
+constexpr auto picture = Affects::picture;
 
 // Whether one can look from one point to another with y up.
 void checkView(const CheckInput& input, const Node& table, Place place, const dvec3& eye, const dvec3& target) {
@@ -42,8 +42,8 @@ std::vector<std::string> easeNames() {
     return {"linear", "smooth", "in", "out", "hold"};
 }
 
-Section fileSection() {
-    Section section;
+SceneSection fileSection() {
+    SceneSection section;
     section.help = "At the top of the file, before the first table.";
     section.enter = [](SceneSpec& scene, const std::string&, const Source&) -> void* { return &scene; };
     section.fields = FieldList<SceneSpec>()
@@ -69,8 +69,8 @@ Section fileSection() {
     return section;
 }
 
-Section needSection() {
-    Section section;
+SceneSection needSection() {
+    SceneSection section;
     section.name = "need";
     section.help = "What \"accurate enough\" means for this scene.";
     section.enter = enterPart(&SceneSpec::need);
@@ -87,8 +87,8 @@ Section needSection() {
     return section;
 }
 
-Section solverSection() {
-    Section section;
+SceneSection solverSection() {
+    SceneSection section;
     section.name = "solver";
     section.help = "How the motion is computed.";
     section.enter = enterPart(&SceneSpec::solver);
@@ -113,24 +113,24 @@ Section solverSection() {
     return section;
 }
 
-Section worldSection() {
-    Section section;
+SceneSection worldSection() {
+    SceneSection section;
     section.name = "world";
     section.help = "The surroundings.";
     section.enter = enterPart(&SceneSpec::world);
     section.existing = findPart(&SceneSpec::world);
     section.fields = FieldList<WorldSpec>()
                          .vector("gravity", &WorldSpec::gravity, "m/s²", Range{-1e6, 1e6}, "Acceleration of gravity.")
-                         .ramps(RampField::Affects::forces)
+                         .ramps(Affects::forces)
                          .number("air_density_kg_per_m3", &WorldSpec::airDensity, "kg/m³", Range{0.0, 1e6},
                                  "Density of the air, for wind.")
-                         .ramps(RampField::Affects::forces)
+                         .ramps(Affects::forces)
                          .take();
     return section;
 }
 
-Section runSection() {
-    Section section;
+SceneSection runSection() {
+    SceneSection section;
     section.name = "run";
     section.help = "How long the scene runs.";
     section.enter = enterPart(&SceneSpec::run);
@@ -142,8 +142,8 @@ Section runSection() {
     return section;
 }
 
-Section pictureSection() {
-    Section section;
+SceneSection pictureSection() {
+    SceneSection section;
     section.name = "picture";
     section.help = "The picture.";
     section.enter = enterPart(&SceneSpec::picture);
@@ -157,8 +157,8 @@ Section pictureSection() {
     return section;
 }
 
-Section lightSection() {
-    Section section;
+SceneSection lightSection() {
+    SceneSection section;
     section.name = "light";
     section.help = "The sun and the light of the sky.";
     section.enter = enterPart(&SceneSpec::light);
@@ -184,8 +184,8 @@ Section lightSection() {
     return section;
 }
 
-Section backgroundSection() {
-    Section section;
+SceneSection backgroundSection() {
+    SceneSection section;
     section.name = "background";
     section.help = "What lies behind everything.";
     section.enter = enterPart(&SceneSpec::background);
@@ -211,7 +211,7 @@ Section backgroundSection() {
     return section;
 }
 
-Section cameraSection() {
+SceneSection cameraSection() {
     Section key;
     key.fields = FieldList<CameraKey>()
                      .number("t", &CameraKey::t, "s", Range{0.0, 1e6}, "Moment.")
@@ -225,7 +225,7 @@ Section cameraSection() {
                               "Vertical field of view; the camera's own if not given.")
                      .choice("ease", &CameraKey::ease, easeNames(), "Way from the key before to this one.")
                      .take();
-    Section section;
+    SceneSection section;
     section.name = "camera";
     section.layout = Layout::named;
     section.help = "A place to look from.";

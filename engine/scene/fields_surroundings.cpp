@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "taut/collision/shape_table.h"
-#include "taut/scene/field_list.h"
-#include "taut/scene/fields_of.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/field_list.h"
+#include "taut/scene/sections.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 
@@ -120,8 +120,8 @@ void checkAscending(const CheckInput& input) {
     }
 }
 
-Section jointSection() {
-    Section section;
+SceneSection jointSection() {
+    SceneSection section;
     section.name = "joint";
     section.layout = Layout::list;
     section.help = "Ties points of one body to points of another.";
@@ -147,8 +147,8 @@ Section jointSection() {
     return section;
 }
 
-Section massSection() {
-    Section section;
+SceneSection massSection() {
+    SceneSection section;
     section.name = "mass";
     section.layout = Layout::list;
     section.help = "Adds mass to points.";
@@ -162,8 +162,8 @@ Section massSection() {
     return section;
 }
 
-Section anchorSection() {
-    Section section;
+SceneSection anchorSection() {
+    SceneSection section;
     section.name = "anchor";
     section.layout = Layout::named;
     section.help = "Springs of no length from points to a place.";
@@ -173,18 +173,18 @@ Section anchorSection() {
                          .text("target", &AnchorSpec::target, Role::points, "The points: KIND.NAME@SELECTOR.")
                          .required()
                          .vector("at", &AnchorSpec::at, "m", placeRange, "The place.")
-                         .ramps(RampField::Affects::forces)
+                         .ramps(Affects::forces)
                          .required()
                          .number("stiffness_N_per_m", &AnchorSpec::stiffness, "N/m", notNegative, "Of each point.")
-                         .ramps(RampField::Affects::forces)
+                         .ramps(Affects::forces)
                          .number("damping_kg_per_s", &AnchorSpec::damping, "kg/s", notNegative, "Of each point.")
-                         .ramps(RampField::Affects::forces)
+                         .ramps(Affects::forces)
                          .take();
     return section;
 }
 
-Section colliderSection() {
-    Section section;
+SceneSection colliderSection() {
+    SceneSection section;
     section.name = "collider";
     section.layout = Layout::named;
     section.help = "A rigid thing that stops bodies, still or moved by keys.";
@@ -202,9 +202,9 @@ Section colliderSection() {
             .required()
             .only({"compound"})
             .number("friction", &ColliderSpec::friction, "", Range{0.0, 100.0}, "Coulomb's coefficient.")
-            .ramps(RampField::Affects::colliders)
+            .ramps(Affects::colliders)
             .number("restitution", &ColliderSpec::restitution, "", share, "Speed after a bounce over speed before.")
-            .ramps(RampField::Affects::colliders)
+            .ramps(Affects::colliders)
             .tables("keys", &ColliderSpec::keys, poseKeySection(), "Keyframes, in the order of time.")
             .flag("visible", &ColliderSpec::visible, "Whether it is drawn.")
             .number("edge", &ColliderSpec::edge, "m", Range{0.0, 1e3}, "Rounding of a drawn box's edges.")
@@ -217,16 +217,16 @@ Section colliderSection() {
     return section;
 }
 
-Section windSection() {
+SceneSection windSection() {
     Section gust;
     gust.fields = FieldList<WindSpec>()
                       .number("amplitude", &WindSpec::gustAmplitude, "m/s", Range{0.0, 1e3}, "Strength.")
-                      .ramps(RampField::Affects::forces)
+                      .ramps(Affects::forces)
                       .number("period_s", &WindSpec::gustPeriod, "s", Range{1e-3, 1e6}, "Time of a change.")
                       .number("length_m", &WindSpec::gustLength, "m", Range{1e-3, 1e6}, "Size of an eddy.")
                       .whole("seed", &WindSpec::gustSeed, "", Range{0.0, 1e12}, "Seed: the same gusts each time.")
                       .take();
-    Section section;
+    SceneSection section;
     section.name = "wind";
     section.layout = Layout::named;
     section.help = "Moving air; acts on surfaces.";
@@ -235,12 +235,12 @@ Section windSection() {
     section.fields =
         FieldList<WindSpec>()
             .vector("velocity", &WindSpec::velocity, "m/s", Range{-1e3, 1e3}, "Mean velocity.")
-            .ramps(RampField::Affects::forces)
+            .ramps(Affects::forces)
             .tableOfSelf("gust", gust, "How it changes in space and time.")
             .number("drag", &WindSpec::drag, "", Range{0.0, 100.0}, "Drag coefficient across the flow.")
-            .ramps(RampField::Affects::forces)
+            .ramps(Affects::forces)
             .number("lift", &WindSpec::lift, "", Range{0.0, 100.0}, "Lift coefficient.")
-            .ramps(RampField::Affects::forces)
+            .ramps(Affects::forces)
             .texts("on", &WindSpec::on, Role::bodies, "Bodies it acts on, e.g. \"cloth.*\"; every cloth if not given.")
             .take();
     return section;

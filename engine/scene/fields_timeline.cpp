@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "taut/scene/field_list.h"
-#include "taut/scene/fields_of.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/field_list.h"
+#include "taut/scene/sections.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 
@@ -53,8 +53,8 @@ void checkAction(const CheckInput& input, const ActionSpec& action) {
 
 }  // namespace
 
-Section handSection() {
-    Section section;
+SceneSection handSection() {
+    SceneSection section;
     section.name = "hand";
     section.help = "What a hand may do while the scene is played live; every step allows for it.";
     section.enter = enterPart(&SceneSpec::hand);
@@ -67,8 +67,8 @@ Section handSection() {
     return section;
 }
 
-Section atSection() {
-    Section section;
+SceneSection atSection() {
+    SceneSection section;
     section.name = "at";
     section.layout = Layout::list;
     section.help =
@@ -145,8 +145,8 @@ Section atSection() {
     return section;
 }
 
-Section checkSection() {
-    Section section;
+SceneSection checkSection() {
+    SceneSection section;
     section.name = "check";
     section.layout = Layout::list;
     section.help = "A claim about the state, which taut test holds the run against.";
@@ -177,8 +177,8 @@ Section checkSection() {
     return section;
 }
 
-Section goldenSection() {
-    Section section;
+SceneSection goldenSection() {
+    SceneSection section;
     section.name = "golden";
     section.layout = Layout::list;
     section.help = "Frames that taut test compares with recorded ones.";

@@ -108,7 +108,7 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
 
     Node root = treeOf(text, 0, problems);
     const std::filesystem::path base = layOnBase(root, fileName, options, problems);
-    const std::vector<Section> sections = sceneSections();
+    const std::vector<SceneSection> sections = sceneSections();
     for (std::size_t i = 0; i < options.overrides.size(); ++i) {
         applyOverride(options.overrides[i], static_cast<int>(i) + 1, sections, root, problems);
     }

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "taut/check/check.h"
-#include "taut/scene/field.h"
+#include "taut/scene/sections.h"
 #include "taut/scene/load.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/problems.h"
 #include "taut/scene/ramp_key.h"
 
 namespace taut::scene {
@@ -40,7 +40,7 @@ std::string manual() {
         "A scene is a TOML file. Numbers are in SI units unless the key's name or the text below says otherwise;\n"
         "y points up. What is left out has its default.\n";
     world::SceneSpec scene;
-    for (const Section& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections()) {
         const std::string title = section.name.empty()              ? "the file"
                                   : section.layout == Layout::named ? fmt::format("[{}.NAME]", section.name)
                                   : section.layout == Layout::list  ? fmt::format("[[{}]]", section.name)

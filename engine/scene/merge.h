@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "taut/scene/document.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 

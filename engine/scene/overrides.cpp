@@ -85,7 +85,7 @@ std::string overrideLabel(const std::string& text) {
     return "--set " + key;
 }
 
-void applyOverride(const std::string& text, int origin, const std::vector<Section>& sections, Node& root,
+void applyOverride(const std::string& text, int origin, const std::vector<SceneSection>& sections, Node& root,
                    Problems& problems) {
     const Place place{origin, 1, 1};
     const std::size_t equals = text.find('=');

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/scene/field.h"
-#include "taut/scene/problems.h"
+#include "taut/scene/sections.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 
@@ -16,7 +16,7 @@ std::string overrideLabel(const std::string& text);
 // Changes the document. `origin` is the override's number from 1. A body, a collider, … that the file lacks, and an
 // element that a list lacks, are errors; everything else is left to the reader. A value that is not TOML but a
 // plain word is taken as a text.
-void applyOverride(const std::string& text, int origin, const std::vector<Section>& sections, Node& root,
+void applyOverride(const std::string& text, int origin, const std::vector<SceneSection>& sections, Node& root,
                    Problems& problems);
 
 }  // namespace taut::scene

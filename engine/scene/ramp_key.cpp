@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "taut/scene/problems.h"
+#include "taut/fields/problems.h"
 
 namespace taut::scene {
 
@@ -40,7 +40,7 @@ std::vector<Row> rowsOf(const Section& section) {
     return rows;
 }
 
-std::vector<std::string> rampablePaths(const Section& section) {
+std::vector<std::string> rampablePaths(const SceneSection& section) {
     std::vector<std::string> paths;
     if (!section.existing) return paths;
     for (const Row& row : rowsOf(section))
@@ -63,13 +63,13 @@ std::vector<std::string> namesIn(const Node& root, const std::string& kind) {
     return names;
 }
 
-const Node* tableOf(const Node& root, const Section& section, const std::string& name) {
+const Node* tableOf(const Node& root, const SceneSection& section, const std::string& name) {
     const Member* member = root.find(section.name);
     if (member != nullptr && section.layout == Layout::named) member = member->value.find(name);
     return member == nullptr ? nullptr : &member->value;
 }
 
-world::RampField accessOf(const Section& section, const std::string& owner, const std::string& name, const Row& row) {
+world::RampField accessOf(const SceneSection& section, const std::string& owner, const std::string& name, const Row& row) {
     const auto place = [existing = section.existing, enter = row.enter, name](world::SceneSpec& scene) {
         void* target = existing(scene, name);
         return enter ? enter(target, {}) : target;
@@ -90,7 +90,7 @@ world::RampField accessOf(const Section& section, const std::string& owner, cons
 
 }  // namespace
 
-std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<Section>& sections,
+std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<SceneSection>& sections,
                                world::SceneSpec& scene, TargetFault& fault) {
     const std::vector<std::string> parts = partsOf(key);
     const auto section = std::find_if(sections.begin(), sections.end(),
@@ -101,7 +101,7 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     };
     if (section == sections.end() || rampablePaths(*section).empty()) {
         std::vector<std::string> names;
-        for (const Section& s : sections)
+        for (const SceneSection& s : sections)
             if (!rampablePaths(s).empty()) names.push_back(s.name);
         std::string remedy = section == sections.end() ? suggestion(parts[0], names) : "";
         if (remedy.empty()) remedy = "what may: " + joined(names);
@@ -142,9 +142,9 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     return found;
 }
 
-std::vector<std::string> rampableKeys(const std::vector<Section>& sections) {
+std::vector<std::string> rampableKeys(const std::vector<SceneSection>& sections) {
     std::vector<std::string> lines;
-    for (const Section& section : sections) {
+    for (const SceneSection& section : sections) {
         const std::vector<std::string> paths = rampablePaths(section);
         if (paths.empty()) continue;
         const std::string name = section.layout == Layout::named ? section.name + ".NAME" : section.name;

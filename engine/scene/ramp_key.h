@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "taut/scene/body_index.h"
-#include "taut/scene/field.h"
+#include "taut/scene/sections.h"
 
 namespace taut::scene {
 
@@ -17,10 +17,10 @@ struct RampKey {
 
 // Nothing and a fault if the key names nothing, something that cannot change, or something that has no value to begin
 // from. `root` is the document that `scene` was read from.
-std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<Section>& sections,
+std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<SceneSection>& sections,
                                world::SceneSpec& scene, TargetFault& fault);
 
 // A line for each section that ramps may change: its name and the keys, for the manual and for messages.
-std::vector<std::string> rampableKeys(const std::vector<Section>& sections);
+std::vector<std::string> rampableKeys(const std::vector<SceneSection>& sections);
 
 }  // namespace taut::scene

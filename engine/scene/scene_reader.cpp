@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "taut/scene/value_reader.h"
+#include "taut/fields/value_reader.h"
 
 namespace taut::scene {
 
@@ -12,11 +12,11 @@ namespace {
 
 class SceneReader {
   public:
-    SceneReader(const std::vector<Section>& sections, Problems& problems, ReadScene& out)
+    SceneReader(const std::vector<SceneSection>& sections, Problems& problems, ReadScene& out)
         : sections_(sections), problems_(problems), out_(out) {}
 
     void read(const Node& root) {
-        const Section& file =
+        const SceneSection& file =
             *std::find_if(sections_.begin(), sections_.end(), [](const Section& s) { return s.name.empty(); });
         // The keys before the first table are a table of their own.
         Node settings;
@@ -51,7 +51,7 @@ class SceneReader {
                            suggestion(member.key, names));
     }
 
-    void readSection(const Section& section, const Member& member) {
+    void readSection(const SceneSection& section, const Member& member) {
         if (section.layout == Layout::list) {
             readList(section, member);
         } else if (member.value.kind != NodeKind::table) {
@@ -68,7 +68,7 @@ class SceneReader {
         }
     }
 
-    void readNamed(const Section& section, const Member& element) {
+    void readNamed(const SceneSection& section, const Member& element) {
         const std::string& name = element.key;
         if (element.value.kind != NodeKind::table) {
             problems_.addError(
@@ -92,7 +92,7 @@ class SceneReader {
         if (problems_.errorCount() > before) out_.faulty.insert(owner_);
     }
 
-    void readList(const Section& section, const Member& member) {
+    void readList(const SceneSection& section, const Member& member) {
         if (member.value.kind != NodeKind::list) {
             problems_.addError(
                 member.place,
@@ -226,7 +226,7 @@ class SceneReader {
         }
     }
 
-    const std::vector<Section>& sections_;
+    const std::vector<SceneSection>& sections_;
     Problems& problems_;
     ReadScene& out_;
     std::string owner_;
@@ -234,7 +234,7 @@ class SceneReader {
 
 }  // namespace
 
-ReadScene readScene(const Node& root, const std::vector<Section>& sections, const std::string& fileName,
+ReadScene readScene(const Node& root, const std::vector<SceneSection>& sections, const std::string& fileName,
                     Problems& problems) {
     ReadScene out;
     out.spec.file = fileName;

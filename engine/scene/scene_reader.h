@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/scene/field.h"
-#include "taut/scene/problems.h"
+#include "taut/scene/sections.h"
+#include "taut/fields/problems.h"
 #include "taut/world/spec.h"
 
 namespace taut::scene {
@@ -29,7 +29,7 @@ struct ReadScene {
 };
 
 // Files and overrides in world::Source are called as `problems` calls them.
-ReadScene readScene(const Node& root, const std::vector<Section>& sections, const std::string& fileName,
+ReadScene readScene(const Node& root, const std::vector<SceneSection>& sections, const std::string& fileName,
                     Problems& problems);
 
 }  // namespace taut::scene

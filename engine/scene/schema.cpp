@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "taut/scene/field.h"
+#include "taut/scene/sections.h"
 #include "taut/scene/load.h"
 
 namespace taut::scene {
@@ -123,7 +123,7 @@ std::string jsonSchema() {
     Json root{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "taut scene"}};
     Json properties = Json::object();
     world::SceneSpec scene;
-    for (const Section& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections()) {
         const Json table = tableSchema(section, section.enter(scene, "name", {}));
         if (section.name.empty()) {
             for (const auto& [key, value] : table["properties"].items()) properties[key] = value;

@@ -6,11 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "taut/fields/node.h"
 #include "taut/world/spec.h"
 
 namespace taut::scene {
 
-struct Node;
+using fields::Node;
 
 class StateKeys {
   public:

@@ -7,7 +7,7 @@
 
 #include "taut/scene/body_index.h"
 #include "taut/scene/ramp_key.h"
-#include "taut/scene/value_reader.h"
+#include "taut/fields/value_reader.h"
 #include "taut/world/ticks.h"
 
 namespace taut::scene {
@@ -31,7 +31,7 @@ struct Span {
 
 class Timeline {
   public:
-    Timeline(const Node& root, const std::vector<Section>& sections, ReadScene& scene, Problems& problems)
+    Timeline(const Node& root, const std::vector<SceneSection>& sections, ReadScene& scene, Problems& problems)
         : root_(root),
           sections_(sections),
           scene_(scene),
@@ -253,7 +253,7 @@ class Timeline {
     }
 
     const Node& root_;
-    const std::vector<Section>& sections_;
+    const std::vector<SceneSection>& sections_;
     ReadScene& scene_;
     Problems& problems_;
     BodyIndex bodies_;
@@ -267,7 +267,7 @@ class Timeline {
 
 }  // namespace
 
-void checkTimeline(const Node& root, const std::vector<Section>& sections, ReadScene& scene, Problems& problems) {
+void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, ReadScene& scene, Problems& problems) {
     Timeline(root, sections, scene, problems).check();
 }
 

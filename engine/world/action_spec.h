@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/fields/field.h"
 #include "taut/world/source.h"
 
 namespace taut::world {
@@ -21,8 +22,7 @@ enum class Do { grab, move, release, push, hold, free, cut, addMass, ramp, spawn
 
 // A number or a vector of the scene that a ramp changes while it runs.
 struct RampField {
-    enum class Affects { picture, forces, colliders, springs };  // springs: of bodies and their materials
-    Affects affects = Affects::forces;
+    fields::Affects affects = fields::Affects::forces;
     std::string owner;  // "material.nylon", "rope.rail", "wind.breeze", "world", …
     std::function<std::vector<double>(const SceneSpec&)> read;  // in the units of the file, as write takes them
     std::function<void(SceneSpec&, const std::vector<double>&)> write;

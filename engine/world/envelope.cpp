@@ -20,7 +20,7 @@ double size(const std::vector<double>& value) {
 
 bool changesIslands(const ActionSpec& action) {
     return action.what == Do::ramp &&
-           (action.field.affects == RampField::Affects::forces || action.field.affects == RampField::Affects::springs);
+           (action.field.affects == fields::Affects::forces || action.field.affects == fields::Affects::springs);
 }
 
 // The scene with every field that ramps change at the largest value that it takes, or the smallest. A ramp begins

@@ -101,13 +101,13 @@ struct World::Impl {
 
     void startRamp(const ActionSpec& action);
     // Writes the values at this tick, or at a moment between two, into the scene; only of those that affect `which`.
-    void applyRamps(double moment, RampField::Affects which);
+    void applyRamps(double moment, fields::Affects which);
     void changeForces();
     void changeSprings();
     void changeColliders();
     void changePicture();
     void takeRampedParts();
-    bool isRamping(RampField::Affects which) const;
+    bool isRamping(fields::Affects which) const;
     void takeSprings(Body& body) const;
 
     Metrics metricsOf(const std::function<bool(const Body&)>& wanted) const;

@@ -28,7 +28,7 @@ void World::Impl::startRamp(const ActionSpec& action) {
     ramps.push_back(std::move(ramp));
 }
 
-void World::Impl::applyRamps(double moment, RampField::Affects which) {
+void World::Impl::applyRamps(double moment, fields::Affects which) {
     for (const Ramp& ramp : ramps) {
         if (ramp.action.field.affects != which) continue;
         const double ticks = moment - static_cast<double>(ramp.start);
@@ -42,7 +42,7 @@ void World::Impl::applyRamps(double moment, RampField::Affects which) {
 }
 
 // Whether one of them may be different in the coming tick from what it was in the one before.
-bool World::Impl::isRamping(RampField::Affects which) const {
+bool World::Impl::isRamping(fields::Affects which) const {
     return std::any_of(ramps.begin(), ramps.end(), [&](const Ramp& ramp) {
         return ramp.action.field.affects == which && tick <= ramp.start + ramp.length;
     });
@@ -50,9 +50,9 @@ bool World::Impl::isRamping(RampField::Affects which) const {
 
 // Gravity, flows and places change evenly during the tick; all else stays at its value in the middle.
 void World::Impl::changeForces() {
-    if (!isRamping(RampField::Affects::forces)) return;
+    if (!isRamping(fields::Affects::forces)) return;
     const auto forcesAt = [&](double moment) {
-        applyRamps(moment, RampField::Affects::forces);
+        applyRamps(moment, fields::Affects::forces);
         takeRampedParts();
         return forces();
     };
@@ -93,12 +93,12 @@ void World::Impl::takeSprings(Body& body) const {
 }
 
 void World::Impl::changeSprings() {
-    if (!isRamping(RampField::Affects::springs)) return;
-    applyRamps(static_cast<double>(tick) + 0.5, RampField::Affects::springs);
+    if (!isRamping(fields::Affects::springs)) return;
+    applyRamps(static_cast<double>(tick) + 0.5, fields::Affects::springs);
     const auto concerns = [&](const Body& body) {
         return std::any_of(ramps.begin(), ramps.end(), [&](const Ramp& ramp) {
             const std::string& owner = ramp.action.field.owner;
-            if (ramp.action.field.affects != RampField::Affects::springs || tick > ramp.start + ramp.length)
+            if (ramp.action.field.affects != fields::Affects::springs || tick > ramp.start + ramp.length)
                 return false;
             if (owner == std::string(kindName(body.kind)) + "." + body.base) return true;
             const ClothSpec* cloth = body.kind == Body::Kind::cloth ? named(spec.cloths, body.base) : nullptr;
@@ -118,8 +118,8 @@ void World::Impl::changeSprings() {
 }
 
 void World::Impl::changeColliders() {
-    if (!isRamping(RampField::Affects::colliders)) return;
-    applyRamps(static_cast<double>(tick) + 0.5, RampField::Affects::colliders);
+    if (!isRamping(fields::Affects::colliders)) return;
+    applyRamps(static_cast<double>(tick) + 0.5, fields::Affects::colliders);
     takeRampedParts();
     rebuildColliders();
 }
@@ -127,7 +127,7 @@ void World::Impl::changeColliders() {
 // What only a picture shows has its value at the time of the picture.
 void World::Impl::changePicture() {
     if (ramps.empty()) return;
-    applyRamps(static_cast<double>(tick), RampField::Affects::picture);
+    applyRamps(static_cast<double>(tick), fields::Affects::picture);
     takeRampedParts();
 }
 

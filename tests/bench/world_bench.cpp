@@ -55,7 +55,7 @@ void tickRamp(benchmark::State& state) {
         ramp.key = "material.m.stretch_N_per_m";
         ramp.value = {scene.materials["m"].stretch * 1.1};
         ramp.over = 1e6;
-        ramp.field.affects = world::RampField::Affects::springs;
+        ramp.field.affects = fields::Affects::springs;
         ramp.field.owner = "material.m";
         ramp.field.read = [](const world::SceneSpec& s) { return std::vector{s.materials.at("m").stretch}; };
         ramp.field.write = [](world::SceneSpec& s, const std::vector<double>& v) { s.materials["m"].stretch = v[0]; };

@@ -68,7 +68,7 @@ inline world::ActionSpec cutSegment(double t, const std::string& target, world::
 
 // A ramp of a number that `at` finds in the scene.
 template <class At>
-world::ActionSpec ramp(double t, const std::string& key, world::RampField::Affects affects, double value, double over,
+world::ActionSpec ramp(double t, const std::string& key, fields::Affects affects, double value, double over,
                        world::Ease ease, At at) {
     world::ActionSpec spec = action(world::Do::ramp, t);
     spec.key = key;
@@ -87,7 +87,7 @@ world::ActionSpec ramp(double t, const std::string& key, world::RampField::Affec
 // Half a second of everything: a cloth in the wind that is cut and torn, a rope in a hand, a bar that bends for good,
 // a net led rigidly, a box that is moved, a ball with less and less friction, a rope that appears.
 inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog", bool isDouble = false) {
-    using Affects = world::RampField::Affects;
+    using Affects = fields::Affects;
     using world::Do;
     using world::Ease;
     world::SceneSpec scene;

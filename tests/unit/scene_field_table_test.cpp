@@ -4,7 +4,7 @@
 #include <set>
 
 #include "taut/scene/document.h"
-#include "taut/scene/field.h"
+#include "taut/scene/sections.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 
@@ -23,7 +23,7 @@ void visitFields(const Section& section, const std::string& path, const Visit& v
 
 template <class Visit>
 void visitFields(const Visit& visit) {
-    for (const Section& section : sceneSections()) visitFields(section, section.name, visit);
+    for (const SceneSection& section : sceneSections()) visitFields(section, section.name, visit);
 }
 
 // Paths of all keys in a document, without names of bodies and numbers of elements.
@@ -34,7 +34,7 @@ void collectPaths(const Node& node, const std::string& path, bool isNamed, std::
         paths.insert(here);
         bool holdsNames = false;
         if (path.empty()) {
-            for (const Section& section : sceneSections()) {
+            for (const SceneSection& section : sceneSections()) {
                 holdsNames = holdsNames || (section.name == member.key && section.layout == Layout::named);
             }
         }
@@ -98,7 +98,7 @@ void expectDefaultsRestore(const Section& section, void* fresh, const std::strin
 
 TEST(SceneFieldTable, WritingADefaultChangesNothing) {
     world::SceneSpec scene;
-    for (const Section& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections()) {
         expectDefaultsRestore(section, section.enter(scene, "name", {}), section.name);
     }
 }
@@ -127,7 +127,7 @@ TEST(SceneFieldTable, DefaultsLieInTheirOwnRange) {
             }
         }
     };
-    for (const Section& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections()) {
         check(check, section, section.enter(scene, "name", {}), section.name);
     }
 }
@@ -182,7 +182,7 @@ TEST(SceneSchema, ListsEveryFieldWithItsHelpAndDefault) {
 
 TEST(SceneManual, ListsEverySectionAndField) {
     const std::string text = manual();
-    for (const Section& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections()) {
         EXPECT_NE(text.find(section.help), std::string::npos) << section.name;
     }
     visitFields([&](const std::string& path, const Section&, const Field& field) {

@@ -4,7 +4,7 @@
 
 #include "taut/core/trig.h"
 #include "taut/scene/document.h"
-#include "taut/scene/field.h"
+#include "taut/scene/sections.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 

@@ -100,7 +100,7 @@ world::SceneSpec withRamp(const std::string& key, const std::string& to) {
 
 struct RampCase {
     const char *key, *to, *owner;
-    RampField::Affects affects;
+    fields::Affects affects;
     std::vector<double> before, after;  // in the units of the file
     double (*member)(const world::SceneSpec&);
     double expected;  // of the member, in the units of the spec
@@ -111,7 +111,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
         {"wind.w.velocity",
          "[9, 8, 7]",
          "wind.w",
-         RampField::Affects::forces,
+         fields::Affects::forces,
          {1, 2, 3},
          {9, 8, 7},
          [](const world::SceneSpec& s) { return s.winds[0].velocity.z; },
@@ -119,7 +119,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
         {"wind.w.gust.amplitude",
          "5",
          "wind.w",
-         RampField::Affects::forces,
+         fields::Affects::forces,
          {4},
          {5},
          [](const world::SceneSpec& s) { return s.winds[0].gustAmplitude; },
@@ -127,7 +127,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
         {"world.gravity",
          "[0, -1.6, 0]",
          "world",
-         RampField::Affects::forces,
+         fields::Affects::forces,
          {0, -9.81, 0},
          {0, -1.6, 0},
          [](const world::SceneSpec& s) { return s.world.gravity.y; },
@@ -135,7 +135,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
         {"material.m.stretch_N_per_m",
          "100",
          "material.m",
-         RampField::Affects::springs,
+         fields::Affects::springs,
          {900},
          {100},
          [](const world::SceneSpec& s) { return s.materials.at("m").stretch; },
@@ -143,7 +143,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
         {"camera.c.fov_deg",
          "60",
          "camera.c",
-         RampField::Affects::picture,
+         fields::Affects::picture,
          {30},
          {60},
          [](const world::SceneSpec& s) { return s.cameras[0].fieldOfView; },
@@ -151,7 +151,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
         {"light.colour",
          "\"#ff0000\"",
          "light",
-         RampField::Affects::picture,
+         fields::Affects::picture,
          {1, 0.96, 0.9},
          {1, 0, 0},
          [](const world::SceneSpec& s) { return s.light.colour.y; },
@@ -159,7 +159,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
         {"anchor.a.at",
          "[4, 5, 6]",
          "anchor.a",
-         RampField::Affects::forces,
+         fields::Affects::forces,
          {1, 2, 3},
          {4, 5, 6},
          [](const world::SceneSpec& s) { return s.anchors[0].at.x; },

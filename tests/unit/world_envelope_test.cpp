@@ -42,7 +42,7 @@ TEST(Envelope, ATimelineThatStiffensNothingChangesNoStep) {
                      support::grab(1.5, "cloth.sheet@bottom", true),
                      action(Do::hold, 2.0, "cloth.sheet@bottom"),
                      support::cutPlane(3.0, "cloth.sheet", {0.51, 0, 0}, {1, 0, 0}),
-                     support::ramp(1.0, "material.silk.stretch", RampField::Affects::springs, 20.0, 1.0, Ease::linear,
+                     support::ramp(1.0, "material.silk.stretch", fields::Affects::springs, 20.0, 1.0, Ease::linear,
                                    [](SceneSpec& s) -> double& { return s.materials["silk"].stretch; })};
     EXPECT_EQ(stepLimitOf(scene), limit);
 }
@@ -82,8 +82,8 @@ TEST(Envelope, RampsOfStiffnessCountAtTheirLargest) {
     stiff.materials["silk"].stretch = 160;
     const auto stretch = [](SceneSpec& s) -> double& { return s.materials["silk"].stretch; };
     scene.actions = {
-        support::ramp(1.0, "material.silk.stretch", RampField::Affects::springs, 160, 1.0, Ease::linear, stretch),
-        support::ramp(2.0, "material.silk.stretch", RampField::Affects::springs, 10, 1.0, Ease::linear, stretch)};
+        support::ramp(1.0, "material.silk.stretch", fields::Affects::springs, 160, 1.0, Ease::linear, stretch),
+        support::ramp(2.0, "material.silk.stretch", fields::Affects::springs, 10, 1.0, Ease::linear, stretch)};
     EXPECT_EQ(stepLimitOf(scene), stepLimitOf(stiff));
     EXPECT_LT(stepLimitOf(scene), stepLimitOf(hanging()));
 }
@@ -96,9 +96,9 @@ TEST(Envelope, DampingCountsAtItsWorst) {
     SceneSpec worst = scene;
     worst.materials["silk"].drag = 1;
     worst.materials["silk"].dampingTime = 2e-3;
-    scene.actions = {support::ramp(1.0, "material.silk.drag", RampField::Affects::springs, 1, 1.0, Ease::linear,
+    scene.actions = {support::ramp(1.0, "material.silk.drag", fields::Affects::springs, 1, 1.0, Ease::linear,
                                    [](SceneSpec& s) -> double& { return s.materials["silk"].drag; }),
-                     support::ramp(1.0, "material.silk.damping", RampField::Affects::springs, 2e-3, 1.0, Ease::linear,
+                     support::ramp(1.0, "material.silk.damping", fields::Affects::springs, 2e-3, 1.0, Ease::linear,
                                    [](SceneSpec& s) -> double& { return s.materials["silk"].dampingTime; })};
     EXPECT_EQ(stepLimitOf(scene), stepLimitOf(worst));
 }
@@ -140,7 +140,7 @@ TEST(Envelope, WindsCountAtTheirFastest) {
     scene.winds = {wind};
     SceneSpec gale = scene;
     gale.winds[0].velocity = {25, 0, 0};
-    scene.actions = {support::ramp(1.0, "wind.breeze.velocity", RampField::Affects::forces, 25, 1.0, Ease::linear,
+    scene.actions = {support::ramp(1.0, "wind.breeze.velocity", fields::Affects::forces, 25, 1.0, Ease::linear,
                                    [](SceneSpec& s) -> double& { return s.winds[0].velocity.x; })};
     EXPECT_EQ(stepLimitOf(scene), stepLimitOf(gale));
     EXPECT_LT(stepLimitOf(gale), stepLimitOf(hanging()));

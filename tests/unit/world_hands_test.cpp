@@ -166,10 +166,10 @@ dvec3 placeAfterEvents(const std::string& method, int substeps) {
     scene.actions = {
         grab,
         support::moveHand(0.1, {0.3, 0.2, 0.1}, 0.3),
-        support::ramp(0.15, "world.gravity", RampField::Affects::forces, 4.0, 0.4, Ease::smooth,
+        support::ramp(0.15, "world.gravity", fields::Affects::forces, 4.0, 0.4, Ease::smooth,
                       [](SceneSpec& s) -> double& { return s.world.gravity.y; }),
         support::push(0.3, "net.ball@m", {0.5, 1.0, -0.4}),
-        support::ramp(0.35, "net.ball.stiffness", RampField::Affects::springs, 350.0, 0.2, Ease::linear,
+        support::ramp(0.35, "net.ball.stiffness", fields::Affects::springs, 350.0, 0.2, Ease::linear,
                       [](SceneSpec& s) -> double& { return s.nets[0].springs[0].stiffness; }),
         support::moveHand(0.5, {-0.2, 0.1, 0.3}, 0.2, Ease::linear),
         support::release(0.8),

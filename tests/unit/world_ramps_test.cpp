@@ -10,7 +10,7 @@ namespace taut::world {
 namespace {
 
 using support::run;
-using Affects = RampField::Affects;
+using Affects = fields::Affects;
 using support::g;
 
 double& gravityOf(SceneSpec& s) {

@@ -1,20 +1,12 @@
-#include "taut/scene/field.h"
+#include "taut/fields/field.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "taut/scene/fields_of.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/problems.h"
 
-namespace taut::scene {
-
-std::vector<Section> sceneSections() {
-    return {fileSection(),       needSection(),   solverSection(),   worldSection(), runSection(),    pictureSection(),
-            materialSection(),   clothSection(),  ropeSection(),     blockSection(), netSection(),    jointSection(),
-            massSection(),       anchorSection(), colliderSection(), windSection(),  cameraSection(), lightSection(),
-            backgroundSection(), labelSection(),  handSection(),     atSection(),    checkSection(),  goldenSection()};
-}
+namespace taut::fields {
 
 bool isName(const std::string& name) {
     return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -108,4 +100,4 @@ std::string defaultText(const Value& value) {
     return "";
 }
 
-}  // namespace taut::scene
+}  // namespace taut::fields

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "taut/scene/document.h"
+#include "taut/fields/node.h"
 
-namespace taut::scene {
+namespace taut::fields {
 
 class Problems {
   public:
@@ -60,4 +60,4 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
 // "a, b, c"
 std::string joined(const std::vector<std::string>& words, std::string_view separator = ", ");
 
-}  // namespace taut::scene
+}  // namespace taut::fields

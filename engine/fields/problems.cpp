@@ -1,4 +1,4 @@
-#include "taut/scene/problems.h"
+#include "taut/fields/problems.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "taut/core/edit_distance.h"
 
-namespace taut::scene {
+namespace taut::fields {
 
 namespace {
 
@@ -202,4 +202,4 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
     return fmt::format("{}", fmt::join(words, separator));
 }
 
-}  // namespace taut::scene
+}  // namespace taut::fields

@@ -1,7 +1,8 @@
 // Builds the rows of the field table: one call a field, from a member pointer to functions that write and read it.
 #pragma once
 
-#include <glm/glm.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,9 +11,9 @@
 #include <vector>
 
 #include "taut/core/trig.h"
-#include "taut/scene/field.h"
+#include "taut/fields/field.h"
 
-namespace taut::scene {
+namespace taut::fields {
 
 // Numbers of a vector member, in order.
 template <int N, class Scalar>
@@ -271,16 +272,16 @@ class FieldList {
     template <class Part, class Base>
     FieldList& table(const char* key, Part Base::*member, Section section, const char* help) {
         return addInside(key, FieldKind::table, std::move(section), help,
-                         [=](Spec& s, const world::Source&) -> void* { return &(s.*member); });
+                         [=](Spec& s, const core::Source&) -> void* { return &(s.*member); });
     }
     FieldList& tableOfSelf(const char* key, Section section, const char* help) {
         return addInside(key, FieldKind::table, std::move(section), help,
-                         [](Spec& s, const world::Source&) -> void* { return &s; });
+                         [](Spec& s, const core::Source&) -> void* { return &s; });
     }
     template <class Entry, class Base>
     FieldList& tables(const char* key, std::vector<Entry> Base::*member, Section section, const char* help) {
         return addInside(key, FieldKind::tables, std::move(section), help,
-                         [=](Spec& s, const world::Source& source) -> void* {
+                         [=](Spec& s, const core::Source& source) -> void* {
                              Entry& entry = (s.*member).emplace_back();
                              if constexpr (requires { entry.source; }) entry.source = source;
                              return &entry;
@@ -300,7 +301,7 @@ class FieldList {
         last().role = role;
         return *this;
     }
-    FieldList& ramps(world::RampField::Affects affects) {
+    FieldList& ramps(Affects affects) {
         last().ramp = affects;
         return *this;
     }
@@ -330,7 +331,7 @@ class FieldList {
         field.kind = kind;
         field.help = help;
         field.inside.push_back(std::move(section));
-        field.enter = [enter](void* spec, const world::Source& source) {
+        field.enter = [enter](void* spec, const core::Source& source) {
             return enter(*static_cast<Spec*>(spec), source);
         };
         return *this;
@@ -339,4 +340,4 @@ class FieldList {
     std::vector<Field> fields_;
 };
 
-}  // namespace taut::scene
+}  // namespace taut::fields

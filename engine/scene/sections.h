@@ -1,9 +1,23 @@
-// The rows of the field table, by topic; sceneSections() joins them. Each function is the table of one section.
+// The field table of a scene file, by topic: each function is the table of one section.
 #pragma once
 
-#include "taut/scene/field.h"
+#include "taut/fields/field.h"
+#include "taut/world/spec.h"
 
 namespace taut::scene {
+
+using namespace fields;
+
+// A section of a scene file, and where its fields go.
+struct SceneSection : Section {
+    // The struct to fill: a part of the scene, or a new element with its name.
+    std::function<void*(world::SceneSpec&, const std::string& name, const core::Source&)> enter;
+    // The struct that is there already, or null; no function: ramps change nothing of it.
+    std::function<void*(world::SceneSpec&, const std::string& name)> existing;
+};
+
+// All of them. `schema` and `title` stand in the one without a name.
+std::vector<SceneSection> sceneSections();
 
 // Limits that many fields share.
 inline constexpr Range placeRange{-1e6, 1e6};   // [m]
@@ -11,36 +25,36 @@ inline constexpr Range lengthRange{1e-6, 1e6};  // [m]
 inline constexpr Range momentRange{0.0, 1e6};   // [s]
 
 // Settings of the whole scene.
-Section fileSection();
-Section needSection();
-Section solverSection();
-Section worldSection();
-Section runSection();
-Section pictureSection();
-Section lightSection();
-Section backgroundSection();
+SceneSection fileSection();
+SceneSection needSection();
+SceneSection solverSection();
+SceneSection worldSection();
+SceneSection runSection();
+SceneSection pictureSection();
+SceneSection lightSection();
+SceneSection backgroundSection();
 
 // What moves by its own laws.
-Section materialSection();
-Section clothSection();
-Section ropeSection();
-Section blockSection();
-Section netSection();
+SceneSection materialSection();
+SceneSection clothSection();
+SceneSection ropeSection();
+SceneSection blockSection();
+SceneSection netSection();
 
 // What ties, pushes and shows it.
-Section jointSection();
-Section massSection();
-Section anchorSection();
-Section colliderSection();
-Section windSection();
-Section cameraSection();
-Section labelSection();
+SceneSection jointSection();
+SceneSection massSection();
+SceneSection anchorSection();
+SceneSection colliderSection();
+SceneSection windSection();
+SceneSection cameraSection();
+SceneSection labelSection();
 
 // What happens while it runs, and what is claimed of it.
-Section handSection();
-Section atSection();
-Section checkSection();
-Section goldenSection();
+SceneSection handSection();
+SceneSection atSection();
+SceneSection checkSection();
+SceneSection goldenSection();
 
 // Parts of several sections.
 Section finishSection();

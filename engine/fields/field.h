@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include "taut/scene/document.h"
-#include "taut/world/spec.h"
+#include "taut/core/source.h"
+#include "taut/fields/node.h"
 
-namespace taut::scene {
+namespace taut::fields {
 
 class Problems;
 
@@ -64,6 +64,9 @@ enum class Role {
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
                            std::vector<std::string>>;  // lists of whole numbers are numbers too
 
+// What changes with a number that may change while a scene runs.
+enum class Affects { picture, forces, colliders, springs };  // springs: of bodies and their materials
+
 struct Section;
 
 struct Field {
@@ -76,7 +79,7 @@ struct Field {
     bool required = false;
     std::vector<std::string> only;  // variants of the section that have this field; empty: all
     Role role = Role::none;
-    std::optional<world::RampField::Affects> ramp;  // what changes with it, if a ramp may change it
+    std::optional<Affects> ramp;  // what changes with it, if a ramp may change it
     std::string help;
 
     std::function<void(void*, const Value&)> write;  // into the section's struct
@@ -84,7 +87,7 @@ struct Field {
 
     // Of kinds table and tables: the fields inside, and the struct that they are written to.
     std::vector<Section> inside;  // exactly one
-    std::function<void*(void*, const world::Source&)> enter;
+    std::function<void*(void*, const core::Source&)> enter;
 };
 
 // What a section's own check gets to see.
@@ -116,11 +119,6 @@ struct Section {
     std::function<std::string(const Node&)> variant;
     std::string variantKey;  // the field that says it, e.g. "shape"; empty: none does
 
-    // The struct to fill: a part of the scene, or a new body with its name. Not of a section inside another.
-    std::function<void*(world::SceneSpec&, const std::string& name, const world::Source&)> enter;
-    // The struct that is there already, or null; no function: ramps change nothing of it.
-    std::function<void*(world::SceneSpec&, const std::string& name)> existing;
-
     // What no single field can say. Called after the fields are read, also if some were wrong; may amend the struct.
     std::function<void(const CheckInput&, void*)> check;
 
@@ -131,9 +129,6 @@ struct Section {
 // Whether something may be called so: letters, digits, - and _, at most 100.
 bool isName(const std::string& name);
 
-// All sections of a scene file. `schema` and `title` stand in the one without a name.
-std::vector<Section> sceneSections();
-
 // "above 0 m", "between 0 and 1".
 std::string description(const Range& range, const std::string& unit);
 
@@ -143,4 +138,4 @@ std::string description(const Field& field);
 // The default as it would be written in a file, or an empty text if there is none.
 std::string defaultText(const Value& value);
 
-}  // namespace taut::scene
+}  // namespace taut::fields

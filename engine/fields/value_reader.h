@@ -3,12 +3,12 @@
 
 #include <optional>
 
-#include "taut/scene/field.h"
-#include "taut/scene/problems.h"
+#include "taut/fields/field.h"
+#include "taut/fields/problems.h"
 
-namespace taut::scene {
+namespace taut::fields {
 
 // The value in the file's units, or nothing if it was wrong. Not for tables.
 std::optional<Value> fieldValue(const Field& field, const Node& node, Problems& problems);
 
-}  // namespace taut::scene
+}  // namespace taut::fields

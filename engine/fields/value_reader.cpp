@@ -1,4 +1,4 @@
-#include "taut/scene/value_reader.h"
+#include "taut/fields/value_reader.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace taut::scene {
+namespace taut::fields {
 
 namespace {
 
@@ -238,4 +238,4 @@ std::optional<Value> fieldValue(const Field& field, const Node& node, Problems& 
     return ValueReader(field, problems).value(node);
 }
 
-}  // namespace taut::scene
+}  // namespace taut::fields

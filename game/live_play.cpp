@@ -13,7 +13,6 @@
 #include "game/renderers.h"
 #include "game/scene_file.h"
 #include "taut/live/between.h"
-#include "taut/scene/method_names.h"
 
 namespace taut::game {
 namespace {

@@ -11,7 +11,7 @@
 #include "game/scene_file.h"
 #include "taut/core/whole_file.h"
 #include "taut/live/recording.h"
-#include "taut/scene/method_names.h"
+#include "taut/world/common_rows.h"
 
 namespace taut::game {
 namespace {
@@ -151,7 +151,7 @@ void LivePlay::lead() {
 }
 
 void LivePlay::nextMethod() {
-    const std::vector<std::string> names = scene::methodNames();
+    const std::vector<std::string> names = world::methodNames();
     const auto now = std::find(names.begin(), names.end(), session_->spec().solver.integrator);
     const std::string next = now == names.end() || now + 1 == names.end() ? names.front() : *(now + 1);
     std::vector<std::string> changes = changes_;

@@ -51,6 +51,7 @@ enum class Role {
     none,
     material,   // [material.NAME]
     camera,     // [camera.NAME]
+    method,     // a method of integration
     mesh,       // a path of an OBJ file
     texture,    // a path of a picture
     points,     // KIND.NAME@SELECTOR
@@ -88,6 +89,7 @@ struct Field {
     // Of kinds table and tables: the fields inside, and the struct that they are written to.
     std::vector<Section> inside;  // exactly one
     std::function<void*(void*, const core::Source&)> enter;
+    std::function<std::vector<void*>(void*)> entries;  // of tables: the structs that are there
 };
 
 // What a section's own check gets to see.

@@ -280,12 +280,18 @@ class FieldList {
     }
     template <class Entry, class Base>
     FieldList& tables(const char* key, std::vector<Entry> Base::*member, Section section, const char* help) {
-        return addInside(key, FieldKind::tables, std::move(section), help,
-                         [=](Spec& s, const core::Source& source) -> void* {
-                             Entry& entry = (s.*member).emplace_back();
-                             if constexpr (requires { entry.source; }) entry.source = source;
-                             return &entry;
-                         });
+        addInside(key, FieldKind::tables, std::move(section), help,
+                  [=](Spec& s, const core::Source& source) -> void* {
+                      Entry& entry = (s.*member).emplace_back();
+                      if constexpr (requires { entry.source; }) entry.source = source;
+                      return &entry;
+                  });
+        last().entries = [=](void* spec) {
+            std::vector<void*> entries;
+            for (Entry& entry : static_cast<Spec*>(spec)->*member) entries.push_back(&entry);
+            return entries;
+        };
+        return *this;
     }
 
     // These four change the field added last.

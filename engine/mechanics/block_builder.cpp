@@ -162,4 +162,8 @@ Model buildBlock(const BlockShape& shape) {
     return LatticeBuilder(shape).build();
 }
 
+std::vector<std::string> blockGroups() {
+    return {"left", "right", "bottom", "top", "back", "front", "corners"};
+}
+
 }  // namespace taut::mechanics

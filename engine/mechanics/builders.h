@@ -13,9 +13,6 @@
 
 namespace taut::mechanics {
 
-// How mass is shared out: by the length, area or volume around a point, or the slides' m = M/n.
-enum class Lumping { weighted, uniform };
-
 struct RopeShape {
     glm::dvec3 start{0.0}, end{1.0, 0.0, 0.0};  // [m]
     int segments = 20;
@@ -31,6 +28,7 @@ struct RopeShape {
 // Points from start to end. Groups: start, end, ends, all. Expects segments >= 1 and mass > 0; throws
 // core::Error(badContent) when there is neither a length nor a distance.
 Model buildRope(const RopeShape& shape);
+std::vector<std::string> ropeGroups();  // besides all, as the others
 
 struct ClothMaterial {
     double density = 0.2;      // [kg/m²]
@@ -55,6 +53,7 @@ struct ClothShape {
 // Groups: left, right, top, bottom, the four corners (top-left, …), corners, edges, all.
 // Expects at least one cell, and a size above zero, each way.
 Model buildCloth(const ClothShape& shape);
+std::vector<std::string> clothGroups();
 
 struct MeshClothShape {
     std::vector<glm::dvec3> positions;          // (vertices) [m] welded, each used by a triangle
@@ -67,6 +66,7 @@ struct MeshClothShape {
 // top-right, bottom-left, bottom-right: the one point furthest into that corner, width and height counted alike.
 // Throws core::Error(badContent) naming what is wrong: no triangle, an edge of three triangles, a zero area.
 Model buildMeshCloth(const MeshClothShape& shape);
+std::vector<std::string> meshClothGroups();
 
 struct BlockShape {
     glm::dvec3 centre{0.0};       // [m]
@@ -84,6 +84,7 @@ struct BlockShape {
 // share. Six tetrahedra a cell. Groups: left right bottom top back front (-x +x -y +y -z +z), corners, all.
 // Expects at least one cell, and a size above zero, each way, and right-handed axes.
 Model buildBlock(const BlockShape& shape);
+std::vector<std::string> blockGroups();
 
 struct NetPoint {
     std::string name;

@@ -128,4 +128,8 @@ Model buildCloth(const ClothShape& shape) {
     return GridBuilder(shape).build();
 }
 
+std::vector<std::string> clothGroups() {
+    return {"left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right", "corners", "edges"};
+}
+
 }  // namespace taut::mechanics

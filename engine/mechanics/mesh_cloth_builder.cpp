@@ -179,4 +179,8 @@ Model buildMeshCloth(const MeshClothShape& shape) {
     return model;
 }
 
+std::vector<std::string> meshClothGroups() {
+    return {"boundary", "top", "bottom", "left", "right", "top-left", "top-right", "bottom-left", "bottom-right"};
+}
+
 }  // namespace taut::mechanics

@@ -4,12 +4,16 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/glm.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace taut::mechanics {
+
+// How mass is shared out: by the length, area or volume around a point, or the slides' m = M/n.
+enum class Lumping { weighted, uniform };
 
 enum class SpringKind : std::uint8_t { structural, shear, bend, joint };
 
@@ -40,6 +44,7 @@ struct Model {
     std::vector<Spring> springs;
     std::vector<std::array<int, 3>> triangles;  // the surface, counter-clockwise seen from its front; empty for ropes
     std::vector<VolumeCell> cells;
+    double workingStretch = 1;  // of a cell's edges, up to which a step must hold
 
     // Points by name: "left", "top-left", "all", … as each builder documents. Indices ascend.
     std::map<std::string, std::vector<int>> groups;

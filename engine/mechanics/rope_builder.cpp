@@ -141,4 +141,8 @@ Model buildRope(const RopeShape& shape) {
     return model;
 }
 
+std::vector<std::string> ropeGroups() {
+    return {"start", "end", "ends"};
+}
+
 }  // namespace taut::mechanics

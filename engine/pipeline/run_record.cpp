@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "taut/world/each_body.h"
+#include "taut/world/forces/wind.h"
 #include "taut/world/metric_table.h"
 
 namespace taut::pipeline {
@@ -32,11 +32,11 @@ Json rendererJson(const std::optional<render::RendererInfo>& info) {
 
 Json seedsJson(const world::SceneSpec& spec) {
     Json seeds = Json::object();
-    forEachBody(spec, [&](const char* kind, const world::BodySpec& body) {
-        if (body.jitter > 0.0) seeds[fmt::format("{}.{}.seed", kind, body.name)] = body.seed;
-    });
-    for (const world::WindSpec& wind : spec.winds)
-        if (wind.gustAmplitude > 0.0) seeds[fmt::format("wind.{}.gust.seed", wind.name)] = wind.gustSeed;
+    for (const world::BodySpec& body : spec.bodies.all()) {
+        if (body.jitter > 0.0) seeds[body.fullName() + ".seed"] = body.seed;
+    }
+    for (const world::WindSpec& wind : spec.forces.of<world::WindSpec>())
+        if (wind.gustAmplitude > 0.0) seeds[wind.fullName() + ".gust.seed"] = wind.gustSeed;
     return seeds;
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/world/each_body.h"
+#include "taut/scene/by_key.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
 
 namespace taut::regression {
 namespace {
@@ -18,48 +20,42 @@ bool isOf(const std::string& name, const std::string& body) {
 // Each island with half as many steps a tick; one that takes a single step, which cannot be longer, with two.
 std::optional<world::SceneSpec> withOtherStep(world::SceneSpec spec, const Islands& islands) {
     bool changed = false;
-    forEachBody(spec, [&](const std::string& kind, world::BodySpec& body) {
+    for (world::BodySpec& body : spec.bodies.all()) {
         for (const world::IslandInfo& island : islands)
             for (const std::string& name : island.bodies) {
-                if (!isOf(name, kind + "." + body.name)) continue;
+                if (!isOf(name, body.fullName())) continue;
                 // A hundredth of leeway: the step is the tick over a whole number, and rounding decides which.
                 body.solver.dt = (island.substeps > 1 ? 2.0 : 0.5) * island.step * 1.01;
                 changed = true;
             }
-    });
+    }
     return changed ? std::optional(std::move(spec)) : std::nullopt;
 }
 
 std::optional<world::SceneSpec> withLessDamping(world::SceneSpec spec, const Islands&) {
     bool changed = false;
-    const auto weaken = [&](double& value) {
+    constexpr std::string_view losses[] = {"damping_time_s", "drag_per_s"};
+    scene::eachNumber(spec, "", losses, [&](double& value) {
         changed = changed || value > 0.0;
         value *= 0.8;
-    };
-    for (auto& [name, material] : spec.materials) {
-        weaken(material.dampingTime);
-        weaken(material.drag);
-    }
-    for (auto& rope : spec.ropes) weaken(rope.dampingTime), weaken(rope.drag);
-    for (auto& block : spec.blocks) weaken(block.dampingTime), weaken(block.drag);
-    for (auto& net : spec.nets) weaken(net.dampingTime), weaken(net.drag);
+    });
     return changed ? std::optional(std::move(spec)) : std::nullopt;
 }
 
 // The last one of a net; of a grid cloth what crosses the middle of a thread near its middle, at the start.
 std::optional<world::SceneSpec> withoutOneSpring(world::SceneSpec spec, const Islands&) {
-    for (world::NetSpec& net : spec.nets)
+    for (world::NetSpec& net : spec.bodies.of<world::NetSpec>())
         if (net.springs.size() > 1) {
             net.springs.pop_back();
             return spec;
         }
-    for (const world::ClothSpec& cloth : spec.cloths) {
+    for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
         if (!cloth.mesh.empty()) continue;
         const glm::dvec2 cell = 1.0 / glm::dvec2(cloth.cells);
         const glm::dvec2 corner = glm::floor(glm::dvec2(cloth.cells) * 0.5) * cell;
         world::ActionSpec cut;
         cut.what = world::Do::cut;
-        cut.target = "cloth." + cloth.name;
+        cut.target = cloth.fullName();
         if (cloth.array.count != world::ivec3{1, 1, 1}) cut.target += ".0";
         // Across the thread that leaves the corner to the right, far shorter than a cell.
         cut.from = corner + cell * glm::dvec2(0.5, -0.05);

@@ -38,8 +38,7 @@ void setAsset(world::FinishSpec& finish, const Assets& textures) {
     if (const auto found = textures.find(finish.texture); found != textures.end()) finish.texture = found->second.found;
 }
 
-template <class Spec>
-void setMesh(Spec& spec, const Assets& meshes) {
+void setMesh(world::MeshSource& spec, const Assets& meshes) {
     const auto found = meshes.find(spec.mesh);
     if (found == meshes.end()) return;
     spec.mesh = found->second.found;
@@ -86,16 +85,15 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vect
         assets.emplace(reference.text, asset);
     }
 
-    for (auto& cloth : scene.spec.cloths) setMesh(cloth, meshes);
-    for (auto& collider : scene.spec.colliders) {
+    for (world::BodySpec& body : scene.spec.bodies.all()) {
+        if (world::MeshSource* source = body.meshSource()) setMesh(*source, meshes);
+        setAsset(body.finish, textures);
+    }
+    for (world::ColliderSpec& collider : scene.spec.colliders) {
         setMesh(collider, meshes);
-        for (auto& part : collider.parts) setMesh(part, meshes);
+        for (world::ColliderSpec& part : collider.parts) setMesh(part, meshes);
         setAsset(collider.finish, textures);
     }
-    for (auto& cloth : scene.spec.cloths) setAsset(cloth.finish, textures);
-    for (auto& rope : scene.spec.ropes) setAsset(rope.finish, textures);
-    for (auto& block : scene.spec.blocks) setAsset(block.finish, textures);
-    for (auto& net : scene.spec.nets) setAsset(net.finish, textures);
 }
 
 }  // namespace taut::scene

@@ -6,24 +6,13 @@
 #include <charconv>
 #include <string_view>
 
+#include "taut/core/error.h"
 #include "taut/core/glob.h"
-#include "taut/scene/body_size.h"
 #include "taut/fields/problems.h"
 
 namespace taut::scene {
 
 namespace {
-
-const std::vector<std::string> kinds{"cloth", "rope", "block", "net"};
-const std::vector<std::string> surfaceKinds{"cloth", "block"};
-
-// Groups as the builders name them.
-const std::vector<std::string> ropeGroups{"start", "end", "ends"};
-const std::vector<std::string> gridGroups{"left",      "right",       "top",          "bottom",  "top-left",
-                                          "top-right", "bottom-left", "bottom-right", "corners", "edges"};
-const std::vector<std::string> meshGroups{"boundary", "top",       "bottom",      "left",        "right",
-                                          "top-left", "top-right", "bottom-left", "bottom-right"};
-const std::vector<std::string> blockGroups{"left", "right", "bottom", "top", "back", "front", "corners"};
 
 std::string_view withoutSelector(std::string_view target) {
     return target.substr(0, target.find('@'));
@@ -61,9 +50,9 @@ std::optional<TargetFault> indexFault(const BodyEntry& body, const std::string& 
     const std::string_view digits = std::string_view(selector).substr(1);
     const bool isIndex = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
     if (!isIndex) return TargetFault{fmt::format("\"{}\" is not the number of a point", selector), "write #0, #1, …"};
-    if (body.isFaulty || (digits.size() < 15 && *number(digits) < body.points)) return std::nullopt;
+    if (body.isFaulty || (digits.size() < 15 && *number(digits) < body.outline.points)) return std::nullopt;
     return TargetFault{fmt::format("{} has no point {}", body.title(), selector),
-                       fmt::format("its points are #0 … #{:.0f}", body.points - 1)};
+                       fmt::format("its points are #0 … #{:.0f}", body.outline.points - 1)};
 }
 
 std::optional<TargetFault> uvFault(const BodyEntry& body, const std::string& selector) {
@@ -73,7 +62,7 @@ std::optional<TargetFault> uvFault(const BodyEntry& body, const std::string& sel
                         isShare(std::string_view(selector).substr(comma + 1, selector.size() - comma - 2), 1.0);
     if (!isPair)
         return TargetFault{fmt::format("\"{}\" is not a place on a cloth", selector), "write (u,v), each 0 … 1"};
-    if (body.hasUv || body.isFaulty) return std::nullopt;
+    if (body.outline.isGrid || body.isFaulty) return std::nullopt;
     return TargetFault{fmt::format("{} is no grid: it has no (u,v)", body.title()), ""};
 }
 
@@ -81,7 +70,7 @@ std::optional<TargetFault> percentFault(const BodyEntry& body, const std::string
     if (!isShare(std::string_view(selector).substr(0, selector.size() - 1), 100.0)) {
         return TargetFault{fmt::format("\"{}\" is not a place along a rope", selector), "write 0% … 100%"};
     }
-    if (body.hasLength) return std::nullopt;
+    if (body.outline.isLine) return std::nullopt;
     return TargetFault{fmt::format("{} is no rope: it has no {}", body.title(), selector), ""};
 }
 
@@ -90,9 +79,9 @@ std::optional<TargetFault> selectorFaultIn(const BodyEntry& body, const std::str
     if (selector.starts_with('(')) return uvFault(body, selector);
     if (selector.ends_with('%')) return percentFault(body, selector);
     const bool isGroup =
-        selector == "all" || std::find(body.groups.begin(), body.groups.end(), selector) != body.groups.end();
+        selector == "all" || std::find(body.outline.groups.begin(), body.outline.groups.end(), selector) != body.outline.groups.end();
     if (isGroup || body.isFaulty) return std::nullopt;
-    std::vector<std::string> groups = body.groups;
+    std::vector<std::string> groups = body.outline.groups;
     groups.push_back("all");
     std::string remedy = suggestion(selector, groups);
     if (remedy.empty() && groups.size() <= 12) remedy = "it has " + joined(groups);
@@ -101,31 +90,20 @@ std::optional<TargetFault> selectorFaultIn(const BodyEntry& body, const std::str
 
 }  // namespace
 
-BodyIndex::BodyIndex(const world::SceneSpec& scene, const std::set<std::string>& faulty) {
-    const auto add = [&](const char* kind, const auto& spec) -> BodyEntry& {
+BodyIndex::BodyIndex(const world::SceneSpec& scene, const world::Kinds& kinds, const std::set<std::string>& faulty) {
+    for (const auto& kind : kinds.bodies.all()) kinds_.push_back(kind.name);
+    for (const world::BodySpec& spec : scene.bodies.all()) {
         BodyEntry& body = bodies_.emplace_back();
-        body.kind = kind;
+        body.kind = spec.kind();
         body.name = spec.name;
         body.copies = spec.array.count.x * spec.array.count.y * spec.array.count.z;
-        body.points = sizeOf(spec).pointsOfOne;
-        body.solver = spec.solver;
         body.isFaulty = faulty.contains(body.title());
-        return body;
-    };
-    for (const auto& cloth : scene.cloths) {
-        BodyEntry& body = add("cloth", cloth);
-        body.hasUv = cloth.mesh.empty();
-        body.groups = cloth.mesh.empty() ? gridGroups : meshGroups;
-    }
-    for (const auto& rope : scene.ropes) {
-        BodyEntry& body = add("rope", rope);
-        body.groups = ropeGroups;
-        body.hasLength = true;
-    }
-    for (const auto& block : scene.blocks) add("block", block).groups = blockGroups;
-    for (const auto& net : scene.nets) {
-        BodyEntry& body = add("net", net);
-        for (const auto& point : net.points) body.groups.push_back(point.name);
+        try {
+            body.outline = spec.outline(scene);
+        } catch (const core::Error&) {  // it cannot be built, which is said when it is
+            body.isFaulty = body.outline.hasSurface = true;
+        }
+        body.solver = spec.solver;
     }
     const auto isBefore = [](const BodyEntry& a, const BodyEntry& b) { return a.title() < b.title(); };
     std::sort(bodies_.begin(), bodies_.end(), isBefore);
@@ -157,10 +135,11 @@ std::optional<TargetFault> BodyIndex::bodyFault(const std::string& target) const
 
 std::optional<TargetFault> BodyIndex::surfaceFault(const std::string& target) const {
     if (auto fault = bodyFault(target)) return fault;
-    const std::string kind(kindOf(target));
-    if (std::find(surfaceKinds.begin(), surfaceKinds.end(), kind) != surfaceKinds.end()) return std::nullopt;
-    return TargetFault{fmt::format("a {} has no surface", kind),
-                       fmt::format("bodies with a surface are {}", joined(surfaceKinds))};
+    for (const BodyEntry* body : matches(target))
+        if (!body->outline.hasSurface)
+            return TargetFault{fmt::format("a {} has no surface", body->kind),
+                               "bodies with a surface are cloth, block"};
+    return std::nullopt;
 }
 
 std::optional<TargetFault> BodyIndex::selectorFault(const std::string& title, const std::string& selector) const {
@@ -197,9 +176,9 @@ std::optional<TargetFault> BodyIndex::bodiesFault(const std::string& target) con
     if (kind.size() == title.size()) {
         return TargetFault{fmt::format("\"{}\" names no body", target), "write KIND.NAME, e.g. cloth.flag"};
     }
-    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
-        std::string remedy = suggestion(kind, kinds);
-        if (remedy.empty()) remedy = "bodies are " + joined(kinds);
+    if (std::find(kinds_.begin(), kinds_.end(), kind) == kinds_.end()) {
+        std::string remedy = suggestion(kind, kinds_);
+        if (remedy.empty()) remedy = "bodies are " + joined(kinds_);
         return TargetFault{fmt::format("\"{}\" is no kind of body", kind), remedy};
     }
     if (!matches(title).empty()) return std::nullopt;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/world/kinds.h"
 #include "taut/world/spec.h"
 
 namespace taut::scene {
@@ -20,11 +21,8 @@ struct TargetFault {
 struct BodyEntry {
     std::string kind, name;           // "cloth", "flag"
     int copies = 1;                   // more than one: called flag.0, flag.1, …
-    double points = 0;                // of one copy
-    std::vector<std::string> groups;  // names of its points, besides "all"
-    bool hasUv = false;               // "(u,v)"
-    bool hasLength = false;           // "50%"
     bool isFaulty = false;            // its numbers are not to be trusted
+    world::BodyOutline outline;       // of one copy
     world::SolverOverride solver;
 
     std::string title() const { return kind + "." + name; }
@@ -33,7 +31,7 @@ struct BodyEntry {
 class BodyIndex {
   public:
     // `faulty` names bodies with errors, "cloth.flag".
-    BodyIndex(const world::SceneSpec& scene, const std::set<std::string>& faulty);
+    BodyIndex(const world::SceneSpec& scene, const world::Kinds& kinds, const std::set<std::string>& faulty);
 
     // KIND.NAME@SELECTOR; NAME may hold the wildcard *, and ends in .0, .1, … for one copy of an array.
     std::optional<TargetFault> pointsFault(const std::string& target) const;
@@ -59,6 +57,7 @@ class BodyIndex {
   private:
     std::optional<TargetFault> bodiesFault(const std::string& target) const;
 
+    std::vector<std::string> kinds_;
     std::vector<BodyEntry> bodies_;
 };
 

@@ -16,8 +16,8 @@ namespace {
 
 class Claims {
   public:
-    Claims(const Node& root, ReadScene& scene, Problems& problems)
-        : root_(root), scene_(scene), problems_(problems), bodies_(scene.spec, scene.faulty), ticks_(scene.spec.run) {}
+    Claims(const Node& root, const BodyIndex& bodies, ReadScene& scene, Problems& problems)
+        : root_(root), scene_(scene), problems_(problems), bodies_(bodies), ticks_(scene.spec.run) {}
 
     void check() {
         for (std::size_t i = 0; i < scene_.spec.checks.size(); ++i) {
@@ -85,7 +85,7 @@ class Claims {
     const Node& root_;
     ReadScene& scene_;
     Problems& problems_;
-    BodyIndex bodies_;
+    const BodyIndex& bodies_;
     world::Ticks ticks_;
 };
 
@@ -103,8 +103,8 @@ void checkGoldens(const Node& root, const ReadScene& scene, Problems& problems) 
 
 }  // namespace
 
-void checkClaims(const Node& root, ReadScene& scene, Problems& problems) {
-    Claims(root, scene, problems).check();
+void checkClaims(const Node& root, const BodyIndex& bodies, ReadScene& scene, Problems& problems) {
+    Claims(root, bodies, scene, problems).check();
     checkGoldens(root, scene, problems);
 }
 

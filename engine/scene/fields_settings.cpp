@@ -1,7 +1,6 @@
 // The field table, part one: settings of the whole scene.
 #include "taut/fields/field_list.h"
 #include "taut/scene/sections.h"
-#include "taut/scene/method_names.h"
 #include "taut/fields/problems.h"
 
 namespace taut::scene {
@@ -37,10 +36,6 @@ void checkCamera(const CheckInput& input, const CameraSpec& camera) {
 }
 
 }  // namespace
-
-std::vector<std::string> easeNames() {
-    return {"linear", "smooth", "in", "out", "hold"};
-}
 
 SceneSection fileSection() {
     SceneSection section;
@@ -95,6 +90,7 @@ SceneSection solverSection() {
     section.fields =
         FieldList<SolverSpec>()
             .choice("integrator", &SolverSpec::integrator, methodNames(), "Method of integration.")
+            .role(Role::method)
             .stepLength("dt", &SolverSpec::dt, "Largest step; \"auto\" finds it from the stability limit.")
             .number("safety", &SolverSpec::safety, "", Range{0.01, 1.0},
                     "Share of the stability limit that \"auto\" uses.")

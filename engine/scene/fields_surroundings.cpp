@@ -1,4 +1,4 @@
-// The field table, part three: joints, masses, anchors, colliders and winds.
+// The field table, part three: joints, masses and colliders.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,9 +16,9 @@ using namespace world;
 namespace {
 
 // The names of the shapes that have a use for this field.
-std::vector<std::string> shapesWith(std::string_view field) {
+std::vector<std::string> shapesWith(const collision::ShapeKinds& shapes, std::string_view field) {
     std::vector<std::string> names;
-    for (const collision::ShapeKind& kind : collision::builtInShapes().all())
+    for (const collision::ShapeKind& kind : shapes.all())
         if (std::find(kind.fields.begin(), kind.fields.end(), field) != kind.fields.end())
             names.emplace_back(kind.name);
     return names;
@@ -26,34 +26,34 @@ std::vector<std::string> shapesWith(std::string_view field) {
 
 enum class In { collider, compound };
 
-std::vector<std::string> shapeNames(In where) {
+std::vector<std::string> shapeNames(const collision::ShapeKinds& shapes, In where) {
     std::vector<std::string> names;
-    for (const collision::ShapeKind& kind : collision::builtInShapes().all())
+    for (const collision::ShapeKind& kind : shapes.all())
         if (where == In::collider || kind.isBounded) names.emplace_back(kind.name);
     if (where == In::collider) names.emplace_back("compound");
     return names;
 }
 
 // The sizes and the place of a shape: what a collider and a part of a compound have in common.
-FieldList<ColliderSpec> shapeFields(In where) {
+FieldList<ColliderSpec> shapeFields(const collision::ShapeKinds& shapes, In where) {
     FieldList<ColliderSpec> list;
-    list.choice("shape", &ColliderSpec::shape, shapeNames(where), "Its shape.")
+    list.choice("shape", &ColliderSpec::shape, shapeNames(shapes, where), "Its shape.")
         .required()
         .vector("position", &ColliderSpec::position, "m", placeRange, "Its centre.")
         .rotation("rotation_deg", &ColliderSpec::rotation, "About x, then y, then z.")
         .vector("size", &ColliderSpec::size, "m", lengthRange, "Its three edges.")
-        .only(shapesWith("size"))
+        .only(shapesWith(shapes, "size"))
         .number("radius", &ColliderSpec::radius, "m", lengthRange, "Its radius.")
-        .only(shapesWith("radius"))
+        .only(shapesWith(shapes, "radius"))
         .number("height", &ColliderSpec::height, "m", lengthRange,
                 "Whole height along y; of a capsule between the centres of its half spheres.")
-        .only(shapesWith("height"))
+        .only(shapesWith(shapes, "height"))
         .text("mesh", &ColliderSpec::mesh, Role::mesh, "OBJ file.")
         .required()
-        .only(shapesWith("mesh"))
+        .only(shapesWith(shapes, "mesh"))
         .number("scale", &ColliderSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-        .only(shapesWith("scale"));
-    for (const collision::ShapeKind& kind : collision::builtInShapes().all())
+        .only(shapesWith(shapes, "scale"));
+    for (const collision::ShapeKind& kind : shapes.all())
         for (const collision::OwnSize& own : kind.own)
             list.entry(own.key, &ColliderSpec::sizes, own.unit, Range{own.least, own.most}, own.standard, own.help)
                 .only({std::string(kind.name)});
@@ -78,11 +78,11 @@ Section poseKeySection() {
     return section;
 }
 
-Section partSection() {
+Section partSection(const collision::ShapeKinds& shapes) {
     Section section;
     section.variant = shapeOf;
     section.variantKey = "shape";
-    section.fields = shapeFields(In::compound).take();
+    section.fields = shapeFields(shapes, In::compound).take();
     return section;
 }
 
@@ -162,28 +162,7 @@ SceneSection massSection() {
     return section;
 }
 
-SceneSection anchorSection() {
-    SceneSection section;
-    section.name = "anchor";
-    section.layout = Layout::named;
-    section.help = "Springs of no length from points to a place.";
-    section.enter = enterNamed(&SceneSpec::anchors);
-    section.existing = findNamed(&SceneSpec::anchors);
-    section.fields = FieldList<AnchorSpec>()
-                         .text("target", &AnchorSpec::target, Role::points, "The points: KIND.NAME@SELECTOR.")
-                         .required()
-                         .vector("at", &AnchorSpec::at, "m", placeRange, "The place.")
-                         .ramps(Affects::forces)
-                         .required()
-                         .number("stiffness_N_per_m", &AnchorSpec::stiffness, "N/m", notNegative, "Of each point.")
-                         .ramps(Affects::forces)
-                         .number("damping_kg_per_s", &AnchorSpec::damping, "kg/s", notNegative, "Of each point.")
-                         .ramps(Affects::forces)
-                         .take();
-    return section;
-}
-
-SceneSection colliderSection() {
+SceneSection colliderSection(const collision::ShapeKinds& shapes) {
     SceneSection section;
     section.name = "collider";
     section.layout = Layout::named;
@@ -192,13 +171,13 @@ SceneSection colliderSection() {
     section.existing = findNamed(&SceneSpec::colliders);
     section.variant = shapeOf;
     section.variantKey = "shape";
-    std::vector<std::string> edged = shapesWith("edge");  // and what may have such parts
+    std::vector<std::string> edged = shapesWith(shapes, "edge");  // and what may have such parts
     edged.emplace_back("compound");
     section.fields =
-        shapeFields(In::collider)
+        shapeFields(shapes, In::collider)
             .direction("normal", &ColliderSpec::normal, "Away from the solid; any length.")
-            .only(shapesWith("normal"))
-            .tables("parts", &ColliderSpec::parts, partSection(), "Shapes joined into one.")
+            .only(shapesWith(shapes, "normal"))
+            .tables("parts", &ColliderSpec::parts, partSection(shapes), "Shapes joined into one.")
             .required()
             .only({"compound"})
             .number("friction", &ColliderSpec::friction, "", Range{0.0, 100.0}, "Coulomb's coefficient.")
@@ -214,35 +193,6 @@ SceneSection colliderSection() {
     section.check = [](const CheckInput& input, void* target) {
         checkCollider(input, *static_cast<ColliderSpec*>(target));
     };
-    return section;
-}
-
-SceneSection windSection() {
-    Section gust;
-    gust.fields = FieldList<WindSpec>()
-                      .number("amplitude", &WindSpec::gustAmplitude, "m/s", Range{0.0, 1e3}, "Strength.")
-                      .ramps(Affects::forces)
-                      .number("period_s", &WindSpec::gustPeriod, "s", Range{1e-3, 1e6}, "Time of a change.")
-                      .number("length_m", &WindSpec::gustLength, "m", Range{1e-3, 1e6}, "Size of an eddy.")
-                      .whole("seed", &WindSpec::gustSeed, "", Range{0.0, 1e12}, "Seed: the same gusts each time.")
-                      .take();
-    SceneSection section;
-    section.name = "wind";
-    section.layout = Layout::named;
-    section.help = "Moving air; acts on surfaces.";
-    section.enter = enterNamed(&SceneSpec::winds);
-    section.existing = findNamed(&SceneSpec::winds);
-    section.fields =
-        FieldList<WindSpec>()
-            .vector("velocity", &WindSpec::velocity, "m/s", Range{-1e3, 1e3}, "Mean velocity.")
-            .ramps(Affects::forces)
-            .tableOfSelf("gust", gust, "How it changes in space and time.")
-            .number("drag", &WindSpec::drag, "", Range{0.0, 100.0}, "Drag coefficient across the flow.")
-            .ramps(Affects::forces)
-            .number("lift", &WindSpec::lift, "", Range{0.0, 100.0}, "Lift coefficient.")
-            .ramps(Affects::forces)
-            .texts("on", &WindSpec::on, Role::bodies, "Bodies it acts on, e.g. \"cloth.*\"; every cloth if not given.")
-            .take();
     return section;
 }
 

@@ -18,7 +18,6 @@
 #include "taut/scene/suspicions.h"
 #include "taut/scene/text_file.h"
 #include "taut/scene/timeline.h"
-#include "taut/world/each_body.h"
 
 namespace taut::scene {
 
@@ -37,11 +36,12 @@ void checkSize(const ReadScene& scene, double limit, Problems& problems) {
     if (bytes <= limit && total.points <= maxPoints) return;
     double largest = 0;
     std::string largestTitle;
-    forEachBody(scene.spec, [&](const char* kind, const auto& body) {
-        if (sizeOf(body).bytes() <= largest) return;
-        largest = sizeOf(body).bytes();
-        largestTitle = fmt::format("{}.{}", kind, body.name);
-    });
+    for (const world::BodySpec& body : scene.spec.bodies.all()) {
+        const double size = sizeOf(body, scene.spec).bytes();
+        if (size <= largest) continue;
+        largest = size;
+        largestTitle = body.fullName();
+    }
     constexpr double gigabyte = 1e9;
     problems.addError(scene.owners.at(largestTitle),
                       fmt::format("the scene is too large: {:.4g} points and {:.4g} springs need about {:.4g} GB; "
@@ -55,14 +55,19 @@ void sortByName(std::vector<Element>& elements) {
     std::sort(elements.begin(), elements.end(), [](const Element& a, const Element& b) { return a.name < b.name; });
 }
 
-void sortByName(world::SceneSpec& spec) {
-    sortByName(spec.cloths);
-    sortByName(spec.ropes);
-    sortByName(spec.blocks);
-    sortByName(spec.nets);
-    sortByName(spec.anchors);
+// By kind in the order of the table, then by name.
+template <class Base>
+void sortByKind(world::Specs<Base>& specs, const world::KindTable<Base>& kinds) {
+    specs.stableSort([&](const Base& a, const Base& b) {
+        const auto *x = kinds.find(a.kind()), *y = kinds.find(b.kind());
+        return x != y ? x < y : a.name < b.name;
+    });
+}
+
+void sortByName(world::SceneSpec& spec, const world::Kinds& kinds) {
+    sortByKind(spec.bodies, kinds.bodies);
+    sortByKind(spec.forces, kinds.forces);
     sortByName(spec.colliders);
-    sortByName(spec.winds);
     sortByName(spec.cameras);
     sortByName(spec.labels);
     std::stable_sort(spec.actions.begin(), spec.actions.end(),
@@ -105,10 +110,11 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     std::vector<std::string> labels;
     for (const std::string& override : options.overrides) labels.push_back(overrideLabel(override));
     Problems problems(text, fileName, labels);
+    const world::Kinds kinds = options.kinds ? *options.kinds : world::builtIn();
 
     Node root = treeOf(text, 0, problems);
     const std::filesystem::path base = layOnBase(root, fileName, options, problems);
-    const std::vector<SceneSection> sections = sceneSections();
+    const std::vector<SceneSection> sections = sceneSections(kinds);
     for (std::size_t i = 0; i < options.overrides.size(); ++i) {
         applyOverride(options.overrides[i], static_cast<int>(i) + 1, sections, root, problems);
     }
@@ -118,15 +124,18 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     scene.spec.base = base.string();
     loadAssets(std::filesystem::path(fileName).parent_path(), base.parent_path(), options.assetFolders, scene,
                problems);
-    checkReferences(scene, problems);
-    checkTimeline(root, sections, scene, problems);
-    checkClaims(root, scene, problems);
+    const BodyIndex bodies(scene.spec, kinds, scene.faulty);
+    checkReferences(scene, bodies, problems);
+    checkTimeline(root, sections, bodies, scene, problems);
+    checkClaims(root, bodies, scene, problems);
     throwIfAny(problems);
     checkSize(scene, options.memoryLimit > 0 ? options.memoryLimit : memoryLimit(), problems);
     throwIfAny(problems);
 
     reportSuspicions(scene, problems);
-    sortByName(scene.spec);
+    sortByName(scene.spec, kinds);
+    scene.spec.solver.methods = std::make_shared<const ode::Methods>(kinds.methods);
+    scene.spec.shapes = std::make_shared<const collision::ShapeKinds>(kinds.shapes);
     StateKeys keys(root, scene.spec);
     return {std::move(scene.spec), problems.warnings(), std::move(keys)};
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "taut/scene/state_keys.h"
+#include "taut/world/kinds.h"
 #include "taut/world/spec.h"
 
 namespace taut::scene {
@@ -17,6 +19,8 @@ struct LoadOptions {
     // Where models and textures are looked for when they do not lie beside the scene file: in each folder, in its
     // `models` and in its `textures`.
     std::vector<std::filesystem::path> assetFolders;
+    // What a scene may be made of; null: what the engine has.
+    std::shared_ptr<const world::Kinds> kinds;
     // What a scene may take [bytes]; 0: half of the machine's memory.
     double memoryLimit = 0;
 };
@@ -36,9 +40,9 @@ Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options);
 Loaded loadSceneText(std::string_view text, const std::string& fileName, const LoadOptions& options);
 
 // The format as a JSON schema (draft 2020-12), for editors.
-std::string jsonSchema();
+std::string jsonSchema(const world::Kinds& kinds = world::builtIn());
 
 // The format as a text to read: every section and field with unit, range, default and meaning.
-std::string manual();
+std::string manual(const world::Kinds& kinds = world::builtIn());
 
 }  // namespace taut::scene

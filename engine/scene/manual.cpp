@@ -35,12 +35,12 @@ void writeFields(const Section& section, void* target, const std::string& indent
 
 }  // namespace
 
-std::string manual() {
+std::string manual(const world::Kinds& kinds) {
     std::string out =
         "A scene is a TOML file. Numbers are in SI units unless the key's name or the text below says otherwise;\n"
         "y points up. What is left out has its default.\n";
     world::SceneSpec scene;
-    for (const SceneSection& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections(kinds)) {
         const std::string title = section.name.empty()              ? "the file"
                                   : section.layout == Layout::named ? fmt::format("[{}.NAME]", section.name)
                                   : section.layout == Layout::list  ? fmt::format("[[{}]]", section.name)
@@ -61,7 +61,7 @@ std::string manual() {
         "  net          the names of its points\n\n"
         "Ramps\n"
         "  do = \"ramp\" changes a number or a list of numbers from its value at that moment:\n\n";
-    for (const std::string& line : rampableKeys(sceneSections())) out += "  " + line + "\n";
+    for (const std::string& line : rampableKeys(sceneSections(kinds))) out += "  " + line + "\n";
     out += "\nChecks\n" + check::functionsManual();
     out.pop_back();
     return out;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "taut/scene/body_index.h"
-
 namespace taut::scene {
 
 namespace {
@@ -49,8 +47,7 @@ void checkJoint(const world::JointSpec& joint, Place place, const BodyIndex& bod
 
 }  // namespace
 
-void checkReferences(const ReadScene& scene, Problems& problems) {
-    const BodyIndex bodies(scene.spec, scene.faulty);
+void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& problems) {
     std::vector<std::string> materials, cameras;
     for (const auto& [name, material] : scene.spec.materials) materials.push_back(name);
     for (const auto& camera : scene.spec.cameras) cameras.push_back(camera.name);

@@ -119,11 +119,11 @@ Json tableSchema(const Section& section, void* target) {
 
 }  // namespace
 
-std::string jsonSchema() {
+std::string jsonSchema(const world::Kinds& kinds) {
     Json root{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "taut scene"}};
     Json properties = Json::object();
     world::SceneSpec scene;
-    for (const SceneSection& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections(kinds)) {
         const Json table = tableSchema(section, section.enter(scene, "name", {}));
         if (section.name.empty()) {
             for (const auto& [key, value] : table["properties"].items()) properties[key] = value;

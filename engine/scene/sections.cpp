@@ -2,11 +2,48 @@
 
 namespace taut::scene {
 
-std::vector<SceneSection> sceneSections() {
-    return {fileSection(),       needSection(),   solverSection(),   worldSection(), runSection(),    pictureSection(),
-            materialSection(),   clothSection(),  ropeSection(),     blockSection(), netSection(),    jointSection(),
-            massSection(),       anchorSection(), colliderSection(), windSection(),  cameraSection(), lightSection(),
-            backgroundSection(), labelSection(),  handSection(),     atSection(),    checkSection(),  goldenSection()};
+namespace {
+
+// The section of a kind, whose structs go into a list of the scene.
+template <class Base>
+SceneSection kindSection(const world::Kind<Base>& kind, world::Specs<Base> world::SceneSpec::*list) {
+    SceneSection section;
+    static_cast<Section&>(section) = kind.section;
+    section.enter = [list, make = kind.make](world::SceneSpec& scene, const std::string& name,
+                                             const core::Source& source) -> void* {
+        Base& spec = (scene.*list).add(make());
+        spec.name = name;
+        spec.source = source;
+        return dynamic_cast<void*>(&spec);
+    };
+    section.existing = [list, kind = kind.name](world::SceneSpec& scene, const std::string& name) -> void* {
+        return dynamic_cast<void*>((scene.*list).find(kind, name));
+    };
+    return section;
+}
+
+// Fields that name a method get the methods that there are.
+void nameMethods(Section& section, const std::vector<std::string>& names) {
+    for (Field& field : section.fields) {
+        if (field.role == Role::method) field.choices = names;
+        for (Section& inside : field.inside) nameMethods(inside, names);
+    }
+}
+
+}  // namespace
+
+std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
+    std::vector<SceneSection> all{fileSection(),  needSection(),    solverSection(),  worldSection(),
+                                  runSection(),   pictureSection(), materialSection()};
+    for (const auto& kind : kinds.bodies.all()) all.push_back(kindSection(kind, &world::SceneSpec::bodies));
+    all.insert(all.end(), {jointSection(), massSection()});
+    for (const auto& kind : kinds.forces.all()) all.push_back(kindSection(kind, &world::SceneSpec::forces));
+    all.insert(all.end(), {colliderSection(kinds.shapes), cameraSection(), lightSection(), backgroundSection(),
+                           labelSection(), handSection(), atSection(), checkSection(), goldenSection()});
+    std::vector<std::string> methods;
+    for (const ode::MethodInfo& method : kinds.methods.all()) methods.emplace_back(method.name);
+    for (SceneSection& section : all) nameMethods(section, methods);
+    return all;
 }
 
 }  // namespace taut::scene

@@ -2,11 +2,16 @@
 #pragma once
 
 #include "taut/fields/field.h"
+#include "taut/world/common_rows.h"
+#include "taut/world/kinds.h"
 #include "taut/world/spec.h"
 
 namespace taut::scene {
 
 using namespace fields;
+using world::lengthRange;
+using world::momentRange;
+using world::placeRange;
 
 // A section of a scene file, and where its fields go.
 struct SceneSection : Section {
@@ -17,12 +22,7 @@ struct SceneSection : Section {
 };
 
 // All of them. `schema` and `title` stand in the one without a name.
-std::vector<SceneSection> sceneSections();
-
-// Limits that many fields share.
-inline constexpr Range placeRange{-1e6, 1e6};   // [m]
-inline constexpr Range lengthRange{1e-6, 1e6};  // [m]
-inline constexpr Range momentRange{0.0, 1e6};   // [s]
+std::vector<SceneSection> sceneSections(const world::Kinds& kinds);
 
 // Settings of the whole scene.
 SceneSection fileSection();
@@ -34,19 +34,12 @@ SceneSection pictureSection();
 SceneSection lightSection();
 SceneSection backgroundSection();
 
-// What moves by its own laws.
 SceneSection materialSection();
-SceneSection clothSection();
-SceneSection ropeSection();
-SceneSection blockSection();
-SceneSection netSection();
 
 // What ties, pushes and shows it.
 SceneSection jointSection();
 SceneSection massSection();
-SceneSection anchorSection();
-SceneSection colliderSection();
-SceneSection windSection();
+SceneSection colliderSection(const collision::ShapeKinds& shapes);
 SceneSection cameraSection();
 SceneSection labelSection();
 
@@ -55,11 +48,6 @@ SceneSection handSection();
 SceneSection atSection();
 SceneSection checkSection();
 SceneSection goldenSection();
-
-// Parts of several sections.
-Section finishSection();
-std::vector<std::string> easeNames();
-std::vector<std::string> lumpingNames();
 
 // Keys must ascend in t. Reports each that does not; `list` is the value of `keys`.
 void checkAscending(const CheckInput& input);

@@ -9,6 +9,16 @@
 
 namespace taut::scene {
 
+namespace {
+
+bool usesMaterial(const world::SceneSpec& spec, const std::string& name) {
+    const auto bodies = spec.bodies.all();
+    return std::any_of(bodies.begin(), bodies.end(),
+                       [&](const world::BodySpec& body) { return body.materialName() == name; });
+}
+
+}  // namespace
+
 void reportSuspicions(const ReadScene& scene, Problems& problems) {
     const world::SceneSpec& spec = scene.spec;
     const double ticks = world::Ticks(spec.run).perSecond;
@@ -21,12 +31,11 @@ void reportSuspicions(const ReadScene& scene, Problems& problems) {
     }
     for (const auto& entry : spec.materials) {
         const std::string& name = entry.first;
-        const bool isUsed = std::any_of(spec.cloths.begin(), spec.cloths.end(),
-                                        [&](const world::ClothSpec& cloth) { return cloth.material == name; });
+        const bool isUsed = usesMaterial(spec, name);
         if (isUsed) continue;
         problems.addWarning(scene.owners.at("material." + name), fmt::format("no cloth is made of {}", name));
     }
-    if (spec.cloths.empty() && spec.ropes.empty() && spec.blocks.empty() && spec.nets.empty()) {
+    if (spec.bodies.empty()) {
         problems.addWarning({0, 1, 1}, "there is nothing to move: the scene has no cloth, rope, block or net");
     }
 }

@@ -31,12 +31,13 @@ struct Span {
 
 class Timeline {
   public:
-    Timeline(const Node& root, const std::vector<SceneSection>& sections, ReadScene& scene, Problems& problems)
+    Timeline(const Node& root, const std::vector<SceneSection>& sections, const BodyIndex& bodies, ReadScene& scene,
+             Problems& problems)
         : root_(root),
           sections_(sections),
           scene_(scene),
           problems_(problems),
-          bodies_(scene.spec, scene.faulty),
+          bodies_(bodies),
           ticks_(scene.spec.run) {}
 
     void check() {
@@ -245,7 +246,7 @@ class Timeline {
             report(event, "target", bodies_.bodyFault(target));
         } else if (event.action->from) {
             for (const BodyEntry* body : bodies_.matches(target)) {
-                if (body->hasUv) continue;
+                if (body->outline.isGrid) continue;
                 return error(event, "target", fmt::format("{} is no cloth grid: it has no segment", body->title()),
                              "cut it with a plane");
             }
@@ -256,7 +257,7 @@ class Timeline {
     const std::vector<SceneSection>& sections_;
     ReadScene& scene_;
     Problems& problems_;
-    BodyIndex bodies_;
+    const BodyIndex& bodies_;
     world::Ticks ticks_;
     std::vector<Event> events_;
     std::map<std::string, std::size_t> spawns_;    // body: order of its spawn
@@ -267,8 +268,9 @@ class Timeline {
 
 }  // namespace
 
-void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, ReadScene& scene, Problems& problems) {
-    Timeline(root, sections, scene, problems).check();
+void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, const BodyIndex& bodies, ReadScene& scene,
+             Problems& problems) {
+    Timeline(root, sections, bodies, scene, problems).check();
 }
 
 bool isLengthOverridden(const Node& root) {

@@ -3,13 +3,15 @@
 
 #include <vector>
 
+#include "taut/scene/body_index.h"
 #include "taut/scene/scene_reader.h"
 
 namespace taut::scene {
 
 // Reports every fault of the actions, and resolves the keys of ramps. `root` is the document that the
 // scene was read from. Expects the meshes to be loaded.
-void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, ReadScene& scene, Problems& problems);
+void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, const BodyIndex& bodies,
+                   ReadScene& scene, Problems& problems);
 
 // Whether the run's length was overridden: then what lies past the end is not a slip, it is left out.
 bool isLengthOverridden(const Node& root);

@@ -1,6 +1,5 @@
 #include "taut/study/one_method.h"
 
-#include "taut/world/each_body.h"
 
 namespace taut::study {
 
@@ -11,10 +10,10 @@ world::SceneSpec byMethod(const world::SceneSpec& spec, std::string_view method,
     scene.solver.precision = precision;
     scene.solver.onDivergence = world::OnDivergence::stop;
     scene.solver.dt.reset();
-    forEachBody(scene, [&](const char*, world::BodySpec& body) {
+    for (world::BodySpec& body : scene.bodies.all()) {
         body.solver = {};
         body.jitter += shift;  // moves points by the shift times a number between -1 and 1
-    });
+    }
     return scene;
 }
 

@@ -6,8 +6,13 @@
 #include <cstdlib>
 
 #include "taut/core/error.h"
+#include "taut/scene/by_key.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/bodies/rope.h"
 #include "taut/world/body.h"
-#include "taut/world/each_body.h"
+#include "taut/world/forces/wind.h"
 #include "taut/world/targets.h"
 #include "taut/world/world.h"
 
@@ -30,13 +35,14 @@ void tieBodies(const SceneSpec& spec, std::map<std::string, std::string>& fixed)
     const std::vector<world::Body*> all = world::pointersTo(bodies);
     const auto tie = [&](const std::string& target, const std::string& why) {
         for (const world::Body* body : world::matchBodies(all, target))
-            fixed.emplace(std::string(world::kindName(body->kind)) + "." + body->base, why);
+            fixed.emplace(body->spec->fullName(), why);
     };
     for (const world::JointSpec& joint : spec.joints) {
         tie(joint.a, "a joint ties its points to others");
         tie(joint.b, "a joint ties its points to others");
     }
-    for (const world::AnchorSpec& anchor : spec.anchors) tie(anchor.target, "anchors pull at single points of it");
+    for (const world::ForceSpec& force : spec.forces.all())
+        if (!force.pulledPoints().empty()) tie(std::string(force.pulledPoints()), "anchors pull at single points of it");
     for (const world::MassSpec& mass : spec.masses)
         if (namesPlaces(world::parseTarget(mass.target).selector)) tie(mass.target, "a mass hangs at a single point");
 }
@@ -50,13 +56,13 @@ void scaleBodies(SceneSpec& spec, const Resolution& resolution, int count) {
     const auto isScalable = [&](const std::string& name) {
         return std::find(resolution.scalable.begin(), resolution.scalable.end(), name) != resolution.scalable.end();
     };
-    for (world::ClothSpec& cloth : spec.cloths)
-        if (isScalable("cloth." + cloth.name))
+    for (world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>())
+        if (isScalable(cloth.fullName()))
             for (int i = 0; i < 2; ++i) cloth.cells[i] = scaled(cloth.cells[i], scale, leastCells);
-    for (world::RopeSpec& rope : spec.ropes)
-        if (isScalable("rope." + rope.name)) rope.segments = scaled(rope.segments, scale, leastCells);
-    for (world::BlockSpec& block : spec.blocks)
-        if (isScalable("block." + block.name))
+    for (world::RopeSpec& rope : spec.bodies.of<world::RopeSpec>())
+        if (isScalable(rope.fullName())) rope.segments = scaled(rope.segments, scale, leastCells);
+    for (world::BlockSpec& block : spec.bodies.of<world::BlockSpec>())
+        if (isScalable(block.fullName()))
             for (int i = 0; i < 3; ++i) block.cells[i] = scaled(block.cells[i], scale, 1);
 }
 
@@ -67,52 +73,20 @@ double roundedUp(double value) {
     return std::strtod(text, nullptr);
 }
 
-using Visit = std::function<void(double&)>;
-
-void eachOfWind(SceneSpec& spec, const std::string& which, const Visit& visit) {
-    for (world::WindSpec& wind : spec.winds)
-        if (wind.name == which) visit(wind.drag), visit(wind.lift);
-}
-
-void eachDrag(SceneSpec& spec, const std::string&, const Visit& visit) {
-    for (auto& [name, material] : spec.materials) visit(material.drag);
-    for (auto& rope : spec.ropes) visit(rope.drag);
-    for (auto& block : spec.blocks) visit(block.drag);
-    for (auto& net : spec.nets) visit(net.drag);
-}
-
-void eachDamping(SceneSpec& spec, const std::string&, const Visit& visit) {
-    for (auto& [name, material] : spec.materials) visit(material.dampingTime);
-    for (auto& rope : spec.ropes) visit(rope.dampingTime);
-    for (auto& block : spec.blocks) visit(block.dampingTime);
-    for (auto& net : spec.nets) {
-        visit(net.dampingTime);
-        for (auto& spring : net.springs)
-            if (spring.dampingTime) visit(*spring.dampingTime);
-    }
-}
-
-void eachBending(SceneSpec& spec, const std::string&, const Visit& visit) {
-    for (auto& [name, material] : spec.materials) visit(material.bend);
-    for (auto& rope : spec.ropes) visit(rope.bend);
-}
-
-void eachBulk(SceneSpec& spec, const std::string&, const Visit& visit) {
-    for (auto& block : spec.blocks) visit(block.bulk);
-}
-
 }  // namespace
 
 std::vector<Generator> generatorsOf(const SceneSpec& spec) {
     std::vector<Generator> all;
-    for (const world::WindSpec& wind : spec.winds) all.push_back({"wind " + wind.name, eachOfWind, wind.name});
-    for (const Generator& generator : {Generator{"drag", eachDrag}, Generator{"inner friction", eachDamping},
-                                       Generator{"bend springs", eachBending}, Generator{"volume terms", eachBulk}})
+    for (const world::WindSpec& wind : spec.forces.of<world::WindSpec>())
+        all.push_back({"wind " + wind.name, {"drag", "lift"}, wind.fullName()});
+    for (const Generator& generator :
+         {Generator{"drag", {"drag_per_s"}}, Generator{"inner friction", {"damping_time_s"}},
+          Generator{"bend springs", {"bend_N_per_m", "bend_N"}}, Generator{"volume terms", {"bulk_Pa"}}})
         all.push_back(generator);
     SceneSpec scene = spec;
     std::erase_if(all, [&](const Generator& generator) {
         bool isThere = false;
-        generator.strengths(scene, generator.which, [&](double& strength) { isThere = isThere || strength > 0; });
+        scene::eachNumber(scene, generator.owner, generator.keys, [&](double& x) { isThere = isThere || x > 0; });
         return !isThere;
     });
     return all;
@@ -121,27 +95,28 @@ std::vector<Generator> generatorsOf(const SceneSpec& spec) {
 Resolution resolutionOf(const SceneSpec& spec) {
     Resolution resolution;
     tieBodies(spec, resolution.fixed);
-    const auto add = [&](const std::string& name, const world::BodySpec& body, int count) {
+    const auto add = [&](const world::BodySpec& body, int count) {
+        const std::string name = body.fullName();
         if (std::any_of(body.hold.begin(), body.hold.end(), namesPlaces))
             resolution.fixed.emplace(name, "it is held at single points");
         if (resolution.fixed.contains(name)) return;
         resolution.scalable.push_back(name);
         resolution.count = std::max(resolution.count, count);
     };
-    for (const world::ClothSpec& cloth : spec.cloths) {
-        if (cloth.meshData) resolution.fixed.emplace("cloth." + cloth.name, "its cells are those of a mesh file");
-        add("cloth." + cloth.name, cloth, std::max(cloth.cells.x, cloth.cells.y));
+    for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
+        if (cloth.meshData) resolution.fixed.emplace(cloth.fullName(), "its cells are those of a mesh file");
+        add(cloth, std::max(cloth.cells.x, cloth.cells.y));
     }
-    for (const world::RopeSpec& rope : spec.ropes) add("rope." + rope.name, rope, rope.segments);
-    for (const world::BlockSpec& block : spec.blocks)
-        add("block." + block.name, block, std::max({block.cells.x, block.cells.y, block.cells.z}));
-    for (const world::NetSpec& net : spec.nets)
-        resolution.fixed.emplace("net." + net.name, "its points and springs are listed one by one");
+    for (const world::RopeSpec& rope : spec.bodies.of<world::RopeSpec>()) add(rope, rope.segments);
+    for (const world::BlockSpec& block : spec.bodies.of<world::BlockSpec>())
+        add(block, std::max({block.cells.x, block.cells.y, block.cells.z}));
+    for (const world::NetSpec& net : spec.bodies.of<world::NetSpec>())
+        resolution.fixed.emplace(net.fullName(), "its points and springs are listed one by one");
     return resolution;
 }
 
 SceneSpec withoutJitter(SceneSpec spec) {
-    forEachBody(spec, [](const char*, world::BodySpec& body) { body.jitter = 0.0; });
+    for (world::BodySpec& body : spec.bodies.all()) body.jitter = 0.0;
     return spec;
 }
 
@@ -149,16 +124,16 @@ SceneSpec modelOf(const SceneSpec& spec, const Resolution& resolution, const Can
     SceneSpec model = withoutJitter(spec);
     if (resolution.count > 0) scaleBodies(model, resolution, candidate.count);
     for (const Generator& generator : candidate.without)
-        generator.strengths(model, generator.which, [](double& strength) { strength = 0.0; });
+        scene::eachNumber(model, generator.owner, generator.keys, [](double& strength) { strength = 0.0; });
     model.solver.integrator = candidate.method;
     model.solver.precision = candidate.precision;
     model.solver.dt.reset();
     model.solver.onDivergence = world::OnDivergence::stop;
-    forEachBody(model, [](const char*, world::BodySpec& body) {
+    for (world::BodySpec& body : model.bodies.all()) {
         body.solver.integrator.reset();
         body.solver.dt.reset();
         body.solver.safety.reset();
-    });
+    }
     return model;
 }
 

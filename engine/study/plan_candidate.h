@@ -2,9 +2,9 @@
 // that comes of it. It runs nothing.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "taut/world/spec.h"
@@ -14,9 +14,8 @@ namespace taut::study {
 // What can be left out of a scene.
 struct Generator {
     std::string name;  // "wind breeze", "drag", "bend springs", …
-    // Visits the numbers of a scene that are all zero without it.
-    void (*strengths)(world::SceneSpec& spec, const std::string& which, const std::function<void(double&)>& visit);
-    std::string which{};  // of several, e.g. the wind's name
+    std::vector<std::string_view> keys;  // of the numbers that are all zero without it, see scene::eachNumber
+    std::string owner{};                 // that has them, e.g. "wind.breeze"; empty: every body and material
 };
 
 // Those that the scene has.

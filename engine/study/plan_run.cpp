@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "taut/world/body.h"
 #include "taut/world/components.h"
 #include "taut/world/ticks.h"
@@ -73,9 +76,9 @@ std::vector<Place> freePoints(const mechanics::Model& model) {
 
 class Watcher {
   public:
-    Watcher(world::World& world, const world::SceneSpec& model, const Resolution& resolution) : world_(world) {
+    Watcher(world::World& world, const Resolution& resolution) : world_(world) {
         world.registry().each<world::BodyPart>([&](ecs::Entity entity, const world::BodyPart& part) {
-            bodies_.push_back({entity, placesOf(*part.body, model, resolution)});
+            bodies_.push_back({entity, placesOf(*part.body, resolution)});
         });
     }
 
@@ -94,19 +97,17 @@ class Watcher {
     }
 
   private:
-    static std::vector<Place> placesOf(const world::Body& body, const world::SceneSpec& model,
-                                       const Resolution& resolution) {
-        const std::string name = std::string(world::kindName(body.kind)) + "." + body.base;
+    static std::vector<Place> placesOf(const world::Body& body, const Resolution& resolution) {
+        const std::string name = body.spec->fullName();
         const auto& scalable = resolution.scalable;
         if (std::find(scalable.begin(), scalable.end(), name) == scalable.end()) return freePoints(body.model);
-        if (body.kind == world::Body::Kind::cloth)
+        if (body.kind() == world::ClothSpec::kindName)
             return placesOfGrid({body.model.grid[0], body.model.grid[1], 0}, {partsOfCloth, partsOfCloth, 1});
-        if (body.kind == world::Body::Kind::rope)
+        if (body.kind() == world::RopeSpec::kindName)
             return placesOfGrid({body.model.pointCount() - 1, 0, 0}, {partsOfRope, 1, 1});
-        for (const world::BlockSpec& block : model.blocks)
-            if (block.name == body.base)
-                return placesOfGrid({block.cells.x, block.cells.y, block.cells.z},
-                                    {partsOfBlock, partsOfBlock, partsOfBlock});
+        if (const auto* block = dynamic_cast<const world::BlockSpec*>(body.spec.get()))
+            return placesOfGrid({block->cells.x, block->cells.y, block->cells.z},
+                                {partsOfBlock, partsOfBlock, partsOfBlock});
         return freePoints(body.model);
     }
 
@@ -149,7 +150,7 @@ class Box {
 void advance(world::World& world, const world::SceneSpec& model, const Resolution& resolution, const PlanGrid& grid,
              const RunLimits& limits, PlanRun& run) {
     using Clock = std::chrono::steady_clock;
-    const Watcher watcher(world, model, resolution);
+    const Watcher watcher(world, resolution);
     const double atStart = springEvaluations(world);
     Box box;
     if (limits.withScales) box.add(watcher.look());

@@ -5,17 +5,14 @@
 
 #include "taut/core/error.h"
 #include "taut/study/threshold.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
+#include "taut/world/forces/anchor.h"
 
 namespace taut::study {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-template <class Specs>
-auto find(const Specs& specs, const std::string& kind, const std::string& fullName) {
-    return std::find_if(specs.begin(), specs.end(),
-                        [&](const auto& spec) { return kind + "." + spec.name == fullName; });
-}
 
 // 2 √(k/m) cos(π/2(n+1)): n free masses between two walls, nothing but springs from each to the next.
 double ropeFrequency(const world::RopeSpec& rope) {
@@ -28,7 +25,7 @@ double ropeFrequency(const world::RopeSpec& rope) {
     if (!isHeld || !isStraight || rope.bend != 0.0 || rope.segments < 2) return unknown;
     const double natural = rope.length == 0.0 ? distance : rope.length;
     const double k = rope.stretch * rope.segments / natural;
-    const double m = rope.mass / (rope.lumping == "uniform" ? rope.segments + 1 : rope.segments);
+    const double m = rope.mass / (rope.lumping == mechanics::Lumping::uniform ? rope.segments + 1 : rope.segments);
     return 2 * std::sqrt(k / m) * std::cos(std::numbers::pi / (2 * rope.segments));
 }
 
@@ -37,7 +34,7 @@ double gridFrequency(const world::ClothSpec& cloth, const world::MaterialSpec& m
     const double a = cloth.size.x / cloth.cells.x, b = cloth.size.y / cloth.cells.y;
     const bool isSquare = std::abs(a - b) < 1e-9 * a;
     if (!isSquare || cloth.meshData || cloth.cells.x < 4 || cloth.cells.y < 4) return unknown;
-    if (material.lumping == "uniform") return unknown;
+    if (material.lumping == mechanics::Lumping::uniform) return unknown;
     const double ks = material.stretch, kd = material.shear.value_or(ks / 2), kb = material.bend;
     const double sum = ks + kd, bends = kb + kd;
     double most = 4 * sum;
@@ -49,15 +46,17 @@ double gridFrequency(const world::ClothSpec& cloth, const world::MaterialSpec& m
 }  // namespace
 
 double closedFormFrequency(const world::SceneSpec& spec, const std::vector<std::string>& bodies, std::string& formula) {
-    if (bodies.size() != 1 || !spec.anchors.empty() || !spec.masses.empty()) return unknown;
-    if (const auto rope = find(spec.ropes, "rope", bodies.front()); rope != spec.ropes.end()) {
+    if (bodies.size() != 1 || !spec.forces.of<world::AnchorSpec>().empty() || !spec.masses.empty()) return unknown;
+    for (const world::RopeSpec& rope : spec.bodies.of<world::RopeSpec>()) {
+        if (rope.fullName() != bodies.front()) continue;
         formula = "2 √(k/m) cos(π/2(n+1))";
-        return ropeFrequency(*rope);
+        return ropeFrequency(rope);
     }
-    if (const auto cloth = find(spec.cloths, "cloth", bodies.front()); cloth != spec.cloths.end()) {
-        const auto material = spec.materials.find(cloth->material);
+    for (const world::ClothSpec& cloth : spec.bodies.of<world::ClothSpec>()) {
+        if (cloth.fullName() != bodies.front()) continue;
+        const auto material = spec.materials.find(cloth.material);
         formula = "the fastest plane wave of an endless grid";
-        return gridFrequency(*cloth, material == spec.materials.end() ? world::MaterialSpec{} : material->second);
+        return gridFrequency(cloth, material == spec.materials.end() ? world::MaterialSpec{} : material->second);
     }
     return unknown;
 }
@@ -83,11 +82,11 @@ world::SceneSpec referenceNetwork(const std::string& name) {
         rope.dampingTime = rope.drag = 0.0;
         rope.hold = {"ends"};
         scene.title = "Rope of 20 segments between two walls, undamped";
-        scene.ropes.push_back(rope);
+        scene.bodies.add(rope);
         return scene;
     }
     TAUT_EXPECTS(name == "cloth");
-    scene.materials["plain"] = {0.2, 600.0, 300.0, 2.0, 0.0, 0.0, "weighted"};
+    scene.materials["plain"] = {0.2, 600.0, 300.0, 2.0, 0.0, 0.0, mechanics::Lumping::weighted, {}};
     world::ClothSpec cloth;
     cloth.name = "sheet";
     cloth.size = {1.0, 1.0};
@@ -96,7 +95,7 @@ world::SceneSpec referenceNetwork(const std::string& name) {
     cloth.hold = {"edges"};
     cloth.collide = false;
     scene.title = "Square cloth of 16 × 16 cells held all round, undamped";
-    scene.cloths.push_back(cloth);
+    scene.bodies.add(cloth);
     return scene;
 }
 

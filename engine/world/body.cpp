@@ -5,8 +5,8 @@
 
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
-#include "taut/mechanics/builders.h"
-#include "taut/world/rotation.h"
+#include "taut/world/drawing.h"
+#include "taut/world/spec.h"
 #include "taut/world/targets.h"
 
 namespace taut::world {
@@ -14,12 +14,6 @@ namespace {
 
 using core::Error;
 using core::ExitCode;
-
-mechanics::Lumping lumpingOf(const std::string& name) {
-    return name == "uniform" ? mechanics::Lumping::uniform : mechanics::Lumping::weighted;
-}
-
-dvec3 unit(const dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 
 // A number in [-1, 1) from a seed and two indices.
 double randomNumber(std::int64_t seed, int point, int axis) {
@@ -29,10 +23,10 @@ double randomNumber(std::int64_t seed, int point, int axis) {
 }
 
 void holdPoints(Body& body) {
-    for (const std::string& selector : body.common.hold) {
+    for (const std::string& selector : body.spec->hold) {
         const std::vector<int> points = selectPoints(body.model, selector);
         if (points.empty())
-            throw Error(ExitCode::badContent, at(body.common.source) + "hold = \"" + selector + "\" names no point of " +
+            throw Error(ExitCode::badContent, at(body.spec->source) + "hold = \"" + selector + "\" names no point of " +
                                                   body.fullName());
         for (int i : points) body.model.held[static_cast<std::size_t>(i)] = true;
     }
@@ -52,55 +46,30 @@ void setInMotion(Body& body) {
             model.velocities[i] = dvec3(0.0);
             continue;
         }
-        model.velocities[i] += body.common.velocity + glm::cross(body.common.spin, model.positions[i] - centre);
-        if (body.common.jitter > 0)
+        model.velocities[i] += body.spec->velocity + glm::cross(body.spec->spin, model.positions[i] - centre);
+        if (body.spec->jitter > 0)
             for (int axis = 0; axis < 3; ++axis)
                 model.positions[i][axis] +=
-                    body.common.jitter * randomNumber(body.common.seed, static_cast<int>(i), axis);
+                    body.spec->jitter * randomNumber(body.seed, static_cast<int>(i), axis);
     }
 }
 
-Body finishBody(Body::Kind kind, const BodySpec& spec, mechanics::Model model) {
-    Body body;
-    body.kind = kind;
-    body.name = body.base = spec.name;
-    body.common = spec;
-    body.model = std::move(model);
-    for (dvec3& x : body.model.positions) x += dvec3(0.0);  // no negative zero, so that held points keep their bits
-    return body;
-}
-
-mechanics::ClothMaterial materialOf(const ClothSpec& spec, const std::map<std::string, MaterialSpec>& materials) {
-    const auto found = materials.find(spec.material);
-    if (found == materials.end() && !spec.material.empty())
-        throw Error(ExitCode::badContent, at(spec.source) + "no [material." + spec.material + "]");
-    const MaterialSpec m = found == materials.end() ? MaterialSpec{} : found->second;
-    return {m.density, m.stretch, m.shear.value_or(0.5 * m.stretch), m.bend, m.dampingTime, m.drag,
-            lumpingOf(m.lumping)};
-}
-
-Body finishCloth(const ClothSpec& spec, mechanics::Model model, const std::map<std::string, MaterialSpec>& materials) {
-    Body body = finishBody(Body::Kind::cloth, spec, std::move(model));
-    if (const auto found = materials.find(spec.material); found != materials.end())
-        body.plasticity = found->second.plasticity;
-    return body;
-}
-
-template <class Spec, class Build>
-void addArray(std::vector<Body>& bodies, const Spec& spec, Build&& build) {
+// Each copy of an array has the model of the first, elsewhere.
+void addCopies(std::vector<Body>& bodies, const BodySpec& spec, const SceneSpec& scene) {
     const ArraySpec& array = spec.array;
+    const Body first = buildBody(spec, scene);
     const bool single = array.count == ivec3(1);
     int number = 0;
     for (int z = 0; z < array.count.z; ++z)
         for (int y = 0; y < array.count.y; ++y)
             for (int x = 0; x < array.count.x; ++x, ++number) {
-                Body body = build(spec);
+                Body body = first;
                 const dvec3 shift =
                     static_cast<double>(x) * array.stepX + static_cast<double>(y) * array.stepY + static_cast<double>(z) * array.stepZ;
                 for (dvec3& position : body.model.positions) position += shift;
                 if (!single) {
                     body.name = spec.name + "." + std::to_string(number);
-                    body.common.seed = spec.seed + number;
+                    body.seed = spec.seed + number;
                 }
                 bodies.push_back(std::move(body));
             }
@@ -121,100 +90,40 @@ void addMasses(std::vector<Body>& bodies, const SceneSpec& spec) {
 
 }  // namespace
 
-std::string_view kindName(Body::Kind kind) {
-    switch (kind) {
-        case Body::Kind::block: return "block";
-        case Body::Kind::cloth: return "cloth";
-        case Body::Kind::net: return "net";
-        case Body::Kind::rope: return "rope";
-    }
-    return "?";
-}
-
 bool sortsBefore(const Body& a, const Body& b) {
-    if (a.kind != b.kind) return a.kind < b.kind;
-    if (a.base != b.base) return a.base < b.base;
+    if (a.kind() != b.kind()) return a.kind() < b.kind();
+    if (a.base() != b.base()) return a.base() < b.base();
     return a.name.size() != b.name.size() ? a.name.size() < b.name.size() : a.name < b.name;
 }
 
-std::string Body::fullName() const { return std::string(kindName(kind)) + "." + name; }
+std::string Body::fullName() const { return std::string(kind()) + "." + name; }
 
-std::string at(const Source& source) {
-    if (source.file.empty()) return "error: ";
-    return source.file + ":" + std::to_string(source.line) + ":" + std::to_string(source.column) + ": error: ";
-}
-
-Body buildBody(const ClothSpec& spec, const std::map<std::string, MaterialSpec>& materials) {
-    const mechanics::ClothMaterial material = materialOf(spec, materials);
-    if (!spec.meshData) {
-        const dvec3 across = unit(spec.across);
-        const dvec3 down = unit(spec.down - glm::dot(spec.down, across) * across);
-        mechanics::Model model =
-            mechanics::buildCloth({spec.origin, across, down, spec.size, spec.cells, material});
-        return finishCloth(spec, std::move(model), materials);
-    }
-    mechanics::MeshClothShape shape;
-    const glm::dquat turn = rotationOf(spec.rotation);
-    for (const dvec3& x : spec.meshData->positions) shape.positions.push_back(spec.position + rotated(turn, spec.scale * x));
-    shape.uv = spec.meshData->uv;
-    shape.triangles = spec.meshData->triangles;
-    shape.material = material;
-    try {
-        return finishCloth(spec, mechanics::buildMeshCloth(shape), materials);
-    } catch (const Error& error) {
-        throw Error(error.code(), at(spec.source) + spec.mesh + ": " + error.what());
-    }
-}
-
-Body buildBody(const RopeSpec& spec) {
-    mechanics::RopeShape shape;
-    shape.start = spec.start;
-    shape.end = spec.end;
-    shape.segments = spec.segments;
-    shape.length = spec.length;
-    shape.mass = spec.mass;
-    shape.stretch = spec.stretch;
-    shape.bend = spec.bend;
-    shape.dampingTime = spec.dampingTime;
-    shape.dragRate = spec.drag;
-    shape.lumping = lumpingOf(spec.lumping);
-    Body body = finishBody(Body::Kind::rope, spec, mechanics::buildRope(shape));
-    body.radius = spec.radius;
-    body.plasticity = spec.plasticity;
+Body buildBody(const BodySpec& spec, const SceneSpec& scene) {
+    Body body;
+    body.spec = spec.copy();
+    body.name = spec.name;
+    body.seed = spec.seed;
+    body.model = spec.build(scene);
+    body.plasticity = spec.plasticityIn(scene);
+    for (dvec3& x : body.model.positions) x += dvec3(0.0);  // no negative zero, so that pinned points keep their bits
     return body;
 }
 
-Body buildBody(const BlockSpec& spec) {
-    mechanics::BlockShape shape;
-    shape.centre = spec.position;
-    const glm::dquat turn = rotationOf(spec.rotation);
-    shape.axes = glm::dmat3(rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1}));
-    shape.size = spec.size;
-    shape.cells = spec.cells;
-    shape.density = spec.density;
-    shape.young = spec.young;
-    shape.bulk = spec.bulk;
-    shape.dampingTime = spec.dampingTime;
-    shape.dragRate = spec.drag;
-    shape.lumping = lumpingOf(spec.lumping);
-    Body body = finishBody(Body::Kind::block, spec, mechanics::buildBlock(shape));
-    body.workingStretch = spec.workingStretch;
-    body.plasticity = spec.plasticity;
-    return body;
+std::unique_ptr<BodyDrawing> BodySpec::drawing(const Body& body) const {
+    return body.model.triangles.empty() ? rodDrawing(body, 0.01, 0.0) : sheetDrawing(body);
 }
 
-Body buildBody(const NetSpec& spec) {
-    std::vector<mechanics::NetPoint> points;
-    for (const NetPointSpec& p : spec.points)
-        points.push_back({p.name, p.position, dvec3(0.0), p.mass, spec.drag, p.hold});
-    std::vector<mechanics::NetSpring> springs;
-    for (const NetSpringSpec& s : spec.springs)
-        springs.push_back({s.a, s.b, s.stiffness, s.restLength, s.dampingTime.value_or(spec.dampingTime)});
-    Body body = finishBody(Body::Kind::net, spec, mechanics::buildNet(points, springs));
-    body.radius = spec.radius;
-    body.ball = spec.ball;
-    body.plasticity = spec.plasticity;
-    return body;
+BodyOutline BodySpec::outline(const SceneSpec& scene) const {
+    const mechanics::Model model = build(scene);
+    BodyOutline outline;
+    outline.points = model.pointCount();
+    outline.springs = static_cast<double>(model.springs.size());
+    outline.volumes = static_cast<double>(model.cells.size());
+    for (const auto& [group, points] : model.groups)
+        if (group != "all") outline.groups.push_back(group);
+    outline.isGrid = model.grid[0] > 0;
+    outline.hasSurface = !model.triangles.empty();
+    return outline;
 }
 
 void startBody(Body& body) {
@@ -230,7 +139,7 @@ std::vector<Body*> pointersTo(std::vector<Body>& bodies) {
 
 bool names(const std::string& text, const Body& body) {
     const Target target = parseTarget(text);
-    return target.kind == kindName(body.kind) && (matches(target.name, body.name) || matches(target.name, body.base));
+    return target.kind == body.kind() && (matches(target.name, body.name) || matches(target.name, body.base()));
 }
 
 std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string& text) {
@@ -242,10 +151,7 @@ std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string&
 
 std::vector<Body> buildBodies(const SceneSpec& spec) {
     std::vector<Body> bodies;
-    for (const ClothSpec& s : spec.cloths) addArray(bodies, s, [&](const ClothSpec& c) { return buildBody(c, spec.materials); });
-    for (const RopeSpec& s : spec.ropes) addArray(bodies, s, [](const RopeSpec& r) { return buildBody(r); });
-    for (const BlockSpec& s : spec.blocks) addArray(bodies, s, [](const BlockSpec& b) { return buildBody(b); });
-    for (const NetSpec& s : spec.nets) addArray(bodies, s, [](const NetSpec& n) { return buildBody(n); });
+    for (const BodySpec& body : spec.bodies.all()) addCopies(bodies, body, spec);
     std::sort(bodies.begin(), bodies.end(), sortsBefore);
     addMasses(bodies, spec);
     for (Body& body : bodies) startBody(body);

@@ -1,30 +1,26 @@
-// A rope, cloth, block or net of the scene: its model, and where its points live in an island.
+// A body of the scene: its model, and where its points live in an island.
 #pragma once
 
-#include <map>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "taut/mechanics/model.h"
+#include "taut/world/body_spec.h"
 #include "taut/world/damage.h"
-#include "taut/world/spec.h"
 
 namespace taut::world {
 
 class Island;
 
 struct Body {
-    enum class Kind { block, cloth, net, rope };  // the order of the state hash
-    Kind kind = Kind::cloth;
-    std::string name;  // "flag", or "flag.2" in an array
-    std::string base;  // "flag"
-    BodySpec common;   // what every kind has
+    std::shared_ptr<const BodySpec> spec;  // what it was made from; copies of an array share it
+    std::string name;                      // "flag", or "flag.2" in an array
+    std::int64_t seed = 1;                 // of its jitter
     mechanics::Model model;
-
-    double radius = 0;         // [m] rope, net: of the tube
-    double ball = 0;           // [m] net: of a point
-    double workingStretch = 1; // block
     PlasticitySpec plasticity;
 
     Damage damage;  // what has been cut or torn of it
@@ -34,10 +30,10 @@ struct Body {
     std::vector<int> pointOf;            // (points) number in the island, for each point of the model
     int firstPoint = 0, lastPoint = 0;   // the range that collides for this body
 
-    std::string fullName() const;  // "cloth.flag"
+    std::string_view kind() const { return spec->kind(); }
+    const std::string& base() const { return spec->name; }  // "flag"
+    std::string fullName() const;                           // "cloth.flag"
 };
-
-std::string_view kindName(Body::Kind kind);
 
 // All bodies of the scene with arrays expanded, held points set, masses added and starting velocities given; sorted
 // by kind and name. Throws core::Error(badContent) naming file, line and column.
@@ -46,18 +42,12 @@ std::vector<Body> buildBodies(const SceneSpec& spec);
 // The order of the state hash: by kind and name, row.2 before row.10.
 bool sortsBefore(const Body& a, const Body& b);
 
-// One body of each kind, for spawning: at rest and free, arrays not expanded; startBody does the rest.
-Body buildBody(const ClothSpec& spec, const std::map<std::string, MaterialSpec>& materials);
-Body buildBody(const RopeSpec& spec);
-Body buildBody(const BlockSpec& spec);
-Body buildBody(const NetSpec& spec);
+// One body, for spawning: at rest and free, arrays not expanded; startBody does the rest.
+Body buildBody(const BodySpec& spec, const SceneSpec& scene);
 
 // Holds the points that its spec names and gives the others their starting velocity and jitter. Throws
 // core::Error(badContent) where `hold` names nothing.
 void startBody(Body& body);
-
-// "file:line:column: error: " of a source, or less when it has none.
-std::string at(const Source& source);
 
 // Whether a target names the body.
 bool names(const std::string& target, const Body& body);

@@ -8,7 +8,8 @@
 #include "taut/collision/colliders.h"
 #include "taut/world/body.h"
 #include "taut/world/drawing.h"
-#include "taut/world/spec.h"
+#include "taut/world/collider_spec.h"
+#include "taut/world/picture_spec.h"
 
 namespace taut::world {
 
@@ -18,7 +19,7 @@ struct Identity {
     std::string fullName() const { return kind + "." + name; }
 };
 
-// A rope, cloth, block or net.
+// What moves by its own laws.
 struct BodyPart {
     std::unique_ptr<Body> body;
     std::unique_ptr<BodyDrawing> drawing;
@@ -44,12 +45,6 @@ struct ColliderPart {
     std::optional<PoseMove> move{};  // the last; where there is one, keyframes do not count any more
 };
 
-struct WindPart {
-    WindSpec spec;
-};
-struct AnchorPart {
-    AnchorSpec spec;
-};
 struct CameraPart {
     CameraSpec spec;
 };

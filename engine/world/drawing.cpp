@@ -11,70 +11,7 @@
 namespace taut::world {
 namespace {
 
-constexpr int tubeSides = 10;
-constexpr int tubeSubdivisions = 2;
-
-// A rope, or the pieces of one that has been cut. Each piece goes on straight beyond its last point up to the cut.
-class RopeDrawing final : public BodyDrawing {
-  public:
-    explicit RopeDrawing(const Body& body)
-        : name_(body.fullName()), radius_(static_cast<float>(body.radius)), finish_(finishOf(body.common.finish)) {
-        const mechanics::Model& model = body.model;
-        double length = 0;
-        for (const mechanics::Spring& s : model.springs)
-            if (s.kind == mechanics::SpringKind::structural) length += s.restLength;
-        const int last = model.pointCount() - 1;
-        const auto perSegment = static_cast<float>(length / last);
-        Piece piece;
-        for (int i = 0; i <= last; ++i) {
-            const bool isSevered = i < last && body.damage.isSevered(i, i + 1);
-            if (i < last && !isSevered) continue;
-            piece.last = i;
-            piece.after = isSevered ? static_cast<float>(body.damage.share(i, i + 1)) : 0.0F;
-            addPiece(piece, perSegment);
-            piece = {};
-            piece.first = i + 1;
-            piece.before = isSevered ? static_cast<float>(body.damage.share(i + 1, i)) : 0.0F;
-        }
-    }
-    void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
-        for (const Piece& piece : pieces_) {
-            std::vector<glm::vec3> line;
-            const auto at = [&](int i) { return positions[static_cast<std::size_t>(i)]; };
-            if (piece.before > 0)
-                line.push_back(at(piece.first) + piece.before * (at(piece.first) - at(piece.first + 1)));
-            for (int i = piece.first; i <= piece.last; ++i) line.push_back(at(i));
-            if (piece.after > 0) line.push_back(at(piece.last) + piece.after * (at(piece.last) - at(piece.last - 1)));
-            view::Surface surface;
-            surface.name = name_;
-            surface.topology = piece.topology;
-            surface.geometry =
-                std::make_shared<view::Geometry>(view::tubeGeometry(line, tubeSubdivisions, tubeSides, radius_));
-            surface.finish = finish_;
-            surfaces.push_back(std::move(surface));
-        }
-    }
-
-  private:
-    struct Piece {
-        int first = 0, last = 0;      // points
-        float before = 0, after = 0;  // segments more at its ends
-        std::shared_ptr<const view::Topology> topology;
-    };
-    void addPiece(Piece piece, float perSegment) {
-        if (piece.last == piece.first) return;  // a point without a segment: it has no direction
-        const int points = piece.last - piece.first + 1 + (piece.before > 0 ? 1 : 0) + (piece.after > 0 ? 1 : 0);
-        const float segments = static_cast<float>(piece.last - piece.first) + piece.before + piece.after;
-        piece.topology = std::make_shared<view::Topology>(
-            view::tubeTopology(points, tubeSubdivisions, tubeSides, perSegment * segments, radius_));
-        pieces_.push_back(std::move(piece));
-    }
-
-    std::string name_;
-    float radius_;
-    std::shared_ptr<const view::Finish> finish_;
-    std::vector<Piece> pieces_;
-};
+constexpr int rodSides = 10;
 
 // The block's own axes, so that a pattern lies along its edges however it starts.
 struct BlockAxes {
@@ -117,8 +54,8 @@ Skin wholeSkin(const mechanics::Model& model) {
 // Cloth, and the skin of a block. A block's faces get vertices of their own, so that its edges stay edges.
 class SkinDrawing final : public BodyDrawing {
   public:
-    explicit SkinDrawing(const Body& body)
-        : name_(body.fullName()), twoSided_(body.kind == Body::Kind::cloth), finish_(finishOf(body.common.finish)) {
+    SkinDrawing(const Body& body, bool twoSided)
+        : name_(body.fullName()), twoSided_(twoSided), finish_(finishOf(body.spec->finish)) {
         auto topology = std::make_shared<view::Topology>();
         const mechanics::Model& model = body.model;
         const Skin skin = body.damage.isEmpty() ? wholeSkin(model) : skinOf(body);
@@ -194,24 +131,25 @@ class SkinDrawing final : public BodyDrawing {
     std::shared_ptr<const view::Topology> topology_;
 };
 
+
 // Springs as rods, points as balls.
-class NetDrawing final : public BodyDrawing {
+class RodDrawing final : public BodyDrawing {
   public:
-    explicit NetDrawing(const Body& body)
-        : name_(body.fullName()), radius_(static_cast<float>(body.radius)), finish_(finishOf(body.common.finish)) {
+    RodDrawing(const Body& body, double radius, double ball)
+        : name_(body.fullName()), radius_(static_cast<float>(radius)), finish_(finishOf(body.spec->finish)) {
         for (const mechanics::Spring& s : body.model.springs) {
             if (body.damage.isSevered(s.a, s.b)) continue;
             rods_.push_back({s.a, s.b});
             rodTopology_.push_back(std::make_shared<view::Topology>(
-                view::tubeTopology(2, 1, tubeSides, static_cast<float>(std::max(s.restLength, 1e-3)), radius_)));
+                view::tubeTopology(2, 1, rodSides, static_cast<float>(std::max(s.restLength, 1e-3)), radius_)));
         }
-        FinishSpec ballFinish = body.common.finish;
-        ballFinish.colour = body.common.finish.accent;
-        ballFinish.pattern = "plain";
+        FinishSpec ballFinish = body.spec->finish;
+        ballFinish.colour = body.spec->finish.accent;
+        ballFinish.pattern = view::Pattern::plain;
         ballFinish_ = finishOf(ballFinish);
-        for (int i = 0; i < body.model.pointCount(); ++i) {
+        for (int i = 0; ball > 0 && i < body.model.pointCount(); ++i) {
             // Balls grow with the cube root of their mass, so that a heavier one looks it.
-            const double size = body.ball * std::cbrt(body.model.masses[static_cast<std::size_t>(i)]);
+            const double size = ball * std::cbrt(body.model.masses[static_cast<std::size_t>(i)]);
             balls_.push_back(view::sphereMesh(static_cast<float>(size)));
         }
     }
@@ -222,7 +160,7 @@ class NetDrawing final : public BodyDrawing {
             view::Surface rod;
             rod.name = name_;
             rod.topology = rodTopology_[i];
-            rod.geometry = std::make_shared<view::Geometry>(view::tubeGeometry(line, 1, tubeSides, radius_));
+            rod.geometry = std::make_shared<view::Geometry>(view::tubeGeometry(line, 1, rodSides, radius_));
             rod.finish = finish_;
             surfaces.push_back(std::move(rod));
         }
@@ -253,17 +191,11 @@ glm::vec3 linearColour(const dvec3& srgb) {
 }
 
 std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
-    static constexpr std::pair<const char*, view::Pattern> patterns[] = {{"plain", view::Pattern::plain},
-                                                                         {"checker", view::Pattern::checker},
-                                                                         {"stripes", view::Pattern::stripes},
-                                                                         {"tartan", view::Pattern::tartan},
-                                                                         {"image", view::Pattern::image}};
     auto finish = std::make_shared<view::Finish>();
     finish->front = linearColour(spec.colour);
     finish->back = spec.backColour ? linearColour(*spec.backColour) : glm::mix(finish->front, glm::vec3(0.5F), 0.5F);
     finish->accent = linearColour(spec.accent);
-    for (const auto& [name, pattern] : patterns)
-        if (spec.pattern == name) finish->pattern = pattern;
+    finish->pattern = spec.pattern;
     finish->repeat = static_cast<float>(spec.repeat);
     finish->weave = static_cast<float>(spec.weave);
     finish->thread = static_cast<float>(spec.thread);
@@ -273,17 +205,16 @@ std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
     return finish;
 }
 
-std::unique_ptr<BodyDrawing> makeDrawing(const Body& body) {
-    switch (body.kind) {
-        case Body::Kind::rope:
-            return std::make_unique<RopeDrawing>(body);
-        case Body::Kind::net:
-            return std::make_unique<NetDrawing>(body);
-        case Body::Kind::cloth:
-        case Body::Kind::block:
-            break;
-    }
-    return std::make_unique<SkinDrawing>(body);
+std::unique_ptr<BodyDrawing> sheetDrawing(const Body& body) {
+    return std::make_unique<SkinDrawing>(body, true);
+}
+
+std::unique_ptr<BodyDrawing> rodDrawing(const Body& body, double radius, double ball) {
+    return std::make_unique<RodDrawing>(body, radius, ball);
+}
+
+std::unique_ptr<BodyDrawing> sidedDrawing(const Body& body) {
+    return std::make_unique<SkinDrawing>(body, false);
 }
 
 }  // namespace taut::world

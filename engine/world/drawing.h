@@ -1,7 +1,8 @@
 // How bodies and colliders become surfaces of a picture.
 #pragma once
 
-#include <glm/glm.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "taut/view/frame_view.h"
 #include "taut/view/primitives.h"
 #include "taut/world/body.h"
+#include "taut/world/collider_spec.h"
 
 namespace taut::world {
 
@@ -24,7 +26,12 @@ class BodyDrawing {
     // positions (points of the model) [m], in the order of authoring.
     virtual void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const = 0;
 };
-std::unique_ptr<BodyDrawing> makeDrawing(const Body& body);
+// Of the triangles of the model: a sheet with a front and a back, or the skin of something with the groups left, right,
+// bottom, top, back and front, whose sides meet at sharp edges.
+std::unique_ptr<BodyDrawing> sheetDrawing(const Body& body);
+std::unique_ptr<BodyDrawing> sidedDrawing(const Body& body);
+// Springs as rods of this radius [m], points as balls of radius `ball` times the cube root of their mass; 0: none.
+std::unique_ptr<BodyDrawing> rodDrawing(const Body& body, double radius, double ball);
 
 // A collider's shape, for collision and for the eye.
 struct ColliderModel {

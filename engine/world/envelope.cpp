@@ -195,8 +195,8 @@ bool isSpawnedLater(const Body& body, const SceneSpec& spec) {
     return std::any_of(spec.actions.begin(), spec.actions.end(), [&](const ActionSpec& action) {
         if (action.what != Do::spawn) return false;
         const Target target = parseTarget(action.target);
-        return target.kind == kindName(body.kind) &&
-               (matches(target.name, body.name) || matches(target.name, body.base));
+        return target.kind == body.kind() &&
+               (matches(target.name, body.name) || matches(target.name, body.base()));
     });
 }
 

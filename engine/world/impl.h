@@ -64,7 +64,7 @@ struct World::Impl {
     void addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints);
     ForceList forces() const;
     void checkUntied(Body& body) const;
-    void checkAnchors() const;
+    void checkForces() const;
     void rebuildColliders();
     ecs::Entity addCollider(const ColliderSpec& collider);
     ecs::Entity addBody(std::unique_ptr<Body> body);

@@ -43,7 +43,7 @@ std::optional<Fault> IslandOf<Real>::tick(const TickTime& time, std::span<const 
     hasMoved_ = true;
     const bool mayFreeze = plan_.solver.onDivergence == OnDivergence::freeze;
     const bool collides = colliders_.size() > 0 && std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
-                                                               [](const Body* b) { return b->common.collide; });
+                                                               [](const Body* b) { return b->spec->collide; });
     for (int s = 0; s < choice_.substeps; ++s) {
         if (mayFreeze) copyState(state_, good_);
         if (collides) std::copy(state_.x.begin(), state_.x.end(), before_.begin());
@@ -154,7 +154,7 @@ void IslandOf<Real>::collide(std::span<const ColliderMotion> moving, int substep
     for (const ColliderMotion& m : moving)
         colliders_.move(m.collider, between(m.from, m.to, substep / n), between(m.from, m.to, (substep + 1) / n));
     for (const Body* body : plan_.bodies) {
-        if (!body->common.collide || body->lastPoint == body->firstPoint) continue;
+        if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
         collision::MovingPoints<Real> points;
         points.first = body->firstPoint;
         points.last = body->lastPoint;
@@ -163,8 +163,8 @@ void IslandOf<Real>::collide(std::span<const ColliderMotion> moving, int substep
         points.x = state_.x.data();
         points.v = state_.v.data();
         points.inverseMass = system_.inverseMasses();
-        points.thickness = body->common.thickness;
-        points.friction = body->common.friction;
+        points.thickness = body->spec->thickness;
+        points.friction = body->spec->friction;
         colliders_.resolve(points, choice_.step, contacts_);
     }
     touched_.clear();

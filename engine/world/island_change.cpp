@@ -66,7 +66,7 @@ void IslandOf<Real>::addVolumes() {
         }
         if (cells.empty()) continue;
         auto volume =
-            std::make_unique<mechanics::VolumePreservation<Real>>(cells, plan_.positions, body->workingStretch);
+            std::make_unique<mechanics::VolumePreservation<Real>>(cells, plan_.positions, body->model.workingStretch);
         volumes_.push_back({body, volume.get()});
         system_.add(std::move(volume));
     }

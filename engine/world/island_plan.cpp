@@ -95,7 +95,7 @@ class Planner {
     void addJoint(const JointSpec& joint) {
         const std::vector<PointRef> as = points(joint.a, joint.source);
         std::vector<PointRef> bs = points(joint.b, joint.source);
-        const bool weld = joint.kind == "weld";
+        const bool weld = joint.kind == JointSpec::Kind::weld;
         int made = 0;
         double nearest = HUGE_VAL;
         for (const PointRef& a : as) {
@@ -238,19 +238,19 @@ class Planner {
     SolverSpec solverOf(const IslandPlan& plan) const {
         SolverSpec solver = spec_.solver;
         const auto same = [&](const Body& a, const Body& b) {
-            return a.common.solver == b.common.solver;
+            return a.spec->solver == b.spec->solver;
         };
         const Body& first = *plan.bodies.front();
         for (const Body* other : plan.bodies)
             if (!same(first, *other))
-                throw Error(ExitCode::badContent, at(other->common.source) + other->fullName() + " and " + first.fullName() +
+                throw Error(ExitCode::badContent, at(other->spec->source) + other->fullName() + " and " + first.fullName() +
                                                       " are joined but differ in their solver; give both the same `solver`");
-        solver.integrator = first.common.solver.integrator.value_or(solver.integrator);
-        solver.safety = first.common.solver.safety.value_or(solver.safety);
-        if (first.common.solver.dt) solver.dt = first.common.solver.dt;
-        solver.newtonSteps = first.common.solver.newtonSteps.value_or(solver.newtonSteps);
-        solver.cgTolerance = first.common.solver.cgTolerance.value_or(solver.cgTolerance);
-        solver.cgIterations = first.common.solver.cgIterations.value_or(solver.cgIterations);
+        solver.integrator = first.spec->solver.integrator.value_or(solver.integrator);
+        solver.safety = first.spec->solver.safety.value_or(solver.safety);
+        if (first.spec->solver.dt) solver.dt = first.spec->solver.dt;
+        solver.newtonSteps = first.spec->solver.newtonSteps.value_or(solver.newtonSteps);
+        solver.cgTolerance = first.spec->solver.cgTolerance.value_or(solver.cgTolerance);
+        solver.cgIterations = first.spec->solver.cgIterations.value_or(solver.cgIterations);
         return solver;
     }
 

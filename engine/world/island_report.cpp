@@ -81,7 +81,7 @@ double IslandOf<Real>::penetration(const std::vector<bool>& wanted) const {
         return depth;
     }
     for (const Body* body : plan_.bodies)
-        if (body->common.collide)
+        if (body->spec->collide)
             for (int i = body->firstPoint; i < body->lastPoint; ++i) look(i);
     return depth;
 }

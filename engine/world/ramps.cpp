@@ -64,32 +64,18 @@ void World::Impl::changeForces() {
 
 // Takes the springs over that the body would have if it were built from the scene as it is now.
 void World::Impl::takeSprings(Body& body) const {
-    const auto take = [&](const Body& fresh) {
-        for (std::size_t i = 0; i < body.model.springs.size(); ++i) {
-            body.model.springs[i].stiffness = fresh.model.springs[i].stiffness;
-            body.model.springs[i].dampingTime = fresh.model.springs[i].dampingTime;
-        }
-        body.model.dragRates = fresh.model.dragRates;
-        for (std::size_t i = 0; i < body.model.cells.size() && i < fresh.model.cells.size(); ++i)
-            body.model.cells[i].bulkModulus = fresh.model.cells[i].bulkModulus;
-        body.plasticity = fresh.plasticity;
-    };
-    const auto rebuilt = [&](const auto& specs, auto&& build) {
-        if (const auto* found = named(specs, body.base)) {
-            const Body fresh = build(*found);
-            if (fresh.model.springs.size() == body.model.springs.size()) take(fresh);
-        }
-    };
-    switch (body.kind) {
-        case Body::Kind::cloth:
-            return rebuilt(spec.cloths, [&](const ClothSpec& s) { return buildBody(s, spec.materials); });
-        case Body::Kind::rope:
-            return rebuilt(spec.ropes, [](const RopeSpec& s) { return buildBody(s); });
-        case Body::Kind::block:
-            return rebuilt(spec.blocks, [](const BlockSpec& s) { return buildBody(s); });
-        case Body::Kind::net:
-            return rebuilt(spec.nets, [](const NetSpec& s) { return buildBody(s); });
+    const BodySpec* now = spec.bodies.find(body.kind(), body.base());
+    if (now == nullptr) return;
+    const mechanics::Model fresh = now->build(spec);
+    if (fresh.springs.size() != body.model.springs.size()) return;
+    for (std::size_t i = 0; i < fresh.springs.size(); ++i) {
+        body.model.springs[i].stiffness = fresh.springs[i].stiffness;
+        body.model.springs[i].dampingTime = fresh.springs[i].dampingTime;
     }
+    body.model.dragRates = fresh.dragRates;
+    for (std::size_t i = 0; i < body.model.cells.size() && i < fresh.cells.size(); ++i)
+        body.model.cells[i].bulkModulus = fresh.cells[i].bulkModulus;
+    body.plasticity = now->plasticityIn(spec);
 }
 
 void World::Impl::changeSprings() {
@@ -100,9 +86,7 @@ void World::Impl::changeSprings() {
             const std::string& owner = ramp.action.field.owner;
             if (ramp.action.field.affects != fields::Affects::springs || tick > ramp.start + ramp.length)
                 return false;
-            if (owner == std::string(kindName(body.kind)) + "." + body.base) return true;
-            const ClothSpec* cloth = body.kind == Body::Kind::cloth ? named(spec.cloths, body.base) : nullptr;
-            return cloth != nullptr && owner == "material." + cloth->material;
+            return owner == body.spec->fullName() || owner == "material." + std::string(body.spec->materialName());
         });
     };
     for (const auto& island : islands) {
@@ -134,12 +118,6 @@ void World::Impl::changePicture() {
 // Entities have specs of their own: what ramps have changed of the scene's goes over to them.
 void World::Impl::takeRampedParts() {
     if (ramps.empty()) return;
-    registry.each<WindPart>([&](ecs::Entity, WindPart& part) {
-        if (const WindSpec* wind = named(spec.winds, part.spec.name)) part.spec = *wind;
-    });
-    registry.each<AnchorPart>([&](ecs::Entity, AnchorPart& part) {
-        if (const AnchorSpec* anchor = named(spec.anchors, part.spec.name)) part.spec = *anchor;
-    });
     registry.each<CameraPart>([&](ecs::Entity, CameraPart& part) {
         if (const CameraSpec* camera = named(spec.cameras, part.spec.name)) part.spec = *camera;
     });

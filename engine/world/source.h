@@ -1,11 +1,21 @@
 // The words that several parts of a scene share.
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include "taut/core/source.h"
 
 namespace taut::world {
 
 using core::Source;
+using glm::dvec2;
+using glm::dvec3;
+using glm::ivec2;
+using glm::ivec3;
+
+// "file:line:column: error: " of a source, or less when it has none.
+std::string at(const Source& source);
 
 // Ways from one key to the next, as animators name them.
 enum class Ease { linear, smooth, in, out, hold };

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,6 +24,11 @@ template <class Pointer>
 class Pointees {
   public:
     struct Iterator {
+        using iterator_category = std::input_iterator_tag;
+        using value_type = std::remove_cvref_t<decltype(*Pointer())>;
+        using difference_type = std::ptrdiff_t;
+        using pointer = Pointer;
+        using reference = decltype(*Pointer());
         typename std::vector<Pointer>::const_iterator at;
         auto& operator*() const { return **at; }
         Iterator& operator++() {
@@ -37,6 +44,7 @@ class Pointees {
     std::size_t size() const { return pointers_.size(); }
     bool empty() const { return pointers_.empty(); }
     auto& operator[](std::size_t i) const { return *pointers_[i]; }
+    auto& at(std::size_t i) const { return *pointers_.at(i); }
     auto& front() const { return *pointers_.front(); }
     auto& back() const { return *pointers_.back(); }
 
@@ -61,6 +69,11 @@ class Specs {
     template <class Spec>
     Spec& add(Spec spec) {
         return static_cast<Spec&>(add(std::unique_ptr<Base>(std::make_unique<Spec>(std::move(spec)))));
+    }
+    template <class First, class Second, class... More>
+    void add(First first, Second second, More... more) {
+        add(std::move(first));
+        add(std::move(second), std::move(more)...);
     }
     Base& add(std::unique_ptr<Base> spec) { return *all_.emplace_back(std::move(spec)); }
 

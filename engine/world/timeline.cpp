@@ -155,8 +155,8 @@ void World::Impl::spawnNamed(const ActionSpec& action) {
     const Target target = parseTarget(action.target);
     bool any = false;
     for (auto& body : waiting) {
-        if (target.kind != kindName(body->kind)) continue;
-        if (!matches(target.name, body->name) && !matches(target.name, body->base)) continue;
+        if (target.kind != body->kind()) continue;
+        if (!matches(target.name, body->name) && !matches(target.name, body->base())) continue;
         any = true;
         takeSprings(*body);
         addAlone(std::move(body));

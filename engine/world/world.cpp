@@ -18,14 +18,11 @@ World::Impl::Impl(const SceneSpec& scene, const Options& options)
     : spec(scene), threads(options.threads), added(options.forces), start(std::make_unique<const SceneSpec>(scene)) {
     ticksPerFrame = Ticks(spec.run).perFrame;
     ticksPerSecond = Ticks(spec.run).perSecond;
-    const auto add = [&](const char* kind, const std::string& name, auto part) {
+    for (const CameraSpec& camera : spec.cameras) {
         const ecs::Entity entity = registry.create();
-        registry.add(entity, Identity{kind, name});
-        registry.add(entity, std::move(part));
-    };
-    for (const CameraSpec& camera : spec.cameras) add("camera", camera.name, CameraPart{camera});
-    for (const WindSpec& wind : spec.winds) add("wind", wind.name, WindPart{wind});
-    for (const AnchorSpec& anchor : spec.anchors) add("anchor", anchor.name, AnchorPart{anchor});
+        registry.add(entity, Identity{"camera", camera.name});
+        registry.add(entity, CameraPart{camera});
+    }
     for (const ColliderSpec& collider : spec.colliders) addCollider(collider);
     addBodies();
     rebuildColliders();
@@ -45,7 +42,7 @@ void World::Impl::addBodies() {
         bodies.push_back(entity);
         pointers.push_back(registry.find<BodyPart>(entity)->body.get());
     }
-    checkAnchors();
+    checkForces();
     const Envelopes envelopes(*start);
     const ForceList current = forces();
     for (IslandPlan& plan : planIslands(pointers, spec)) addIsland(std::move(plan), current, envelopes, true);
@@ -64,8 +61,8 @@ void World::Impl::checkUntied(Body& body) const {
 
 ecs::Entity World::Impl::addBody(std::unique_ptr<Body> body) {
     const ecs::Entity entity = registry.create();
-    registry.add(entity, Identity{std::string(kindName(body->kind)), body->name});
-    std::unique_ptr<BodyDrawing> drawing = makeDrawing(*body);
+    registry.add(entity, Identity{std::string(body->kind()), body->name});
+    std::unique_ptr<BodyDrawing> drawing = body->spec->drawing(*body);
     registry.add(entity, BodyPart{std::move(body), std::move(drawing)});
     return entity;
 }
@@ -78,23 +75,16 @@ std::vector<Body*> World::Impl::allBodies() const {
 
 // Those of the scene as they are now, then those that were added.
 ForceList World::Impl::forces() const {
-    ForceList all{gravityForce(spec.world)};
-    registry.each<WindPart>([&](ecs::Entity, const WindPart& part) {
-        if (auto wind = windForce(part.spec, spec.world.airDensity)) all.push_back(std::move(wind));
-    });
-    registry.each<AnchorPart>([&](ecs::Entity, const AnchorPart& part) { all.push_back(anchorForce(part.spec)); });
+    ForceList all = sceneForces(spec);
     all.insert(all.end(), added.begin(), added.end());
     return all;
 }
 
-// That each finds a point, of bodies that are there or wait.
-void World::Impl::checkAnchors() const {
+// That each finds what it acts on, of bodies that are there or wait.
+void World::Impl::checkForces() const {
     std::vector<Body*> all = allBodies();
     for (const auto& body : waiting) all.push_back(body.get());
-    for (const AnchorSpec& anchor : spec.anchors)
-        if (std::none_of(all.begin(), all.end(), [&](const Body* body) { return hasPointIn(anchor, *body); }))
-            throw core::Error(core::ExitCode::badContent,
-                              at(anchor.source) + "target = \"" + anchor.target + "\" names no point");
+    for (const ForceSpec& force : spec.forces.all()) force.checkBodies(all);
 }
 
 void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints) {
@@ -232,7 +222,7 @@ void World::Impl::redrawDamage() {
         const std::size_t severed = part.body->damage.edges().size();
         if (severed == part.drawnDamage) return;
         part.drawnDamage = severed;
-        part.drawing = makeDrawing(*part.body);
+        part.drawing = part.body->spec->drawing(*part.body);
     });
 }
 
@@ -338,17 +328,8 @@ ecs::Entity World::spawn(const ColliderSpec& spec) {
     impl_->rebuildColliders();
     return entity;
 }
-ecs::Entity World::spawn(const ClothSpec& spec) {
-    return impl_->spawn(buildBody(spec, impl_->spec.materials));
-}
-ecs::Entity World::spawn(const RopeSpec& spec) {
-    return impl_->spawn(buildBody(spec));
-}
-ecs::Entity World::spawn(const BlockSpec& spec) {
-    return impl_->spawn(buildBody(spec));
-}
-ecs::Entity World::spawn(const NetSpec& spec) {
-    return impl_->spawn(buildBody(spec));
+ecs::Entity World::spawn(const BodySpec& spec) {
+    return impl_->spawn(buildBody(spec, impl_->spec));
 }
 
 void World::destroy(ecs::Entity entity) {

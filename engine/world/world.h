@@ -165,10 +165,7 @@ class World {
     // In mid-run. A new body is an island of its own, felt by the winds and colliders that are there. Throws and expects
     // what the constructor does.
     ecs::Entity spawn(const ColliderSpec& spec);
-    ecs::Entity spawn(const ClothSpec& spec);
-    ecs::Entity spawn(const RopeSpec& spec);
-    ecs::Entity spawn(const BlockSpec& spec);
-    ecs::Entity spawn(const NetSpec& spec);
+    ecs::Entity spawn(const BodySpec& spec);
     // Removes the entity and what it stood for. Expects that it is alive, and a body not joined to another.
     void destroy(ecs::Entity entity);
 

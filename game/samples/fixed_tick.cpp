@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "taut/world/bodies/rope.h"
 #include "taut/world/world.h"
 
 using namespace taut;
@@ -22,7 +23,7 @@ world::SceneSpec throwRope() {
     rope.velocity = {1.0, 5.0, 0.0};
     rope.spin = {0.0, 0.0, 9.0};
     rope.drag = 0.0;
-    scene.ropes.push_back(rope);
+    scene.bodies.add(rope);
     return scene;
 }
 

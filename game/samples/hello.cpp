@@ -2,6 +2,7 @@
 // Nothing damps it, so that the sum of the energies stays.
 #include <cstdio>
 
+#include "taut/world/bodies/cloth.h"
 #include "taut/world/world.h"
 
 int main() {
@@ -23,7 +24,7 @@ int main() {
     cloth.down = {0.0, 0.0, 1.0};
     cloth.hold = {"top-left", "top-right"};
     cloth.material = "silk";
-    scene.cloths.push_back(cloth);
+    scene.bodies.add(cloth);
     scene.solver.safety = 0.5;  // half of the largest step that is stable
 
     world::World world(scene);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "taut/world/bodies/rope.h"
 #include "taut/world/forces/force.h"
 #include "taut/world/world.h"
 
@@ -49,7 +50,7 @@ int main(int count, char** arguments) {
     rope.stretch = 100.0;
     rope.spin = {0.0, 0.0, 6.0};
     rope.drag = rope.dampingTime = 0.0;
-    scene.ropes.push_back(rope);
+    scene.bodies.add(rope);
 
     world::World world(scene, {.forces = {std::make_shared<Well>()}});
     const auto energy = [](const world::Metrics& m) { return m.kinetic + m.elastic + m.gravitational; };

@@ -1,6 +1,8 @@
 // What many bodies cost: both figures are to stay flat a body.
 #include <benchmark/benchmark.h>
 
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "taut/world/world.h"
 
 namespace taut {
@@ -15,7 +17,7 @@ world::SceneSpec manyRopes(int count) {
         rope.segments = 1;
         rope.start = {0.0, 0.0, 1.0 * i};
         rope.end = {1.0, 0.0, 1.0 * i};
-        scene.ropes.push_back(rope);
+        scene.bodies.add(rope);
     }
     return scene;
 }
@@ -48,7 +50,7 @@ void tickRamp(benchmark::State& state) {
     cloth.material = "m";
     cloth.cells = {64, 64};
     cloth.hold = {"top"};
-    scene.cloths = {cloth};
+    scene.bodies.add(cloth);
     if (state.range(0) == 1) {
         world::ActionSpec ramp;
         ramp.what = world::Do::ramp;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "taut/ode/method_table.h"
+#include "taut/world/bodies/net.h"
 #include "support/scenes.h"
 
 namespace taut::test::contact {
@@ -20,7 +21,7 @@ world::SceneSpec onePointOver(double height, double tick, std::string method = "
     net.thickness = 0.0;
     net.friction = 1.0;
     net.points = {{"only", {0.0, height, 0.0}, 0.5, false, {}}};
-    scene.nets.push_back(net);
+    scene.bodies.add(net);
     world::ColliderSpec plane;
     plane.name = "ground";
     plane.shape = "plane";
@@ -118,7 +119,7 @@ TEST(StiffContact, AddsNoEnergyAtTheLargestStableStep) {
         scene.solver.dt.reset();
         // It has no limit, but a single Newton step of 1/60 s at ω h = 33 leaps over an impact: at ω h = 1 it does not.
         if (method == "implicit-euler") scene.solver.dt = 5e-4;
-        world::NetSpec& net = scene.nets[0];
+        world::NetSpec& net = scene.bodies.of<world::NetSpec>()[0];
         net.points = {{"a", {0, 0.2, 0}, 0.01, false, {}},
                       {"b", {0.1, 0.3, 0}, 0.01, false, {}},
                       {"c", {0, 0.3, 0.1}, 0.01, false, {}},

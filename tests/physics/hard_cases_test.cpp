@@ -7,6 +7,10 @@
 #include <limits>
 
 #include "taut/mechanics/builders.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/forces/anchor.h"
+#include "taut/world/forces/wind.h"
 #include "support/network.h"
 #include "support/oscillator.h"
 #include "support/scenes.h"
@@ -178,11 +182,21 @@ void expectSameBits(const dvec3& is, const dvec3& ought) {
 }
 
 // A cloth that everything pulls at, starting at negative zeros, in the way of a sphere.
+world::AnchorSpec anchor(const char* name, const char* target, const glm::dvec3& at, double damping) {
+    world::AnchorSpec spec;
+    spec.name = name;
+    spec.target = target;
+    spec.at = at;
+    spec.stiffness = 5.0;
+    spec.damping = damping;
+    return spec;
+}
+
 world::SceneSpec pulledCloth(const char* method, world::Precision precision, const char* held) {
     world::SceneSpec scene;
     scene.solver.integrator = method;
     scene.solver.precision = precision;
-    scene.materials["cotton"] = {0.2, 400.0, 200.0, 1.0, 1e-3, 1.0, "weighted"};
+    scene.materials["cotton"] = {0.2, 400.0, 200.0, 1.0, 1e-3, 1.0, mechanics::Lumping::weighted, {}};
     world::ClothSpec cloth;
     cloth.name = "sheet";
     cloth.material = "cotton";
@@ -193,13 +207,13 @@ world::SceneSpec pulledCloth(const char* method, world::Precision precision, con
     cloth.velocity = {0.1, -0.2, 0.3};
     cloth.spin = {1.0, 2.0, 3.0};
     cloth.jitter = 1e-3;
-    scene.cloths.push_back(cloth);
+    scene.bodies.add(cloth);
     world::WindSpec wind;
     wind.name = "gale";
     wind.velocity = {3.0, -1.0, 5.0};
     wind.gustAmplitude = 2.0;
-    scene.winds.push_back(wind);
-    scene.anchors.push_back({"hook", "cloth.sheet@top", {0.3, 1.0, 0.2}, 5.0, 0.1, {}});
+    scene.forces.add(wind);
+    scene.forces.add(anchor("hook", "cloth.sheet@top", {0.3, 1.0, 0.2}, 0.1));
     world::ColliderSpec ball;
     ball.name = "ball";
     ball.position = {0.0, -0.1, 0.0};
@@ -296,8 +310,8 @@ TEST(NotANumber, InAnAnchorStopsTheRunAndNamesThePointInEveryMethod) {
         for (world::Precision precision : {world::Precision::single_, world::Precision::double_}) {
             SCOPED_TRACE(method.name);
             world::SceneSpec scene = pulledCloth(method.name.data(), precision, "left");
-            scene.anchors = {
-                {"hook", "cloth.sheet@#13", {std::numeric_limits<double>::quiet_NaN(), 0, 0}, 5.0, 0.0, {}}};
+            scene.forces = {};
+            scene.forces.add(anchor("hook", "cloth.sheet@#13", {std::numeric_limits<double>::quiet_NaN(), 0, 0}, 0.0));
             world::World world(scene);
             const auto divergence = world.advance();
             ASSERT_TRUE(divergence);
@@ -351,7 +365,7 @@ TEST(NotANumber, ByOverflowKeepsTheLastGoodState) {
         net.name = "two";
         net.points = {{"a", {0, 0, 0}, 1.0, true, {}}, {"b", {0, 1, 0}, 1.0, false, {}}};
         net.springs = {{"a", "b", 3e38, 1.0, {}, {}}};
-        scene.nets.push_back(net);
+        scene.bodies.add(net);
         world::World world(scene);
         EXPECT_FALSE(world.warnings().empty());
         const auto divergence = advance(world, 10);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "taut/core/trig.h"
+#include "taut/world/bodies/cloth.h"
 #include "support/network.h"
 #include "support/oscillator.h"
 #include "support/scenes.h"
@@ -229,14 +230,14 @@ world::SceneSpec hangingCloth(world::Precision precision) {
     world::SceneSpec scene;
     scene.solver.integrator = "implicit-euler";
     scene.solver.precision = precision;
-    scene.materials["linen"] = {0.2, 2000.0, 1000.0, 2.0, 1e-3, 0.3, "weighted"};
+    scene.materials["linen"] = {0.2, 2000.0, 1000.0, 2.0, 1e-3, 0.3, mechanics::Lumping::weighted, {}};
     world::ClothSpec cloth;
     cloth.name = "sheet";
     cloth.material = "linen";
     cloth.cells = {12, 12};
     cloth.down = {0, 0, 1};
     cloth.hold = {"top-left", "top-right"};
-    scene.cloths.push_back(cloth);
+    scene.bodies.add(cloth);
     return scene;
 }
 

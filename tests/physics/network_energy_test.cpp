@@ -6,6 +6,7 @@
 
 #include "support/network.h"
 #include "support/scenes.h"
+#include "taut/world/bodies/net.h"
 
 namespace taut::test::network_energy {
 namespace {
@@ -80,7 +81,7 @@ TEST(WorldMetrics, AreTheEnergiesAndMomentaOfTheNet) {
         {"a", {0, 1, 0}, 0.5, false, {}}, {"b", {1, 1, 0}, 0.25, false, {}}, {"c", {0, 3, 1}, 2.0, false, {}}};
     net.springs = {{"a", "b", 40.0, 0.8, {}, {}}, {"b", "c", 10.0, {}, {}, {}}};
     net.velocity = {1.0, -2.0, 0.5};
-    scene.nets.push_back(net);
+    scene.bodies.add(net);
     world::World world(scene);
     const world::Metrics start = world.metrics();
     const dvec3 v(1.0, -2.0, 0.5), weighted(0.25, 0.5 + 0.25 + 6.0, 2.0);  // Σ m x

@@ -6,6 +6,8 @@
 
 #include "taut/core/error.h"
 #include "taut/mechanics/builders.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/forces/wind.h"
 #include "support/dense_stiffness.h"
 #include "support/scenes.h"
 
@@ -20,7 +22,7 @@ constexpr glm::ivec2 cells{9, 6};
 world::SceneSpec stirredCloth(double h, const char* method, double tau, double drag) {
     world::SceneSpec scene = exactScene(h, method);
     scene.world.gravity = dvec3(0.0);
-    scene.materials["cotton"] = {0.2, 600.0, 300.0, 2.0, tau, drag, "weighted"};
+    scene.materials["cotton"] = {0.2, 600.0, 300.0, 2.0, tau, drag, mechanics::Lumping::weighted, {}};
     world::ClothSpec cloth;
     cloth.name = "sheet";
     cloth.material = "cotton";
@@ -29,7 +31,7 @@ world::SceneSpec stirredCloth(double h, const char* method, double tau, double d
     cloth.hold = {"left"};
     cloth.jitter = 1e-7;
     cloth.collide = false;
-    scene.cloths.push_back(cloth);
+    scene.bodies.add(cloth);
     return scene;
 }
 
@@ -132,7 +134,7 @@ TEST(ExplicitEuler, HasNoAutomaticStepWithoutDamping) {
 // The flag of the design: nylon with dashpots of 1e-4 s in a gusty wind.
 world::SceneSpec flag() {
     world::SceneSpec scene;
-    scene.materials["nylon"] = {0.18, 900.0, 450.0, 2.0, 1e-4, 0.5, "weighted"};
+    scene.materials["nylon"] = {0.18, 900.0, 450.0, 2.0, 1e-4, 0.5, mechanics::Lumping::weighted, {}};
     world::ClothSpec cloth;
     cloth.name = "flag";
     cloth.material = "nylon";
@@ -140,14 +142,14 @@ world::SceneSpec flag() {
     cloth.cells = {36, 24};
     cloth.origin = {0.0, 3.0, 0.0};
     cloth.hold = {"left"};
-    scene.cloths.push_back(cloth);
+    scene.bodies.add(cloth);
     world::WindSpec breeze;
     breeze.name = "breeze";
     breeze.velocity = {6.0, 0.0, 1.0};
     breeze.gustAmplitude = 2.5;
     breeze.gustPeriod = 1.7;
     breeze.gustSeed = 7;
-    scene.winds.push_back(breeze);
+    scene.forces.add(breeze);
     return scene;
 }
 

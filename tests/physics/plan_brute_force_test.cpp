@@ -12,6 +12,10 @@
 #include "taut/study/plan.h"
 #include "taut/study/plan_run.h"
 #include "taut/study/plan_search.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/bodies/rope.h"
+#include "taut/world/forces/wind.h"
 #include "support/small_scenes.h"
 
 namespace taut::study::plan_brute_force {
@@ -34,7 +38,7 @@ world::SceneSpec swingingRope() {
     rope.mass = 0.5;
     rope.dampingTime = 1e-3;
     rope.hold = {"start"};
-    scene.ropes.push_back(rope);
+    scene.bodies.add(rope);
     return scene;
 }
 
@@ -47,7 +51,7 @@ world::SceneSpec fallingCloth() {
     cloth.down = {0, 0, 1};
     cloth.material = "m";
     cloth.hold = {"left"};
-    scene.cloths.push_back(cloth);
+    scene.bodies.add(cloth);
     return scene;
 }
 
@@ -61,7 +65,7 @@ world::SceneSpec smallNet() {
                   {"a", {0.3, 1.5, 0}, 0.2, false, {}},
                   {"b", {0.6, 1.2, 0.1}, 0.1, false, {}}};
     net.springs = {{"top", "a", 120, 0.5, {}, {}}, {"a", "b", 60, 0.3, {}, {}}, {"top", "b", 20, 0.8, {}, {}}};
-    scene.nets.push_back(net);
+    scene.bodies.add(net);
     return scene;
 }
 
@@ -175,9 +179,9 @@ TEST(Plan, ABudgetThatIsTooSmallIsNotMet) {
 TEST(Plan, LeavesOutAForceWithoutEffectAndKeepsOneThatMatters) {
     world::SceneSpec scene = fallingCloth();
     scene.materials["m"].drag = 1e-6;  // moves the cloth by 1e-6 of its way, 0.2 µm
-    scene.winds.push_back({});
-    scene.winds.back().name = "storm";
-    scene.winds.back().velocity = {20, 0, 0};
+    scene.forces.add(world::WindSpec{});
+    scene.forces.of<world::WindSpec>().back().name = "storm";
+    scene.forces.of<world::WindSpec>().back().velocity = {20, 0, 0};
     PlanSettings settings;
     settings.effort = 2e6;
     const Plan plan = makePlan(scene, settings);
@@ -201,7 +205,7 @@ world::SceneSpec bucklingRope(double target) {
     rope.mass = 0.05;
     rope.velocity = {-5, 0, 0};
     rope.hold = {"start"};
-    scene.ropes.push_back(rope);
+    scene.bodies.add(rope);
     return scene;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "support/scenes.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/forces/wind.h"
 
 namespace taut::test::precision {
 namespace {
@@ -13,7 +15,7 @@ world::SceneSpec sheet(world::Precision precision, const char* method) {
     world::SceneSpec scene;
     scene.solver.precision = precision;
     scene.solver.integrator = method;
-    scene.materials["cotton"] = {0.2, 500.0, 250.0, 2.0, 2e-4, 0.5, "weighted"};
+    scene.materials["cotton"] = {0.2, 500.0, 250.0, 2.0, 2e-4, 0.5, mechanics::Lumping::weighted, {}};
     world::ClothSpec cloth;
     cloth.name = "sheet";
     cloth.material = "cotton";
@@ -22,12 +24,12 @@ world::SceneSpec sheet(world::Precision precision, const char* method) {
     cloth.origin = {-0.5, 1.0, 0.0};
     cloth.down = {0.0, -0.6, 0.8};
     cloth.hold = {"top"};
-    scene.cloths.push_back(cloth);
+    scene.bodies.add(cloth);
     world::WindSpec wind;
     wind.name = "breeze";
     wind.velocity = {1.0, 0.0, 4.0};
     wind.gustAmplitude = 1.0;
-    scene.winds.push_back(wind);
+    scene.forces.add(wind);
     return scene;
 }
 

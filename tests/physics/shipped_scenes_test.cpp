@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "taut/scene/load.h"
+#include "taut/world/bodies/cloth.h"
 #include "support/scenes.h"
 
 namespace taut::test::shipped_scenes {
@@ -49,7 +50,7 @@ TEST(ShippedScenes, AJumpingColliderDoesNotExplodeACloth) {
     cloth.origin = {-0.5, 0.72, -0.5};
     cloth.down = {0.0, 0.0, 1.0};
     cloth.jitter = 1e-4;
-    scene.cloths = {cloth};
+    scene.bodies.add(cloth);
     world::ColliderSpec ball;
     ball.name = "ball";
     ball.radius = 0.3;

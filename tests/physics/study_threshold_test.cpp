@@ -7,6 +7,8 @@
 #include "taut/mechanics/builders.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/threshold.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "support/dense_stiffness.h"
 
 namespace taut::test::study_threshold {
@@ -75,8 +77,8 @@ TEST(Threshold, IsNoneWhereAMethodGrowsAtEveryStepOrAtNone) {
 // alone: there is none, but tension is slight and the run short.
 TEST(Threshold, OfExplicitEulerIsTheDampingTime) {
     world::SceneSpec scene = study::referenceNetwork("rope");
-    scene.ropes[0].length = 1.0999;
-    scene.ropes[0].dampingTime = 4e-4;
+    scene.bodies.of<world::RopeSpec>()[0].length = 1.0999;
+    scene.bodies.of<world::RopeSpec>()[0].dampingTime = 4e-4;
     const SceneThresholds found = thresholdsOf(scene, {"euler"});
     EXPECT_EQ(found.methods[0].kind, ThresholdKind::found);
     // A step 1 % longer grows by 0.01 τ²ω²/2 a step, 0.1 % for τω = 0.5: in a thousand steps a factor of 3 only, and it
@@ -87,7 +89,7 @@ TEST(Threshold, OfExplicitEulerIsTheDampingTime) {
 
 TEST(ClosedForm, OfARopeIsTheFrequencyOfItsWholeMatrix) {
     const world::SceneSpec scene = study::referenceNetwork("rope");
-    const world::RopeSpec& rope = scene.ropes[0];
+    const world::RopeSpec& rope = scene.bodies.of<world::RopeSpec>()[0];
     mechanics::Model model = mechanics::buildRope({.start = rope.start,
                                                    .end = rope.end,
                                                    .segments = rope.segments,
@@ -105,7 +107,7 @@ TEST(ClosedForm, IsNoneWhereTheFormulaDoesNotHold) {
     std::string formula;
     const auto isNone = [&](const auto& change) {
         world::SceneSpec scene = study::referenceNetwork("rope");
-        change(scene.ropes[0]);
+        change(scene.bodies.of<world::RopeSpec>()[0]);
         return std::isnan(study::closedFormFrequency(scene, {"rope.line"}, formula));
     };
     EXPECT_FALSE(isNone([](world::RopeSpec&) {}));
@@ -113,7 +115,7 @@ TEST(ClosedForm, IsNoneWhereTheFormulaDoesNotHold) {
     EXPECT_TRUE(isNone([](world::RopeSpec& rope) { rope.length = 1.2; }));
     EXPECT_TRUE(isNone([](world::RopeSpec& rope) { rope.hold = {"start"}; }));
     world::SceneSpec cloth = study::referenceNetwork("cloth");
-    cloth.cloths[0].size.x = 2;
+    cloth.bodies.of<world::ClothSpec>()[0].size.x = 2;
     EXPECT_TRUE(std::isnan(study::closedFormFrequency(cloth, {"cloth.sheet"}, formula)));
     EXPECT_TRUE(std::isnan(study::closedFormFrequency(cloth, {"cloth.sheet", "rope.line"}, formula)));
 }

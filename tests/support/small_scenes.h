@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "taut/world/spec.h"
 
 namespace taut::support {

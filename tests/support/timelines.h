@@ -7,6 +7,11 @@
 #include <vector>
 
 #include "support/small_scenes.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
+#include "taut/world/forces/anchor.h"
+#include "taut/world/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::support {
@@ -99,11 +104,12 @@ inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog"
     linen.dampingTime = 1e-3;
     linen.plasticity.breakStrain = 0.2;
     scene.materials["linen"] = linen;
-    scene.cloths = {cloth("sheet", 6)};
-    scene.cloths[0].material = "linen";
-    scene.cloths[0].hold = {"top"};
-    scene.ropes = {rope("late", {3, 2, 0}, {4, 2, 0}, 5), rope("line", {-2, 2, 0}, {-1, 2, 0}, 8)};
-    for (world::RopeSpec& r : scene.ropes) {
+    scene.bodies.add(cloth("sheet", 6));
+    scene.bodies.of<world::ClothSpec>()[0].material = "linen";
+    scene.bodies.of<world::ClothSpec>()[0].hold = {"top"};
+    scene.bodies.add(rope("late", {3, 2, 0}, {4, 2, 0}, 5));
+    scene.bodies.add(rope("line", {-2, 2, 0}, {-1, 2, 0}, 8));
+    for (world::RopeSpec& r : scene.bodies.of<world::RopeSpec>()) {
         r.hold = {"start"};
         r.dampingTime = 1e-3;
         r.stretch = 400;
@@ -116,12 +122,12 @@ inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog"
     bar.hold = {"left"};
     bar.plasticity.yieldStrain = 0.05;
     bar.dampingTime = 2e-3;
-    scene.blocks = {bar};
+    scene.bodies.add(bar);
     world::WindSpec wind;
     wind.name = "breeze";
     wind.velocity = {3, 0, 1};
     wind.gustAmplitude = 1;
-    scene.winds = {wind};
+    scene.forces.add(wind);
     world::ColliderSpec box;
     box.name = "box";
     box.shape = "box";
@@ -134,7 +140,7 @@ inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog"
     anchor.at = {-1, 2, 0};
     anchor.stiffness = 30;
     anchor.damping = 0.1;
-    scene.anchors = {anchor};
+    scene.forces.add(anchor);
 
     world::ActionSpec rigid = grab(0.05, "block.bar@right", true);
     rigid.id = "vice";
@@ -155,16 +161,16 @@ inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog"
         rigid,
         bend,
         ramp(0.05, "anchor.peg.stiffness", Affects::forces, 60, 0.1, Ease::linear,
-             [](world::SceneSpec& s) -> double& { return s.anchors[0].stiffness; }),
+             [](world::SceneSpec& s) -> double& { return s.forces.of<world::AnchorSpec>()[0].stiffness; }),
         pull,
         slide,
         moveHand(0.12, {1.3, 0.9, 0.3}, 0.25),
         ramp(0.1, "world.gravity", Affects::forces, -4.0, 0.2, Ease::smooth,
              [](world::SceneSpec& s) -> double& { return s.world.gravity.y; }),
         ramp(0.1, "wind.breeze.velocity", Affects::forces, 9.0, 0.3, Ease::in,
-             [](world::SceneSpec& s) -> double& { return s.winds[0].velocity.x; }),
+             [](world::SceneSpec& s) -> double& { return s.forces.of<world::WindSpec>()[0].velocity.x; }),
         ramp(0.15, "wind.breeze.gust", Affects::forces, 3.0, 0.1, Ease::out,
-             [](world::SceneSpec& s) -> double& { return s.winds[0].gustAmplitude; }),
+             [](world::SceneSpec& s) -> double& { return s.forces.of<world::WindSpec>()[0].gustAmplitude; }),
         ramp(0.1, "material.linen.stretch", Affects::springs, 600, 0.2, Ease::linear,
              [](world::SceneSpec& s) -> double& { return s.materials["linen"].stretch; }),
         ramp(0.1, "collider.ball.friction", Affects::colliders, 0.0, 0.3, Ease::linear,

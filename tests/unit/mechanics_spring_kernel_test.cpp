@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include "mechanics_random_net.h"
 
 namespace taut::mechanics::test {

@@ -10,6 +10,8 @@
 
 #include "taut/core/error.h"
 #include "taut/pipeline/run_record.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/forces/wind.h"
 
 namespace taut::pipeline {
 namespace {
@@ -30,7 +32,7 @@ world::SceneSpec pendulum() {
     net.springs[0].a = "nail";
     net.springs[0].b = "bob";
     net.springs[0].stiffness = 100.0;
-    spec.nets.push_back(net);
+    spec.bodies.add(net);
     world::CameraSpec camera;
     camera.name = "main";
     spec.cameras.push_back(camera);
@@ -123,8 +125,8 @@ TEST(Play, StoppingKeepsWholeFramesAndFinishesTheOutput) {
 // A step of 1/60 s by hand: ω h = 1000 / 60, far beyond the limit 2 of leap-frog.
 TEST(Play, DivergenceKeepsTheFramesSoFar) {
     world::SceneSpec spec = pendulum();
-    spec.nets[0].springs[0].stiffness = 1e6;
-    spec.nets[0].springs[0].restLength = 1.0;
+    spec.bodies.of<world::NetSpec>()[0].springs[0].stiffness = 1e6;
+    spec.bodies.of<world::NetSpec>()[0].springs[0].restLength = 1.0;
     spec.solver.dt = 1.0 / 60.0;
     world::World world(spec);
     RecordingSink sink;
@@ -169,10 +171,10 @@ TEST(RunRecord, MetricsHaveALineAFrameWithTheColumnsOfTheHeading) {
 
 TEST(RunRecord, JsonTellsWhatWasComputedAndOnWhat) {
     world::SceneSpec spec = pendulum();
-    spec.winds.resize(1);
-    spec.winds[0].name = "breeze";
-    spec.winds[0].gustAmplitude = 1.0;
-    spec.winds[0].gustSeed = 7;
+    world::WindSpec& wind = spec.forces.add(world::WindSpec{});
+    wind.name = "breeze";
+    wind.gustAmplitude = 1.0;
+    wind.gustSeed = 7;
     const world::World world(spec);
     const RunResult result = playWithoutPictures(spec, {.lastFrame = 3});
     const RunRequest request{.output = "out", .overrides = {"run.fps=30"}, .threads = 2, .options = {.lastFrame = 3}};

@@ -11,6 +11,7 @@
 #include "taut/regression/judging.h"
 #include "taut/regression/mutants.h"
 #include "taut/regression/playing.h"
+#include "taut/world/bodies/cloth.h"
 #include "regression_support.h"
 
 namespace taut::regression {
@@ -126,16 +127,16 @@ TEST(Mutants, ChangeWhatTheySay) {
             EXPECT_FALSE(mutant.ofScene(nothing, {})) << mutant.name;
         }
     world::SceneSpec cloth;
-    cloth.cloths.push_back({});
-    cloth.cloths[0].name = "c";
+    cloth.bodies.add(world::ClothSpec{});
+    cloth.bodies.of<world::ClothSpec>()[0].name = "c";
     cloth.materials["m"].dampingTime = 0.5;
     world::IslandInfo island;
     island.bodies = {"cloth.c"};
     island.substeps = 4;
     island.step = 0.01;
-    EXPECT_GT(*all[0].ofScene(cloth, {island})->cloths[0].solver.dt, 0.0199);
+    EXPECT_GT(*all[0].ofScene(cloth, {island})->bodies.of<world::ClothSpec>()[0].solver.dt, 0.0199);
     island.substeps = 1;
-    EXPECT_LT(*all[0].ofScene(cloth, {island})->cloths[0].solver.dt, 0.0051);
+    EXPECT_LT(*all[0].ofScene(cloth, {island})->bodies.of<world::ClothSpec>()[0].solver.dt, 0.0051);
     EXPECT_DOUBLE_EQ(all[1].ofScene(cloth, {})->materials["m"].dampingTime, 0.4);
     EXPECT_EQ(all[2].ofScene(cloth, {})->actions.size(), 1U);
 

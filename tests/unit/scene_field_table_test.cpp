@@ -5,6 +5,7 @@
 
 #include "taut/scene/document.h"
 #include "taut/scene/sections.h"
+#include "taut/world/bodies/rope.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 
@@ -23,7 +24,7 @@ void visitFields(const Section& section, const std::string& path, const Visit& v
 
 template <class Visit>
 void visitFields(const Visit& visit) {
-    for (const SceneSection& section : sceneSections()) visitFields(section, section.name, visit);
+    for (const SceneSection& section : sceneSections(world::builtIn())) visitFields(section, section.name, visit);
 }
 
 // Paths of all keys in a document, without names of bodies and numbers of elements.
@@ -34,7 +35,7 @@ void collectPaths(const Node& node, const std::string& path, bool isNamed, std::
         paths.insert(here);
         bool holdsNames = false;
         if (path.empty()) {
-            for (const SceneSection& section : sceneSections()) {
+            for (const SceneSection& section : sceneSections(world::builtIn())) {
                 holdsNames = holdsNames || (section.name == member.key && section.layout == Layout::named);
             }
         }
@@ -98,7 +99,7 @@ void expectDefaultsRestore(const Section& section, void* fresh, const std::strin
 
 TEST(SceneFieldTable, WritingADefaultChangesNothing) {
     world::SceneSpec scene;
-    for (const SceneSection& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections(world::builtIn())) {
         expectDefaultsRestore(section, section.enter(scene, "name", {}), section.name);
     }
 }
@@ -127,7 +128,7 @@ TEST(SceneFieldTable, DefaultsLieInTheirOwnRange) {
             }
         }
     };
-    for (const SceneSection& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections(world::builtIn())) {
         check(check, section, section.enter(scene, "name", {}), section.name);
     }
 }
@@ -141,9 +142,9 @@ TEST(SceneFieldTable, AMinimalSceneHasTheDefaultsOfTheStructs) {
     EXPECT_EQ(scene.world.gravity, world::WorldSpec().gravity);
     EXPECT_EQ(scene.materials.at("m").stretch, world::MaterialSpec().stretch);
     EXPECT_EQ(scene.materials.at("m").shear, std::nullopt);
-    EXPECT_EQ(scene.ropes[0].stretch, world::RopeSpec().stretch);
-    EXPECT_EQ(scene.ropes[0].finish.colour, world::FinishSpec().colour);
-    EXPECT_EQ(scene.ropes[0].array.count, world::ArraySpec().count);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].stretch, world::RopeSpec().stretch);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].finish.colour, world::FinishSpec().colour);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].array.count, world::ArraySpec().count);
     EXPECT_EQ(scene.cameras[0].fieldOfView, world::CameraSpec().fieldOfView);
     EXPECT_EQ(scene.light.softness, world::LightSpec().softness);
     EXPECT_EQ(scene.need.horizon, std::nullopt);
@@ -182,7 +183,7 @@ TEST(SceneSchema, ListsEveryFieldWithItsHelpAndDefault) {
 
 TEST(SceneManual, ListsEverySectionAndField) {
     const std::string text = manual();
-    for (const SceneSection& section : sceneSections()) {
+    for (const SceneSection& section : sceneSections(world::builtIn())) {
         EXPECT_NE(text.find(section.help), std::string::npos) << section.name;
     }
     visitFields([&](const std::string& path, const Section&, const Field& field) {

@@ -5,6 +5,12 @@
 #include "taut/core/trig.h"
 #include "taut/scene/document.h"
 #include "taut/scene/sections.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/bodies/rope.h"
+#include "taut/world/forces/anchor.h"
+#include "taut/world/forces/wind.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 
@@ -22,10 +28,10 @@ world::SceneSpec fullSpec() {
     return folder.load(fullScene).spec;
 }
 
-template <class Body>
-const Body& named(const std::vector<Body>& bodies, const std::string& name) {
-    for (const Body& body : bodies) {
-        if (body.name == name) return body;
+template <class All>
+auto& named(const All& all, const std::string& name) {
+    for (auto& one : all) {
+        if (one.name == name) return one;
     }
     throw std::runtime_error("there is no " + name);
 }
@@ -83,7 +89,7 @@ TEST(SceneFields, MaterialLandsInItsMembers) {
     EXPECT_EQ(silk.bend, 0.2);
     EXPECT_EQ(silk.dampingTime, 2e-4);
     EXPECT_EQ(silk.drag, 0.4);
-    EXPECT_EQ(silk.lumping, "uniform");
+    EXPECT_EQ(silk.lumping, mechanics::Lumping::uniform);
 }
 
 void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder) {
@@ -98,7 +104,7 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
     EXPECT_EQ(body.finish.colour, dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(body.finish.backColour, dvec3(0.4, 0.5, 0.6));
     EXPECT_EQ(body.finish.accent, dvec3(0.7, 0.8, 0.9));
-    EXPECT_EQ(body.finish.pattern, "image");
+    EXPECT_EQ(body.finish.pattern, view::Pattern::image);
     EXPECT_EQ(body.finish.repeat, 0.3);
     EXPECT_EQ(body.finish.weave, 0.4);
     EXPECT_EQ(body.finish.thread, 0.02);
@@ -120,7 +126,7 @@ void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder)
 TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     const AssetFolder folder;
     const world::SceneSpec scene = folder.load(fullScene).spec;
-    const world::BodySpec& flag = named(scene.cloths, "flag");
+    const world::BodySpec& flag = named(scene.bodies.of<world::ClothSpec>(), "flag");
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
     EXPECT_EQ(flag.source.line, 53);
@@ -136,17 +142,17 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
             .load("schema = 1\n[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\n" + common + "[block.b]\nhold = [\"all\"]\n" +
                   common + "[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0] }]\nhold = [\"a\"]\n" + common)
             .spec;
-    expectCommonMembers(others.ropes[0], folder);
-    expectCommonMembers(others.blocks[0], folder);
-    expectCommonMembers(others.nets[0], folder);
-    EXPECT_EQ(others.blocks[0].hold, std::vector<std::string>{"all"});
-    EXPECT_EQ(others.nets[0].hold, std::vector<std::string>{"a"});
+    expectCommonMembers(others.bodies.of<world::RopeSpec>()[0], folder);
+    expectCommonMembers(others.bodies.of<world::BlockSpec>()[0], folder);
+    expectCommonMembers(others.bodies.of<world::NetSpec>()[0], folder);
+    EXPECT_EQ(others.bodies.of<world::BlockSpec>()[0].hold, std::vector<std::string>{"all"});
+    EXPECT_EQ(others.bodies.of<world::NetSpec>()[0].hold, std::vector<std::string>{"a"});
 }
 
 TEST(SceneFields, ClothsLandInTheirMembers) {
     const AssetFolder folder;
     const world::SceneSpec scene = folder.load(fullScene).spec;
-    const world::ClothSpec& flag = named(scene.cloths, "flag");
+    const world::ClothSpec& flag = named(scene.bodies.of<world::ClothSpec>(), "flag");
     EXPECT_EQ(flag.size, dvec2(1.8, 1.2));
     EXPECT_EQ(flag.cells, ivec2(36, 24));
     EXPECT_EQ(flag.origin, dvec3(0.5, 3, 0.25));
@@ -154,7 +160,7 @@ TEST(SceneFields, ClothsLandInTheirMembers) {
     EXPECT_EQ(flag.down, dvec3(0, -1, 0));
     EXPECT_EQ(flag.material, "silk");
     EXPECT_EQ(flag.meshData, nullptr);
-    const world::ClothSpec& shirt = named(scene.cloths, "shirt");
+    const world::ClothSpec& shirt = named(scene.bodies.of<world::ClothSpec>(), "shirt");
     EXPECT_EQ(shirt.mesh, (folder / "square.obj").string());
     ASSERT_NE(shirt.meshData, nullptr);
     EXPECT_EQ(shirt.meshData->positions.size(), 4U);
@@ -165,7 +171,7 @@ TEST(SceneFields, ClothsLandInTheirMembers) {
 
 TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
-    const world::RopeSpec& rail = named(scene.ropes, "rail");
+    const world::RopeSpec& rail = named(scene.bodies.of<world::RopeSpec>(), "rail");
     EXPECT_EQ(rail.start, dvec3(-4, 2, 1));
     EXPECT_EQ(rail.end, dvec3(-1, 2.5, 1.5));
     EXPECT_EQ(rail.segments, 12);
@@ -176,9 +182,9 @@ TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
     EXPECT_EQ(rail.dampingTime, 3e-4);
     EXPECT_EQ(rail.drag, 0.6);
     EXPECT_EQ(rail.radius, 0.03);
-    EXPECT_EQ(rail.lumping, "uniform");
+    EXPECT_EQ(rail.lumping, mechanics::Lumping::uniform);
     EXPECT_EQ(rail.hold, (std::vector<std::string>{"ends", "25%"}));
-    const world::BlockSpec& jelly = named(scene.blocks, "jelly");
+    const world::BlockSpec& jelly = named(scene.bodies.of<world::BlockSpec>(), "jelly");
     EXPECT_EQ(jelly.size, dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(jelly.cells, ivec3(2, 3, 5));
     EXPECT_EQ(jelly.position, dvec3(7, 8, 9));
@@ -189,12 +195,12 @@ TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
     EXPECT_EQ(jelly.dampingTime, 4e-4);
     EXPECT_EQ(jelly.drag, 0.7);
     EXPECT_EQ(jelly.workingStretch, 2.0);
-    EXPECT_EQ(jelly.lumping, "uniform");
+    EXPECT_EQ(jelly.lumping, mechanics::Lumping::uniform);
 }
 
 TEST(SceneFields, NetLandsInItsMembers) {
     const world::SceneSpec scene = fullSpec();
-    const world::NetSpec& net = named(scene.nets, "cradle");
+    const world::NetSpec& net = named(scene.bodies.of<world::NetSpec>(), "cradle");
     ASSERT_EQ(net.points.size(), 2U);
     EXPECT_EQ(net.points[0].name, "a");
     EXPECT_EQ(net.points[0].position, dvec3(0, 1, 0));
@@ -219,20 +225,20 @@ TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     ASSERT_EQ(scene.joints.size(), 2U);
     EXPECT_EQ(scene.joints[0].a, "rope.rail@end");
     EXPECT_EQ(scene.joints[0].b, "net.cradle@b");
-    EXPECT_EQ(scene.joints[0].kind, "spring");
+    EXPECT_EQ(scene.joints[0].kind, world::JointSpec::Kind::spring);
     EXPECT_EQ(scene.joints[0].stiffness, 50.0);
     EXPECT_EQ(scene.joints[0].dampingTime, 7e-4);
-    EXPECT_EQ(scene.joints[1].kind, "weld");
+    EXPECT_EQ(scene.joints[1].kind, world::JointSpec::Kind::weld);
     EXPECT_EQ(scene.joints[1].reach, 0.05);
     ASSERT_EQ(scene.masses.size(), 1U);
     EXPECT_EQ(scene.masses[0].target, "block.*@corners");
     EXPECT_EQ(scene.masses[0].mass, 1.5);
-    const world::AnchorSpec& hand = named(scene.anchors, "hand");
+    const world::AnchorSpec& hand = named(scene.forces.of<world::AnchorSpec>(), "hand");
     EXPECT_EQ(hand.target, "cloth.flag.*@top-left");
     EXPECT_EQ(hand.at, dvec3(1, 2, 4));
     EXPECT_EQ(hand.stiffness, 60.0);
     EXPECT_EQ(hand.damping, 0.9);
-    const world::WindSpec& wind = named(scene.winds, "breeze");
+    const world::WindSpec& wind = named(scene.forces.of<world::WindSpec>(), "breeze");
     EXPECT_EQ(wind.velocity, dvec3(6, 0, 1));
     EXPECT_EQ(wind.gustAmplitude, 2.5);
     EXPECT_EQ(wind.gustPeriod, 1.7);

@@ -1,5 +1,6 @@
 // Scene files on disk, and the files that they name.
 #include "unit/scene_support.h"
+#include "taut/world/bodies/rope.h"
 
 namespace taut::scene {
 namespace {
@@ -51,7 +52,7 @@ TEST(SceneFiles, ByteOrderMarksAndWindowsLineEndsAreRead) {
     std::string text = "\xEF\xBB\xBF";
     for (const char c : std::string(minimal)) text += c == '\n' ? "\r\n" : std::string(1, c);
     folder.write("windows.toml", text);
-    EXPECT_EQ(loadScene(folder / "windows.toml", {}).spec.ropes.size(), 1U);
+    EXPECT_EQ(loadScene(folder / "windows.toml", {}).spec.bodies.of<world::RopeSpec>().size(), 1U);
     folder.write("bad.toml", text + "x = 1\r\n");
     EXPECT_EQ(failureOf(folder, "bad.toml").first, "bad.toml:4:1: error: [rope.r] has no key \"x\"\n  x = 1\n  ^");
 }
@@ -167,8 +168,8 @@ TEST(SceneFiles, BodiesAreSortedByNameAndTiesKeepTheirOrder) {
                                            "[[mass]]\ntarget = \"rope.b@end\"\nmass_kg = 1\n"
                                            "[[mass]]\ntarget = \"rope.a@end\"\nmass_kg = 1\n")
                                        .spec;
-    EXPECT_EQ(scene.ropes[0].name, "a");
-    EXPECT_EQ(scene.ropes[1].name, "b");
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].name, "a");
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[1].name, "b");
     EXPECT_EQ(scene.masses[0].target, "rope.b@end");
     EXPECT_EQ(scene.masses[1].target, "rope.a@end");
 }

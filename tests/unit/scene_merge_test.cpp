@@ -1,5 +1,7 @@
 // A scenario that builds on a scene: what is merged, and which file a message names.
 #include "unit/scene_support.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 
 namespace taut::scene {
 namespace {
@@ -25,19 +27,19 @@ TEST(SceneMerge, TablesAreMergedDeeplyAndAllElseIsReplaced) {
     EXPECT_EQ(scene.title, "a yard");
     EXPECT_EQ(scene.run.fps, 30.0);
     EXPECT_EQ(scene.run.seconds, 3.0);
-    ASSERT_EQ(scene.ropes.size(), 2U);
-    EXPECT_EQ(scene.ropes[0].segments, 8);
-    EXPECT_EQ(scene.ropes[0].hold, std::vector<std::string>{"start"});
-    EXPECT_EQ(scene.ropes[0].finish.weave, 0.75);
-    EXPECT_EQ(scene.ropes[0].finish.roughness, 0.25);
-    EXPECT_EQ(scene.ropes[1].start, dvec3(0, 2, 0));
+    ASSERT_EQ(scene.bodies.of<world::RopeSpec>().size(), 2U);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].segments, 8);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].hold, std::vector<std::string>{"start"});
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].finish.weave, 0.75);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].finish.roughness, 0.25);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[1].start, dvec3(0, 2, 0));
     EXPECT_EQ(scene.cameras[0].eye, dvec3(0, 1, 5));
     EXPECT_EQ(scene.file, (folder / "s.toml").string());
     EXPECT_EQ(scene.base, (folder / "yard.toml").string());
-    EXPECT_EQ(scene.ropes[0].source.file, scene.base);
-    EXPECT_EQ(scene.ropes[0].source.line, 6);
-    EXPECT_EQ(scene.ropes[1].source.file, scene.file);
-    EXPECT_EQ(scene.ropes[1].source.line, 7);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].source.file, scene.base);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].source.line, 6);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[1].source.file, scene.file);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[1].source.line, 7);
 }
 
 TEST(SceneMerge, OverridesComeOnTop) {
@@ -47,7 +49,7 @@ TEST(SceneMerge, OverridesComeOnTop) {
     options.overrides = {"rope.line.segments=16", "run.seconds=4"};
     const world::SceneSpec scene =
         folder.load("schema = 1\nscene = \"yard\"\n[rope.line]\nsegments = 12\n", options).spec;
-    EXPECT_EQ(scene.ropes[0].segments, 16);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].segments, 16);
     EXPECT_EQ(scene.run.seconds, 4.0);
 }
 
@@ -60,7 +62,7 @@ TEST(SceneMerge, AShippedSceneIsFoundAlsoByAFileOfItsName) {
     for (const char* name : {"s", "s.toml"}) {
         folder.write("s.toml", "schema = 1\nscene = \"" + std::string(name) + "\"\n");
         const world::SceneSpec scene = loadScene(folder / "s.toml", options).spec;
-        EXPECT_EQ(scene.ropes.at(0).segments, 8) << name;
+        EXPECT_EQ(scene.bodies.of<world::RopeSpec>().at(0).segments, 8) << name;
         EXPECT_EQ(scene.base, (assets / "" / "scenes/s.toml").string()) << name;
     }
 }
@@ -71,8 +73,8 @@ TEST(SceneMerge, FilesOfTheSceneAreFoundBesideIt) {
     folder.write("below/sail.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
     folder.write("below/sail.toml", "schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"sail.obj\"\n");
     const world::SceneSpec scene = folder.load("schema = 1\nscene = \"below/sail.toml\"\n").spec;
-    ASSERT_NE(scene.cloths.at(0).meshData, nullptr);
-    EXPECT_EQ(scene.cloths[0].meshData->positions.size(), 3U);
+    ASSERT_NE(scene.bodies.of<world::ClothSpec>().at(0).meshData, nullptr);
+    EXPECT_EQ(scene.bodies.of<world::ClothSpec>()[0].meshData->positions.size(), 3U);
 }
 
 // The message that a scene over another leads to.

@@ -1,5 +1,7 @@
 // Fields given on the command line.
 #include "unit/scene_support.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 
 namespace taut::scene {
 namespace {
@@ -27,9 +29,9 @@ TEST(SceneOverrides, ReplaceAndAddFields) {
     const world::SceneSpec scene = sceneWith({"cloth.flag.cells=[72,48]", "cloth.flag.hold = []", "solver.dt=1e-3",
                                               "cloth.flag.finish.colour=#ff0000", "solver.precision=double",
                                               "material.m.stretch_N_per_m=5", "wind={}"});
-    EXPECT_EQ(scene.cloths[0].cells, glm::ivec2(72, 48));
-    EXPECT_TRUE(scene.cloths[0].hold.empty());
-    EXPECT_EQ(scene.cloths[0].finish.colour, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(scene.bodies.of<world::ClothSpec>()[0].cells, glm::ivec2(72, 48));
+    EXPECT_TRUE(scene.bodies.of<world::ClothSpec>()[0].hold.empty());
+    EXPECT_EQ(scene.bodies.of<world::ClothSpec>()[0].finish.colour, glm::dvec3(1, 0, 0));
     EXPECT_EQ(scene.solver.dt, 1e-3);
     EXPECT_EQ(scene.solver.precision, world::Precision::double_);
     EXPECT_EQ(scene.materials.at("m").stretch, 5.0);
@@ -38,8 +40,8 @@ TEST(SceneOverrides, ReplaceAndAddFields) {
 TEST(SceneOverrides, ReachIntoLists) {
     const world::SceneSpec scene = sceneWith({"mass.0.mass_kg=3", "cloth.flag.hold.0=right", "rope.r.ends.1.0=2"});
     EXPECT_EQ(scene.masses[0].mass, 3.0);
-    EXPECT_EQ(scene.cloths[0].hold[0], "right");
-    EXPECT_EQ(scene.ropes[0].end, glm::dvec3(2, 0, 0));
+    EXPECT_EQ(scene.bodies.of<world::ClothSpec>()[0].hold[0], "right");
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].end, glm::dvec3(2, 0, 0));
 }
 
 TEST(SceneOverrides, TheLastOneWins) {

@@ -2,6 +2,11 @@
 #include <numeric>
 
 #include "taut/core/trig.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/bodies/rope.h"
+#include "taut/world/forces/anchor.h"
+#include "taut/world/forces/wind.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 
@@ -79,12 +84,12 @@ TEST(SceneTimeline, StrainsOfYieldAndBreakLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
     EXPECT_EQ(scene.materials.at("silk").plasticity.yieldStrain, 0.05);
     EXPECT_EQ(scene.materials.at("silk").plasticity.breakStrain, 0.5);
-    EXPECT_EQ(scene.ropes[0].plasticity.yieldStrain, 0.06);
-    EXPECT_EQ(scene.ropes[0].plasticity.breakStrain, 0.6);
-    EXPECT_EQ(scene.blocks[0].plasticity.yieldStrain, 0.07);
-    EXPECT_EQ(scene.blocks[0].plasticity.breakStrain, 0.7);
-    EXPECT_EQ(scene.nets[0].plasticity.yieldStrain, 0.08);
-    EXPECT_EQ(scene.nets[0].plasticity.breakStrain, 0.8);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].plasticity.yieldStrain, 0.06);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].plasticity.breakStrain, 0.6);
+    EXPECT_EQ(scene.bodies.of<world::BlockSpec>()[0].plasticity.yieldStrain, 0.07);
+    EXPECT_EQ(scene.bodies.of<world::BlockSpec>()[0].plasticity.breakStrain, 0.7);
+    EXPECT_EQ(scene.bodies.of<world::NetSpec>()[0].plasticity.yieldStrain, 0.08);
+    EXPECT_EQ(scene.bodies.of<world::NetSpec>()[0].plasticity.breakStrain, 0.8);
 }
 
 // A scene in which one ramp acts.
@@ -114,7 +119,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
          fields::Affects::forces,
          {1, 2, 3},
          {9, 8, 7},
-         [](const world::SceneSpec& s) { return s.winds[0].velocity.z; },
+         [](const world::SceneSpec& s) { return s.forces.of<world::WindSpec>()[0].velocity.z; },
          7.0},
         {"wind.w.gust.amplitude",
          "5",
@@ -122,7 +127,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
          fields::Affects::forces,
          {4},
          {5},
-         [](const world::SceneSpec& s) { return s.winds[0].gustAmplitude; },
+         [](const world::SceneSpec& s) { return s.forces.of<world::WindSpec>()[0].gustAmplitude; },
          5.0},
         {"world.gravity",
          "[0, -1.6, 0]",
@@ -162,7 +167,7 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
          fields::Affects::forces,
          {1, 2, 3},
          {4, 5, 6},
-         [](const world::SceneSpec& s) { return s.anchors[0].at.x; },
+         [](const world::SceneSpec& s) { return s.forces.of<world::AnchorSpec>()[0].at.x; },
          4.0},
     };
     for (const RampCase& row : cases) {

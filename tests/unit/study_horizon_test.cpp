@@ -8,6 +8,8 @@
 
 #include "taut/core/error.h"
 #include "taut/study/scene_subject.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "support/small_scenes.h"
 
 namespace taut::study {
@@ -22,7 +24,7 @@ world::SceneSpec bucklingRope() {
     rope.mass = 0.05;
     rope.velocity = {-5, 0, 0};
     rope.hold = {"start"};
-    scene.ropes.push_back(rope);
+    scene.bodies.add(rope);
     return scene;
 }
 
@@ -40,10 +42,10 @@ TEST(StudyHorizon, OfASceneWithoutFreePointsThereIsNone) {
     world::SceneSpec scene;
     scene.file = "s.toml";
     EXPECT_NE(horizonRefusal(scene).find("s.toml: error: nothing in the scene can move"), std::string::npos);
-    scene.cloths.push_back(support::cloth("c", 4));
-    scene.cloths.back().hold = {"all"};
+    scene.bodies.add(support::cloth("c", 4));
+    scene.bodies.of<world::ClothSpec>().back().hold = {"all"};
     EXPECT_NE(horizonRefusal(scene).find("nothing in the scene can move"), std::string::npos);
-    scene.cloths.back().hold = {"top"};
+    scene.bodies.of<world::ClothSpec>().back().hold = {"top"};
     EXPECT_EQ(horizonRefusal(scene), "");
 }
 

@@ -9,6 +9,11 @@
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_need.h"
 #include "taut/study/plan_run.h"
+#include "taut/world/bodies/block.h"
+#include "taut/scene/by_key.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
+#include "taut/world/forces/wind.h"
 #include "support/small_scenes.h"
 #include "support/text.h"
 
@@ -22,9 +27,9 @@ world::SceneSpec sceneWithNeed() {
     scene.file = "s.toml";
     scene.need.rmsPosition = 2e-3;
     scene.need.horizon = 0.5;
-    scene.cloths.push_back(support::cloth("c", 12));
-    scene.cloths.back().cells = {12, 8};
-    scene.cloths.back().hold = {"top"};
+    scene.bodies.add(support::cloth("c", 12));
+    scene.bodies.of<world::ClothSpec>().back().cells = {12, 8};
+    scene.bodies.of<world::ClothSpec>().back().hold = {"top"};
     return scene;
 }
 
@@ -83,16 +88,16 @@ TEST(PlanModel, AllEdgesGoWithTheLongest) {
     ASSERT_EQ(resolution.count, 12);
     Candidate candidate;
     candidate.count = 6;
-    EXPECT_EQ(modelOf(scene, resolution, candidate).cloths[0].cells, glm::ivec2(6, 4));
+    EXPECT_EQ(modelOf(scene, resolution, candidate).bodies.of<world::ClothSpec>()[0].cells, glm::ivec2(6, 4));
     candidate.count = 2;
-    EXPECT_EQ(modelOf(scene, resolution, candidate).cloths[0].cells, glm::ivec2(2, 2)) << "two at least";
+    EXPECT_EQ(modelOf(scene, resolution, candidate).bodies.of<world::ClothSpec>()[0].cells, glm::ivec2(2, 2)) << "two at least";
 }
 
 TEST(PlanModel, WhatIsTiedToItsPointsKeepsThem) {
     world::SceneSpec scene = sceneWithNeed();
-    scene.cloths[0].hold = {"#3"};
-    scene.ropes.push_back(support::rope("a", {0, 2, 0}, {1, 2, 0}, 20));
-    scene.ropes.push_back(support::rope("b", {0, 2, 1}, {1, 2, 1}, 10));
+    scene.bodies.of<world::ClothSpec>()[0].hold = {"#3"};
+    scene.bodies.add(support::rope("a", {0, 2, 0}, {1, 2, 0}, 20));
+    scene.bodies.add(support::rope("b", {0, 2, 1}, {1, 2, 1}, 10));
     world::JointSpec joint;
     joint.a = "rope.a@end";
     joint.b = "rope.a@end";
@@ -106,17 +111,17 @@ TEST(PlanModel, WhatIsTiedToItsPointsKeepsThem) {
 
 TEST(PlanModel, EveryGeneratorIsListedAndCanBeLeftOut) {
     world::SceneSpec scene = sceneWithNeed();
-    scene.cloths[0].material = "m";
+    scene.bodies.of<world::ClothSpec>()[0].material = "m";
     scene.materials["m"] = {};
     world::BlockSpec block;
     block.name = "b";
-    scene.blocks.push_back(block);
-    scene.winds.push_back({});
-    scene.winds[0].name = "w";
+    scene.bodies.add(block);
+    scene.forces.add(world::WindSpec{});
+    scene.forces.of<world::WindSpec>()[0].name = "w";
     std::vector<std::string> names;
     for (const Generator& generator : generatorsOf(scene)) {
         names.push_back(generator.name);
-        generator.strengths(scene, generator.which, [](double& strength) { strength = 0; });
+        scene::eachNumber(scene, generator.owner, generator.keys, [](double& strength) { strength = 0; });
     }
     EXPECT_EQ(names, (std::vector<std::string>{"wind w", "drag", "inner friction", "bend springs", "volume terms"}));
     EXPECT_TRUE(generatorsOf(scene).empty()) << "without them there are none left";
@@ -187,8 +192,8 @@ TEST(PlanRuns, StepsAreAsManyAsAskedFor) {
 
 TEST(PlanRuns, TwoIslandsShrinkTheirStepsByTheSameShare) {
     world::SceneSpec scene = sceneWithNeed();
-    scene.ropes.push_back(support::rope("stiff", {0, 2, 0}, {1, 2, 0}, 20));
-    scene.ropes.back().stretch = 1e6;
+    scene.bodies.add(support::rope("stiff", {0, 2, 0}, {1, 2, 0}, 20));
+    scene.bodies.of<world::RopeSpec>().back().stretch = 1e6;
     const Resolution resolution = resolutionOf(scene);
     Candidate candidate;
     candidate.count = resolution.count;
@@ -201,11 +206,11 @@ TEST(PlanRuns, TwoIslandsShrinkTheirStepsByTheSameShare) {
 
 TEST(PlanChanges, NameWhatDiffersAndNothingElse) {
     world::SceneSpec scene = sceneWithNeed();
-    scene.cloths[0].material = "m";
+    scene.bodies.of<world::ClothSpec>()[0].material = "m";
     scene.materials["m"] = {};
     EXPECT_TRUE(planChanges(scene, scene).empty());
     world::SceneSpec planned = scene;
-    planned.cloths[0].cells = {6, 4};
+    planned.bodies.of<world::ClothSpec>()[0].cells = {6, 4};
     planned.materials["m"].bend = 0;
     planned.solver.integrator = "rk4";
     planned.solver.dt = 1e-3;
@@ -219,9 +224,9 @@ TEST(PlanChanges, NameWhatDiffersAndNothingElse) {
 
 TEST(PlanChanges, ReachBodiesWithASolverOfTheirOwn) {
     world::SceneSpec scene = sceneWithNeed();
-    scene.cloths[0].solver.integrator = "heun";
+    scene.bodies.of<world::ClothSpec>()[0].solver.integrator = "heun";
     world::SceneSpec planned = scene;
-    planned.cloths[0].solver = {};
+    planned.bodies.of<world::ClothSpec>()[0].solver = {};
     const std::vector<scene::Change> changes = planChanges(scene, planned);
     ASSERT_EQ(changes.size(), 1U);
     EXPECT_EQ(changes[0].key, "cloth.c.solver.integrator");

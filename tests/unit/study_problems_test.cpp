@@ -10,6 +10,7 @@
 #include "taut/study/horizon.h"
 #include "taut/study/mechanical_subject.h"
 #include "taut/study/scene_subject.h"
+#include "taut/world/bodies/net.h"
 
 namespace taut::study {
 namespace {
@@ -101,7 +102,7 @@ world::SceneSpec oscillatorScene() {
     spring.stiffness = omega * omega;
     spring.restLength = 0.0;
     net.springs = {spring};
-    scene.nets = {net};
+    scene.bodies.add(net);
     return scene;
 }
 

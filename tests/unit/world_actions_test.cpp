@@ -5,6 +5,10 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/bodies/rope.h"
 #include "support/timelines.h"
 #include "taut/world/components.h"
 
@@ -24,7 +28,7 @@ SceneSpec dumbbell() {
     net.drag = 0;
     net.points = {{"a", {0, 0, 0}, 1.0, false, {}}, {"b", {1, 0, 0}, 3.0, false, {}}};
     net.springs = {{"a", "b", 100.0, std::nullopt, std::nullopt, {}}};
-    scene.nets = {net};
+    scene.bodies.add(net);
     return scene;
 }
 
@@ -38,7 +42,7 @@ SceneSpec loneMass(const std::string& method = "leapfrog") {
     net.drag = 0;
     net.points = {{"m", {0, 0, 0}, 2.0, false, {}}, {"wall", {0, 0, 5}, 1.0, true, {}}};
     net.springs = {{"m", "wall", 1e-9, 5.0, std::nullopt, {}}};
-    scene.nets = {net};
+    scene.bodies.add(net);
     return scene;
 }
 
@@ -128,10 +132,10 @@ TEST(Actions, AHeldPointStaysToTheBitAndAFreedOneFalls) {
 // At rest m g = k x: 2 kg and then 5 kg on 500 N/m.
 TEST(Actions, AddedMassMovesTheEquilibrium) {
     SceneSpec scene = loneMass();
-    scene.nets[0].points[1].position = {0, 1, 0};
-    scene.nets[0].points[0].mass = 2;
-    scene.nets[0].springs[0] = {"m", "wall", 500.0, 1.0, std::nullopt, {}};
-    scene.nets[0].drag = 8;
+    scene.bodies.of<NetSpec>()[0].points[1].position = {0, 1, 0};
+    scene.bodies.of<NetSpec>()[0].points[0].mass = 2;
+    scene.bodies.of<NetSpec>()[0].springs[0] = {"m", "wall", 500.0, 1.0, std::nullopt, {}};
+    scene.bodies.of<NetSpec>()[0].drag = 8;
     ActionSpec more = action(Do::addMass, 4.0, "net.ball@m");
     more.mass = 3;
     scene.actions = {more};
@@ -160,8 +164,8 @@ TEST(Actions, AddedMassIsSharedByThePointsAndKeepsTheirVelocities) {
 TEST(Actions, ASpawnedBodyIsNotThereBeforeAndThenFalls) {
     SceneSpec scene;
     scene.solver.precision = Precision::double_;
-    scene.ropes = {support::rope("first", {0, 3, 0}, {1, 3, 0}, 4), support::rope("late", {0, 3, 2}, {1, 3, 2}, 4)};
-    for (RopeSpec& rope : scene.ropes) rope.drag = 0;
+    scene.bodies.add(support::rope("first", {0, 3, 0}, {1, 3, 0}, 4), support::rope("late", {0, 3, 2}, {1, 3, 2}, 4));
+    for (RopeSpec& rope : scene.bodies.of<RopeSpec>()) rope.drag = 0;
     scene.actions = {action(Do::spawn, 0.1, "rope.late")};
     World world(scene);
     EXPECT_EQ(world.islands().size(), 1U);
@@ -231,8 +235,8 @@ TEST(Actions, AFloorThatWillTiltIsDrawnAsABoard) {
 // Over no time a collider is moved within a tick: swept, as if it had flown, and nothing is thrown.
 TEST(Actions, AColliderThatIsSentAtOnceDoesNotTearClothApart) {
     SceneSpec scene;
-    scene.cloths = {support::cloth("sheet", 10)};
-    scene.cloths[0].hold = {"top"};
+    scene.bodies.add(support::cloth("sheet", 10));
+    scene.bodies.of<ClothSpec>()[0].hold = {"top"};
     scene.colliders = {support::ball("ball", {0.5, 1.5, 1.0}, 0.3)};
     ActionSpec move = action(Do::move, 0.1, "collider.ball");
     move.to = dvec3(0.5, 1.5, -0.2);
@@ -249,7 +253,7 @@ TEST(Actions, AColliderThatIsSentAtOnceDoesNotTearClothApart) {
 
 TEST(Actions, PenetrationIsTheDepthInsideAColliderBeforeContactTakesItAway) {
     SceneSpec scene = loneMass();
-    scene.nets[0].collide = true;
+    scene.bodies.of<NetSpec>()[0].collide = true;
     scene.colliders = {support::ball("ball", {0, 0.1, 0}, 0.4)};
     World world(scene);
     EXPECT_NEAR(world.metrics().penetration, 0.3, 1e-12);
@@ -263,11 +267,11 @@ TEST(Actions, VolumeIsThatOfTheBlocks) {
     BlockSpec block;
     block.name = "brick";
     block.size = {0.5, 0.4, 0.3};
-    scene.blocks = {block};
+    scene.bodies.add(block);
     EXPECT_NEAR(World(scene).metrics().volume, 0.06, 1e-12);
     EXPECT_NEAR(World(scene).metrics().restVolume, 0.06, 1e-12);
     block.name = "other";
-    scene.blocks.push_back(block);
+    scene.bodies.add(block);
     EXPECT_NEAR(World(scene).metrics().volume, 0.12, 1e-12);
     EXPECT_NEAR(World(scene).metrics("block.other").volume, 0.06, 1e-12);
     EXPECT_EQ(World(scene).metrics("rope.*").volume, 0.0);
@@ -275,7 +279,7 @@ TEST(Actions, VolumeIsThatOfTheBlocks) {
 
 TEST(Actions, HashesOfBodiesAndPointsTellWhatDiffers) {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 3, 0}, {1, 3, 0}, 4), support::rope("b", {0, 3, 2}, {1, 3, 2}, 4)};
+    scene.bodies.add(support::rope("a", {0, 3, 0}, {1, 3, 0}, 4), support::rope("b", {0, 3, 2}, {1, 3, 2}, 4));
     SceneSpec other = scene;
     other.actions = {support::push(0.0, "rope.b@#2", {0, 0, 1e-3})};
     World one(scene), two(other);
@@ -362,7 +366,7 @@ TEST(ActionErrors, NameTheActionsPlaceInItsFile) {
 
 TEST(ActionErrors, ASpawnedBodyCannotBeTied) {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 3, 0}, {1, 3, 0}, 4), support::rope("b", {1, 3, 0}, {2, 3, 0}, 4)};
+    scene.bodies.add(support::rope("a", {0, 3, 0}, {1, 3, 0}, 4), support::rope("b", {1, 3, 0}, {2, 3, 0}, 4));
     JointSpec joint;
     joint.a = "rope.a@end";
     joint.b = "rope.b@start";

@@ -6,6 +6,9 @@
 #include <numeric>
 
 #include "taut/core/error.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "support/small_scenes.h"
 
 namespace taut::world {
@@ -19,7 +22,7 @@ TEST(Bodies, AnArrayMakesNumberedCopiesInAGrid) {
     spec.array.count = {3, 1, 4};
     spec.array.stepX = {2.0, 0.0, 0.0};
     spec.array.stepZ = {0.0, 0.5, -1.0};
-    scene.cloths = {spec};
+    scene.bodies.add(spec);
     const std::vector<Body> bodies = buildBodies(scene);
     ASSERT_EQ(bodies.size(), 12U);
     EXPECT_EQ(bodies[0].name, "row.0");
@@ -30,8 +33,8 @@ TEST(Bodies, AnArrayMakesNumberedCopiesInAGrid) {
 
 TEST(Bodies, AreSortedByKindAndName) {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 0, 0}, {1, 0, 0})};
-    scene.cloths = {support::cloth("b"), support::cloth("c")};
+    scene.bodies.add(support::rope("a", {0, 0, 0}, {1, 0, 0}));
+    scene.bodies.add(support::cloth("b"), support::cloth("c"));
     const std::vector<Body> bodies = buildBodies(scene);
     EXPECT_EQ(bodies[0].fullName(), "cloth.b");
     EXPECT_EQ(bodies[1].fullName(), "cloth.c");
@@ -40,7 +43,7 @@ TEST(Bodies, AreSortedByKindAndName) {
 
 TEST(Bodies, AddedMassIsSharedAmongTheTargets) {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 0, 0}, {1, 0, 0})};
+    scene.bodies.add(support::rope("a", {0, 0, 0}, {1, 0, 0}));
     scene.masses = {{"rope.a@ends", 3.0, {}}};
     const std::vector<Body> bodies = buildBodies(scene);
     EXPECT_NEAR(massOf(bodies[0]), 4.0, 1e-14);
@@ -52,7 +55,7 @@ TEST(Bodies, AHoldThatNamesNothingIsAnError) {
     ClothSpec spec = support::cloth("a");
     spec.hold = {"middle"};
     spec.source = {"x.toml", 3, 4};
-    scene.cloths = {spec};
+    scene.bodies.add(spec);
     try {
         buildBodies(scene);
         FAIL();
@@ -68,7 +71,7 @@ TEST(Bodies, SpinTurnsAboutTheCentreOfMass) {
     spec.name = "b";
     spec.velocity = {1.0, 0.0, 0.0};
     spec.spin = {0.0, 3.0, 0.0};
-    scene.blocks = {spec};
+    scene.bodies.add(spec);
     const std::vector<Body> bodies = buildBodies(scene);
     dvec3 momentum(0.0), angular(0.0);
     for (std::size_t i = 0; i < bodies[0].model.positions.size(); ++i) {
@@ -86,11 +89,11 @@ TEST(Bodies, JitterIsSmallSeededAndSparesHeldPoints) {
     ClothSpec spec = support::cloth("a");
     spec.hold = {"top"};
     spec.jitter = 1e-3;
-    scene.cloths = {spec};
+    scene.bodies.add(spec);
     const Body one = buildBodies(scene)[0], again = buildBodies(scene)[0];
-    scene.cloths[0].seed = 2;
+    scene.bodies.of<ClothSpec>()[0].seed = 2;
     const Body other = buildBodies(scene)[0];
-    scene.cloths[0].jitter = 0.0;
+    scene.bodies.of<ClothSpec>()[0].jitter = 0.0;
     const Body still = buildBodies(scene)[0];
     EXPECT_EQ(one.model.positions, again.model.positions);
     double largest = 0.0;

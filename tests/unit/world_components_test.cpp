@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "taut/core/trig.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "support/small_scenes.h"
 #include "support/timelines.h"
 #include "taut/world/components.h"
+#include "taut/world/forces/anchor.h"
 #include "taut/world/rotation.h"
 #include "taut/world/world.h"
 
@@ -43,7 +46,7 @@ double lowest(const World& world, ecs::Entity body) {
 
 TEST(Components, ANewComponentWithItsSystemMovesACollider) {
     SceneSpec scene;
-    scene.ropes = {support::rope("stick", {0.5, 0.52, 0.3}, {0.9, 0.52, 0.3}, 4)};
+    scene.bodies.add(support::rope("stick", {0.5, 0.52, 0.3}, {0.9, 0.52, 0.3}, 4));
     ColliderSpec table;
     table.name = "table";
     table.shape = "box";
@@ -66,7 +69,7 @@ TEST(Components, ANewComponentWithItsSystemMovesACollider) {
 
 TEST(Components, ACylinderSpawnedInMidRunCatchesWhatFalls) {
     SceneSpec scene;
-    scene.ropes = {support::rope("stick", {-0.2, 3.0, 0.0}, {0.2, 3.0, 0.0}, 8)};
+    scene.bodies.add(support::rope("stick", {-0.2, 3.0, 0.0}, {0.2, 3.0, 0.0}, 8));
     World with(scene), without(scene);
     run(with, 6);
     run(without, 6);
@@ -90,7 +93,7 @@ TEST(Components, ACylinderSpawnedInMidRunCatchesWhatFalls) {
 
 TEST(Components, ABodySpawnedInMidRunFallsAndCollidesAndGoes) {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 3, 0}, {1, 3, 0}, 4)};
+    scene.bodies.add(support::rope("a", {0, 3, 0}, {1, 3, 0}, 4));
     scene.colliders = {support::ground()};
     World world(scene);
     run(world, 10);
@@ -124,12 +127,12 @@ TEST(Components, ASpawnedBodyIsHeldAndMovesAsItsSpecSays) {
 
 TEST(Components, AnAnchorMayLoseItsBody) {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 3, 0}, {1, 3, 0})};
+    scene.bodies.add(support::rope("a", {0, 3, 0}, {1, 3, 0}));
     AnchorSpec anchor;
     anchor.name = "hand";
     anchor.target = "rope.a@start";
     anchor.at = {0, 3, 0};
-    scene.anchors = {anchor};
+    scene.forces.add(anchor);
     World world(scene);
     run(world, 3);
     world.destroy(named(world, "rope.a"));
@@ -141,7 +144,7 @@ TEST(Components, AnAnchorMayLoseItsBody) {
 TEST(Components, SpawningIsTheSameInEveryRun) {
     const auto hash = [](int threads) {
         SceneSpec scene;
-        scene.ropes = {support::rope("a", {0, 3, 0}, {1, 3, 0})};
+        scene.bodies.add(support::rope("a", {0, 3, 0}, {1, 3, 0}));
         scene.colliders = {support::ground()};
         World world(scene, {.threads = threads});
         for (int i = 0; i < 40; ++i) {

@@ -5,6 +5,11 @@
 #include <cmath>
 
 #include "support/timelines.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/bodies/rope.h"
+#include "taut/world/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -19,8 +24,8 @@ SceneSpec sheet(int cells = 6) {
     scene.solver.precision = Precision::double_;
     scene.materials["linen"] = MaterialSpec{};
     scene.materials["linen"].drag = 0;
-    scene.cloths = {support::cloth("sheet", cells)};
-    scene.cloths[0].material = "linen";
+    scene.bodies.add(support::cloth("sheet", cells));
+    scene.bodies.of<ClothSpec>()[0].material = "linen";
     return scene;
 }
 
@@ -52,7 +57,7 @@ TEST(Cutting, NoForceCrossesACut) {
 // Held at the top and cut across: what is below falls freely, what is above stays held.
 TEST(Cutting, WhatIsCutOffFallsFreely) {
     SceneSpec scene = sheet();
-    scene.cloths[0].hold = {"top"};
+    scene.bodies.of<ClothSpec>()[0].hold = {"top"};
     scene.actions = {support::cutPlane(0.0, "cloth.sheet", {0, 1.45, 0}, {0, 1, 0})};
     World world(scene);
     run(world, 30);
@@ -105,7 +110,7 @@ TEST(Cutting, ACutThroughAllOfAClothStopsTheWindWhereItGoes) {
     WindSpec wind;
     wind.name = "breeze";
     wind.velocity = {0, 0, 0.05};  // so gentle that within a tick the cloth does not give way to it
-    scene.winds = {wind};
+    scene.forces.add(wind);
     World whole(scene);
     scene.actions = {support::cutPlane(0.0, "cloth.sheet", {0.25, 0, 0}, {1, 0, 0})};
     World cut(scene);
@@ -118,10 +123,10 @@ TEST(Cutting, ACutThroughAllOfAClothStopsTheWindWhereItGoes) {
 TEST(Cutting, ACutRopeIsTwoRopes) {
     SceneSpec scene;
     scene.solver.precision = Precision::double_;
-    scene.ropes = {support::rope("line", {0, 3, 0}, {0, 2, 0}, 10)};
-    scene.ropes[0].hold = {"start"};
-    scene.ropes[0].drag = 0;
-    scene.ropes[0].bend = 10;
+    scene.bodies.add(support::rope("line", {0, 3, 0}, {0, 2, 0}, 10));
+    scene.bodies.of<RopeSpec>()[0].hold = {"start"};
+    scene.bodies.of<RopeSpec>()[0].drag = 0;
+    scene.bodies.of<RopeSpec>()[0].bend = 10;
     scene.actions = {support::cutPlane(0.2, "rope.line", {0, 2.55, 0}, {0, 1, 0})};
     World world(scene);
     run(world, 12);
@@ -149,7 +154,7 @@ TEST(Cutting, ABlockLosesTheCellsThatAreCrossedAndGetsASurfaceThere) {
     brick.name = "brick";
     brick.size = {0.6, 0.2, 0.2};
     brick.cells = {3, 1, 1};
-    scene.blocks = {brick};
+    scene.bodies.add(brick);
     scene.actions = {support::cutPlane(0.1, "block.brick", {0.03, 0, 0}, {1, 0, 0})};
     World world(scene);
     run(world, 6);
@@ -166,12 +171,12 @@ TEST(Tearing, ComesAtTheStatedStrain) {
     SceneSpec scene;
     scene.world.gravity = dvec3(0.0);
     scene.solver.precision = Precision::double_;
-    scene.ropes = {support::rope("line", {0, 0, 0}, {1, 0, 0}, 4)};
-    scene.ropes[0].hold = {"start"};
-    scene.ropes[0].stretch = 100;
-    scene.ropes[0].mass = 0.01;  // waves run through it in 1/100 s, so that it is strained evenly
-    scene.ropes[0].drag = 50;
-    scene.ropes[0].plasticity.breakStrain = 0.25;
+    scene.bodies.add(support::rope("line", {0, 0, 0}, {1, 0, 0}, 4));
+    scene.bodies.of<RopeSpec>()[0].hold = {"start"};
+    scene.bodies.of<RopeSpec>()[0].stretch = 100;
+    scene.bodies.of<RopeSpec>()[0].mass = 0.01;  // waves run through it in 1/100 s, so that it is strained evenly
+    scene.bodies.of<RopeSpec>()[0].drag = 50;
+    scene.bodies.of<RopeSpec>()[0].plasticity.breakStrain = 0.25;
     scene.actions = {support::grab(0.0, "rope.line@end", true), support::moveHand(0.0, {2, 0, 0}, 4.0, Ease::linear)};
     World world(scene);
     double last = 0;
@@ -194,7 +199,7 @@ TEST(Tearing, AClothTearsOnWhereACutHasBegun) {
     linen.drag = 1;
     linen.dampingTime = 2e-3;
     linen.plasticity.breakStrain = 0.12;
-    scene.cloths[0].hold = {"top"};
+    scene.bodies.of<ClothSpec>()[0].hold = {"top"};
     scene.masses = {{"cloth.sheet@bottom", 0.15, {}}};
     const auto brokenAfter = [](const SceneSpec& s) {
         World world(s);
@@ -223,7 +228,7 @@ double offsetAfterBending(std::optional<double> yieldStrain) {
     bar.drag = 6;
     bar.dampingTime = 2e-3;
     bar.plasticity.yieldStrain = yieldStrain;
-    scene.blocks = {bar};
+    scene.bodies.add(bar);
     scene.actions = {support::grab(0.0, "block.bar@right", true), support::moveHand(0.0, {0.36, -0.2, 0}, 0.5),
                      support::release(0.6)};
     World world(scene);
@@ -253,7 +258,7 @@ TEST(Yielding, TheRestLengthFollowsAndTheElasticStrainStays) {
     net.points = {{"m", {1, 0, 0}, 0.1, false, {}}, {"wall", {0, 0, 0}, 1.0, true, {}}};
     net.springs = {{"m", "wall", 100.0, std::nullopt, std::nullopt, {}}};
     net.plasticity.yieldStrain = 0.1;
-    scene.nets = {net};
+    scene.bodies.add(net);
     scene.actions = {support::grab(0.0, "net.ball@m", true), support::moveHand(0.0, {1.5, 0, 0}, 1.0),
                      support::release(1.5)};
     World world(scene);

@@ -3,7 +3,10 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "taut/world/components.h"
+#include "taut/world/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -14,7 +17,7 @@ SceneSpec tooLongAStep() {
     ClothSpec spec = support::cloth("flag", 12);
     spec.hold = {"left"};
     spec.jitter = 1e-3;
-    scene.cloths = {spec};
+    scene.bodies.add(spec);
     scene.solver.dt = 1.0 / 240.0;  // several times the limit
     return scene;
 }
@@ -34,8 +37,8 @@ TEST(Divergence, StopsTheRunAndKeepsTheLastGoodState) {
 
 TEST(Divergence, PutsEveryIslandBackToTheSameTick) {
     SceneSpec scene = tooLongAStep();
-    scene.ropes = {support::rope("calm", {5, 3, 0}, {6, 3, 0}, 4)};
-    scene.ropes[0].solver.dt = 1e-4;
+    scene.bodies.add(support::rope("calm", {5, 3, 0}, {6, 3, 0}, 4));
+    scene.bodies.of<RopeSpec>()[0].solver.dt = 1e-4;
     World world(scene);
     const auto heightOfRope = [&] {
         double y = 0;
@@ -77,13 +80,13 @@ TEST(Divergence, TheSafeStepItNamesHolds) {
 // A wind whose force leaves the range of single precision.
 TEST(Divergence, ANumberThatIsNoneNamesItsPoint) {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 3, 0}, {1, 3, 0}, 4)};
+    scene.bodies.add(support::rope("a", {0, 3, 0}, {1, 3, 0}, 4));
     WindSpec wind;
     wind.name = "storm";
     wind.velocity = {1e30, 0.0, 0.0};
     ClothSpec cloth = support::cloth("sail", 4);
-    scene.cloths = {cloth};
-    scene.winds = {wind};
+    scene.bodies.add(cloth);
+    scene.forces.add(wind);
     scene.solver.dt = 1e-3;
     World world(scene);
     const std::optional<Divergence> divergence = world.advance();

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "support/timelines.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -19,9 +22,9 @@ SceneSpec hanging() {
     silk.stretch = 40;
     silk.dampingTime = 0;
     scene.materials = {{"silk", silk}};
-    scene.cloths = {support::cloth("sheet", 8)};
-    scene.cloths[0].material = "silk";
-    scene.cloths[0].hold = {"top"};
+    scene.bodies.add(support::cloth("sheet", 8));
+    scene.bodies.of<ClothSpec>()[0].material = "silk";
+    scene.bodies.of<ClothSpec>()[0].hold = {"top"};
     return scene;
 }
 
@@ -105,9 +108,9 @@ TEST(Envelope, DampingCountsAtItsWorst) {
 
 TEST(Envelope, PointsThatAreFreedCountAsFree) {
     SceneSpec never = hanging();
-    never.cloths[0].hold = {};
+    never.bodies.of<ClothSpec>()[0].hold = {};
     SceneSpec scene = hanging();
-    scene.cloths[0].hold = {"all"};
+    scene.bodies.of<ClothSpec>()[0].hold = {"all"};
     scene.actions = {action(Do::free, 1.0, "cloth.sheet")};
     EXPECT_EQ(stepLimitOf(scene), stepLimitOf(never));
     // A heavy point and a light one, which is held: ω² = k/4 kg, and k/4 kg + k/10 g once it is free.
@@ -117,7 +120,7 @@ TEST(Envelope, PointsThatAreFreedCountAsFree) {
     net.name = "pair";
     net.points = {{"heavy", {0, 0, 0}, 4.0, false, {}}, {"light", {1, 0, 0}, 0.01, true, {}}};
     net.springs = {{"heavy", "light", 100.0, std::nullopt, std::nullopt, {}}};
-    rope.nets = {net};
+    rope.bodies.add(net);
     const double before = stepLimitOf(rope);
     rope.actions = {action(Do::free, 1.0, "net.pair@light")};
     EXPECT_NEAR(stepLimitOf(rope), 2 / std::sqrt(100 / 4.0 + 100 / 0.01), 1e-9);
@@ -137,11 +140,11 @@ TEST(Envelope, WindsCountAtTheirFastest) {
     WindSpec wind;
     wind.name = "breeze";
     wind.velocity = {6, 0, 0};
-    scene.winds = {wind};
+    scene.forces.add(wind);
     SceneSpec gale = scene;
-    gale.winds[0].velocity = {25, 0, 0};
+    gale.forces.of<WindSpec>()[0].velocity = {25, 0, 0};
     scene.actions = {support::ramp(1.0, "wind.breeze.velocity", fields::Affects::forces, 25, 1.0, Ease::linear,
-                                   [](SceneSpec& s) -> double& { return s.winds[0].velocity.x; })};
+                                   [](SceneSpec& s) -> double& { return s.forces.of<WindSpec>()[0].velocity.x; })};
     EXPECT_EQ(stepLimitOf(scene), stepLimitOf(gale));
     EXPECT_LT(stepLimitOf(gale), stepLimitOf(hanging()));
 }

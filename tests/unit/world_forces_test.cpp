@@ -1,4 +1,5 @@
 // A force that this file adds to a world: what applies to the engine's own applies to it.
+#include "taut/world/bodies/net.h"
 #include "taut/world/forces/force.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +79,7 @@ SceneSpec freeMass(Precision precision) {
     net.drag = 0;
     net.points = {{"m", {0.5, 0, 0}, 2.0, false, {}}, {"wall", {0, 0, 5}, 1.0, true, {}}};
     net.springs = {{"m", "wall", 1e-9, {}, {}, {}}};
-    scene.nets = {net};
+    scene.bodies.add(net);
     return scene;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "taut/world/components.h"
 #include "taut/world/world.h"
 
@@ -14,13 +16,13 @@ namespace {
 // A calm rope, and a cloth whose step is several times the limit unless it is left out.
 SceneSpec calmAndWild(bool wild = true) {
     SceneSpec scene;
-    scene.ropes = {support::rope("calm", {5, 3, 0}, {6, 3, 0}, 8)};
-    scene.ropes[0].hold = {"start"};
+    scene.bodies.add(support::rope("calm", {5, 3, 0}, {6, 3, 0}, 8));
+    scene.bodies.of<RopeSpec>()[0].hold = {"start"};
     ClothSpec cloth = support::cloth("wild", 10);
     cloth.hold = {"left"};
     cloth.jitter = 1e-3;
     cloth.solver.dt = 1.0 / 240.0;
-    if (wild) scene.cloths = {cloth};
+    if (wild) scene.bodies.add(cloth);
     scene.solver.onDivergence = OnDivergence::freeze;
     return scene;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "support/timelines.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -23,7 +25,7 @@ SceneSpec handledMass(const std::string& method = "leapfrog", double stiffness =
     net.drag = 0;
     net.points = {{"m", {0, 0, 0}, 2.0, false, {}}, {"wall", {0, 0, 1}, 1.0, true, {}}};
     net.springs = {{"m", "wall", stiffness, 1.0, 5e-3, {}}};
-    scene.nets = {net};
+    scene.bodies.add(net);
     return scene;
 }
 
@@ -45,7 +47,7 @@ TEST(Hands, ASpringHandLetsItsLoadSagByWeightOverStrength) {
 TEST(Hands, AHandSharesItsStrengthByMassAndKeepsTheShape) {
     SceneSpec scene;
     scene.solver.precision = Precision::double_;
-    scene.cloths = {support::cloth("sheet", 4)};
+    scene.bodies.add(support::cloth("sheet", 4));
     ActionSpec grab = support::grab(0.0, "cloth.sheet");
     grab.strength = 40;
     grab.dampingRatio = 1;
@@ -62,7 +64,7 @@ TEST(Hands, AHandSharesItsStrengthByMassAndKeepsTheShape) {
 TEST(Hands, TheRadiusTakesWhatIsNearAndNearTakesTheNearest) {
     SceneSpec scene;
     scene.world.gravity = dvec3(0.0);
-    scene.cloths = {support::cloth("sheet", 4)};  // a point every 25 cm
+    scene.bodies.add(support::cloth("sheet", 4));  // a point every 25 cm
     // A push moves all points but those that a rigid hand has.
     const auto takenBy = [&](ActionSpec grab) {
         grab.rigid = true;
@@ -90,7 +92,7 @@ TEST(Hands, ARigidHandIsFollowedExactly) {
     for (const Ease ease : {Ease::linear, Ease::smooth, Ease::in, Ease::out}) {
         SceneSpec scene;
         scene.solver.precision = Precision::double_;
-        scene.cloths = {support::cloth("sheet", 4)};
+        scene.bodies.add(support::cloth("sheet", 4));
         scene.actions = {support::grab(0.1, "cloth.sheet@top", true),
                          support::moveHand(0.2, {0.7, 2.5, 0.5}, 0.4, ease)};
         World world(scene);
@@ -128,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodLetsGo,
 TEST_P(EveryMethodLetsGo, WhatARigidHandReleasesFliesOnWithItsSpeed) {
     SceneSpec scene = handledMass(std::string(GetParam()));
     scene.world.gravity = dvec3(0.0);
-    scene.nets[0].springs[0].dampingTime = 0;
+    scene.bodies.of<NetSpec>()[0].springs[0].dampingTime = 0;
     scene.solver.dt = 1.0 / 240;
     scene.actions = {support::grab(0.0, "net.ball@m", true), support::moveHand(0.0, {3, 0, 0}, 1.0, Ease::linear),
                      support::release(0.5)};
@@ -170,7 +172,7 @@ dvec3 placeAfterEvents(const std::string& method, int substeps) {
                       [](SceneSpec& s) -> double& { return s.world.gravity.y; }),
         support::push(0.3, "net.ball@m", {0.5, 1.0, -0.4}),
         support::ramp(0.35, "net.ball.stiffness", fields::Affects::springs, 350.0, 0.2, Ease::linear,
-                      [](SceneSpec& s) -> double& { return s.nets[0].springs[0].stiffness; }),
+                      [](SceneSpec& s) -> double& { return s.bodies.of<NetSpec>()[0].springs[0].stiffness; }),
         support::moveHand(0.5, {-0.2, 0.1, 0.3}, 0.2, Ease::linear),
         support::release(0.8),
     };

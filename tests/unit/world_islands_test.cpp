@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "support/small_scenes.h"
 #include "taut/world/island_plan.h"
 #include "taut/world/world.h"
@@ -12,7 +14,7 @@ namespace {
 
 SceneSpec twoRopes() {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 0, 0}, {1, 0, 0}), support::rope("b", {1, 0, 0}, {2, 0, 0})};
+    scene.bodies.add(support::rope("a", {0, 0, 0}, {1, 0, 0}), support::rope("b", {1, 0, 0}, {2, 0, 0}));
     return scene;
 }
 
@@ -23,7 +25,7 @@ TEST(Islands, BodiesThatNothingCouplesAreApart) {
 
 TEST(Islands, AWeldMakesOnePointOfTwo) {
     SceneSpec scene = twoRopes();
-    scene.joints = {{"rope.a@end", "rope.b@start", "weld", 0, 0, 0.01, {}}};
+    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {}}};
     const std::vector<IslandInfo> islands = World(scene).islands();
     ASSERT_EQ(islands.size(), 1U);
     EXPECT_EQ(islands[0].points, 21);  // 11 + 11 - 1
@@ -33,8 +35,8 @@ TEST(Islands, AWeldMakesOnePointOfTwo) {
 
 TEST(Islands, AWeldAddsMassesAndKeepsMomentum) {
     SceneSpec scene = twoRopes();
-    scene.ropes[1].velocity = {0, 0, 2};
-    scene.joints = {{"rope.a@end", "rope.b@start", "weld", 0, 0, 0.01, {}}};
+    scene.bodies.of<RopeSpec>()[1].velocity = {0, 0, 2};
+    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {}}};
     std::vector<Body> bodies = buildBodies(scene);
     const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
     const int welded = bodies[0].pointOf.back();
@@ -46,8 +48,8 @@ TEST(Islands, AWeldAddsMassesAndKeepsMomentum) {
 
 TEST(Islands, ASpringJointKeepsItsStartingLength) {
     SceneSpec scene = twoRopes();
-    scene.ropes[1].start.x = 1.5;
-    scene.joints = {{"rope.a@end", "rope.b@start", "spring", 500, 1e-3, 0.01, {}}};
+    scene.bodies.of<RopeSpec>()[1].start.x = 1.5;
+    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::spring, 500, 1e-3, 0.01, {}}};
     std::vector<Body> bodies = buildBodies(scene);
     const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
     ASSERT_EQ(plans.size(), 1U);
@@ -59,8 +61,8 @@ TEST(Islands, ASpringJointKeepsItsStartingLength) {
 
 TEST(Islands, AJointThatJoinsNothingSaysHowFarItIs) {
     SceneSpec scene = twoRopes();
-    scene.ropes[1].start.x = 1.5;
-    scene.joints = {{"rope.a@end", "rope.b@start", "weld", 0, 0, 0.01, {"s.toml", 9, 1}}};
+    scene.bodies.of<RopeSpec>()[1].start.x = 1.5;
+    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {"s.toml", 9, 1}}};
     try {
         const World world(scene);
         FAIL();
@@ -72,16 +74,16 @@ TEST(Islands, AJointThatJoinsNothingSaysHowFarItIs) {
 
 TEST(Islands, JoinedBodiesMustAgreeOnTheirSolver) {
     SceneSpec scene = twoRopes();
-    scene.ropes[1].solver.integrator = "velocity-verlet";
+    scene.bodies.of<RopeSpec>()[1].solver.integrator = "velocity-verlet";
     EXPECT_EQ(World(scene).islands()[1].method, "velocity-verlet");
-    scene.joints = {{"rope.a@end", "rope.b@start", "weld", 0, 0, 0.01, {}}};
+    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {}}};
     EXPECT_THROW(World{scene}, core::Error);
 }
 
 TEST(Islands, EachChoosesItsOwnNumberOfSubsteps) {
     SceneSpec scene = twoRopes();
-    for (RopeSpec& rope : scene.ropes) rope.dampingTime = 0.0;
-    scene.ropes[1].stretch = 1e6;
+    for (RopeSpec& rope : scene.bodies.of<RopeSpec>()) rope.dampingTime = 0.0;
+    scene.bodies.of<RopeSpec>()[1].stretch = 1e6;
     const std::vector<IslandInfo> islands = World(scene).islands();
     EXPECT_EQ(islands[0].name, "rope.a");
     // ω grows with the root of the stiffness, a hundred times higher; whole substeps round by at most one.
@@ -105,7 +107,7 @@ TEST(Islands, MeshPointsAreNumberedForLocality) {
     }
     spec.mesh = "strip.obj";
     spec.meshData = mesh;
-    scene.cloths = {spec};
+    scene.bodies.add(spec);
     std::vector<Body> bodies = buildBodies(scene);
     const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
     int farthest = 0;

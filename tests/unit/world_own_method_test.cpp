@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/world/bodies/rope.h"
 #include "support/small_scenes.h"
 #include "taut/world/world.h"
 
@@ -23,8 +24,8 @@ ode::Methods withMine() {
 
 World swinging(const std::string& integrator, std::shared_ptr<const ode::Methods> methods) {
     SceneSpec scene;
-    scene.ropes = {support::rope("line", {0, 0, 0}, {1, 0, 0})};
-    scene.ropes[0].hold = {"start"};
+    scene.bodies.add(support::rope("line", {0, 0, 0}, {1, 0, 0}));
+    scene.bodies.of<RopeSpec>()[0].hold = {"start"};
     scene.solver.integrator = integrator;
     scene.solver.methods = std::move(methods);
     World world(scene);

@@ -5,6 +5,7 @@
 
 #include "collision_support.h"
 #include "support/small_scenes.h"
+#include "taut/world/bodies/rope.h"
 #include "taut/world/world.h"
 
 namespace taut::world::own_shape {
@@ -129,7 +130,7 @@ TEST(OwnShape, IsSeenAndFeltInAWorld) {
     SceneSpec scene;
     scene.colliders = {support::ball("ring", {0.0, 1.0, 0.0}, 0.5)};
     scene.colliders[0].shape = "torus";
-    scene.ropes = {support::rope("line", {-0.8, 1.2, 0.0}, {0.8, 1.2, 0.0}, 40)};
+    scene.bodies.add(support::rope("line", {-0.8, 1.2, 0.0}, {0.8, 1.2, 0.0}, 40));
     EXPECT_THROW(World{scene}, core::Error);
     scene.shapes = withTorus();
     World world(scene);

@@ -3,6 +3,9 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "taut/world/drawing.h"
 #include "taut/world/world.h"
 
@@ -11,8 +14,8 @@ namespace {
 
 SceneSpec smallScene() {
     SceneSpec scene;
-    scene.cloths = {support::cloth("a", 4)};
-    scene.ropes = {support::rope("b", {0, 1, 0}, {1, 1, 0})};
+    scene.bodies.add(support::cloth("a", 4));
+    scene.bodies.add(support::rope("b", {0, 1, 0}, {1, 1, 0}));
     scene.colliders = {support::ball("ball", {0, 1, 0}, 0.3), support::ground()};
     scene.cameras.resize(2);
     scene.cameras[0].name = "close";
@@ -59,8 +62,8 @@ TEST(Publish, TheNamedCameraIsUsed) {
 
 TEST(Publish, TheDebugViewShowsSpringsPointsAndContacts) {
     SceneSpec scene = smallScene();
-    scene.cloths[0].origin = {-0.5, 1.31, -0.5};
-    scene.cloths[0].down = {0, 0, 1};
+    scene.bodies.of<ClothSpec>()[0].origin = {-0.5, 1.31, -0.5};
+    scene.bodies.of<ClothSpec>()[0].down = {0, 0, 1};
     World world(scene);
     for (int i = 0; i < 10; ++i) ASSERT_FALSE(world.advance());
     const view::FrameView view = world.view(true);
@@ -84,7 +87,7 @@ TEST(Publish, APatternLiesAlongTheEdgesOfATurnedBlock) {
         spec.name = "b";
         spec.size = {0.4, 0.4, 0.4};
         spec.rotation = rotation;
-        scene.blocks = {spec};
+        scene.bodies.add(spec);
         const view::FrameView view = World(scene).view(false);
         glm::vec2 low(1e9F), high(-1e9F);
         for (const glm::vec2& uv : surface(view, "block.b")->topology->uv) {
@@ -100,7 +103,7 @@ TEST(Publish, APatternLiesAlongTheEdgesOfATurnedBlock) {
 
 TEST(Publish, APictureStandsUprightOnAGridOfCloth) {
     SceneSpec scene;
-    scene.cloths = {support::cloth("a", 4)};
+    scene.bodies.add(support::cloth("a", 4));
     const view::FrameView view = World(scene).view(false);
     const view::Surface& cloth = *surface(view, "cloth.a");
     for (std::size_t i = 0; i < cloth.geometry->positions.size(); ++i)  // v grows upwards, as positions do
@@ -112,7 +115,7 @@ TEST(Publish, ABlockShowsSixSidesWithEdges) {
     BlockSpec spec;
     spec.name = "b";
     spec.cells = {2, 3, 4};
-    scene.blocks = {spec};
+    scene.bodies.add(spec);
     const view::FrameView view = World(scene).view(false);
     const view::Surface& block = *surface(view, "block.b");
     const std::size_t faces = 2 * (2 * 3 + 3 * 4 + 2 * 4);

@@ -4,6 +4,10 @@
 #include <cmath>
 
 #include "support/timelines.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/forces/anchor.h"
+#include "taut/world/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -25,7 +29,7 @@ SceneSpec rampedMass(double stiffness = 1e-9) {
     net.drag = 0;
     net.points = {{"m", {0, 0, 0}, 2.0, false, {}}, {"wall", {0, 1, 0}, 1.0, true, {}}};
     net.springs = {{"m", "wall", stiffness, 1.0, std::nullopt, {}}};
-    scene.nets = {net};
+    scene.bodies.add(net);
     return scene;
 }
 
@@ -73,9 +77,9 @@ TEST(Ramps, ALaterRampTakesOverFromTheValueOfTheMoment) {
 // m g = k x for 300 N/m, and then for 900 N/m.
 TEST(Ramps, StiffnessMovesTheEquilibrium) {
     SceneSpec scene = rampedMass(300);
-    scene.nets[0].drag = 10;
+    scene.bodies.of<NetSpec>()[0].drag = 10;
     scene.actions = {support::ramp(3.0, "net.ball.stiffness", Affects::springs, 900.0, 0.5, Ease::smooth,
-                                   [](SceneSpec& s) -> double& { return s.nets[0].springs[0].stiffness; })};
+                                   [](SceneSpec& s) -> double& { return s.bodies.of<NetSpec>()[0].springs[0].stiffness; })};
     World world(scene);
     run(world, 180);
     EXPECT_NEAR(world.points("net.ball@m").x[0].y, -2 * g / 300, 1e-6);  // e^{-5·3} of the start
@@ -90,10 +94,10 @@ TEST(Ramps, AMaterialChangesEveryClothThatIsOfIt) {
     soft.stretch = 200;
     soft.drag = 4;
     scene.materials = {{"silk", soft}, {"felt", soft}};
-    scene.cloths = {support::cloth("a", 3), support::cloth("b", 3)};
-    scene.cloths[0].material = "silk";
-    scene.cloths[1].material = "felt";
-    for (ClothSpec& cloth : scene.cloths) cloth.hold = {"top"};
+    scene.bodies.add(support::cloth("a", 3), support::cloth("b", 3));
+    scene.bodies.of<ClothSpec>()[0].material = "silk";
+    scene.bodies.of<ClothSpec>()[1].material = "felt";
+    for (ClothSpec& cloth : scene.bodies.of<ClothSpec>()) cloth.hold = {"top"};
     scene.actions = {support::ramp(3.0, "material.silk.stretch_N_per_m", Affects::springs, 800.0, 0.5, Ease::smooth,
                                    [](SceneSpec& s) -> double& { return s.materials["silk"].stretch; })};
     World world(scene);
@@ -113,8 +117,8 @@ TEST(Ramps, WindThatRisesPressesWithItsSquare) {
     board.stretch = 2e4;
     board.drag = 20;
     scene.materials = {{"board", board}};
-    scene.cloths = {support::cloth("sail", 2)};
-    scene.cloths[0].material = "board";
+    scene.bodies.add(support::cloth("sail", 2));
+    scene.bodies.of<ClothSpec>()[0].material = "board";
     AnchorSpec springs;
     springs.name = "springs";
     springs.target = "cloth.sail";
@@ -123,12 +127,12 @@ TEST(Ramps, WindThatRisesPressesWithItsSquare) {
     WindSpec wind;
     wind.name = "breeze";
     wind.velocity = {0, 0, 2};
-    scene.winds = {wind};
+    scene.forces.add(wind);
     ActionSpec grab = support::grab(0.0, "cloth.sail");  // keeps the shape, yields as one
     grab.strength = 500;
     grab.dampingRatio = 1;
     scene.actions = {grab, support::ramp(2.0, "wind.breeze.velocity", Affects::forces, 4.0, 0.5, Ease::smooth,
-                                         [](SceneSpec& s) -> double& { return s.winds[0].velocity.z; })};
+                                         [](SceneSpec& s) -> double& { return s.forces.of<WindSpec>()[0].velocity.z; })};
     World world(scene);
     const auto pressed = [&] {
         dvec3 mean(0.0);
@@ -169,7 +173,7 @@ TEST(Ramps, PicturesShowTheValueOfTheirTime) {
 // On a slope of 20° a mass slides iff tan 20° = 0.364 > μ; it gains g (sin 20° - μ cos 20°) a second.
 TEST(Ramps, FrictionThatFallsLetsThingsSlide) {
     SceneSpec scene = rampedMass();
-    scene.nets[0].thickness = 0;
+    scene.bodies.of<NetSpec>()[0].thickness = 0;
     scene.solver.dt = 1.0 / 960;
     ColliderSpec slope = support::ground();
     const double angle = 20.0 * 3.14159265358979323846 / 180;

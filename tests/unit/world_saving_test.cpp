@@ -5,6 +5,8 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/rope.h"
 #include "support/timelines.h"
 #include "taut/world/components.h"
 
@@ -108,13 +110,13 @@ TEST(SavingWhole, ActionsThatWaitForTheNextTickAreSavedWithTheRest) {
 
 TEST(SavingWhole, AFrozenBodyStaysFrozenWithItsDiagnosis) {
     SceneSpec scene;
-    scene.ropes = {support::rope("calm", {5, 3, 0}, {6, 3, 0}, 8)};
+    scene.bodies.add(support::rope("calm", {5, 3, 0}, {6, 3, 0}, 8));
     ClothSpec wild = support::cloth("wild", 10);
     wild.hold = {"left"};
     wild.jitter = 1e-3;
     wild.solver.integrator = "euler";
     wild.solver.dt = 1.0 / 240.0;
-    scene.cloths = {wild};
+    scene.bodies.add(wild);
     scene.solver.onDivergence = OnDivergence::freeze;
     World through(scene);
     while (through.frozen().empty()) ASSERT_FALSE(through.advance());
@@ -163,17 +165,17 @@ std::string refusal(const SceneSpec& scene, std::span<const std::byte> bytes) {
 
 TEST(SavingWhole, BytesOfAnotherSceneAreRefusedByName) {
     SceneSpec scene;
-    scene.ropes = {support::rope("line", {0, 2, 0}, {1, 2, 0}, 8)};
+    scene.bodies.add(support::rope("line", {0, 2, 0}, {1, 2, 0}, 8));
     World world(scene);
     ASSERT_FALSE(world.advance());
     const std::vector<std::byte> bytes = world.save();
     EXPECT_EQ(refusal(scene, bytes), "");
 
     SceneSpec other = scene;
-    other.ropes[0].name = "string";
+    other.bodies.of<RopeSpec>()[0].name = "string";
     EXPECT_NE(refusal(other, bytes).find("bodies"), std::string::npos) << refusal(other, bytes);
     other = scene;
-    other.ropes[0].segments = 9;
+    other.bodies.of<RopeSpec>()[0].segments = 9;
     EXPECT_NE(refusal(other, bytes), "");
     other = scene;
     other.run.fps = 50;
@@ -185,7 +187,7 @@ TEST(SavingWhole, BytesOfAnotherSceneAreRefusedByName) {
     other.solver.precision = Precision::double_;
     EXPECT_NE(refusal(other, bytes), "");
     other = scene;
-    other.ropes.push_back(support::rope("more", {0, 3, 0}, {1, 3, 0}, 8));
+    other.bodies.add(support::rope("more", {0, 3, 0}, {1, 3, 0}, 8));
     EXPECT_NE(refusal(other, bytes), "");
 }
 

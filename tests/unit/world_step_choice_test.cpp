@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/world/bodies/rope.h"
 #include "support/small_scenes.h"
 #include "taut/world/world.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 SceneSpec oneRope() {
     SceneSpec scene;
-    scene.ropes = {support::rope("a", {0, 0, 0}, {1, 0, 0})};
-    scene.ropes[0].source = {"s.toml", 5, 1};
+    scene.bodies.add(support::rope("a", {0, 0, 0}, {1, 0, 0}));
+    scene.bodies.of<RopeSpec>()[0].source = {"s.toml", 5, 1};
     return scene;
 }
 
@@ -22,7 +23,7 @@ SceneSpec oneRope() {
 TEST(StepChoice, AutoIsTheSafeShareOfTheLimitRoundedToWholeSubsteps) {
     const SceneSpec scene = oneRope();
     const IslandInfo island = World(scene).islands()[0];
-    const double omega = island.omegaBound, tau = scene.ropes[0].dampingTime;
+    const double omega = island.omegaBound, tau = scene.bodies.of<RopeSpec>()[0].dampingTime;
     const double limit = 2.0 * (std::sqrt(tau * tau + 1.0 / (omega * omega)) - tau);
     EXPECT_NEAR(island.stepLimit, limit, 1e-12 * limit);
     EXPECT_EQ(island.substeps, static_cast<int>(std::ceil((1.0 / 60.0) / (0.9 * limit))));
@@ -59,8 +60,8 @@ TEST(StepChoice, AStepOverTheLimitIsReportedWithItsSpringBeforeTheFirstFrame) {
 
 TEST(StepChoice, ExplicitEulerWithoutDampingHasNoAutomaticStep) {
     SceneSpec scene = oneRope();
-    scene.ropes[0].dampingTime = 0.0;
-    scene.ropes[0].drag = 0.0;
+    scene.bodies.of<RopeSpec>()[0].dampingTime = 0.0;
+    scene.bodies.of<RopeSpec>()[0].drag = 0.0;
     scene.solver.integrator = "euler";
     try {
         const World world(scene);
@@ -70,13 +71,13 @@ TEST(StepChoice, ExplicitEulerWithoutDampingHasNoAutomaticStep) {
         EXPECT_EQ(std::string(error.what()).find("s.toml:5:1: error: rope.a: dt = \"auto\" finds no step"), 0U)
             << error.what();
     }
-    scene.ropes[0].dampingTime = 1e-4;
+    scene.bodies.of<RopeSpec>()[0].dampingTime = 1e-4;
     EXPECT_NEAR(World(scene).islands()[0].stepLimit, 1e-4, 1e-9);  // 2ζ/ω = τ for ζ < 1
 }
 
 TEST(StepChoice, AnAbsurdlyStiffBodyIsRefusedInsteadOfRunForEver) {
     SceneSpec scene = oneRope();
-    scene.ropes[0].stretch = 1e18;
+    scene.bodies.of<RopeSpec>()[0].stretch = 1e18;
     EXPECT_THROW(World{scene}, core::Error);
 }
 

@@ -1,11 +1,22 @@
-#include "taut/mechanics/anchor.h"
+#include "taut/world/forces/anchor.h"
 
+#include <algorithm>
 #include <map>
 
-#include "taut/world/forces/scene_forces.h"
+#include "taut/core/error.h"
+#include "taut/mechanics/anchor.h"
+#include "taut/world/common_rows.h"
+#include "taut/world/forces/force.h"
 #include "taut/world/targets.h"
 
 namespace taut::world {
+
+using fields::Affects;
+using fields::FieldList;
+using fields::notNegative;
+using fields::Role;
+using fields::Section;
+
 namespace {
 
 std::vector<int> pointsIn(const std::string& target, const Body& body) {
@@ -20,7 +31,7 @@ dvec3 rateOf(const mechanics::LinearPath& path) {
 class AnchorForce final : public ForceOf<AnchorForce> {
   public:
     explicit AnchorForce(const AnchorSpec& anchor)
-        : ForceOf("anchor." + anchor.name),
+        : ForceOf(anchor.fullName()),
           target_(anchor.target),
           place_{anchor.at, anchor.at},
           stiffness_(anchor.stiffness),
@@ -71,12 +82,34 @@ class AnchorForce final : public ForceOf<AnchorForce> {
 
 }  // namespace
 
-std::shared_ptr<const Force> anchorForce(const AnchorSpec& anchor) {
-    return std::make_shared<AnchorForce>(anchor);
+Section AnchorSpec::section() {
+    Section section;
+    section.help = "Springs of no length from points to a place.";
+    section.fields = FieldList<AnchorSpec>()
+                         .text("target", &AnchorSpec::target, Role::points, "The points: KIND.NAME@SELECTOR.")
+                         .required()
+                         .vector("at", &AnchorSpec::at, "m", placeRange, "The place.")
+                         .ramps(Affects::forces)
+                         .required()
+                         .number("stiffness_N_per_m", &AnchorSpec::stiffness, "N/m", notNegative, "Of each point.")
+                         .ramps(Affects::forces)
+                         .number("damping_kg_per_s", &AnchorSpec::damping, "kg/s", notNegative, "Of each point.")
+                         .ramps(Affects::forces)
+                         .take();
+    return section;
 }
 
-bool hasPointIn(const AnchorSpec& anchor, const Body& body) {
-    return !pointsIn(anchor.target, body).empty();
+std::shared_ptr<const Force> AnchorSpec::make(const SceneSpec&) const {
+    return std::make_shared<AnchorForce>(*this);
+}
+
+void AnchorSpec::checkBodies(std::span<Body* const> bodies) const {
+    if (std::all_of(bodies.begin(), bodies.end(), [&](const Body* body) { return pointsIn(target, *body).empty(); }))
+        throw core::Error(core::ExitCode::badContent, world::at(source) + "target = \"" + target + "\" names no point");
+}
+
+Kind<ForceSpec> anchorKind() {
+    return forceKind<AnchorSpec>();
 }
 
 }  // namespace taut::world

@@ -1,6 +1,8 @@
 #include "taut/mechanics/gravity.h"
 
+#include "taut/world/forces/anchor.h"
 #include "taut/world/forces/scene_forces.h"
+#include "taut/world/forces/wind.h"
 
 namespace taut::world {
 namespace {
@@ -30,15 +32,17 @@ class GravityForce final : public ForceOf<GravityForce> {
 
 }  // namespace
 
-std::shared_ptr<const Force> gravityForce(const WorldSpec& world) {
-    return std::make_shared<GravityForce>(world.gravity);
-}
-
 ForceList sceneForces(const SceneSpec& spec) {
-    ForceList all{gravityForce(spec.world)};
-    for (const WindSpec& wind : spec.winds)
-        if (auto force = windForce(wind, spec.world.airDensity)) all.push_back(std::move(force));
-    for (const AnchorSpec& anchor : spec.anchors) all.push_back(anchorForce(anchor));
+    ForceList all{std::make_shared<GravityForce>(spec.world.gravity)};
+    const auto add = [&](const auto& forces) {
+        for (const ForceSpec& force : forces)
+            if (auto made = force.make(spec)) all.push_back(std::move(made));
+    };
+    add(spec.forces.of<WindSpec>());
+    add(spec.forces.of<AnchorSpec>());
+    for (const ForceSpec& force : spec.forces.all())
+        if (force.kind() != WindSpec::kindName && force.kind() != AnchorSpec::kindName)
+            if (auto made = force.make(spec)) all.push_back(std::move(made));
     return all;
 }
 

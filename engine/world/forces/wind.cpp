@@ -1,17 +1,26 @@
-#include "taut/mechanics/wind.h"
+#include "taut/world/forces/wind.h"
 
 #include <algorithm>
 
-#include "taut/world/forces/scene_forces.h"
-#include "taut/world/targets.h"
+#include "taut/mechanics/wind.h"
+#include "taut/world/common_rows.h"
+#include "taut/world/forces/force.h"
+#include "taut/world/spec.h"
 
 namespace taut::world {
+
+using fields::Affects;
+using fields::FieldList;
+using fields::Range;
+using fields::Role;
+using fields::Section;
+
 namespace {
 
 class WindForce final : public ForceOf<WindForce> {
   public:
     WindForce(const WindSpec& wind, double airDensity)
-        : ForceOf("wind." + wind.name),
+        : ForceOf(wind.fullName()),
           velocity_{wind.velocity, wind.velocity},
           targets_(wind.on.empty() ? std::vector<std::string>{"cloth.*"} : wind.on) {
         settings_.airDensity = airDensity;
@@ -64,9 +73,38 @@ class WindForce final : public ForceOf<WindForce> {
 
 }  // namespace
 
-std::shared_ptr<const Force> windForce(const WindSpec& wind, double airDensity) {
-    if (wind.drag == 0.0 && wind.lift == 0.0) return nullptr;
-    return std::make_shared<WindForce>(wind, airDensity);
+Section WindSpec::section() {
+    Section gust;
+    gust.fields = FieldList<WindSpec>()
+                      .number("amplitude", &WindSpec::gustAmplitude, "m/s", Range{0.0, 1e3}, "Strength.")
+                      .ramps(Affects::forces)
+                      .number("period_s", &WindSpec::gustPeriod, "s", Range{1e-3, 1e6}, "Time of a change.")
+                      .number("length_m", &WindSpec::gustLength, "m", Range{1e-3, 1e6}, "Size of an eddy.")
+                      .whole("seed", &WindSpec::gustSeed, "", Range{0.0, 1e12}, "Seed: the same gusts each time.")
+                      .take();
+    Section section;
+    section.help = "Moving air; acts on surfaces.";
+    section.fields =
+        FieldList<WindSpec>()
+            .vector("velocity", &WindSpec::velocity, "m/s", Range{-1e3, 1e3}, "Mean velocity.")
+            .ramps(Affects::forces)
+            .tableOfSelf("gust", gust, "How it changes in space and time.")
+            .number("drag", &WindSpec::drag, "", Range{0.0, 100.0}, "Drag coefficient across the flow.")
+            .ramps(Affects::forces)
+            .number("lift", &WindSpec::lift, "", Range{0.0, 100.0}, "Lift coefficient.")
+            .ramps(Affects::forces)
+            .texts("on", &WindSpec::on, Role::bodies, "Bodies it acts on, e.g. \"cloth.*\"; every cloth if not given.")
+            .take();
+    return section;
+}
+
+std::shared_ptr<const Force> WindSpec::make(const SceneSpec& scene) const {
+    if (drag == 0.0 && lift == 0.0) return nullptr;
+    return std::make_shared<WindForce>(*this, scene.world.airDensity);
+}
+
+Kind<ForceSpec> windKind() {
+    return forceKind<WindSpec>();
 }
 
 }  // namespace taut::world

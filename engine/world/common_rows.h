@@ -1,0 +1,80 @@
+// Rows of fields that several sections of a scene have in common, and the kinds that structs of bodies and forces make.
+#pragma once
+
+#include "taut/fields/field_list.h"
+#include "taut/world/body_spec.h"
+#include "taut/world/force_spec.h"
+#include "taut/world/specs.h"
+
+namespace taut::world {
+
+// Limits that many fields share.
+inline constexpr fields::Range placeRange{-1e6, 1e6};     // [m]
+inline constexpr fields::Range lengthRange{1e-6, 1e6};    // [m]
+inline constexpr fields::Range momentRange{0.0, 1e6};     // [s]
+inline constexpr fields::Range countRange{1.0, 1e9};      // of cells; what is too much is said once all is read
+inline constexpr fields::Range dampingTimeRange{0.0, 1e3};  // [s]
+inline constexpr fields::Range dragRange{0.0, 1e6};       // [1/s]
+inline constexpr fields::Range strainRange{1e-6, 1e3};    // |l - L|/L
+
+fields::Section finishSection();
+fields::Section overrideSection();  // of [solver], by a body
+fields::Section arraySection();
+std::vector<std::string> easeNames();
+std::vector<std::string> lumpingNames();
+std::vector<std::string> methodNames();  // of the engine's own
+
+// Fields of all that stops being elastic.
+template <class Spec>
+fields::FieldList<Spec> withPlasticity(fields::FieldList<Spec> list) {
+    list.number("yield_strain", &Spec::plasticity, &PlasticitySpec::yieldStrain, "", strainRange,
+                "Strain beyond which springs keep part of it for good; never if not given.");
+    list.number("break_strain", &Spec::plasticity, &PlasticitySpec::breakStrain, "", strainRange,
+                "Strain of a stretched spring at which it tears; never if not given.");
+    return list;
+}
+
+// Fields of all bodies that have a stiffness of their own.
+template <class Spec>
+fields::FieldList<Spec> withLosses(fields::FieldList<Spec> list) {
+    list.number("damping_time_s", &Spec::dampingTime, "s", dampingTimeRange,
+                "Damping of a spring over its stiffness: inner friction.")
+        .ramps(fields::Affects::springs);
+    list.number("drag_per_s", &Spec::drag, "1/s", dragRange, "Rate at which still air slows a point.").ramps(fields::Affects::springs);
+    return list;
+}
+
+// What every body has.
+template <class Spec>
+std::vector<fields::Field> bodyRows() {
+    using fields::Range;
+    fields::FieldList<Spec> list;
+    list.texts("hold", &Spec::hold, fields::Role::selector, "Points that never move: a group, \"#12\", \"(u,v)\", \"50%\".")
+        .vector("velocity", &Spec::velocity, "m/s", placeRange, "At the start.")
+        .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange, "At the start, about the centre of mass.")
+        .number("jitter_m", &Spec::jitter, "m", Range{0.0, 1.0},
+                "Random offset of the free points at the start, to break symmetry.")
+        .whole("seed", &Spec::seed, "", Range{0.0, 1e12}, "Seed of the offsets.")
+        .number("friction", &Spec::friction, "", Range{0.0, 100.0}, "Factor on the collider's friction.")
+        .number("thickness", &Spec::thickness, "m", Range{0.0, 10.0}, "Distance kept from colliders.")
+        .flag("collide", &Spec::collide, "Whether colliders stop it.")
+        .table("finish", &Spec::finish, finishSection(), "How it looks.")
+        .table("solver", &Spec::solver, overrideSection(), "Its own way to be computed.")
+        .table("array", &Spec::array, arraySection(), "Copies, called NAME.0, NAME.1 and so on.");
+    return list.take();
+}
+
+// A kind of body: its own rows, then those that every body has.
+template <class Own>
+Kind<BodySpec> bodyKind() {
+    Kind<BodySpec> kind = kindOf<Own, BodySpec>();
+    for (fields::Field& row : bodyRows<Own>()) kind.section.fields.push_back(std::move(row));
+    return kind;
+}
+
+template <class Own>
+Kind<ForceSpec> forceKind() {
+    return kindOf<Own, ForceSpec>();
+}
+
+}  // namespace taut::world

@@ -160,7 +160,7 @@ TEST(SceneErrors, RampsOfWhatCannotChangeAreReported) {
          "ends = [[0, 0, 0], [1, 0, 0]]\n",
          "s.toml:3:31: error: nothing of solver can change while the scene runs\n"
          "    { t = 1, do = \"ramp\", key = \"solver.dt\", to = 0.1 },\n"
-         "                                ^ what may: world, material, rope, block, net, anchor, collider, wind, "
+         "                                ^ what may: world, material, rope, block, net, anchor, wind, collider, "
          "camera, light, background"},
         {"an unknown wind",
          "at = [\n"

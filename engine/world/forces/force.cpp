@@ -12,6 +12,16 @@ const Force* named(const ForceList& forces, const std::string& name) {
 
 }  // namespace
 
+bool hasSameBytes(const Force& a, const Force& b) {
+    const auto bytesOf = [](const Force& force) {
+        core::ByteWriter writer;
+        StateBytes bytes(writer);
+        force.copy()->visit(bytes);
+        return writer.take();
+    };
+    return bytesOf(a) == bytesOf(b);
+}
+
 ForceList during(const ForceList& from, const ForceList& middle, const ForceList& to, double t0, double t1) {
     ForceList forces;
     for (const auto& force : middle) {

@@ -44,9 +44,13 @@ class Force {
     std::string name_;
 };
 
+// Whether nothing that they save differs.
+bool hasSameBytes(const Force& a, const Force& b);
+
 // Writes what every force does alike. Of `Own` it needs
 //   template <class Real> std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan&) const;
-// the others are for forces that change while they act.
+// the others are for forces that change while they act: visit() for all that a ramp or the force itself changes, the
+// rest for what is to change without a start anew.
 template <class Own>
 class ForceOf : public Force {
   public:
@@ -74,7 +78,7 @@ class ForceOf : public Force {
 
     // Of a force that stays as it is.
     void changeEvenly(const Own&, const Own&, double, double) {}
-    bool follows(const Own&) const { return true; }
+    bool follows(const Own& before) const { return hasSameBytes(*this, before); }
     template <class Real>
     void guide(mechanics::ForceGenerator<Real>&) const {}
 

@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/scene/load.h"
 #include "taut/world/bodies/rope.h"
 #include "support/small_scenes.h"
 #include "taut/world/world.h"
@@ -40,6 +41,18 @@ TEST(OwnMethodInAWorld, ChoosesTheStepAndMovesTheBodies) {
     EXPECT_EQ(mine.islands()[0].step, same.islands()[0].step);
     EXPECT_EQ(mine.stateHash(), same.stateHash());
     EXPECT_THROW(swinging("mine", nullptr), core::Error);
+}
+
+TEST(OwnMethodInAWorld, StandsInASceneOfTheSceneAndOfABody) {
+    scene::LoadOptions options;
+    Kinds kinds = builtIn();
+    kinds.methods = withMine();
+    options.kinds = std::make_shared<const Kinds>(kinds);
+    const std::string text =
+        "schema = 1\nsolver.integrator = \"mine\"\n"
+        "[rope.line]\nends = [[0, 0, 0], [1, 0, 0]]\nsolver = { integrator = \"mine\" }\n";
+    EXPECT_EQ(World(scene::loadSceneText(text, "s.toml", options).spec).islands()[0].method, "mine");
+    EXPECT_THROW(scene::loadSceneText(text, "s.toml", {}), core::Error);
 }
 
 }  // namespace

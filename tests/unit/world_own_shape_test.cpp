@@ -5,6 +5,7 @@
 
 #include "collision_support.h"
 #include "support/small_scenes.h"
+#include "taut/scene/load.h"
 #include "taut/world/bodies/rope.h"
 #include "taut/world/world.h"
 
@@ -146,6 +147,21 @@ TEST(OwnShape, IsSeenAndFeltInAWorld) {
     for (int i = 0; i < 20; ++i) ASSERT_FALSE(world.advance());
     EXPECT_GT(world.metrics().contacts, 1);
     EXPECT_LT(world.metrics().penetration, 1e-6);  // rounding of a state in float
+}
+
+TEST(OwnShape, StandsInASceneWithASizeOfItsOwn) {
+    scene::LoadOptions options;
+    Kinds kinds = builtIn();
+    kinds.shapes = *withTorus();
+    options.kinds = std::make_shared<const Kinds>(kinds);
+    const std::string text =
+        "schema = 1\ncollider.ring = { shape = \"torus\", radius = 0.5, tube_m = 0.25 }\n"
+        "[rope.line]\nends = [[0, 2, 0], [1, 2, 0]]\n";
+    const SceneSpec scene = scene::loadSceneText(text, "s.toml", options).spec;
+    EXPECT_EQ(scene.colliders[0].sizes.at("tube_m"), 0.25);
+    EXPECT_NO_THROW(World{scene});
+    EXPECT_NE(scene::jsonSchema(kinds).find("Radius of the tube. [m]"), std::string::npos);
+    EXPECT_THROW(scene::loadSceneText(text, "s.toml", {}), core::Error);
 }
 
 }  // namespace

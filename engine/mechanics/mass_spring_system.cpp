@@ -8,7 +8,6 @@
 namespace taut::mechanics {
 namespace {
 
-template <class PointMass>
 std::vector<PointMass> pointMassesOf(const Model& model) {
     std::vector<PointMass> points;
     for (std::size_t i = 0; i < model.masses.size(); ++i)
@@ -20,7 +19,7 @@ std::vector<PointMass> pointMassesOf(const Model& model) {
 
 template <class Real>
 MassSpringSystem<Real>::MassSpringSystem(const Model& model)
-    : MassSpringSystem(pointMassesOf<PointMass>(model),
+    : MassSpringSystem(pointMassesOf(model),
                        std::vector<Body>{{0, model.grid[0] > 0 ? model.grid[0] + 1 : 0}}, model.springs) {}
 
 template <class Real>
@@ -35,13 +34,20 @@ MassSpringSystem<Real>::MassSpringSystem(std::span<const PointMass> points, std:
     mass_ = core::AlignedArray<Real>(stride);
     inverseMass_ = mass_;
     drag_ = mass_;
+    setPoints(points);
+    layOutLanes();
+}
+
+template <class Real>
+void MassSpringSystem<Real>::setPoints(std::span<const PointMass> points) {
+    TAUT_EXPECTS(static_cast<int>(points.size()) == layout_.count);
+    hands_.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
         TAUT_EXPECTS(points[i].mass > 0.0);
         mass_[i] = static_cast<Real>(points[i].mass);
         inverseMass_[i] = points[i].held ? Real(0) : static_cast<Real>(1.0 / points[i].mass);
         drag_[i] = static_cast<Real>(points[i].dragRate);
     }
-    layOutLanes();
 }
 
 // A window holds what a block and the reach of its springs need, and some more so that it need not slide each time.
@@ -77,9 +83,9 @@ void MassSpringSystem<Real>::add(std::unique_ptr<ForceGenerator<Real>> generator
 }
 
 template <class Real>
-void MassSpringSystem<Real>::removeGenerators() {
-    generators_.clear();
-    external_ = {};
+void MassSpringSystem<Real>::removeGenerators(std::size_t from) {
+    generators_.resize(from);
+    if (std::all_of(generators_.begin(), generators_.end(), [](const auto& g) { return g->isUniform(); })) external_ = {};
 }
 
 template <class Real>
@@ -157,8 +163,10 @@ template <class Real>
 void MassSpringSystem<Real>::applySprings(const SpringBlock& block, const Motion<Real>& now, Window& window) {
     for (int r = block.firstRun; r < block.lastRun; ++r) {
         const SpringRun<Real>& run = network_.runs[static_cast<std::size_t>(r)];
+        const Real* mixed = run.mixed < 0 ? nullptr : network_.mixed.data() + run.mixed;
         kernels_.run({run.count, run.offset, now.stride, window.room, now.x + run.a, now.v + run.a, window.at(0, run.a),
-                      network_.stiffness.data() + run.table, run.restLength, run.tau});
+                      network_.stiffness.data() + run.table, run.restLength, run.tau, mixed,
+                      mixed == nullptr ? nullptr : mixed + run.count});
     }
     if (block.firstSingle == block.lastSingle) return;
     const SpringSingles<Real>& s = network_.singles;
@@ -226,11 +234,11 @@ void MassSpringSystem<Real>::addDiagonal(Real* out) const {
 
 template <class Real>
 std::uint64_t MassSpringSystem<Real>::bytes() const {
-    std::uint64_t reals = mass_.size() * 3 + external_.size() + network_.stiffness.size();
+    std::uint64_t reals = mass_.size() * 3 + external_.size() + network_.stiffness.size() + network_.mixed.size();
     for (const Lane& lane : lanes_) reals += lane.window.f.size() + lane.waiting.f.size();
     const std::uint64_t single = 2 * sizeof(int) + 3 * sizeof(Real);
     return reals * sizeof(Real) + network_.runs.size() * sizeof(SpringRun<Real>) + network_.singles.a.size() * single +
-           network_.blocks.size() * sizeof(SpringBlock) + products_.bytes();
+           network_.blocks.size() * sizeof(SpringBlock) + network_.order.size() * sizeof(int) + products_.bytes();
 }
 
 template class MassSpringSystem<float>;

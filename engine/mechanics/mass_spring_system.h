@@ -30,15 +30,17 @@ struct LedPoints {
 // Faster than this nothing moves: a point that does has left its stable step behind. [m/s]
 inline constexpr double speedLimit = 3000.0;
 
+struct PointMass {
+    double mass;      // [kg] > 0
+    double dragRate;  // γ/m [1/s]
+    bool held;
+};
+
 template <class Real>
 class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::ImplicitSystem<Real> {
   public:
-    struct PointMass {
-        double mass;      // [kg] > 0
-        double dragRate;  // γ/m [1/s]
-        bool held;
-    };
-    using Body = typename SpringNetwork<Real>::Body;
+    using PointMass = mechanics::PointMass;
+    using Body = PointRange;
 
     // Bodies give the first point and row length of each body, ascending from point 0. Springs name points by number;
     // expects those to exist.
@@ -48,7 +50,12 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     // Adds a generator, not null; they act in the order of adding.
     void add(std::unique_ptr<ForceGenerator<Real>> generator);
     std::span<const std::unique_ptr<ForceGenerator<Real>>> generators() const { return generators_; }
-    void removeGenerators();  // all of them
+    void removeGenerators(std::size_t from = 0);  // those from this one on
+
+    // Take effect when the method is started again. As many as before, springs between the same points; setPoints()
+    // lets go of points that are led.
+    void setPoints(std::span<const PointMass> points);
+    void setSprings(std::span<const Spring> springs) { network_.setSprings(springs); }
 
     // Expects points that are held, each led once. Takes effect when the method is started, or started again.
     void lead(LedPoints led);

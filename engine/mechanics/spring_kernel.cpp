@@ -32,8 +32,8 @@ inline Real factor(Real dx, Real dy, Real dz, Real ux, Real uy, Real uz, Real k,
 constexpr int slice = 128;
 
 // n <= slice springs of a run from the given one on. With both ends `apart` (offset >= n) forces go straight to
-// both; else the ends b have to wait until all ends a are done.
-template <class Real, bool damped, bool apart>
+// both; else the ends b have to wait until all ends a are done. `mixed`: with rest lengths and damping times of their own.
+template <class Real, bool damped, bool mixed, bool apart>
 inline void runSlice(const SpringRunArgs<Real>& s, int first, int n) {
     const long stride = s.stride, windowStride = s.windowStride, offset = s.offset;
     const Real *xa = s.x + first, *ya = xa + stride, *za = ya + stride;
@@ -44,6 +44,7 @@ inline void runSlice(const SpringRunArgs<Real>& s, int first, int n) {
     Real *fxb = fxa + offset, *fyb = fya + offset, *fzb = fza + offset;
     const Real* k = s.k + first;
     const Real rest = s.restLength, tau = s.tau;
+    const Real *rests = mixed ? s.restLengths + first : nullptr, *taus = mixed ? s.taus + first : nullptr;
     alignas(64) Real gx[slice], gy[slice], gz[slice];
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -54,7 +55,8 @@ inline void runSlice(const SpringRunArgs<Real>& s, int first, int n) {
             uy = vb[i] - va[i];
             uz = wb[i] - wa[i];
         }
-        const Real pull = factor<Real, damped>(dx, dy, dz, ux, uy, uz, k[i], rest, tau);
+        const Real pull = factor<Real, damped>(dx, dy, dz, ux, uy, uz, k[i], mixed ? rests[i] : rest,
+                                               mixed ? taus[i] : tau);
         const Real fx = pull * dx, fy = pull * dy, fz = pull * dz;
         fxa[i] += fx;
         fya[i] += fy;
@@ -78,23 +80,25 @@ inline void runSlice(const SpringRunArgs<Real>& s, int first, int n) {
     }
 }
 
-template <class Real, bool damped>
+template <class Real, bool damped, bool mixed>
 inline void run(const SpringRunArgs<Real>& s) {
     for (int first = 0; first < s.n; first += slice) {
         const int n = s.n - first < slice ? s.n - first : slice;
         if (s.offset >= n)
-            runSlice<Real, damped, true>(s, first, n);
+            runSlice<Real, damped, mixed, true>(s, first, n);
         else
-            runSlice<Real, damped, false>(s, first, n);
+            runSlice<Real, damped, mixed, false>(s, first, n);
     }
 }
 
 template <class Real>
 inline void runAny(const SpringRunArgs<Real>& s) {
-    if (s.tau != Real(0))
-        run<Real, true>(s);
+    if (s.restLengths != nullptr)
+        run<Real, true, true>(s);
+    else if (s.tau != Real(0))
+        run<Real, true, false>(s);
     else
-        run<Real, false>(s);
+        run<Real, false, false>(s);
 }
 
 // Gathers a batch into planar buffers, computes it side by side, scatters it spring by spring in order.

@@ -5,7 +5,7 @@ namespace taut::mechanics {
 
 // Forces live in a window of three planes, points of the network in three planes of another stride.
 
-// n springs of one kind: spring i joins points i and i + offset of the planes.
+// n springs alike: spring i joins points i and i + offset of the planes.
 template <class Real>
 struct SpringRunArgs {
     int n;
@@ -18,6 +18,9 @@ struct SpringRunArgs {
     const Real* k;     // (n) stiffness [N/m]
     Real restLength;   // [m]
     Real tau;          // damping time [s]
+    // (n) rest lengths and damping times of springs that are not alike in them; or nullptr.
+    const Real* restLengths = nullptr;
+    const Real* taus = nullptr;
 };
 
 // n springs between any points.

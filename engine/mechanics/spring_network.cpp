@@ -22,23 +22,27 @@ struct Sorted {
     Key key;
     int a;
     double k;
-    bool operator<(const Sorted& other) const { return std::tie(key, a, k) < std::tie(other.key, other.a, other.k); }
+    int spring;
+    bool operator<(const Sorted& other) const {
+        return std::tie(key, a, k, spring) < std::tie(other.key, other.a, other.k, other.spring);
+    }
 };
 
 template <class Real>
 class Builder {
   public:
-    Builder(SpringNetwork<Real>& network, int points, std::span<const typename SpringNetwork<Real>::Body> bodies,
+    Builder(SpringNetwork<Real>& network, int points, std::span<const PointRange> bodies,
             std::span<const Spring> springs)
         : network_(network), points_(points) {
         cutBlocks(bodies);
         shareOut(springs);
         cutChunks();
         for (std::size_t i = 0; i < network_.blocks.size(); ++i) fill(network_.blocks[i], sorted_[i]);
+        network_.order.insert(network_.order.end(), singles_.begin(), singles_.end());
     }
 
   private:
-    void cutBlocks(std::span<const typename SpringNetwork<Real>::Body> bodies) {
+    void cutBlocks(std::span<const PointRange> bodies) {
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             const int first = bodies[i].firstPoint;
             const int last = i + 1 < bodies.size() ? bodies[i + 1].firstPoint : points_;
@@ -59,11 +63,12 @@ class Builder {
             for (int p = network_.blocks[i].firstPoint; p < network_.blocks[i].lastPoint; ++p)
                 blockOf[static_cast<std::size_t>(p)] = static_cast<int>(i);
         sorted_.resize(network_.blocks.size());
-        for (const Spring& s : springs) {
+        for (std::size_t i = 0; i < springs.size(); ++i) {
+            const Spring& s = springs[i];
             TAUT_EXPECTS(s.a != s.b && s.a >= 0 && s.b >= 0 && s.a < points_ && s.b < points_);
             const int a = std::min(s.a, s.b), b = std::max(s.a, s.b);
             const auto block = static_cast<std::size_t>(blockOf[static_cast<std::size_t>(a)]);
-            sorted_[block].push_back({{b - a, s.restLength, s.dampingTime}, a, s.stiffness});
+            sorted_[block].push_back({{b - a, s.restLength, s.dampingTime}, a, s.stiffness, static_cast<int>(i)});
             network_.blocks[block].reach = std::max(network_.blocks[block].reach, b + 1);
         }
         for (auto& list : sorted_) std::sort(list.begin(), list.end());
@@ -117,35 +122,26 @@ class Builder {
         run.a = list[from].a;
         run.offset = offset;
         run.count = list[to - 1].a - run.a + 1;
-        run.restLength = static_cast<Real>(std::get<1>(list[from].key));
-        run.tau = static_cast<Real>(std::get<2>(list[from].key));
-        std::vector<Real> table(static_cast<std::size_t>(run.count), Real(0));
-        for (std::size_t i = from; i < to; ++i)
-            table[static_cast<std::size_t>(list[i].a - run.a)] = static_cast<Real>(list[i].k);
-        run.table = tableAt(table);
         network_.runs.push_back(run);
+        for (std::size_t i = from; i < to; ++i) {
+            if (i > from) network_.order.insert(network_.order.end(), gap(list[i - 1], list[i]), -1);
+            network_.order.push_back(list[i].spring);
+        }
         return to;
     }
 
-    int tableAt(const std::vector<Real>& table) {
-        const auto [entry, isNew] = tables_.try_emplace(table, static_cast<int>(network_.stiffness.size()));
-        if (isNew) network_.stiffness.insert(network_.stiffness.end(), table.begin(), table.end());
-        return entry->second;
-    }
+    static std::size_t gap(const Sorted& one, const Sorted& next) { return static_cast<std::size_t>(next.a - one.a - 1); }
 
     void addSingle(const Sorted& s) {
-        SpringSingles<Real>& singles = network_.singles;
-        singles.a.push_back(s.a);
-        singles.b.push_back(s.a + std::get<0>(s.key));
-        singles.k.push_back(static_cast<Real>(s.k));
-        singles.restLength.push_back(static_cast<Real>(std::get<1>(s.key)));
-        singles.tau.push_back(static_cast<Real>(std::get<2>(s.key)));
+        network_.singles.a.push_back(s.a);
+        network_.singles.b.push_back(s.a + std::get<0>(s.key));
+        singles_.push_back(s.spring);
     }
 
     SpringNetwork<Real>& network_;
     int points_;
     std::vector<std::vector<Sorted>> sorted_;  // (blocks)
-    std::map<std::vector<Real>, int> tables_;
+    std::vector<int> singles_;  // which springs they are
 };
 
 }  // namespace
@@ -153,6 +149,45 @@ class Builder {
 template <class Real>
 SpringNetwork<Real>::SpringNetwork(int points, std::span<const Body> bodies, std::span<const Spring> springs) {
     Builder<Real>(*this, points, bodies, springs);
+    setSprings(springs);
+}
+
+template <class Real>
+void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
+    TAUT_EXPECTS(static_cast<int>(springs.size()) == springCount);
+    stiffness.clear();
+    mixed.clear();
+    std::map<std::vector<Real>, int> tables;
+    std::vector<Real> k, lengths, taus;
+    const int* next = order.data();
+    for (SpringRun<Real>& run : runs) {
+        for (std::vector<Real>* table : {&k, &lengths, &taus}) table->assign(static_cast<std::size_t>(run.count), Real(0));
+        bool isMixed = false;
+        for (std::size_t i = 0; i < k.size(); ++i, ++next) {
+            if (*next < 0) continue;
+            const Spring& s = springs[static_cast<std::size_t>(*next)];
+            k[i] = static_cast<Real>(s.stiffness);
+            lengths[i] = static_cast<Real>(s.restLength);
+            taus[i] = static_cast<Real>(s.dampingTime);
+            isMixed = isMixed || lengths[i] != lengths[0] || taus[i] != taus[0];
+        }
+        const auto [entry, isNew] = tables.try_emplace(k, static_cast<int>(stiffness.size()));
+        if (isNew) stiffness.insert(stiffness.end(), k.begin(), k.end());
+        run.table = entry->second;
+        run.restLength = lengths[0];
+        run.tau = taus[0];
+        run.mixed = isMixed ? static_cast<int>(mixed.size()) : -1;
+        if (!isMixed) continue;
+        mixed.insert(mixed.end(), lengths.begin(), lengths.end());
+        mixed.insert(mixed.end(), taus.begin(), taus.end());
+    }
+    for (std::vector<Real>* table : {&singles.k, &singles.restLength, &singles.tau}) table->resize(singles.a.size());
+    for (std::size_t i = 0; i < singles.a.size(); ++i, ++next) {
+        const Spring& s = springs[static_cast<std::size_t>(*next)];
+        singles.k[i] = static_cast<Real>(s.stiffness);
+        singles.restLength[i] = static_cast<Real>(s.restLength);
+        singles.tau[i] = static_cast<Real>(s.dampingTime);
+    }
 }
 
 template struct SpringNetwork<float>;

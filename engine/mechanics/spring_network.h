@@ -1,5 +1,8 @@
 // The springs of an island, sorted for speed: runs of regular springs that need no index each, and single springs.
 // It knows points by number only.
+//
+// Where a spring goes is settled when the network is made; what it is like may change later, in place. So the order of
+// sums, and with it every bit of a run, depends on the springs as they were at first, not on the way to what they are.
 #pragma once
 
 #include <span>
@@ -36,7 +39,8 @@ struct SpringRun {
     int offset;  // b - a
     int count;
     int table;  // where its stiffnesses begin in `stiffness`
-    Real restLength, tau;
+    Real restLength, tau;  // of all its springs …
+    int mixed;             // … if < 0; else where their rest lengths begin in `mixed`, followed by their taus
 };
 
 template <class Real>
@@ -46,22 +50,30 @@ struct SpringSingles {
     int size() const { return static_cast<int>(a.size()); }
 };
 
+// A range of points that a block never spans, up to the next. One of rows of `row` points each gets blocks of whole
+// rows; 0 for none.
+struct PointRange {
+    int firstPoint;
+    int row;
+};
+
 template <class Real>
 struct SpringNetwork {
-    // Bodies are ranges of points that a block never spans, ascending from point 0. A body of rows of `row` points
-    // each gets blocks of whole rows; 0 for none.
-    struct Body {
-        int firstPoint;
-        int row;
-    };
+    // Bodies ascend from point 0.
+    using Body = PointRange;
     SpringNetwork() = default;
     SpringNetwork(int points, std::span<const Body> bodies, std::span<const Spring> springs);
+
+    // Takes stiffness, rest length and damping time over. Expects the springs it was made of, between the same points.
+    void setSprings(std::span<const Spring> springs);
 
     std::vector<SpringBlock> blocks;
     std::vector<SpringChunk> chunks;
     std::vector<SpringRun<Real>> runs;
     std::vector<Real> stiffness;  // tables of the runs, shared by content; a zero bridges a gap in a run
+    std::vector<Real> mixed;      // tables of runs whose springs have become different
     SpringSingles<Real> singles;
+    std::vector<int> order;  // which spring stands where: those of the runs, -1 in a gap, then the single ones
     int springCount = 0;
 };
 

@@ -58,8 +58,11 @@ void SpringProducts<Real>::linearise(const SpringNetwork<Real>& network, int str
     for (const SpringRun<Real>& run : network.runs) {
         const Real* k = network.stiffness.data() + run.table;
         const Real alongRun = along(run.tau);
+        const Real* lengths = run.mixed < 0 ? nullptr : network.mixed.data() + run.mixed;
         for (int i = 0; i < run.count; ++i, ++at)
-            lineariseOne(at, x + run.a + i, x + run.a + i + run.offset, stride, k[i], run.restLength, alongRun, across);
+            lineariseOne(at, x + run.a + i, x + run.a + i + run.offset, stride, k[i],
+                         lengths != nullptr ? lengths[i] : run.restLength,
+                         lengths != nullptr ? along(lengths[run.count + i]) : alongRun, across);
     }
     const SpringSingles<Real>& s = network.singles;
     for (std::size_t i = 0; i < s.a.size(); ++i, ++at)

@@ -117,10 +117,20 @@ VolumePreservation<Real>::VolumePreservation(std::span<const VolumeCell> cells,
       addBatch_(volumeKernel<Real>()) {
     TAUT_EXPECTS(workingStretch >= 1.0);
     for (const VolumeCell& cell : cells_) {
-        TAUT_EXPECTS(cell.restVolume > 0.0 && cell.bulkModulus >= 0.0);
+        TAUT_EXPECTS(cell.restVolume > 0.0);
         Corners rest;
         for (std::size_t c = 0; c < 4; ++c) rest[c] = restPositions[static_cast<std::size_t>(cell.points[c])];
         rest_.push_back(rest);
+    }
+    setBulkModuli(cells);
+}
+
+template <class Real>
+void VolumePreservation<Real>::setBulkModuli(std::span<const VolumeCell> cells) {
+    TAUT_EXPECTS(cells.size() == cells_.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        TAUT_EXPECTS(cells[c].bulkModulus >= 0.0);
+        cells_[c].bulkModulus = cells[c].bulkModulus;
     }
     for (std::size_t lane = 0; lane < runs_.sources().size(); ++lane) {
         const int source = runs_.sources()[lane];

@@ -36,6 +36,8 @@ class VolumePreservation final : public ForceGenerator<Real> {
                        double workingStretch = 1.5);
 
     double workingStretch() const { return workingStretch_; }
+    // Takes the bulk moduli of the cells, which are those that it was made with.
+    void setBulkModuli(std::span<const VolumeCell> cells);
     VolumeReport inspect(const Motion<Real>& motion) const;
 
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;

@@ -80,6 +80,25 @@ TYPED_TEST(SpringKernelsOf, RunsAddEachSpringToBothEndsWithTheSameBits) {
             }
 }
 
+// Far apart, so that every point has one spring and no sum an order.
+TYPED_TEST(SpringKernelsOf, RunsOfDifferentSpringsEqualARunForEach) {
+    using Real = TypeParam;
+    const InstructionSetGuard guard;
+    const auto x = randomPlanes<Real>(1), v = randomPlanes<Real>(2), k = randomPlanes<Real>(3),
+               rest = randomPlanes<Real>(4), tau = randomPlanes<Real>(5);
+    const int n = 300, offset = 400;
+    for (const core::InstructionSet set : supportedSets()) {
+        core::useInstructionSet(set);
+        std::vector<Real> together(3 * stride), oneByOne(3 * stride);
+        springKernels<Real>().run({n, offset, stride, stride, x.data(), v.data(), together.data(), k.data(), Real(0),
+                                   Real(0), rest.data(), tau.data()});
+        for (std::size_t i = 0; i < n; ++i)
+            springKernels<Real>().run({1, offset, stride, stride, x.data() + i, v.data() + i, oneByOne.data() + i,
+                                       k.data() + i, rest[i], tau[i]});
+        EXPECT_EQ(together, oneByOne) << core::nameOf(set);
+    }
+}
+
 TYPED_TEST(SpringKernelsOf, ListsAddEachSpringToBothEndsWithTheSameBits) {
     using Real = TypeParam;
     const InstructionSetGuard guard;

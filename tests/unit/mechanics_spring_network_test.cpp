@@ -32,7 +32,10 @@ std::vector<Line> linesOf(const Network& network, std::size_t first, std::size_t
             const SpringRun<double>& run = network.runs[static_cast<std::size_t>(r)];
             for (int j = 0; j < run.count; ++j) {
                 const double k = network.stiffness[static_cast<std::size_t>(run.table + j)];
-                if (k != 0.0) lines.emplace_back(run.a + j, run.a + j + run.offset, k, run.restLength, run.tau);
+                if (k == 0.0) continue;
+                const auto own = [&](int at) { return network.mixed[static_cast<std::size_t>(run.mixed + at)]; };
+                lines.emplace_back(run.a + j, run.a + j + run.offset, k, run.mixed < 0 ? run.restLength : own(j),
+                                   run.mixed < 0 ? run.tau : own(run.count + j));
             }
         }
         for (int s = block.firstSingle; s < block.lastSingle; ++s) {
@@ -159,6 +162,22 @@ TEST_P(SpringNetworks, DoNotDependOnTheOrderOfTheSprings) {
         EXPECT_EQ(std::tie(a.a, a.offset, a.count, a.table, a.restLength, a.tau),
                   std::tie(b.a, b.offset, b.count, b.table, b.restLength, b.tau));
     }
+}
+
+// Each changed on its own, so that runs are alike no longer; then as they were.
+TEST_P(SpringNetworks, TakeChangesWhereTheSpringsAre) {
+    std::vector<Spring> changed = case_.springs;
+    double factor = 1.0;
+    for (Spring& s : changed)
+        for (double* number : {&s.stiffness, &s.restLength, &s.dampingTime}) *number = (*number + 1.0) * (factor += 1e-3);
+    Network network = network_;
+    network.setSprings(changed);
+    EXPECT_EQ(linesOf(network, 0, network.blocks.size()), linesOf(changed));
+    EXPECT_EQ(network.order, network_.order);
+    network.setSprings(case_.springs);
+    EXPECT_EQ(linesOf(network, 0, network.blocks.size()), linesOf(case_.springs));
+    EXPECT_EQ(network.stiffness, network_.stiffness);
+    EXPECT_TRUE(network.mixed.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SpringNetworks,

@@ -69,7 +69,7 @@ void World::Impl::grab(const ActionSpec& action) {
         grip.rigid = action.rigid;
         grip.points = numbers;
         grip.path = {hand.from, hand.from};
-        IslandPlan& plan = island->change(now());
+        IslandPlan& plan = island->change(now(), Change::grips);
         for (int i : numbers) {
             const double share = plan.points[static_cast<std::size_t>(i)].mass;
             grip.offsets.push_back(island->position(i) - hand.from);
@@ -106,7 +106,7 @@ void World::Impl::release(const ActionSpec& action) {
         if (island->frozen() != nullptr ||
             std::none_of(grips.begin(), grips.end(), [&](const Grip& g) { return g.hand == action.id; }))
             continue;
-        std::erase_if(island->change(now()).grips, [&](const Grip& g) { return g.hand == action.id; });
+        std::erase_if(island->change(now(), Change::grips).grips, [&](const Grip& g) { return g.hand == action.id; });
     }
     std::erase_if(hands, [&](const Hand& h) { return h.id == action.id; });
 }

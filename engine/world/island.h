@@ -1,4 +1,10 @@
-// One island in motion: its state, method and step. The interface hides the precision it was compiled for.
+// One island: the bodies that move together, how they are doing, and what is done to them.
+//
+//   island.cpp          the tick
+//   island_change.cpp   what is changed between two ticks
+//   island_report.cpp   energies, frequencies, warnings, why it stopped
+//   island_saving.cpp   its bytes
+//   plasticity.cpp      springs that give way and break
 #pragma once
 
 #include <cstdint>
@@ -11,9 +17,9 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/core/hash.h"
+#include "taut/world/dynamics.h"
 #include "taut/world/envelope.h"
-#include "taut/world/forces/force.h"
-#include "taut/world/island_plan.h"
+#include "taut/world/step_choice.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -43,71 +49,101 @@ struct ColliderMotion {
 
 class Island {
   public:
-    virtual ~Island() = default;
+    // At time t [s]. Chooses its step, which holds for all that the envelope allows; throws core::Error(badContent)
+    // where no step would do.
+    Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t);
+    Island(const Island&) = delete;
+    Island& operator=(const Island&) = delete;
 
     // Each island has colliders of its own: with other substeps they are elsewhere.
-    virtual void setColliders(collision::Colliders colliders) = 0;
+    void setColliders(collision::Colliders colliders);
 
     // substeps steps of leap-frog or whichever method; contacts of the last step are kept. Ends early on a fault.
     // Expects that the island is not open.
-    virtual std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving) = 0;
+    std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving);
 
     // After a tick that went well, at the time when it ends: springs give way and break. Whether any broke.
-    virtual bool settle(const TickTime& time) = 0;
+    bool settle(const TickTime& time);
 
     // Puts the state back that the last tick began with.
-    virtual void undoTick() = 0;
+    void undoTick() { dynamics_->goBack(); }
 
     // After a fault: back to the state before the step that failed, where it stays; its ticks do nothing any more.
-    virtual void freeze(const Fault& fault, const TickTime& time) = 0;
+    void freeze(const Fault& fault, const TickTime& time);
     // What became of it, or null while it moves.
-    virtual const FrozenIsland* frozen() const = 0;
+    const FrozenIsland* frozen() const { return frozen_ ? &*frozen_ : nullptr; }
 
     // Changes between two ticks. The first of them opens the island: its velocities are brought to the time of the
     // positions. close() starts the method again from there, on what the plan and the forces have become. A frozen
     // island is not to be changed.
-    virtual void open(const TickTime& time) = 0;
-    virtual void close(const TickTime& time) = 0;
-    virtual bool isOpen() const = 0;
-    // Opens; masses, springs and grips may be changed, the number of points may not.
-    virtual IslandPlan& change(const TickTime& time) = 0;
+    void open(const TickTime& time);
+    void close(const TickTime& time);
+    bool isOpen() const { return isOpen_; }
+    // Opens; what is said may be changed of the plan. Points and springs stay as many and between the same points.
+    IslandPlan& change(const TickTime& time, Change what);
     // Opens; adds to the velocity of points [m/s].
-    virtual void push(const TickTime& time, std::span<const int> points, const dvec3& velocity) = 0;
+    void push(const TickTime& time, std::span<const int> points, const dvec3& velocity);
     // Opens; the points stand still.
-    virtual void stop(const TickTime& time, std::span<const int> points) = 0;
+    void stop(const TickTime& time, std::span<const int> points);
     // The way of a hand from now on; opens if `bends`. Does nothing where the hand has hold of nothing.
-    virtual void lead(const TickTime& time, const std::string& hand, const mechanics::LinearPath& path, bool bends) = 0;
+    void lead(const TickTime& time, const std::string& hand, const mechanics::LinearPath& path, bool bends);
     // Opens where a force jumps; not if flows and gravity only go on changing.
-    virtual void setForces(const TickTime& time, const ForceList& forces) = 0;
+    void setForces(const TickTime& time, const ForceList& forces);
 
-    virtual const IslandPlan& plan() const = 0;
-    virtual double step() const = 0;  // [s]
-    virtual dvec3 position(int point) const = 0;
-    virtual std::span<const collision::Contact> contacts() const = 0;
+    const IslandPlan& plan() const { return plan_; }
+    double step() const { return choice_.step; }  // [s]
+    dvec3 position(int point) const { return dynamics_->position(point); }
+    std::span<const collision::Contact> contacts() const { return contacts_; }
     // (points) [m/s] at the time of the tick; zero when frozen. May cost an evaluation.
-    virtual std::vector<dvec3> velocities(const TickTime& time) = 0;
+    std::vector<dvec3> velocities(const TickTime& time);
 
     // x and the stored v of a body's points in the order of authoring.
-    virtual void addToHash(const Body& body, core::Hash& hash) const = 0;
+    void addToHash(const Body& body, core::Hash& hash) const { dynamics_->addToHash(body.pointOf, hash); }
     // The same of one point.
-    virtual void addPointToHash(int point, core::Hash& hash) const = 0;
+    void addPointToHash(int point, core::Hash& hash) const { dynamics_->addToHash({&point, 1}, hash); }
     // Adds the share, at the time of the tick, of the bodies of this island that `wanted` names; velocities
     // synchronised.
-    virtual void addMetrics(const TickTime& time, const std::function<bool(const Body&)>& wanted, Metrics& metrics) = 0;
+    void addMetrics(const TickTime& time, const std::function<bool(const Body&)>& wanted, Metrics& metrics);
     // Since the start.
-    virtual ode::Work work() const = 0;
-    virtual IslandInfo info() const = 0;
+    ode::Work work() const;
+    IslandInfo info() const;
     // What to say before the first tick, and what has changed since (a working stretch left).
-    virtual std::vector<std::string> warnings() const = 0;
-    virtual Divergence diagnose(const Fault& fault, const TickTime& time) const = 0;
+    std::vector<std::string> warnings() const;
+    Divergence diagnose(const Fault& fault, const TickTime& time) const;
 
     // All that changes while it moves, written or read. Throws core::Error(badContent) for bytes that do not fit.
-    virtual void visit(StateBytes& bytes) = 0;
-};
+    void visit(StateBytes& bytes);
 
-// Builds the island at time t [s] and chooses its step, which holds for all that the envelope allows; throws
-// core::Error(badContent) where no step would do.
-std::unique_ptr<Island> makeIsland(IslandPlan plan, const ForceList& forces, Envelope envelope,
-                                   double ticksPerSecond, double t);
+  private:
+    std::optional<Fault> overstrained(double t);
+    Fault giveUp(double t) const;
+    void moveColliders(std::span<const ColliderMotion> moving, int substep);
+    void watchVolumes(double t);
+    void watchLimit(double t);
+    void watchPlasticity();
+    void addPoints(const std::vector<bool>& only, const TickTime& time, Metrics& metrics);
+    void addSprings(const std::vector<bool>& only, Metrics& metrics);
+    void addCells(const Body& body, Metrics& metrics) const;
+    double penetration(const std::vector<bool>& wanted) const;
+    const ode::MethodInfo& method() const { return *methodsOf(plan_.solver).find(plan_.solver.integrator); }
+    void visitPlan(StateBytes& bytes);
+
+    IslandPlan plan_;
+    ForceList forces_;
+    std::unique_ptr<Dynamics> dynamics_;
+    StepChoice choice_;
+    ode::Work workElsewhere_;   // of what ran before it was read, less that of what was only asked
+    std::vector<dvec3> x_;      // (points) scratch
+    bool isOpen_ = false;       // v is at the time of x, and the method not started from there
+    Changes changes_;           // of the plan, that the dynamics know nothing of yet
+    bool isChanged_ = false;    // the plan is not as it was built
+    bool mayCollide_ = false;   // there are colliders, and bodies for them
+    bool mayGiveWay_ = false;   // there are springs that yield or break
+    bool hasMoved_ = false;     // any tick yet
+    collision::Colliders colliders_;
+    std::vector<collision::Contact> contacts_;  // of the last step
+    std::string stretchWarning_, collapseWarning_, limitWarning_;
+    std::optional<FrozenIsland> frozen_;
+};
 
 }  // namespace taut::world

@@ -294,6 +294,18 @@ const ode::Methods& methodsOf(const SolverSpec& solver) {
     return solver.methods != nullptr ? *solver.methods : ode::builtInMethods();
 }
 
+bool isFree(const IslandPlan& plan, int point) {
+    return !plan.points[static_cast<std::size_t>(point)].held &&
+           std::none_of(plan.grips.begin(), plan.grips.end(), [&](const Grip& grip) {
+               return grip.rigid && std::binary_search(grip.points.begin(), grip.points.end(), point);
+           });
+}
+
+double lengthOf(const mechanics::Spring& spring, std::span<const dvec3> x) {
+    const dvec3 d = x[static_cast<std::size_t>(spring.b)] - x[static_cast<std::size_t>(spring.a)];
+    return std::sqrt(glm::dot(d, d));
+}
+
 std::string describeSpring(const IslandPlan& plan, int spring) {
     static constexpr const char* kinds[] = {"structural", "shear", "bend", "joint"};
     const mechanics::Spring& s = plan.springs[static_cast<std::size_t>(spring)];

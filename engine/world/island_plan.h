@@ -32,8 +32,8 @@ struct IslandPlan {
     std::vector<Body*> bodies;
     SolverSpec solver;
     std::vector<dvec3> positions, velocities;                        // (points)
-    std::vector<mechanics::MassSpringSystem<double>::PointMass> points;
-    std::vector<mechanics::SpringNetwork<double>::Body> ranges;      // (bodies)
+    std::vector<mechanics::PointMass> points;
+    std::vector<mechanics::PointRange> ranges;                       // (bodies)
     std::vector<mechanics::Spring> springs;                          // joints last
     std::vector<SpringOrigin> origins;                               // (springs)
     std::vector<bool> broken;                                        // (springs) cut or torn; then without stiffness
@@ -49,6 +49,11 @@ void takeSpringsFromModels(IslandPlan& plan);
 
 // The table of methods that the solver's integrator is a name of.
 const ode::Methods& methodsOf(const SolverSpec& solver);
+
+// Whether a point moves by itself: neither held nor in a rigid grip.
+bool isFree(const IslandPlan& plan, int point);
+// [m] of a spring between points (points) of such a place [m].
+double lengthOf(const mechanics::Spring& spring, std::span<const dvec3> x);
 
 // "structural spring 12-13 of cloth.flag" for spring number `spring` of the plan.
 std::string describeSpring(const IslandPlan& plan, int spring);

@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "taut/world/cutting.h"
-#include "taut/world/island_of.h"
-#include "taut/world/state_bytes.h"
+#include "taut/world/island.h"
 
 namespace taut::world {
 namespace {
@@ -74,8 +73,7 @@ void visitPart(StateBytes& bytes, Divergence& d) {
 
 }  // namespace
 
-template <class Real>
-void IslandOf<Real>::visitPlan(StateBytes& bytes) {
+void Island::visitPlan(StateBytes& bytes) {
     for (mechanics::Spring& spring : plan_.springs)
         for (double* number : {&spring.stiffness, &spring.restLength, &spring.dampingTime}) bytes.notNegative(*number);
     for (std::size_t s = 0; s < plan_.broken.size(); ++s) {
@@ -85,7 +83,7 @@ void IslandOf<Real>::visitPlan(StateBytes& bytes) {
     }
     for (auto& point : plan_.points) {
         bytes.notNegative(point.mass);
-        bytes.require(static_cast<Real>(point.mass) > Real(0));
+        bytes.require(plan_.solver.precision == Precision::double_ ? point.mass > 0 : static_cast<float>(point.mass) > 0);
         bytes.notNegative(point.dragRate);
         bytes(point.held);
     }
@@ -101,8 +99,7 @@ void IslandOf<Real>::visitPlan(StateBytes& bytes) {
     }
 }
 
-template <class Real>
-void IslandOf<Real>::visit(StateBytes& bytes) {
+void Island::visit(StateBytes& bytes) {
     const std::string name = plan_.bodies.front()->fullName();
     bytes.expect(name, "the bodies are others");
     bytes.expect(plan_.solver.integrator, "the methods of its bodies are others");
@@ -115,16 +112,12 @@ void IslandOf<Real>::visit(StateBytes& bytes) {
     bytes(isChanged_);
     if (isChanged_) visitPlan(bytes);
     world::visit(bytes, forces_);
-    bytes.planes(state_.x);
-    bytes.planes(state_.v);
-    auto memory = static_cast<std::uint64_t>(state_.memory.size());
-    bytes(memory);
-    bytes.require(memory == state_.memory.size());
-    for (auto& array : state_.memory) bytes.planes(array);
-    for (bool* flag : {&isOpen_, &isReshaped_, &hasMoved_}) bytes(*flag);
+    dynamics_->visit(bytes);
+    bool isPending = changes_.any();
+    for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);
     bytes.list(contacts_);
     for (const collision::Contact& contact : contacts_)
-        bytes.require(contact.point >= 0 && contact.point < system_.layout().count);
+        bytes.require(contact.point >= 0 && contact.point < static_cast<int>(plan_.points.size()));
     for (std::string* warning : {&stretchWarning_, &collapseWarning_, &limitWarning_}) bytes(*warning);
     ode::Work done = work();
     for (std::int64_t* number : {&done.evaluations, &done.iterations, &done.unconverged}) bytes(*number);
@@ -133,21 +126,14 @@ void IslandOf<Real>::visit(StateBytes& bytes) {
         visitPart(bytes, frozen.divergence);
     });
     if (!bytes.isReading()) return;
-    workBefore_ = done;
+    workElsewhere_ = done;
     if (frozen_) {
         frozen_->name = name;
         for (const Body* body : plan_.bodies) frozen_->bodies.push_back(body->fullName());
     }
-    rebuild();
-    makeMethod();  // it has nothing of its own that the state does not have
-    copyState(state_, good_);
+    dynamics_->take(Changes{}.add(Change::shape), forces_);
+    if (isPending) changes_.add(Change::shape);
+    watchPlasticity();
 }
-
-#define TAUT_ISLAND_SAVING(Real)                             \
-    template void IslandOf<Real>::visitPlan(StateBytes&); \
-    template void IslandOf<Real>::visit(StateBytes&);
-TAUT_ISLAND_SAVING(float)
-TAUT_ISLAND_SAVING(double)
-#undef TAUT_ISLAND_SAVING
 
 }  // namespace taut::world

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "taut/world/cutting.h"
-#include "taut/world/island_of.h"
+#include "taut/world/island.h"
 
 namespace taut::world {
 namespace {
@@ -23,12 +23,9 @@ double yieldedLength(double l, double restLength, double y) {
 
 // Beyond the break strain, against the length that it was made with, a spring is gone; beyond the yield strain its
 // rest length follows, so that the elastic strain stays at it.
-template <class Real>
-bool IslandOf<Real>::settle(const TickTime& time) {
-    const bool mayGive = std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* body) {
-        return body->plasticity.yieldStrain || body->plasticity.breakStrain;
-    });
-    if (frozen_ || !mayGive) return false;
+bool Island::settle(const TickTime& time) {
+    if (frozen_ || !mayGiveWay_) return false;
+    dynamics_->positions(x_);
     std::vector<std::pair<std::size_t, double>> yielded;  // spring, new rest length
     Crossing torn;
     for (std::size_t s = 0; s < plan_.springs.size(); ++s) {
@@ -38,7 +35,7 @@ bool IslandOf<Real>::settle(const TickTime& time) {
         Body* body = plan_.bodies[static_cast<std::size_t>(origin.body)];
         const PlasticitySpec& limits = body->plasticity;
         if (!limits.yieldStrain && !limits.breakStrain) continue;
-        const double l = lengthOf(plan_.springs[s]);
+        const double l = lengthOf(plan_.springs[s], x_);
         const mechanics::Spring& made = body->model.springs[static_cast<std::size_t>(origin.spring)];
         // Springs of bending break with those that they lie along.
         if (limits.breakStrain && made.kind != mechanics::SpringKind::bend &&
@@ -49,14 +46,17 @@ bool IslandOf<Real>::settle(const TickTime& time) {
                 yielded.emplace_back(s, next);
     }
     if (yielded.empty() && torn.isEmpty()) return false;
-    IslandPlan& plan = change(time);
+    IslandPlan& plan = change(time, torn.isEmpty() ? Change::lengths : Change::shape);
     for (const auto& [s, restLength] : yielded) plan.springs[s].restLength = restLength;
     if (!torn.isEmpty()) sever(torn, plan);
     close(time);
     return !torn.isEmpty();
 }
 
-template bool IslandOf<float>::settle(const TickTime&);
-template bool IslandOf<double>::settle(const TickTime&);
+void Island::watchPlasticity() {
+    mayGiveWay_ = std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* body) {
+        return body->plasticity.yieldStrain || body->plasticity.breakStrain;
+    });
+}
 
 }  // namespace taut::world

@@ -97,7 +97,7 @@ void World::Impl::changeSprings() {
             takeSprings(*body);
             any = true;
         }
-        if (any) takeSpringsFromModels(island->change(now()));
+        if (any) takeSpringsFromModels(island->change(now(), Change::material));
     }
 }
 

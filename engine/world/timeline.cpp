@@ -108,7 +108,7 @@ void World::Impl::push(const ActionSpec& action) {
 
 void World::Impl::hold(const ActionSpec& action) {
     for (const auto& [island, numbers] : byIsland(pick(action))) {
-        IslandPlan& plan = island->change(now());
+        IslandPlan& plan = island->change(now(), Change::points);
         for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = true;
         island->stop(now(), numbers);
     }
@@ -116,7 +116,7 @@ void World::Impl::hold(const ActionSpec& action) {
 
 void World::Impl::free(const ActionSpec& action) {
     for (const auto& [island, numbers] : byIsland(pick(action))) {
-        IslandPlan& plan = island->change(now());
+        IslandPlan& plan = island->change(now(), Change::points);
         for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = false;
     }
 }
@@ -125,7 +125,7 @@ void World::Impl::free(const ActionSpec& action) {
 void World::Impl::addMass(const ActionSpec& action) {
     const std::vector<Picked> points = pick(action);
     for (const auto& [island, numbers] : byIsland(points)) {
-        IslandPlan& plan = island->change(now());
+        IslandPlan& plan = island->change(now(), Change::points);
         for (int i : numbers) {
             double& mass = plan.points[static_cast<std::size_t>(i)].mass;
             mass += action.mass / static_cast<double>(points.size());
@@ -144,7 +144,7 @@ void World::Impl::cut(const ActionSpec& action) {
         if (crossing.isEmpty()) continue;
         any = true;
         isFrozen = island->frozen() != nullptr;
-        if (!isFrozen) sever(crossing, island->change(now()));
+        if (!isFrozen) sever(crossing, island->change(now(), Change::shape));
     }
     if (!any) failAction(action, "there is nothing of \"" + action.target + "\" where this cuts");
     redrawDamage();

@@ -90,8 +90,8 @@ void World::Impl::checkForces() const {
 void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints) {
     plan.solver.precision = spec.solver.precision;
     const std::vector<Body*> members = plan.bodies;
-    Envelope envelope = envelopes.of(plan, current, hasJoints);
-    islands.push_back(makeIsland(std::move(plan), current, std::move(envelope), ticksPerSecond, seconds()));
+    const Envelope envelope = envelopes.of(plan, current, hasJoints);
+    islands.push_back(std::make_unique<Island>(std::move(plan), current, envelope, ticksPerSecond, seconds()));
     for (Body* body : members) body->island = islands.back().get();
 }
 
@@ -316,7 +316,7 @@ void World::addForce(std::shared_ptr<const Force> force) {
     for (const auto& island : w.islands) {
         if (island->frozen() != nullptr) continue;
         island->setForces(w.now(), current);
-        island->change(w.now());  // so that its step is held against the limit as it is now
+        island->change(w.now(), Change::points);  // so that its step is held against the limit as it is now
     }
 }
 void World::addSystem(System system) {

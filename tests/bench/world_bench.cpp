@@ -41,8 +41,7 @@ void tickBodies(benchmark::State& state) {
 }
 BENCHMARK(tickBodies)->Arg(250)->Arg(1000)->Arg(4000)->Arg(8000)->Unit(benchmark::kMillisecond);
 
-// A tick in which the stiffness of a hanging cloth, or none of it, is on its way.
-void tickRamp(benchmark::State& state) {
+world::SceneSpec hangingCloth() {
     world::SceneSpec scene;
     scene.materials["m"] = {};
     world::ClothSpec cloth;
@@ -51,6 +50,12 @@ void tickRamp(benchmark::State& state) {
     cloth.cells = {64, 64};
     cloth.hold = {"top"};
     scene.bodies.add(cloth);
+    return scene;
+}
+
+// A tick in which the stiffness of a hanging cloth, or none of it, is on its way: not twice as much.
+void tickRamp(benchmark::State& state) {
+    world::SceneSpec scene = hangingCloth();
     if (state.range(0) == 1) {
         world::ActionSpec ramp;
         ramp.what = world::Do::ramp;
@@ -67,6 +72,28 @@ void tickRamp(benchmark::State& state) {
     for (auto _ : state) (void)world.advance();
 }
 BENCHMARK(tickRamp)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+// A tick in which springs of a cloth that a hand draws ever longer, or none of it, give way: not twice as much.
+void tickPlasticity(benchmark::State& state) {
+    world::SceneSpec scene = hangingCloth();
+    if (state.range(0) == 1) scene.materials["m"].plasticity.yieldStrain = 1e-3;
+    world::ActionSpec grab;
+    grab.what = world::Do::grab;
+    grab.id = "h";
+    grab.target = "cloth.c@bottom";
+    grab.rigid = true;
+    world::ActionSpec move;
+    move.what = world::Do::move;
+    move.id = "h";
+    move.t = 0.1;
+    move.to = glm::dvec3(0.0, -1e3, 0.0);
+    move.over = 1e4;
+    move.ease = world::Ease::linear;
+    scene.actions = {grab, move};
+    world::World world(scene, {.threads = 1});
+    for (auto _ : state) (void)world.advance();
+}
+BENCHMARK(tickPlasticity)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace taut

@@ -1,0 +1,301 @@
+#include "taut/world/dynamics.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "taut/mechanics/anchor.h"
+
+namespace taut::world {
+namespace {
+
+template <class Real>
+class DynamicsOf final : public Dynamics {
+  public:
+    DynamicsOf(const IslandPlan& plan, const ForceList& forces)
+        : plan_(plan), system_(massesOf(plan), plan.ranges, plan.springs), state_(system_.layout()) {
+        lead();
+        setForces(forces);
+        for (std::size_t i = 0; i < plan_.positions.size(); ++i) {
+            set(state_.x, static_cast<int>(i), plan_.positions[i]);
+            set(state_.v, static_cast<int>(i), plan_.velocities[i]);
+        }
+        before_ = velocity_ = core::AlignedArray<Real>(system_.layout().size());
+    }
+
+    void take(const Changes& changes, const ForceList& forces) override {
+        const bool isMaterial = changes.has(Change::material), isShape = changes.has(Change::shape);
+        const bool mayYield = std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
+                                          [](const Body* body) { return body->plasticity.yieldStrain.has_value(); });
+        if (mayYield && (isMaterial || isShape || changes.has(Change::lengths))) {
+            // Rest lengths that differ make other runs.
+            system_ = System(massesOf(plan_), plan_.ranges, plan_.springs);
+            lead();
+            return setForces(forces);
+        }
+        if (isMaterial || isShape || changes.has(Change::lengths)) system_.setSprings(plan_.springs);
+        if (isMaterial || isShape || changes.has(Change::points) || changes.has(Change::grips)) {
+            system_.setPoints(massesOf(plan_));
+            lead();
+        }
+        if (isShape) return setForces(forces);
+        if (isMaterial)
+            for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
+        if (changes.has(Change::grips)) addGrips();
+    }
+
+    void setForces(const ForceList& forces) override {
+        system_.removeGenerators();
+        volumes_.clear();
+        acting_.clear();
+        for (std::size_t number = 0; number < forces.size(); ++number) {
+            if (number == 1) addVolumes();  // after gravity
+            std::unique_ptr<Generator> generator;
+            if constexpr (std::is_same_v<Real, float>)
+                generator = forces[number]->inSingle(plan_);
+            else
+                generator = forces[number]->inDouble(plan_);
+            if (!generator) continue;
+            acting_.emplace_back(number, generator.get());
+            system_.add(std::move(generator));
+        }
+        if (forces.size() < 2) addVolumes();
+        firstGrip_ = system_.generators().size();
+        addGrips();
+    }
+    void steer(const ForceList& forces) override {
+        for (const auto& [number, generator] : acting_) forces[number]->steer(*generator);
+    }
+    void leadGrip(std::size_t grip) override {
+        if (anchors_[grip] != nullptr) anchors_[grip]->setPlace(plan_.grips[grip].path);
+    }
+
+    void start(double t, double h) override {
+        if (!method_) makeMethod();
+        step_ = h;
+        method_->start(system_, t, h, state_);
+    }
+    void step(double t) override { method_->step(system_, t, step_, state_); }
+    void rememberPositions() override { copy(state_.x, before_); }
+    void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) override {
+        for (const Body* body : plan_.bodies) {
+            if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
+            collision::MovingPoints<Real> points;
+            points.first = body->firstPoint;
+            points.last = body->lastPoint;
+            points.stride = state_.layout.stride;
+            points.xBefore = before_.data();
+            points.x = state_.x.data();
+            points.v = state_.v.data();
+            points.inverseMass = system_.inverseMasses();
+            points.thickness = body->spec->thickness;
+            points.friction = body->spec->friction;
+            colliders.resolve(points, step_, contacts);
+        }
+        touched_.clear();
+        for (const collision::Contact& contact : contacts) touched_.push_back(contact.point);
+        if (!touched_.empty()) method_->touch(state_, touched_);
+    }
+    void keep() override { copy(state_, kept_); }
+    void goBack() override { copy(kept_, state_); }
+    ode::Work work() const override { return method_->work(); }
+
+    std::vector<dvec3> velocities() const override { return list(state_.v); }
+    std::vector<dvec3> velocitiesAt(double t) override {
+        method_->synchronise(system_, t, step_, state_, velocity_.data());
+        return list(velocity_);
+    }
+    void synchronise(double t) override {
+        method_->synchronise(system_, t, step_, state_, velocity_.data());
+        copy(velocity_, state_.v);
+    }
+    void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
+    bool isBounded() const override {
+        const Real limit = static_cast<Real>(mechanics::speedLimit);
+        int bad = 0;
+        for (int p = 0; p < 3; ++p) {
+            const Real* v = state_.v.data() + index(0, p);
+            for (int i = 0; i < state_.layout.count; ++i)  // written so that NaN fails
+                bad |= static_cast<int>(!(v[i] < limit)) | static_cast<int>(!(v[i] > -limit));
+        }
+        return bad == 0;
+    }
+    dvec3 position(int point) const override { return at(state_.x, point); }
+    void positions(std::vector<dvec3>& x) const override {
+        x.resize(static_cast<std::size_t>(state_.layout.count));
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = at(state_.x, static_cast<int>(i));
+    }
+
+    mechanics::StabilityShare stabilityShare(double t) const override {
+        mechanics::StabilityShare share{std::vector<double>(plan_.points.size(), 0.0),
+                                        std::vector<double>(plan_.points.size(), 0.0)};
+        for (const auto& generator : system_.generators()) generator->addStability(motion(t), share);
+        return share;
+    }
+    void addEnergies(double t, const std::vector<bool>& only, double& uniform, double& other) const override {
+        for (const auto& generator : system_.generators())
+            (generator->isUniform() ? uniform : other) += generator->potentialEnergy(motion(t), only);
+    }
+    void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const override {
+        core::AlignedArray<Real> in(state_.layout.size()), sum(state_.layout.size());
+        for (std::size_t i = 0; i < u.size(); ++i) set(in, static_cast<int>(i), u[i]);
+        for (const auto& generator : system_.generators())
+            generator->addStiffnessProduct(motion(0.0), in.data(), sum.data());
+        for (std::size_t i = 0; i < u.size(); ++i) out[i] += at(sum, static_cast<int>(i));
+    }
+    std::vector<Volume> volumes(double t) const override {
+        std::vector<Volume> all;
+        for (const auto& [body, volume] : volumes_) all.push_back({body, volume->inspect(motion(t))});
+        return all;
+    }
+    bool hasVolumes() const override { return !volumes_.empty(); }
+
+    void addToHash(std::span<const int> points, core::Hash& hash) const override {
+        for (const core::AlignedArray<Real>* array : {&state_.x, &state_.v})
+            for (int i : points)
+                for (int p = 0; p < 3; ++p) hash.add((*array)[index(i, p)]);
+    }
+    void visit(StateBytes& bytes) override {
+        bytes.planes(state_.x);
+        bytes.planes(state_.v);
+        auto memory = static_cast<std::uint64_t>(state_.memory.size());
+        bytes(memory);
+        bytes.require(memory == state_.memory.size());
+        for (auto& array : state_.memory) bytes.planes(array);
+        if (!bytes.isReading()) return;
+        makeMethod();  // it has nothing of its own that the state does not have
+        keep();
+    }
+    Size size() const override {
+        const auto& network = system_.network();
+        const std::size_t arrays = (3 + 2 * state_.memory.size()) * 2;
+        return {static_cast<int>(network.runs.size()), network.singles.size(),
+                system_.bytes() + arrays * state_.layout.size() * sizeof(Real)};
+    }
+
+  private:
+    using System = mechanics::MassSpringSystem<Real>;
+    using Generator = mechanics::ForceGenerator<Real>;
+    using Planes = core::AlignedArray<Real>;
+
+    static std::vector<mechanics::PointMass> massesOf(const IslandPlan& plan) {
+        std::vector<mechanics::PointMass> points = plan.points;
+        for (const Grip& grip : plan.grips)
+            if (grip.rigid)
+                for (int i : grip.points) points[static_cast<std::size_t>(i)].held = true;
+        return points;
+    }
+
+    // Points in a rigid grip go where the hand goes.
+    void lead() {
+        for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
+            if (!plan_.grips[g].rigid) continue;
+            system_.lead({plan_.grips[g].points, [this, g](double t, std::span<dvec3> x, std::span<dvec3> v) {
+                              const Grip& grip = plan_.grips[g];
+                              const dvec3 place = grip.path.at(t), rate = grip.path.rate(t);
+                              for (std::size_t i = 0; i < x.size(); ++i) {
+                                  x[i] = place + grip.offsets[i];
+                                  v[i] = rate;
+                              }
+                          }});
+        }
+    }
+
+    // The anchors of the others, which are the last of the generators.
+    void addGrips() {
+        system_.removeGenerators(firstGrip_);
+        anchors_.clear();
+        for (const Grip& grip : plan_.grips) {
+            anchors_.push_back(nullptr);
+            if (grip.rigid) continue;
+            auto anchor = std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.from, grip.stiffness,
+                                                                    grip.damping, grip.offsets);
+            anchor->setPlace(grip.path);
+            anchors_.back() = anchor.get();
+            system_.add(std::move(anchor));
+        }
+    }
+
+    static std::vector<mechanics::VolumeCell> cellsOf(const Body& body) {
+        std::vector<mechanics::VolumeCell> cells;
+        for (std::size_t c = 0; c < body.model.cells.size(); ++c) {
+            if (body.damage.isCellGone(c)) continue;
+            cells.push_back(body.model.cells[c]);
+            for (int& i : cells.back().points) i = body.pointOf[static_cast<std::size_t>(i)];
+        }
+        return cells;
+    }
+    // What keeps the volume of each body that has cells.
+    void addVolumes() {
+        for (const Body* body : plan_.bodies) {
+            const std::vector<mechanics::VolumeCell> cells = cellsOf(*body);
+            if (cells.empty()) continue;
+            auto volume =
+                std::make_unique<mechanics::VolumePreservation<Real>>(cells, plan_.positions, body->model.workingStretch);
+            volumes_.emplace_back(body, volume.get());
+            system_.add(std::move(volume));
+        }
+    }
+
+    void makeMethod() {
+        const SolverSpec& solver = plan_.solver;
+        method_ = methodsOf(solver).make<Real>(solver.integrator,
+                                               {solver.newtonSteps, solver.cgTolerance, solver.cgIterations});
+    }
+
+    mechanics::Motion<Real> motion(double t) const { return system_.motion(t, state_.x.data(), state_.v.data()); }
+    std::size_t index(int point, int plane) const {
+        return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(plane) * state_.layout.stride + point);
+    }
+    dvec3 at(const Planes& planes, int point) const {
+        return {static_cast<double>(planes[index(point, 0)]), static_cast<double>(planes[index(point, 1)]),
+                static_cast<double>(planes[index(point, 2)])};
+    }
+    void set(Planes& planes, int point, const dvec3& value) const {
+        for (int p = 0; p < 3; ++p) planes[index(point, p)] = static_cast<Real>(value[p]);
+    }
+    std::vector<dvec3> list(const Planes& planes) const {
+        std::vector<dvec3> all;
+        for (int i = 0; i < state_.layout.count; ++i) all.push_back(at(planes, i));
+        return all;
+    }
+    // What is in use of each plane, of small islands a line of the cache instead of two; of what else a method keeps,
+    // all.
+    void copy(const Planes& from, Planes& to) const {
+        const bool isPlanes = from.size() == state_.layout.size();
+        if (!isPlanes) std::copy(from.begin(), from.end(), to.begin());
+        for (int p = 0; p < 3 && isPlanes; ++p)
+            std::copy_n(from.data() + index(0, p), state_.layout.count, to.data() + index(0, p));
+    }
+    void copy(const ode::State<Real>& from, ode::State<Real>& to) const {
+        if (to.x.size() != from.x.size() || to.memory.size() != from.memory.size()) {
+            to = from;
+            return;
+        }
+        copy(from.x, to.x);
+        copy(from.v, to.v);
+        for (std::size_t i = 0; i < from.memory.size(); ++i) copy(from.memory[i], to.memory[i]);
+    }
+
+    const IslandPlan& plan_;
+    System system_;
+    // Among the system's generators:
+    std::vector<std::pair<const Body*, mechanics::VolumePreservation<Real>*>> volumes_;
+    std::vector<std::pair<std::size_t, Generator*>> acting_;  // of the forces those that act here, by their number
+    std::size_t firstGrip_ = 0;
+    std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones
+
+    std::unique_ptr<ode::Method<Real>> method_;
+    double step_ = 0;  // [s]
+    ode::State<Real> state_, kept_;
+    Planes before_, velocity_;  // scratch
+    std::vector<int> touched_;
+};
+
+}  // namespace
+
+std::unique_ptr<Dynamics> makeDynamics(const IslandPlan& plan, const ForceList& forces) {
+    if (plan.solver.precision == Precision::single_) return std::make_unique<DynamicsOf<float>>(plan, forces);
+    return std::make_unique<DynamicsOf<double>>(plan, forces);
+}
+
+}  // namespace taut::world

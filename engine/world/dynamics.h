@@ -1,0 +1,96 @@
+// The points of one island in motion: its system, state and method, behind a door that is double whatever the precision
+// they were compiled for. It knows no tick, and nothing of why a plan changes.
+#pragma once
+
+#include <bitset>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "taut/collision/colliders.h"
+#include "taut/core/hash.h"
+#include "taut/mechanics/volume.h"
+#include "taut/ode/method.h"
+#include "taut/world/forces/force.h"
+#include "taut/world/island_plan.h"
+#include "taut/world/state_bytes.h"
+
+namespace taut::world {
+
+// What of a plan a change concerns.
+enum class Change {
+    lengths,   // rest lengths of springs
+    material,  // springs, drag, bulk moduli of cells
+    points,    // masses, drag, what is held
+    grips,     // how many, and on what
+    shape,     // springs, cells and triangles that are gone
+    count
+};
+class Changes : public std::bitset<static_cast<std::size_t>(Change::count)> {
+  public:
+    bool has(Change change) const { return test(static_cast<std::size_t>(change)); }
+    Changes& add(Change change) {
+        set(static_cast<std::size_t>(change));
+        return *this;
+    }
+};
+
+class Dynamics {
+  public:
+    virtual ~Dynamics() = default;
+
+    // Takes over from the plan what has changed of it, in place: points and springs stay as many and where they are.
+    virtual void take(const Changes& changes, const ForceList& forces) = 0;
+    // Makes the generators of all forces anew.
+    virtual void setForces(const ForceList& forces) = 0;
+    // Where all of them go on from those before.
+    virtual void steer(const ForceList& forces) = 0;
+    // The path of a grip is another.
+    virtual void leadGrip(std::size_t grip) = 0;
+
+    // The method, from positions and velocities at t [s] on, in steps of h [s].
+    virtual void start(double t, double h) = 0;
+    virtual void step(double t) = 0;
+    // Brings the points that collide out of the colliders; step() was told to remember where they were before.
+    virtual void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) = 0;
+    virtual void rememberPositions() = 0;
+    // The state as it is, to come back to.
+    virtual void keep() = 0;
+    virtual void goBack() = 0;
+    virtual ode::Work work() const = 0;  // since the island was made or read
+
+    // Velocities as the method stores them, those at t [s], which may cost an evaluation, and the first made the second.
+    virtual std::vector<dvec3> velocities() const = 0;
+    virtual std::vector<dvec3> velocitiesAt(double t) = 0;
+    virtual void synchronise(double t) = 0;
+    virtual void setVelocity(int point, const dvec3& v) = 0;
+    // Whether every velocity is a number below the limit.
+    virtual bool isBounded() const = 0;
+    virtual dvec3 position(int point) const = 0;
+    virtual void positions(std::vector<dvec3>& x) const = 0;
+
+    // What the generators say, at t [s].
+    virtual mechanics::StabilityShare stabilityShare(double t) const = 0;
+    virtual void addEnergies(double t, const std::vector<bool>& only, double& uniform, double& other) const = 0;
+    virtual void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const = 0;
+    struct Volume {
+        const Body* body;
+        mechanics::VolumeReport report;
+    };
+    virtual std::vector<Volume> volumes(double t) const = 0;  // of bodies that have cells
+    virtual bool hasVolumes() const = 0;
+
+    // x and the stored v of points.
+    virtual void addToHash(std::span<const int> points, core::Hash& hash) const = 0;
+    virtual void visit(StateBytes& bytes) = 0;  // the state
+    struct Size {
+        int runs, singles;
+        std::uint64_t bytes;
+    };
+    virtual Size size() const = 0;
+};
+
+// At rest at the plan's positions, with its velocities, in the precision of its solver. Expects that the plan stays.
+std::unique_ptr<Dynamics> makeDynamics(const IslandPlan& plan, const ForceList& forces);
+
+}  // namespace taut::world

@@ -24,14 +24,6 @@ class DynamicsOf final : public Dynamics {
 
     void take(const Changes& changes, const ForceList& forces) override {
         const bool isMaterial = changes.has(Change::material), isShape = changes.has(Change::shape);
-        const bool mayYield = std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
-                                          [](const Body* body) { return body->plasticity.yieldStrain.has_value(); });
-        if (mayYield && (isMaterial || isShape || changes.has(Change::lengths))) {
-            // Rest lengths that differ make other runs.
-            system_ = System(massesOf(plan_), plan_.ranges, plan_.springs);
-            lead();
-            return setForces(forces);
-        }
         if (isMaterial || isShape || changes.has(Change::lengths)) system_.setSprings(plan_.springs);
         if (isMaterial || isShape || changes.has(Change::points) || changes.has(Change::grips)) {
             system_.setPoints(massesOf(plan_));

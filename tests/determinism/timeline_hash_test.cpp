@@ -38,10 +38,11 @@ TEST_P(TimelineHash, IsTheSameForEveryInstructionSet) {
         }
 }
 
-// Recorded with g++ 12. They change with the scene of tests/support/timelines.h only.
+// Recorded with g++ 12. They change with the scene of tests/support/timelines.h; and have once for its bar that yields,
+// when rest lengths began to change in place.
 TEST_P(TimelineHash, IsAsRecorded) {
     EXPECT_EQ(hashes(GetParam(), 2, core::instructionSet()).back(),
-              GetParam() ? 0xd0ff9922c197d350ULL : 0x26ae1f1c6b9e3aeaULL);
+              GetParam() ? 0x0f60ad5b0c98b341ULL : 0x106ecd6314573e38ULL);
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ void MassSpringSystem<Real>::setPoints(std::span<const PointMass> points) {
     }
 }
 
-// A window holds what a block and the reach of its springs need, and some more so that it need not slide each time.
+// A window holds what a block and the reach of its springs need, and some more so that it need not slide each time, but
+// no more than all that the chunk touches.
 template <class Real>
 void MassSpringSystem<Real>::layOutLanes() {
     constexpr int slack = 512;  // points
@@ -71,7 +72,8 @@ void MassSpringSystem<Real>::layOutLanes() {
         const SpringBlock& lastWaiting =
             network_.blocks[static_cast<std::size_t>(chunk.firstBlock + std::max(0, blocksWaiting - 1))];
         const int waiting = blocksWaiting > 0 ? lastWaiting.lastPoint - chunk.firstPoint : 0;
-        lanes_.push_back({window(chunk.firstPoint, need + slack), window(chunk.firstPoint, waiting), blocksWaiting});
+        const int all = chunk.lastPoint + chunk.spill - chunk.firstPoint;
+        lanes_.push_back({window(chunk.firstPoint, std::min(need + slack, all)), window(chunk.firstPoint, waiting), blocksWaiting});
         incoming = chunk.spill;
     }
 }

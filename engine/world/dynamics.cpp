@@ -65,9 +65,12 @@ class DynamicsOf final : public Dynamics {
         if (!method_) makeMethod();
         step_ = h;
         method_->start(system_, t, h, state_);
+        std::size_t size = 0;
+        forEachPart([&](Real*, std::size_t n) { size += n; });
+        kept_.resize(size);
     }
     void step(double t) override { method_->step(system_, t, step_, state_); }
-    void rememberPositions() override { copy(state_.x, before_); }
+    void rememberPositions() override { std::copy(state_.x.begin(), state_.x.end(), before_.begin()); }
     void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) override {
         for (const Body* body : plan_.bodies) {
             if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
@@ -87,8 +90,17 @@ class DynamicsOf final : public Dynamics {
         for (const collision::Contact& contact : contacts) touched_.push_back(contact.point);
         if (!touched_.empty()) method_->touch(state_, touched_);
     }
-    void keep() override { copy(state_, kept_); }
-    void goBack() override { copy(kept_, state_); }
+    void keep() override {
+        Real* next = kept_.data();
+        forEachPart([&](const Real* numbers, std::size_t n) { next = std::copy_n(numbers, n, next); });
+    }
+    void goBack() override {
+        const Real* next = kept_.data();
+        forEachPart([&](Real* numbers, std::size_t n) {
+            std::copy_n(next, n, numbers);
+            next += n;
+        });
+    }
     ode::Work work() const override { return method_->work(); }
 
     std::vector<dvec3> velocities() const override { return list(state_.v); }
@@ -98,7 +110,7 @@ class DynamicsOf final : public Dynamics {
     }
     void synchronise(double t) override {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
-        copy(velocity_, state_.v);
+        std::copy(velocity_.begin(), velocity_.end(), state_.v.begin());
     }
     void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
     bool isBounded() const override {
@@ -250,22 +262,20 @@ class DynamicsOf final : public Dynamics {
         for (int i = 0; i < state_.layout.count; ++i) all.push_back(at(planes, i));
         return all;
     }
-    // What is in use of each plane, of small islands a line of the cache instead of two; of what else a method keeps,
-    // all.
-    void copy(const Planes& from, Planes& to) const {
-        const bool isPlanes = from.size() == state_.layout.size();
-        if (!isPlanes) std::copy(from.begin(), from.end(), to.begin());
-        for (int p = 0; p < 3 && isPlanes; ++p)
-            std::copy_n(from.data() + index(0, p), state_.layout.count, to.data() + index(0, p));
-    }
-    void copy(const ode::State<Real>& from, ode::State<Real>& to) const {
-        if (to.x.size() != from.x.size() || to.memory.size() != from.memory.size()) {
-            to = from;
-            return;
-        }
-        copy(from.x, to.x);
-        copy(from.v, to.v);
-        for (std::size_t i = 0; i < from.memory.size(); ++i) copy(from.memory[i], to.memory[i]);
+    // Calls each(numbers, count) for all that is in use of the state.
+    template <class Each>
+    void forEachPart(Each&& each) {
+        const auto count = static_cast<std::size_t>(state_.layout.count);
+        const auto planes = [&](Planes& array) {
+            for (int p = 0; p < 3; ++p) each(array.data() + index(0, p), count);
+        };
+        planes(state_.x);
+        planes(state_.v);
+        for (Planes& array : state_.memory)
+            if (array.size() == state_.layout.size())
+                planes(array);
+            else
+                each(array.data(), array.size());
     }
 
     const IslandPlan& plan_;
@@ -278,7 +288,8 @@ class DynamicsOf final : public Dynamics {
 
     std::unique_ptr<ode::Method<Real>> method_;
     double step_ = 0;  // [s]
-    ode::State<Real> state_, kept_;
+    ode::State<Real> state_;
+    std::vector<Real> kept_;    // of the state, close together: of small islands a line of the cache or two
     Planes before_, velocity_;  // scratch
     std::vector<int> touched_;
 };

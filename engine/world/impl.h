@@ -43,7 +43,12 @@ struct World::Impl {
     std::vector<System> systems;
     ForceList added;  // by addForce()
     std::vector<std::unique_ptr<Island>> islands;
-    std::vector<ecs::Entity> bodies;  // sorted by kind and name
+    struct Member {
+        ecs::Entity entity;
+        Body* body;
+        std::string name;  // "cloth.flag"
+    };
+    std::vector<Member> bodies;  // sorted by kind and name
     double ticksPerSecond = 60;
     int ticksPerFrame = 1;
     std::int64_t tick = 0;
@@ -67,7 +72,7 @@ struct World::Impl {
     void checkForces() const;
     void rebuildColliders();
     ecs::Entity addCollider(const ColliderSpec& collider);
-    ecs::Entity addBody(std::unique_ptr<Body> body);
+    Member addBody(std::unique_ptr<Body> body);
     ecs::Entity spawn(Body body);
     ecs::Entity addAlone(std::unique_ptr<Body> body);
     void placeColliders();

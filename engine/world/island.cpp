@@ -9,7 +9,8 @@
 namespace taut::world {
 
 Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t)
-    : plan_(std::move(plan)), forces_(forces), dynamics_(makeDynamics(plan_, forces_)) {
+    : plan_(std::move(plan)), forces_(forces) {
+    dynamics_ = makeDynamics(plan_, forces_);
     choice_ = chooseStep(envelope,
                          envelope.isStatic ? dynamics_->stabilityShare(t)
                                            : makeDynamics(envelope.plan, envelope.forces)->stabilityShare(t),

@@ -128,18 +128,19 @@ class Island {
     const ode::MethodInfo& method() const { return *methodsOf(plan_.solver).find(plan_.solver.integrator); }
     void visitPlan(StateBytes& bytes);
 
+    // What every tick looks at stands close together.
+    std::unique_ptr<Dynamics> dynamics_;
+    bool isOpen_ = false;      // v is at the time of x, and the method not started from there
+    bool mayCollide_ = false;  // there are colliders, and bodies for them
+    bool mayGiveWay_ = false;  // there are springs that yield or break
+    bool hasMoved_ = false;    // any tick yet
+    bool isChanged_ = false;   // the plan is not as it was built
+    Changes changes_;          // of the plan, that the dynamics know nothing of yet
+    StepChoice choice_;
     IslandPlan plan_;
     ForceList forces_;
-    std::unique_ptr<Dynamics> dynamics_;
-    StepChoice choice_;
-    ode::Work workElsewhere_;   // of what ran before it was read, less that of what was only asked
-    std::vector<dvec3> x_;      // (points) scratch
-    bool isOpen_ = false;       // v is at the time of x, and the method not started from there
-    Changes changes_;           // of the plan, that the dynamics know nothing of yet
-    bool isChanged_ = false;    // the plan is not as it was built
-    bool mayCollide_ = false;   // there are colliders, and bodies for them
-    bool mayGiveWay_ = false;   // there are springs that yield or break
-    bool hasMoved_ = false;     // any tick yet
+    ode::Work workElsewhere_;  // of what ran before it was read, less that of what was only asked
+    std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
     std::vector<collision::Contact> contacts_;  // of the last step
     std::string stretchWarning_, collapseWarning_, limitWarning_;

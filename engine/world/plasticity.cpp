@@ -24,7 +24,7 @@ double yieldedLength(double l, double restLength, double y) {
 // Beyond the break strain, against the length that it was made with, a spring is gone; beyond the yield strain its
 // rest length follows, so that the elastic strain stays at it.
 bool Island::settle(const TickTime& time) {
-    if (frozen_ || !mayGiveWay_) return false;
+    if (!mayGiveWay_ || frozen_) return false;
     dynamics_->positions(x_);
     std::vector<std::pair<std::size_t, double>> yielded;  // spring, new rest length
     Crossing torn;

@@ -77,8 +77,8 @@ view::FrameView World::view(bool debug) const {
                                      matrixOf(placement.to) * piece.transform, part.spec.shape == "plane"});
     });
     std::vector<Body*> bodies;
-    for (ecs::Entity entity : w.bodies) {
-        const BodyPart& part = *w.registry.find<BodyPart>(entity);
+    for (const Impl::Member& member : w.bodies) {
+        const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
         const Island& island = w.islandOf(*part.body);
         bodies.push_back(part.body.get());
         std::vector<glm::vec3> positions;

@@ -38,9 +38,8 @@ void World::Impl::addBodies() {
             waiting.push_back(std::make_unique<Body>(std::move(body)));
             continue;
         }
-        const ecs::Entity entity = addBody(std::make_unique<Body>(std::move(body)));
-        bodies.push_back(entity);
-        pointers.push_back(registry.find<BodyPart>(entity)->body.get());
+        bodies.push_back(addBody(std::make_unique<Body>(std::move(body))));
+        pointers.push_back(bodies.back().body);
     }
     checkForces();
     const Envelopes envelopes(*start);
@@ -59,17 +58,18 @@ void World::Impl::checkUntied(Body& body) const {
                                       ", which is spawned later; a spawned body cannot be tied to another");
 }
 
-ecs::Entity World::Impl::addBody(std::unique_ptr<Body> body) {
+World::Impl::Member World::Impl::addBody(std::unique_ptr<Body> body) {
     const ecs::Entity entity = registry.create();
     registry.add(entity, Identity{std::string(body->kind()), body->name});
+    Member member{entity, body.get(), body->fullName()};
     std::unique_ptr<BodyDrawing> drawing = body->spec->drawing(*body);
     registry.add(entity, BodyPart{std::move(body), std::move(drawing)});
-    return entity;
+    return member;
 }
 
 std::vector<Body*> World::Impl::allBodies() const {
     std::vector<Body*> all;
-    for (ecs::Entity entity : bodies) all.push_back(registry.find<BodyPart>(entity)->body.get());
+    for (const Member& member : bodies) all.push_back(member.body);
     return all;
 }
 
@@ -127,19 +127,18 @@ ecs::Entity World::Impl::spawn(Body body) {
 
 // An island of its own.
 ecs::Entity World::Impl::addAlone(std::unique_ptr<Body> body) {
-    const ecs::Entity entity = addBody(std::move(body));
-    Body* newcomer = registry.find<BodyPart>(entity)->body.get();
-    const auto place = std::find_if(bodies.begin(), bodies.end(), [&](ecs::Entity other) {
-        return sortsBefore(*newcomer, *registry.find<BodyPart>(other)->body);
+    const Member newcomer = addBody(std::move(body));
+    const auto place = std::find_if(bodies.begin(), bodies.end(), [&](const Member& other) {
+        return sortsBefore(*newcomer.body, *other.body);
     });
-    bodies.insert(place, entity);
+    bodies.insert(place, newcomer);
     SceneSpec alone;  // the joints of the scene do not concern it
     alone.solver = spec.solver;
     const Envelopes envelopes(*start);
     const ForceList current = forces();
-    for (IslandPlan& plan : planIslands(std::vector<Body*>{newcomer}, alone))
+    for (IslandPlan& plan : planIslands(std::vector<Body*>{newcomer.body}, alone))
         addIsland(std::move(plan), current, envelopes, false);
-    return entity;
+    return newcomer.entity;
 }
 
 // Where each collider is when the coming tick ends.
@@ -185,10 +184,9 @@ void World::Impl::updateHash() {
     core::Hash next;
     next.add(hash);
     next.add(static_cast<std::uint64_t>(tick));
-    for (ecs::Entity entity : bodies) {
-        const Body& body = *registry.find<BodyPart>(entity)->body;
-        next.add(body.fullName());
-        islandOf(body).addToHash(body, next);
+    for (const Member& member : bodies) {
+        next.add(member.name);
+        islandOf(*member.body).addToHash(*member.body, next);
     }
     hash = next.value();
 }
@@ -339,7 +337,7 @@ void World::destroy(ecs::Entity entity) {
         const Island* island = &w.islandOf(*part->body);
         TAUT_EXPECTS(island->plan().bodies.size() == 1);
         std::erase_if(w.islands, [&](const auto& other) { return other.get() == island; });
-        std::erase(w.bodies, entity);
+        std::erase_if(w.bodies, [&](const Impl::Member& member) { return member.entity == entity; });
     }
     const bool wasCollider = w.registry.find<ColliderPart>(entity) != nullptr;
     w.registry.destroy(entity);

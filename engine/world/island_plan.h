@@ -50,6 +50,10 @@ void takeSpringsFromModels(IslandPlan& plan);
 // The table of methods that the solver's integrator is a name of.
 const ode::Methods& methodsOf(const SolverSpec& solver);
 
+// (points) [1/kg], 0 where held.
+std::vector<double> inverseMassesOf(const IslandPlan& plan);
+// The body and its own number of a point; null and the point where none has it. Of welded bodies the first.
+std::pair<const Body*, int> authored(const IslandPlan& plan, int point);
 // Whether a point moves by itself: neither held nor in a rigid grip.
 bool isFree(const IslandPlan& plan, int point);
 // [m] of a spring between points (points) of such a place [m].

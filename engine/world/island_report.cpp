@@ -105,7 +105,6 @@ std::vector<std::string> Island::warnings() const {
 IslandInfo Island::info() const {
     IslandInfo info;
     info.name = plan_.bodies.front()->fullName();
-    std::vector<double> inverseMasses;
     for (const Body* body : plan_.bodies) {
         info.bodies.push_back(body->fullName());
         info.cells += static_cast<int>(body->model.cells.size());
@@ -113,14 +112,10 @@ IslandInfo Island::info() const {
     for (const auto& point : plan_.points) {
         info.mass += point.mass;
         info.heldPoints += point.held ? 1 : 0;
-        inverseMasses.push_back(point.held ? 0.0 : 1.0 / point.mass);
     }
     info.points = static_cast<int>(plan_.points.size());
     info.springs = static_cast<int>(plan_.springs.size());
-    const Dynamics::Size size = dynamics_->size();
-    info.runs = size.runs;
-    info.singles = size.singles;
-    info.bytes = size.bytes;
+    dynamics_->describe(info);
     info.method = plan_.solver.integrator;
     info.omegaBound = choice_.anywhere.omega;
     info.omegaNow = choice_.here.omega;
@@ -134,7 +129,7 @@ IslandInfo Island::info() const {
         mechanics::addSpringStiffness(plan_.springs, plan_.positions, in, sum);
         dynamics_->addStiffnessProduct(in, sum);
     };
-    info.omegaEstimate = mechanics::estimateFrequency(inverseMasses, multiply);
+    info.omegaEstimate = mechanics::estimateFrequency(inverseMassesOf(plan_), multiply);
     return info;
 }
 
@@ -142,30 +137,20 @@ Divergence Island::diagnose(const Fault& fault, const TickTime& time) const {
     Divergence d;
     d.tick = time.tick;
     d.time = fault.time;
-    for (const Body* body : plan_.bodies)
-        for (std::size_t i = 0; i < body->pointOf.size() && d.point < 0; ++i)
-            if (body->pointOf[i] == fault.point) {
-                d.body = body->fullName();
-                d.point = static_cast<int>(i);
-            }
-    // The bound at that point, for the last good state.
-    std::vector<mechanics::Spring> around;
-    std::vector<int> numbers;
-    for (std::size_t s = 0; s < plan_.springs.size(); ++s)
-        if (plan_.springs[s].a == fault.point || plan_.springs[s].b == fault.point)
-            numbers.push_back(static_cast<int>(s));
-    std::vector<double> inverseMasses;
-    std::vector<dvec3> positions;
-    for (std::size_t i = 0; i < plan_.points.size(); ++i) {
-        inverseMasses.push_back(plan_.points[i].held ? 0.0 : 1.0 / plan_.points[i].mass);
-        positions.push_back(position(static_cast<int>(i)));
+    if (const auto [body, point] = authored(plan_, fault.point); body != nullptr) {
+        d.body = body->fullName();
+        d.point = point;
     }
+    // The bound for the last good state, and the stiffest spring at that point or, where there is none, of all.
+    const std::vector<double> inverseMasses = inverseMassesOf(plan_);
+    std::vector<dvec3> positions;
+    dynamics_->positions(positions);
     const mechanics::FrequencyBound here = mechanics::boundHere({plan_.springs, inverseMasses}, {}, positions);
-    int worst = numbers.empty() ? here.spring : numbers.front();
-    for (int s : numbers)
-        if (plan_.springs[static_cast<std::size_t>(s)].stiffness >
-            plan_.springs[static_cast<std::size_t>(worst)].stiffness)
-            worst = s;
+    const mechanics::Spring* stiffest = nullptr;
+    for (const mechanics::Spring& s : plan_.springs)
+        if ((s.a == fault.point || s.b == fault.point) && (stiffest == nullptr || s.stiffness > stiffest->stiffness))
+            stiffest = &s;
+    const int worst = stiffest == nullptr ? here.spring : static_cast<int>(stiffest - plan_.springs.data());
     if (worst >= 0) d.spring = describeSpring(plan_, worst);
     ode::FastestMode mode = choice_.mode;
     mode.omega = std::max(here.omega, choice_.here.omega);

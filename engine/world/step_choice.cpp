@@ -14,13 +14,12 @@ using core::ExitCode;
 
 constexpr double mostSubsteps = 1e6;
 
-ode::FastestMode fastestMode(const Envelope& envelope, const mechanics::StabilityShare& share, double omega) {
-    ode::FastestMode mode;
-    mode.omega = omega;
-    for (const mechanics::Spring& spring : envelope.plan.springs) mode.tau = std::max(mode.tau, spring.dampingTime);
+// Drags [1/s]: the smallest and the largest of free points.
+ode::FastestMode fastestMode(const IslandPlan& plan, const mechanics::StabilityShare& share, double leastDrag,
+                             double mostDrag, double omega) {
+    ode::FastestMode mode{.omega = omega, .drag = leastDrag, .largestDrag = mostDrag};
+    for (const mechanics::Spring& spring : plan.springs) mode.tau = std::max(mode.tau, spring.dampingTime);
     for (double rate : share.dampingRate) mode.rate = std::max(mode.rate, rate);
-    mode.drag = envelope.leastDrag;
-    mode.largestDrag = envelope.mostDrag;
     return mode;
 }
 
@@ -51,18 +50,15 @@ void warnOverLimit(const IslandPlan& plan, const ode::MethodInfo& method, StepCh
 }  // namespace
 
 double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share) {
-    std::vector<double> inverseMasses;
-    Envelope now;
-    now.leastDrag = HUGE_VAL;
-    for (const auto& point : plan.points) {
-        inverseMasses.push_back(point.held ? 0.0 : 1.0 / point.mass);
-        if (!point.held) now.leastDrag = std::min(now.leastDrag, point.dragRate);
-        if (!point.held) now.mostDrag = std::max(now.mostDrag, point.dragRate);
+    double leastDrag = HUGE_VAL, mostDrag = 0;
+    for (const mechanics::PointMass& point : plan.points) {
+        if (point.held) continue;
+        leastDrag = std::min(leastDrag, point.dragRate);
+        mostDrag = std::max(mostDrag, point.dragRate);
     }
-    now.plan.springs = plan.springs;
-    const double omega = mechanics::boundAnywhere({plan.springs, inverseMasses}, share.stiffness).omega;
+    const double omega = mechanics::boundAnywhere({plan.springs, inverseMassesOf(plan)}, share.stiffness).omega;
     const ode::MethodInfo& method = *methodsOf(plan.solver).find(plan.solver.integrator);
-    return method.automaticStep(fastestMode(now, share, omega));
+    return method.automaticStep(fastestMode(plan, share, leastDrag, mostDrag, omega));
 }
 
 std::string inSeconds(double t) {
@@ -77,8 +73,7 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
         share.stiffness[i] += envelope.handStiffness[i];
         share.dampingRate[i] += envelope.handRate[i];
     }
-    std::vector<double> inverseMasses;
-    for (const auto& point : plan.points) inverseMasses.push_back(point.held ? 0.0 : 1.0 / point.mass);
+    const std::vector<double> inverseMasses = inverseMassesOf(plan);
     const mechanics::NetworkView network{plan.springs, inverseMasses};
     const ode::MethodInfo* method = methodsOf(plan.solver).find(plan.solver.integrator);
     const Body& body = *plan.bodies.front();
@@ -92,9 +87,12 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
         choice.limitingSpring = "volume cells, anchors or hands of " + body.fullName();
     else if (choice.anywhere.spring >= 0)
         choice.limitingSpring = describeSpring(plan, choice.anywhere.spring);
-    choice.mode = fastestMode(envelope, share, choice.anywhere.omega);
+    const auto modeAt = [&](double omega) {
+        return fastestMode(plan, share, envelope.leastDrag, envelope.mostDrag, omega);
+    };
+    choice.mode = modeAt(choice.anywhere.omega);
     choice.limit = automaticStep(*method, envelope, choice.mode);
-    const double limitHere = automaticStep(*method, envelope, fastestMode(envelope, share, choice.here.omega));
+    const double limitHere = automaticStep(*method, envelope, modeAt(choice.here.omega));
 
     const double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
     if (!(wanted > 0))

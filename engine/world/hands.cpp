@@ -50,14 +50,7 @@ void World::Impl::grab(const ActionSpec& action) {
                 points.push_back(candidate);
         }
     }
-    const auto isTaken = [](const Picked& p) {
-        const IslandPlan& plan = p.island->plan();
-        return plan.points[static_cast<std::size_t>(p.point)].held ||
-               std::any_of(plan.grips.begin(), plan.grips.end(), [&](const Grip& grip) {
-                   return grip.rigid && std::binary_search(grip.points.begin(), grip.points.end(), p.point);
-               });
-    };
-    std::erase_if(points, isTaken);
+    std::erase_if(points, [](const Picked& p) { return !isFree(p.island->plan(), p.point); });
     if (points.empty()) failAction(action, "every point of \"" + action.target + "\" is held already");
 
     double mass = 0;

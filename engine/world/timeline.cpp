@@ -93,13 +93,7 @@ std::vector<Picked> World::Impl::pick(const ActionSpec& action) const {
 void World::Impl::push(const ActionSpec& action) {
     std::vector<Picked> points = pick(action);
     const auto mass = [](const Picked& p) { return p.island->plan().points[static_cast<std::size_t>(p.point)]; };
-    std::erase_if(points, [&](const Picked& p) {
-        if (mass(p).held) return true;
-        const std::vector<Grip>& grips = p.island->plan().grips;
-        return std::any_of(grips.begin(), grips.end(), [&](const Grip& g) {
-            return g.rigid && std::binary_search(g.points.begin(), g.points.end(), p.point);
-        });
-    });
+    std::erase_if(points, [](const Picked& p) { return !isFree(p.island->plan(), p.point); });
     if (points.empty()) failAction(action, "every point of \"" + action.target + "\" is held");
     double sum = 0;
     for (const Picked& p : points) sum += mass(p).mass;

@@ -18,6 +18,9 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
     dynamics_->start(t, choice_.step);
     dynamics_->keep();
     watchPlasticity();
+    mayFreeze_ = plan_.solver.onDivergence == OnDivergence::freeze;
+    hasCells_ = std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
+                            [](const Body* body) { return !body->model.cells.empty(); });
 }
 
 void Island::setColliders(collision::Colliders colliders) {
@@ -27,14 +30,13 @@ void Island::setColliders(collision::Colliders colliders) {
 }
 
 std::optional<Fault> Island::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
-    if (frozen_) return std::nullopt;
+    if (mayFreeze_ && frozen_) return std::nullopt;
     TAUT_EXPECTS(!isOpen_);
     dynamics_->keep();
     hasMoved_ = true;
-    const bool mayFreeze = plan_.solver.onDivergence == OnDivergence::freeze;
     for (int s = 0; s < choice_.substeps; ++s) {
         const auto end = [&] { return time.at(s + 1, choice_.substeps); };
-        if (mayFreeze) dynamics_->keep();
+        if (mayFreeze_) dynamics_->keep();
         if (mayCollide_) dynamics_->rememberPositions();
         dynamics_->step(time.at(s, choice_.substeps));
         if (!dynamics_->isBounded()) return giveUp(end());
@@ -44,10 +46,10 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
             dynamics_->collide(colliders_, contacts_);
             if (!contacts_.empty() && !dynamics_->isBounded()) return giveUp(end());
         }
-        if (!mayFreeze) continue;
+        if (!mayFreeze_) continue;
         if (const auto fault = overstrained(end())) return fault;
     }
-    watchVolumes(time.at(choice_.substeps, choice_.substeps));
+    if (hasCells_) watchVolumes(time.at(choice_.substeps, choice_.substeps));
     return std::nullopt;
 }
 

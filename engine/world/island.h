@@ -133,6 +133,8 @@ class Island {
     bool isOpen_ = false;      // v is at the time of x, and the method not started from there
     bool mayCollide_ = false;  // there are colliders, and bodies for them
     bool mayGiveWay_ = false;  // there are springs that yield or break
+    bool mayFreeze_ = false;   // after a fault
+    bool hasCells_ = false;    // to watch
     bool hasMoved_ = false;    // any tick yet
     bool isChanged_ = false;   // the plan is not as it was built
     Changes changes_;          // of the plan, that the dynamics know nothing of yet

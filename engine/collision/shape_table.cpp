@@ -31,14 +31,8 @@ const ShapeKinds& builtInShapes() {
 }
 
 void ShapeKinds::add(ShapeKind kind) {
-    TAUT_EXPECTS(!kind.name.empty() && find(kind.name) == nullptr && kind.form != nullptr && kind.mesh != nullptr);
-    rows_.push_back(std::move(kind));
-}
-
-const ShapeKind* ShapeKinds::find(std::string_view name) const {
-    for (const ShapeKind& kind : rows_)
-        if (kind.name == name) return &kind;
-    return nullptr;
+    TAUT_EXPECTS(kind.form != nullptr && kind.mesh != nullptr);
+    Table::add(std::move(kind));
 }
 
 }  // namespace taut::collision

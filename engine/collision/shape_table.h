@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "taut/core/table.h"
 #include "taut/collision/form.h"
 #include "taut/view/primitives.h"
 
@@ -51,21 +52,10 @@ struct ShapeKind {
     std::function<view::Mesh(const ShapeSizes& sizes)> mesh;  // about the same origin
 };
 
-class ShapeKinds {
+class ShapeKinds : public core::Table<ShapeKind> {
   public:
-    ShapeKinds() = default;  // none
-
     // Puts it last. Expects a name that no other has, and both functions.
     void add(ShapeKind kind);
-
-    // In the order in which they were added; valid until the next is.
-    std::span<const ShapeKind> all() const { return rows_; }
-
-    // nullptr when there is none of that name.
-    const ShapeKind* find(std::string_view name) const;
-
-  private:
-    std::vector<ShapeKind> rows_;
 };
 
 // The engine's own.

@@ -34,15 +34,8 @@ const Methods& builtInMethods() {
 }
 
 void Methods::add(const MethodInfo& method) {
-    TAUT_EXPECTS(!method.name.empty() && !method.title.empty() && find(method.name) == nullptr);
-    TAUT_EXPECTS(method.largestStep != nullptr && method.automaticStep != nullptr);
-    rows_.push_back(method);
-}
-
-const MethodInfo* Methods::find(std::string_view name) const {
-    for (const MethodInfo& method : rows_)
-        if (method.name == name) return &method;
-    return nullptr;
+    TAUT_EXPECTS(!method.title.empty() && method.largestStep != nullptr && method.automaticStep != nullptr);
+    Table::add(method);
 }
 
 template <class Real>
@@ -58,7 +51,7 @@ std::unique_ptr<FirstOrderMethod<Real>> Methods::makeFirstOrder(std::string_view
     const MethodInfo* method = find(name);
     if (method != nullptr && method->isFirstOrder()) return method->make.firstOrder<Real>()();
     std::string names;  // "a, b, c"
-    for (const MethodInfo& other : rows_)
+    for (const MethodInfo& other : all())
         if (other.isFirstOrder()) names += (names.empty() ? "" : ", ") + std::string(other.name);
     const std::string wrong = method == nullptr ? "there is no method \"" + std::string(name) + "\""
                                                 : std::string(method->title) +

@@ -7,23 +7,16 @@
 #include <string_view>
 #include <vector>
 
+#include "taut/core/table.h"
 #include "taut/ode/first_order_method.h"
 #include "taut/ode/method.h"
 
 namespace taut::ode {
 
-class Methods {
+class Methods : public core::Table<MethodInfo> {
   public:
-    Methods() = default;  // none
-
-    // Puts it last. Expects a name, a title, limits, and that no other has the name.
+    // Puts it last. Expects a name that no other has, a title and limits.
     void add(const MethodInfo& method);
-
-    // In the order in which they were added; valid until the next is.
-    std::span<const MethodInfo> all() const { return rows_; }
-
-    // nullptr when there is none of that name.
-    const MethodInfo* find(std::string_view name) const;
 
     // For second-order systems. Expects a name from the table.
     template <class Real>
@@ -32,9 +25,6 @@ class Methods {
     // For any y' = f(t, y). Throws core::Error(usage) when there is no method of that name, or it needs x'' = a.
     template <class Real>
     std::unique_ptr<FirstOrderMethod<Real>> makeFirstOrder(std::string_view name) const;
-
-  private:
-    std::vector<MethodInfo> rows_;
 };
 
 // The engine's own.

@@ -4,10 +4,10 @@
 // name, {.kinds = kinds}).
 #pragma once
 
-#include <string_view>
-#include <vector>
+#include <utility>
 
 #include "taut/collision/shape_table.h"
+#include "taut/core/table.h"
 #include "taut/ode/method_table.h"
 #include "taut/world/body_spec.h"
 #include "taut/world/common_rows.h"
@@ -18,24 +18,14 @@ namespace taut::world {
 
 // Kinds of one sort, in the order of the manual.
 template <class Base>
-class KindTable {
+class KindTable : public core::Table<Kind<Base>> {
   public:
     // Expects a name that no other has.
     void add(Kind<Base> kind) {
-        TAUT_EXPECTS(!kind.name.empty() && find(kind.name) == nullptr);
         kind.section.name = kind.name;
         kind.section.layout = fields::Layout::named;
-        rows_.push_back(std::move(kind));
+        core::Table<Kind<Base>>::add(std::move(kind));
     }
-    const Kind<Base>* find(std::string_view name) const {
-        for (const Kind<Base>& kind : rows_)
-            if (kind.name == name) return &kind;
-        return nullptr;
-    }
-    const std::vector<Kind<Base>>& all() const { return rows_; }
-
-  private:
-    std::vector<Kind<Base>> rows_;
 };
 
 struct Kinds {

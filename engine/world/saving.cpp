@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "taut/world/impl.h"
+#include "taut/world/kinds.h"
 #include "taut/world/state_bytes.h"
 
 namespace taut::world {
@@ -56,27 +57,49 @@ void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, SceneSpec&
     if (bytes.isReading()) ramp.action.field.write(spec, now);
 }
 
-// Before the bytes of a world with forces of its own; no frame rate, with which all others begin.
-constexpr std::uint64_t ownForcesMark = 0xfff8'7461'7574'0001ULL;  // a NaN
+// Before the bytes of a world with kinds of its own; no frame rate, with which all others begin.
+constexpr std::uint64_t ownKindsMark = 0xfff8'7461'7574'0001ULL;  // a NaN
 
-// The names of the forces that were added, so that a world without them refuses the bytes by name.
-void visitNames(StateBytes& bytes, const ForceList& added) {
+// What a world has that is not of the engine: "force attraction.well", "body ring.hoop", "method mine", "shape torus".
+std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added,
+                                  const std::vector<std::unique_ptr<Island>>& islands) {
+    static const Kinds known = builtIn();
     std::vector<std::string> names;
-    if (bytes.mark(ownForcesMark, !added.empty())) {
-        for (const auto& force : added) names.push_back(force->name());
+    const auto need = [&](const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    for (const auto& force : added) need("force " + force->name());
+    for (const ForceSpec& force : scene.forces.all())
+        if (known.forces.find(force.kind()) == nullptr) need("force " + force.fullName());
+    for (const BodySpec& body : scene.bodies.all())
+        if (known.bodies.find(body.kind()) == nullptr) need("body " + body.fullName());
+    for (const ColliderSpec& collider : scene.colliders)
+        if (collider.shape != "compound" && known.shapes.find(collider.shape) == nullptr)
+            need("shape " + collider.shape);
+    for (const auto& island : islands)
+        if (known.methods.find(island->plan().solver.integrator) == nullptr)
+            need("method " + island->plan().solver.integrator);
+    return names;
+}
+
+// So that a world without them refuses the bytes by name.
+void visitKinds(StateBytes& bytes, const std::vector<std::string>& own) {
+    std::vector<std::string> names;
+    if (bytes.mark(ownKindsMark, !own.empty())) {
+        names = own;
         bytes.each(names, [&](std::string& name) { bytes(name); });
     }
-    for (std::size_t i = 0; i < std::max(names.size(), added.size()); ++i) {
-        if (i >= added.size() || (i < names.size() && names[i] != added[i]->name()))
-            misfit("they need the force " + names[i] + ", which this world has not, or not in this place");
-        if (i >= names.size()) misfit("they know nothing of the force " + added[i]->name());
+    for (std::size_t i = 0; i < std::max(names.size(), own.size()); ++i) {
+        if (i >= own.size() || (i < names.size() && names[i] != own[i]))
+            misfit("they need the " + names[i] + ", which this world has not, or not in this place");
+        if (i >= names.size()) misfit("they know nothing of the " + own[i]);
     }
 }
 
 }  // namespace
 
 void World::Impl::visit(StateBytes& bytes) {
-    visitNames(bytes, added);
+    visitKinds(bytes, ownKinds(spec, added, islands));
     double rate = ticksPerSecond;
     bytes(rate);
     if (rate != ticksPerSecond) misfit("its frame rate is another");

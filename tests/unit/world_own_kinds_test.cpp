@@ -137,6 +137,17 @@ TEST(OwnKinds, AreSavedAndRestored) {
     run(world, 20);
     run(again, 20);
     EXPECT_EQ(again.stateHash(), world.stateHash());
+
+    SceneSpec without = sceneOf(folder);
+    without.actions.clear();
+    without.forces.clear();
+    World other(without);
+    try {
+        other.restore(bytes);
+        FAIL() << "restored without the kind";
+    } catch (const core::Error& error) {
+        EXPECT_NE(std::string(error.what()).find("force lift.balloon"), std::string::npos) << error.what();
+    }
 }
 
 TEST(OwnKinds, StandInSchemaAndManualAndAreRefusedByNameWithoutThem) {

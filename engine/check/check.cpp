@@ -81,7 +81,8 @@ const std::vector<Mention>& Check::mentions() const {
 }
 
 Outcome Check::evaluate(const world::World& world) const {
-    return evaluate(Now(world));
+    Selections selections;
+    return evaluate(Now(world, selections));
 }
 
 Outcome Check::evaluate(const Now& now) const {

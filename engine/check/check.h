@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -41,6 +42,9 @@ struct Outcome {
 
 struct Claim;
 class Now;
+
+// What targets name in a world, each found once as long as no body comes or goes.
+using Selections = std::map<std::string, world::Selection>;
 
 class Check {
   public:

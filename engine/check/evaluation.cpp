@@ -9,15 +9,21 @@
 
 namespace taut::check {
 
+const world::Selection& Now::selection(const std::string& target) const {
+    const auto found = selections_.find(target);
+    if (found != selections_.end() && world_.isCurrent(found->second)) return found->second;
+    return selections_.insert_or_assign(target, world_.select(target)).first->second;
+}
+
 const world::Metrics& Now::metrics(const std::string& bodies) const {
     const auto found = metrics_.find(bodies);
     if (found != metrics_.end()) return found->second;
-    return metrics_.emplace(bodies, bodies.empty() ? world_.metrics() : world_.metrics(bodies)).first->second;
+    return metrics_.emplace(bodies, bodies.empty() ? world_.metrics() : world_.metrics(selection(bodies))).first->second;
 }
 
 const world::PointsNow& Now::points(const std::string& target) const {
     auto found = points_.find(target);
-    if (found == points_.end()) found = points_.emplace(target, world_.points(target)).first;
+    if (found == points_.end()) found = points_.emplace(target, world_.points(selection(target))).first;
     if (found->second.x.empty())
         throw core::Error(core::ExitCode::badContent,
                           fmt::format("{} finds no points at {:.6g} s", target, world_.time()));

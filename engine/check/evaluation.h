@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "taut/world/world.h"
+#include "taut/check/check.h"
 
 namespace taut::check {
 
@@ -22,14 +22,18 @@ struct Quantity {
 // The world at one moment, each thing measured once.
 class Now {
   public:
-    explicit Now(const world::World& world) : world_(world) {}
+    // The selections may be those of moments before, in the same world.
+    Now(const world::World& world, Selections& selections) : world_(world), selections_(selections) {}
     const world::World& world() const { return world_; }
     const world::Metrics& metrics(const std::string& bodies) const;  // empty: of all
     // Throws core::Error(badContent) if there are none.
     const world::PointsNow& points(const std::string& target) const;
 
   private:
+    const world::Selection& selection(const std::string& target) const;
+
     const world::World& world_;
+    Selections& selections_;
     mutable std::map<std::string, world::Metrics> metrics_;
     mutable std::map<std::string, world::PointsNow> points_;
 };

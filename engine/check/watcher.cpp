@@ -50,7 +50,7 @@ Watcher::Watcher(const world::SceneSpec& scene) {
     for (const world::CheckSpec& spec : scene.checks) {
         Watched watched;
         try {
-            watched.check = Check::parse(spec.that);
+            watched.check = spec.parsed ? *spec.parsed : Check::parse(spec.that);
         } catch (const Fault& fault) {
             throw core::Error(core::ExitCode::badContent,
                               fmt::format("{}:{}:{}: error: {}", spec.source.file, spec.source.line, spec.source.column,
@@ -67,7 +67,7 @@ Watcher::Watcher(const world::SceneSpec& scene) {
 }
 
 void Watcher::look(const world::World& world) {
-    const Now now(world);
+    const Now now(world, selections_);
     for (Watched& watched : watched_) {
         if (world.tick() < watched.begin || world.tick() > watched.end) continue;
         lookAt(watched, now);

@@ -57,6 +57,7 @@ class Watcher {
     double ticksPerSecond_ = 60;
     std::int64_t lastTick_ = 0;  // that the run shows
     std::vector<Watched> watched_;
+    Selections selections_;
 };
 
 // "2.317 s, frame 139"

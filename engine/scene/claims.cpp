@@ -46,8 +46,8 @@ class Claims {
         spec.source = {problems_.fileOf(first), std::max(first.line, 0), std::max(first.column, 0)};
         if (first.origin > 0) spec.source = {problems_.fileOf(first), 0, 0};
         try {
-            const check::Check claim = check::Check::parse(spec.that);
-            for (const check::Mention& mention : claim.mentions()) checkMention(spec, that, mention);
+            spec.parsed = std::make_shared<const check::Check>(check::Check::parse(spec.that));
+            for (const check::Mention& mention : spec.parsed->mentions()) checkMention(spec, that, mention);
         } catch (const check::Fault& fault) {
             problems_.addError(problems_.placeInside(that.place, that.text, fault.at), fault.what(), fault.remedy);
         }

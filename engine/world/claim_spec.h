@@ -1,11 +1,16 @@
 // What is asked of a run: how accurate it must be, claims about the state, pictures to compare.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "taut/world/source.h"
+
+namespace taut::check {
+class Check;
+}
 
 namespace taut::world {
 
@@ -21,6 +26,7 @@ struct NeedSpec {                       // what "accurate enough" means for the 
 struct CheckSpec {
     Source source;  // of the text's first character
     std::string that;
+    std::shared_ptr<const check::Check> parsed;  // by the loader; none: whoever looks reads it
     std::optional<double> at;          // [s] at this moment
     std::optional<double> from, upTo;  // [s] all through this span, ends included
 };

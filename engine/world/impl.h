@@ -53,6 +53,7 @@ struct World::Impl {
     int ticksPerFrame = 1;
     std::int64_t tick = 0;
     std::uint64_t hash = 0;
+    std::int64_t generation = 0;  // rises when a body comes or goes
 
     std::unique_ptr<const SceneSpec> start;      // the scene as it began: what envelopes are made from
     std::vector<std::unique_ptr<Body>> waiting;  // bodies that an action will spawn

@@ -1,5 +1,6 @@
 // What is asked of a world while it stands still between two ticks.
 #include <map>
+#include <set>
 
 #include "taut/core/hash.h"
 #include "taut/world/impl.h"
@@ -19,18 +20,42 @@ Metrics World::metrics() const {
 }
 
 Metrics World::metrics(const std::string& bodies) const {
-    return impl_->metricsOf([&](const Body& body) { return names(bodies, body); });
+    return metrics(select(bodies));
 }
 
 PointsNow World::points(const std::string& target) const {
+    return points(select(target));
+}
+
+Selection World::select(const std::string& target) const {
+    Selection selection;
+    selection.generation = impl_->generation;
+    const std::string selector = parseTarget(target).selector;
+    for (const Body* body : matchBodies(impl_->allBodies(), target))
+        selection.parts.push_back({body, selectPoints(body->model, selector)});
+    return selection;
+}
+
+bool World::isCurrent(const Selection& selection) const {
+    return selection.generation == impl_->generation;
+}
+
+Metrics World::metrics(const Selection& selection) const {
+    TAUT_EXPECTS(isCurrent(selection));
+    std::set<const Body*> bodies;
+    for (const Selection::Part& part : selection.parts) bodies.insert(part.body);
+    return impl_->metricsOf([&](const Body& body) { return bodies.contains(&body); });
+}
+
+PointsNow World::points(const Selection& selection) const {
+    TAUT_EXPECTS(isCurrent(selection));
     PointsNow points;
-    const std::vector<Body*> all = impl_->allBodies();
     std::map<const Island*, std::vector<dvec3>> velocities;  // of the islands asked so far
-    for (const Body* body : matchBodies(all, target)) {
+    for (const auto& [body, numbers] : selection.parts) {
         Island& island = impl_->islandOf(*body);
         auto known = velocities.find(&island);
         if (known == velocities.end()) known = velocities.emplace(&island, island.velocities(impl_->now())).first;
-        for (int i : selectPoints(body->model, parseTarget(target).selector)) {
+        for (int i : numbers) {
             const int point = body->pointOf[static_cast<std::size_t>(i)];
             points.x.push_back(island.position(point));
             points.v.push_back(known->second[static_cast<std::size_t>(point)]);

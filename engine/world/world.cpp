@@ -132,6 +132,7 @@ ecs::Entity World::Impl::addAlone(std::unique_ptr<Body> body) {
         return sortsBefore(*newcomer.body, *other.body);
     });
     bodies.insert(place, newcomer);
+    ++generation;
     SceneSpec alone;  // the joints of the scene do not concern it
     alone.solver = spec.solver;
     const Envelopes envelopes(*start);
@@ -338,6 +339,7 @@ void World::destroy(ecs::Entity entity) {
         TAUT_EXPECTS(island->plan().bodies.size() == 1);
         std::erase_if(w.islands, [&](const auto& other) { return other.get() == island; });
         std::erase_if(w.bodies, [&](const Impl::Member& member) { return member.entity == entity; });
+        ++w.generation;
     }
     const bool wasCollider = w.registry.find<ColliderPart>(entity) != nullptr;
     w.registry.destroy(entity);

@@ -19,6 +19,7 @@
 
 namespace taut::world {
 
+struct Body;
 class Force;
 
 // Why a run cannot go on: everything a person needs to mend the scene.
@@ -66,6 +67,16 @@ struct Metrics {                      // at a published tick, velocities synchro
 struct PointsNow {
     std::vector<glm::dvec3> x, v;  // (points) [m], [m/s]
     std::vector<double> mass;      // (points) [kg]
+};
+
+// What KIND.NAME@SELECTOR names in a world, without @ all points: World::select() finds it, once for many questions.
+struct Selection {
+    struct Part {
+        const Body* body;
+        std::vector<int> points;  // of the body's model
+    };
+    std::vector<Part> parts;      // in the order of the state hash
+    std::int64_t generation = 0;  // of the world's bodies
 };
 
 // A body's part of the state hash, to tell which of them differ.
@@ -133,8 +144,12 @@ class World {
     std::vector<std::uint64_t> pointHashes(ecs::Entity body) const;  // of x and the stored v, in the order of authoring
     Metrics metrics() const;
     Metrics metrics(const std::string& bodies) const;  // of those that "cloth.*" names; zeros where it names none
-    // Of KIND.NAME@SELECTOR, as action_spec.h has them; without @ all points, empty where it names none.
-    PointsNow points(const std::string& target) const;
+    PointsNow points(const std::string& target) const;  // empty where it names none
+    // A selection serves until a body comes or goes; expects one that is current, of this world.
+    Selection select(const std::string& target) const;
+    bool isCurrent(const Selection& selection) const;
+    Metrics metrics(const Selection& selection) const;
+    PointsNow points(const Selection& selection) const;
 
     // Everything that the ticks so far have changed, as bytes, and back into a world that was built from the same scene
     // up to that tick, with the same forces, and has not ticked yet; what a scene says of later ticks may differ as long

@@ -10,7 +10,8 @@ namespace {
 constexpr double rounding = 1e-12;  // a few dozen roundings of numbers near 10
 
 std::string placeIn(const world::World& world, const std::string& expression) {
-    return Check::parse(expression + " < 0").where(Now(world));
+    Selections selections;
+    return Check::parse(expression + " < 0").where(Now(world, selections));
 }
 
 TEST(CheckFunctions, PlacesAreCentresOfMass) {

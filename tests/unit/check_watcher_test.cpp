@@ -57,6 +57,17 @@ TEST(CheckWatcher, AFailureSaysWhenWhereTheValueAndTheBound) {
     EXPECT_EQ(result.source.column, 9);
 }
 
+// Spawned at the start of the tick from 0.5 s, far below the one that falls.
+TEST(CheckWatcher, ABodyThatComesLaterIsSeenFromThenOn) {
+    const Result result =
+        watched("[[at]]\nt = 0.5\ndo = \"spawn\"\ntarget = \"net.late\"\n"
+                "[net.late]\ndrag_per_s = 0\nhold = [\"p\"]\npoints = [{ name = \"p\", position = [0, 2, 0] }]\n" +
+                check("height(net.*) > 3"))
+            .at(0);
+    EXPECT_EQ(result.first->tick, 31);
+    EXPECT_EQ(result.first->where, "net.late@#0 at [0, 2, 0]");
+}
+
 TEST(CheckWatcher, MomentsAndSpansAreTakenToTicks) {
     const std::vector<Result> results =
         watched(check("height(net.ball) < 10", "at = 0.5\n") + check("height(net.ball) < 9.9", "from = 0.25\n") +

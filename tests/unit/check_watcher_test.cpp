@@ -62,8 +62,9 @@ TEST(CheckWatcher, ABodyThatComesLaterIsSeenFromThenOn) {
     const Result result =
         watched("[[at]]\nt = 0.5\ndo = \"spawn\"\ntarget = \"net.late\"\n"
                 "[net.late]\ndrag_per_s = 0\nhold = [\"p\"]\npoints = [{ name = \"p\", position = [0, 2, 0] }]\n" +
-                check("height(net.*) > 3"))
+                check("lowest(net.*) > 3"))
             .at(0);
+    ASSERT_TRUE(result.first);
     EXPECT_EQ(result.first->tick, 31);
     EXPECT_EQ(result.first->where, "net.late@#0 at [0, 2, 0]");
 }

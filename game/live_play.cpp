@@ -153,10 +153,10 @@ void LivePlay::say(const std::string& text) {
 // What the ticks just done brought to light.
 void LivePlay::report() {
     for (const std::string& fault : session_->takeFaults()) say(fault.substr(0, fault.find('\n')));
-    const std::vector<live::Deed>& deeds = session_->deeds();
+    const auto& deeds = session_->deeds();
     for (; printed_ < deeds.size(); ++printed_)
         if (settings_.isVerbose)
-            fmt::print(stderr, "{}\n", live::actionText(deeds[printed_].action, deeds[printed_].action.t));
+            fmt::print(stderr, "{}\n", live::actionText(deeds[printed_], deeds[printed_].t, world::builtInActions()));
     if (!session_->divergence() || saidDivergence_) return;
     saidDivergence_ = true;
     fmt::print(stderr, "{}\n", session_->divergence()->message);

@@ -121,6 +121,10 @@ struct Section {
     std::function<std::string(const Node&)> variant;
     std::string variantKey;  // the field that says it, e.g. "shape"; empty: none does
 
+    // Where each form has a struct of its own: what reads it, named by the variant. The fields above are then those of
+    // all forms, for the manual and for what is said of a key that stands in the wrong place.
+    std::vector<Section> forms;
+
     // What no single field can say. Called after the fields are read, also if some were wrong; may amend the struct.
     std::function<void(const CheckInput&, void*)> check;
 

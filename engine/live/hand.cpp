@@ -24,9 +24,9 @@ double rounded(double value, int decimals) {
     return result == 0.0 ? 0.0 : result;                      // no minus zero
 }
 
-world::ActionSpec Hand::action(world::Do what, std::int64_t tick) const {
-    world::ActionSpec action;
-    action.what = what;
+template <class Own>
+Own Hand::action(std::int64_t tick) const {
+    Own action;
     action.id = id_;
     action.t = rounded(static_cast<double>(tick) / ticksPerSecond_, timeDecimals);
     return action;
@@ -34,7 +34,7 @@ world::ActionSpec Hand::action(world::Do what, std::int64_t tick) const {
 
 void Hand::grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place) {
     if (isHolding_) wantsRelease_ = true;
-    world::ActionSpec grab = action(world::Do::grab, 0);
+    auto grab = action<world::GrabAction>(0);
     grab.target = std::move(target);
     grab.radius = rounded(radius, placeDecimals);
     grab.strength = strength;
@@ -53,28 +53,27 @@ void Hand::release() {
     if (isHolding_) wantsRelease_ = true;
 }
 
-std::vector<world::ActionSpec> Hand::deedsAt(std::int64_t tick) {
-    std::vector<world::ActionSpec> deeds;
+world::Specs<world::ActionSpec> Hand::deedsAt(std::int64_t tick) {
+    world::Specs<world::ActionSpec> deeds;
     if (wantsRelease_) {
-        deeds.push_back(action(world::Do::release, tick));
+        deeds.add(action<world::ReleaseAction>(tick));
         wantsRelease_ = isHolding_ = false;
     }
     if (grab_) {
-        world::ActionSpec grab = *std::exchange(grab_, std::nullopt);
-        grab.t = action(world::Do::grab, tick).t;
-        deeds.push_back(std::move(grab));
+        grab_->t = action<world::GrabAction>(tick).t;
+        deeds.add(*std::exchange(grab_, std::nullopt));
         isHolding_ = true;
         free_ = tick;
     }
     if (isHolding_ && goal_ && *goal_ != last_ && tick >= free_) {
-        world::ActionSpec move = action(world::Do::move, tick);
+        auto move = action<world::MoveAction>(tick);
         const glm::dvec3 way = *goal_ - last_;
         const double most = fastest * moveTicks / ticksPerSecond_, length = glm::length(way);
         last_ = length > most ? roundedPlace(last_ + way * (most / length)) : *goal_;
         move.to = last_;
         move.over = rounded(moveTicks / ticksPerSecond_, timeDecimals);
         move.ease = world::Ease::linear;
-        deeds.push_back(std::move(move));
+        deeds.add(std::move(move));
         free_ = tick + moveTicks;
     }
     return deeds;

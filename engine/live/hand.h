@@ -6,17 +6,10 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "taut/world/action_spec.h"
+#include "taut/world/actions.h"
 
 namespace taut::live {
-
-// What was done, and at the start of which tick.
-struct Deed {
-    std::int64_t tick = 0;
-    world::ActionSpec action;
-};
 
 // A number as a file has it: to `decimals` places.
 double rounded(double value, int decimals);
@@ -38,14 +31,15 @@ class Hand {
     void release();
 
     // What happens at the start of this tick, in this order. To be asked once for every tick, in ascending order.
-    std::vector<world::ActionSpec> deedsAt(std::int64_t tick);
+    world::Specs<world::ActionSpec> deedsAt(std::int64_t tick);
 
   private:
-    world::ActionSpec action(world::Do what, std::int64_t tick) const;
+    template <class Own>
+    Own action(std::int64_t tick) const;
 
     std::string id_;
     double ticksPerSecond_;
-    std::optional<world::ActionSpec> grab_;  // asked for, not done yet
+    std::optional<world::GrabAction> grab_;  // asked for, not done yet
     bool wantsRelease_ = false;
     bool isHolding_ = false;
     std::optional<glm::dvec3> goal_;  // [m] where the mouse wants it

@@ -3,20 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <map>
+#include <span>
 #include <string_view>
+#include <variant>
 
+#include "taut/core/error.h"
+#include "taut/live/hand.h"
 #include "taut/scene/document.h"
 
 namespace taut::live {
 namespace {
-
-constexpr std::array names{"grab", "move", "release", "push", "hold", "free", "cut", "add-mass", "ramp", "spawn"};
-constexpr std::array eases{"linear", "smooth", "in", "out", "hold"};
-constexpr double degree = 57.29577951308232;  // [1/rad]
 
 std::string quoted(std::string_view text) {
     std::string result = "\"";
@@ -30,12 +28,37 @@ std::string quoted(std::string_view text) {
     return result + "\"";
 }
 
-std::string vectorText(const glm::dvec3& v) {
-    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+std::string numbersText(std::span<const double> numbers) {
+    return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
 
-std::string numbersText(const std::vector<double>& values) {
-    return values.size() == 1 ? fmt::format("{}", values.front()) : fmt::format("[{}]", fmt::join(values, ", "));
+// The inverse of fields::fieldValue().
+struct ValueText {
+    const fields::Field& field;
+
+    std::string operator()(std::monostate) const { return ""; }
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+    std::string operator()(std::int64_t whole) const { return fmt::format("{}", whole); }
+    std::string operator()(double number) const { return fmt::format("{}", number); }
+    std::string operator()(const std::string& text) const { return quoted(text); }
+    std::string operator()(const std::vector<std::string>& texts) const {
+        std::string list;
+        for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + quoted(text);
+        return "[" + list + "]";
+    }
+    std::string operator()(const std::vector<double>& numbers) const {
+        if (field.kind == fields::FieldKind::numbers && numbers.size() == 1) return (*this)(numbers.front());
+        if (field.kind != fields::FieldKind::segment) return numbersText(numbers);
+        const std::span<const double> all(numbers);
+        const std::size_t half = numbers.size() / 2;
+        return "[" + numbersText(all.first(half)) + ", " + numbersText(all.last(half)) + "]";
+    }
+};
+
+// A value that says nothing where it is the default.
+bool isNothing(const fields::Value& value) {
+    const std::string text = fields::defaultText(value);
+    return text.empty() || text == "false" || text == "0";
 }
 
 // A moment as a file has it: the tick's, so that nothing is left to rounding.
@@ -51,9 +74,10 @@ struct Entry {
 // What happens, by tick: what the hand did at a tick comes before what the scene does then, as it did when played.
 std::vector<Entry> entriesOf(const Recording& recording) {
     std::vector<Entry> entries;
-    for (const Deed& deed : recording.deeds) entries.push_back({deed.tick, &deed.action});
-    for (const world::ActionSpec& action : recording.timeline)
-        entries.push_back({static_cast<std::int64_t>(std::floor(action.t * recording.ticksPerSecond + 0.5)), &action});
+    for (const auto* actions : {&recording.deeds, &recording.timeline})
+        for (const world::ActionSpec& action : *actions)
+            entries.push_back(
+                {static_cast<std::int64_t>(std::floor(action.t * recording.ticksPerSecond + 0.5)), &action});
     std::erase_if(entries, [&](const Entry& entry) { return entry.tick >= recording.endTick; });
     std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.tick < b.tick; });
     return entries;
@@ -119,34 +143,18 @@ ScenarioParts partsOf(const std::string& scenario) {
     return parts;
 }
 
-std::string actionText(const world::ActionSpec& action, double t) {
-    std::string text = fmt::format("{{ t = {}, do = \"{}\"", t, names[static_cast<std::size_t>(action.what)]);
-    const auto add = [&](const char* key, const std::string& value) { text += fmt::format(", {} = {}", key, value); };
-    const auto addNumber = [&](const char* key, double value) { add(key, fmt::format("{}", value)); };
-    if (!action.id.empty()) add("id", quoted(action.id));
-    if (!action.target.empty()) add("target", quoted(action.target));
-    if (!action.key.empty()) add("key", quoted(action.key));
-    if (action.near) add("near", vectorText(*action.near));
-    if (action.radius > 0.0) addNumber("radius", action.radius);
-    if (action.what == world::Do::grab) {
-        if (action.rigid) add("rigid", "true");
-        addNumber("strength_N_per_m", action.strength);
-        addNumber("damping_ratio", action.dampingRatio);
+std::string actionText(const world::ActionSpec& action, double t, const world::KindTable<world::ActionSpec>& kinds) {
+    const auto* kind = kinds.find(action.kind());
+    if (kind == nullptr)
+        throw core::Error(core::ExitCode::badContent,
+                          fmt::format("no table has the kind \"{}\" of an action", action.kind()));
+    const auto fresh = kind->make();
+    std::string text = fmt::format("{{ t = {}, do = \"{}\"", t, kind->name);
+    for (const fields::Field& row : kind->section.fields) {
+        const fields::Value value = row.read(dynamic_cast<const void*>(&action));
+        if (row.key == "t" || (isNothing(value) && value == row.read(dynamic_cast<const void*>(fresh.get())))) continue;
+        text += fmt::format(", {} = {}", row.key, std::visit(ValueText{row}, value));
     }
-    if (action.to) add("to", vectorText(*action.to));
-    if (action.what == world::Do::ramp) add("to", numbersText(action.value));
-    if (action.rotation) add("rotation_deg", vectorText(*action.rotation * degree));
-    if (action.what == world::Do::move || action.what == world::Do::ramp) {
-        addNumber("over_s", action.over);
-        add("ease", quoted(eases[static_cast<std::size_t>(action.ease)]));
-    }
-    if (action.what == world::Do::push) add("impulse_Ns", vectorText(action.impulse));
-    if (action.what == world::Do::addMass) addNumber("mass_kg", action.mass);
-    if (action.planePoint && action.planeNormal)
-        add("plane", fmt::format("[{}, {}]", vectorText(*action.planePoint), vectorText(*action.planeNormal)));
-    if (action.from && action.upTo)
-        add("segment",
-            fmt::format("[[{}, {}], [{}, {}]]", action.from->x, action.from->y, action.upTo->x, action.upTo->y));
     return text + " }";
 }
 
@@ -197,9 +205,10 @@ std::string scenarioText(const Recording& recording) {
     text += fmt::format("hand.anywhere = true\nrun.fps = {}\nrun.seconds = {}\n", recording.run.fps,
                         rounded((last + 1.0) / recording.run.fps, 6));
 
+    const auto& kinds = recording.actionKinds ? *recording.actionKinds : world::builtInActions();
     text += "at = [\n";
     for (const Entry& entry : entriesOf(recording))
-        text += "  " + actionText(*entry.action, momentOf(entry.tick, recording.ticksPerSecond)) + ",\n";
+        text += "  " + actionText(*entry.action, momentOf(entry.tick, recording.ticksPerSecond), kinds) + ",\n";
     return text + "]\n" + claimsText(recording);
 }
 

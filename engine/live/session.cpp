@@ -10,6 +10,7 @@
 
 #include "taut/core/error.h"
 #include "taut/world/components.h"
+#include "taut/world/ticks.h"
 
 namespace taut::live {
 namespace {
@@ -27,8 +28,8 @@ world::SceneSpec withHands(world::SceneSpec spec) {
 std::string freeId(const world::SceneSpec& spec) {
     std::string id = world::liveHand;
     const auto isTaken = [&] {
-        return std::any_of(spec.actions.begin(), spec.actions.end(),
-                           [&](const world::ActionSpec& action) { return action.id == id; });
+        return world::anyForeseen<world::GrabAction>(spec.actions,
+                                                     [&](const world::GrabAction& grab) { return grab.id == id; });
     };
     while (isTaken()) id += "-2";
     return id;
@@ -40,7 +41,7 @@ struct Session::Impl {
     world::World world;
     double ticksPerSecond;
     Hand hand;
-    std::vector<Deed> deeds;
+    world::Specs<world::ActionSpec> deeds;
     std::vector<std::pair<std::string, double>> strains;
     view::FrameView before, now;
     world::Metrics metrics;
@@ -91,14 +92,14 @@ struct Session::Impl {
     }
 
     void tickOnce() {
-        for (world::ActionSpec& action : hand.deedsAt(world.tick())) {
+        for (const world::ActionSpec& action : hand.deedsAt(world.tick())) {
             try {
                 world.apply(action);
             } catch (const core::Error& error) {
                 faults.emplace_back(error.what());
                 continue;
             }
-            deeds.push_back({world.tick(), std::move(action)});
+            deeds.add(action.copy());
         }
         divergence = world.advance();
     }
@@ -173,7 +174,7 @@ const view::FrameView& Session::now() const {
 Hand& Session::hand() {
     return impl_->hand;
 }
-const std::vector<Deed>& Session::deeds() const {
+const world::Specs<world::ActionSpec>& Session::deeds() const {
     return impl_->deeds;
 }
 const std::optional<world::Divergence>& Session::divergence() const {
@@ -206,7 +207,8 @@ std::vector<BodyPoints> Session::bodies() const {
 Recording Session::record() {
     Impl& w = *impl_;
     const auto isWhole = [&] {
-        const bool isFollowed = w.deeds.empty() || w.deeds.back().tick < w.world.tick();
+        const bool isFollowed =
+            w.deeds.empty() || world::Ticks(spec_.run).at(w.deeds[w.deeds.size() - 1].t) < w.world.tick();
         return isFollowed && w.world.tick() % w.world.ticksPerFrame() == 0;
     };
     if (w.hand.isHolding()) w.hand.release();
@@ -222,6 +224,7 @@ Recording Session::record() {
     recording.endTick = w.world.tick();
     recording.hash = w.world.stateHash();
     recording.timeline = spec_.actions;
+    recording.actionKinds = spec_.actionKinds;
     recording.deeds = w.deeds;
     recording.hasClaims = !spec_.checks.empty() || !spec_.goldens.empty();
     recording.strains = w.strains;

@@ -41,7 +41,7 @@ class Session {
     void showMarks(bool shown);  // springs coloured by strain, points and contacts
 
     Hand& hand();
-    const std::vector<Deed>& deeds() const;  // of the hand since the start
+    const world::Specs<world::ActionSpec>& deeds() const;  // of the hand since the start
     // What may be grabbed, where it is now: free points only.
     std::vector<BodyPoints> bodies() const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/scene/by_key.h"
+#include "taut/world/actions.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/net.h"
 
@@ -53,14 +54,15 @@ std::optional<world::SceneSpec> withoutOneSpring(world::SceneSpec spec, const Is
         if (!cloth.mesh.empty()) continue;
         const glm::dvec2 cell = 1.0 / glm::dvec2(cloth.cells);
         const glm::dvec2 corner = glm::floor(glm::dvec2(cloth.cells) * 0.5) * cell;
-        world::ActionSpec cut;
-        cut.what = world::Do::cut;
+        world::CutAction cut;
         cut.target = cloth.fullName();
         if (cloth.array.count != world::ivec3{1, 1, 1}) cut.target += ".0";
         // Across the thread that leaves the corner to the right, far shorter than a cell.
         cut.from = corner + cell * glm::dvec2(0.5, -0.05);
         cut.upTo = corner + cell * glm::dvec2(0.5, 0.05);
-        spec.actions.insert(spec.actions.begin(), cut);
+        world::Specs<world::ActionSpec> actions(cut);
+        for (const world::ActionSpec& action : spec.actions) actions.add(action.copy());
+        spec.actions = std::move(actions);
         return spec;
     }
     return std::nullopt;

@@ -8,6 +8,7 @@
 #include "taut/check/check.h"
 #include "taut/scene/body_index.h"
 #include "taut/scene/timeline.h"
+#include "taut/world/actions.h"
 #include "taut/world/ticks.h"
 
 namespace taut::scene {
@@ -74,10 +75,9 @@ class Claims {
 
     // When a body is spawned; nothing if it is there from the start.
     std::optional<double> birthOf(const std::string& body) const {
-        for (const world::ActionSpec& action : scene_.spec.actions) {
-            if (action.what != world::Do::spawn) continue;
-            const std::vector<std::string> names = bodies_.names(action.target);
-            if (std::find(names.begin(), names.end(), body) != names.end()) return action.t;
+        for (const auto& spawn : scene_.spec.actions.of<world::SpawnAction>()) {
+            const std::vector<std::string> names = bodies_.names(spawn.target);
+            if (std::find(names.begin(), names.end(), body) != names.end()) return spawn.t;
         }
         return std::nullopt;
     }

@@ -1,11 +1,10 @@
 // The field table, part five: what happens while a scene runs, and what is claimed of it.
-#include <fmt/format.h>
-
-#include <cmath>
+#include <algorithm>
+#include <span>
 
 #include "taut/fields/field_list.h"
-#include "taut/scene/sections.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/sections.h"
 
 namespace taut::scene {
 
@@ -13,42 +12,47 @@ using namespace world;
 
 namespace {
 
-
-std::vector<std::string> actionNames() {
-    return {"grab", "move", "release", "push", "hold", "free", "cut", "add-mass", "ramp", "spawn"};
+// Tells of both uses of a key.
+void merge(Field& into, const Field& other) {
+    if (into.kind != other.kind || into.components != other.components) {
+        into.kind = FieldKind::numbers;
+        into.unit.clear();
+    }
+    into.required = into.required && other.required;
+    if (into.help.find(other.help) == std::string::npos) into.help += " " + other.help;
 }
 
-// What a move, a push or a cut lacks that no single field can say.
-void checkAction(const CheckInput& input, const ActionSpec& action) {
-    const auto has = [&](const char* key) { return input.table.find(key) != nullptr; };
-    const auto needs = [&](const char* what, const char* remedy) {
-        input.problems.addError(input.place, fmt::format("do = \"{}\" needs {}", input.variant, what), remedy);
+// A row for what is said of a key; it is read and written by those of the kinds.
+Field shown(const Field& field, const Kind<ActionSpec>& kind) {
+    Field row = field;
+    row.only.clear();
+    row.write = [](void*, const Value&) {};
+    row.read = [read = field.read, make = kind.make](const void*) { return read(dynamic_cast<void*>(make().get())); };
+    return row;
+}
+
+// The keys of all kinds, each once and before the one that follows it where it was first met.
+std::vector<Field> mergedRows(std::span<const Kind<ActionSpec>> kinds) {
+    std::vector<Field> rows;
+    const auto find = [&](const std::string& key) {
+        return std::find_if(rows.begin(), rows.end(), [&](const Field& row) { return row.key == key; });
     };
-    const bool isMove = action.what == Do::move, isCut = action.what == Do::cut;
-    const bool hasPoints = !isMove && action.what != Do::release && action.what != Do::ramp;
-    if (hasPoints && !has("target")) needs("target", "write target = \"KIND.NAME@SELECTOR\"");
-    if ((action.what == Do::grab || action.what == Do::release) && !has("id"))
-        needs("id", "id is the name of the hand");
-    if (isMove && !has("id") && !has("target"))
-        needs("id or target", "write id = \"HAND\" or target = \"collider.NAME\"");
-    if (isMove && has("id") && has("target"))
-        input.problems.addError(input.at("target"), "a move has id or target, not both",
-                                "a hand has an id, a collider is a target");
-    if (isMove && !has("to") && !has("rotation_deg")) needs("to", "write to = [x, y, z]");
-    if (isMove && has("id") && has("rotation_deg"))
-        input.problems.addError(input.at("rotation_deg"), "a hand is not turned", "only a collider is");
-    if (isMove && has("to") && action.value.size() != 3)
-        input.problems.addError(input.at("to"), fmt::format("to must be a list of 3 numbers [m], not {}",
-                                                            description(input.table.find("to")->value)));
-    if (isCut && has("plane") == has("segment"))
-        needs("either plane or segment",
-              "write plane = [[point], [normal]] in metres or segment = [[u, v], [u, v]] on a cloth grid");
-    if (isCut && action.from && *action.from == *action.upTo)
-        input.problems.addError(input.at("segment"), "the two ends of the cut are the same point");
-    if (isCut && action.planeNormal && glm::dot(*action.planeNormal, *action.planeNormal) < smallest * smallest)
-        input.problems.addError(input.at("plane"), "the normal of the plane must not be [0, 0, 0]");
-    if (action.what == Do::push && action.impulse == dvec3(0.0))
-        input.problems.addError(input.at("impulse_Ns"), "a push of [0, 0, 0] does nothing");
+    for (const auto& kind : kinds) {
+        auto next = rows.end();
+        const std::vector<Field>& own = kind.section.fields;
+        for (auto field = own.rbegin(); field != own.rend(); ++field) {
+            auto row = find(field->key);
+            if (row == rows.end())
+                row = rows.insert(next, shown(*field, kind));
+            else
+                merge(*row, *field);
+            row->only.push_back(kind.name);
+            next = row;
+        }
+    }
+    for (Field& row : rows)
+        if (row.only.size() == kinds.size()) row.only.clear();
+    return rows;
 }
 
 }  // namespace
@@ -67,81 +71,36 @@ SceneSection handSection() {
     return section;
 }
 
-SceneSection atSection() {
+SceneSection atSection(const KindTable<ActionSpec>& kinds) {
     SceneSection section;
     section.name = "at";
     section.layout = Layout::list;
     section.help =
         "What happens at a moment: at = [{ t = 2.0, do = \"grab\", … }, …], those of one tick in this order.";
-    section.enter = enterNamed(&SceneSpec::actions);
+    section.enter = [kinds](SceneSpec& scene, const std::string& name, const Source& source) -> void* {
+        const Kind<ActionSpec>* kind = kinds.find(name);
+        ActionSpec& action = scene.actions.add((kind != nullptr ? *kind : kinds.all().front()).make());
+        action.source = source;
+        return dynamic_cast<void*>(&action);
+    };
     section.variantKey = "do";
     section.variant = [](const Node& table) -> std::string {
         const Member* what = table.find("do");
         return what != nullptr && what->value.kind == NodeKind::text ? what->value.text : "";
     };
-    const std::vector<std::string> onPoints{"grab", "push", "hold", "free", "add-mass"};
-    section.fields =
-        FieldList<ActionSpec>()
-            .number("t", &ActionSpec::t, "s", momentRange, "Moment; the nearest tick is taken.")
-            .required()
-            .role(Role::time)
-            .choice("do", &ActionSpec::what, actionNames(), "What happens.")
-            .required()
-            .text("id", &ActionSpec::id, Role::none, "Name of the hand.")
-            .only({"grab", "move", "release"})
-            .text("target", &ActionSpec::target, Role::none,
-                  "The points: KIND.NAME@SELECTOR, all if @SELECTOR is left out; of cut and spawn bodies, of move "
-                  "collider.NAME.")
-            .only({"grab", "move", "push", "hold", "free", "cut", "add-mass", "spawn"})
-            .vector("near", &ActionSpec::near, "m", placeRange,
-                    "Of the target only the point that is nearest to this place when it happens.")
-            .only(onPoints)
-            .number("radius", &ActionSpec::radius, "m", Range{0.0, 1e6},
-                    "Points of the same bodies within this distance of such a point too.")
-            .only({"grab"})
-            .flag("rigid", &ActionSpec::rigid, "Whether the points are led exactly; else springs draw them.")
-            .only({"grab"})
-            .number("strength_N_per_m", &ActionSpec::strength, "N/m", positive, "Of the whole hand, shared by mass.")
-            .only({"grab"})
-            .number("damping_ratio", &ActionSpec::dampingRatio, "", Range{0.0, 10.0},
-                    "Of the grabbed mass on the hand's spring.")
-            .only({"grab"})
-            .text("key", &ActionSpec::key, Role::none, "The field that changes, e.g. \"wind.breeze.velocity\".")
-            .required()
-            .only({"ramp"})
-            .numbers("to", &ActionSpec::value,
-                     "Where the hand or the collider goes [m]; the value that a ramp ends at.")
-            .only({"move", "ramp"})
-            .rotation("rotation_deg", &ActionSpec::rotation,
-                      "How the collider is turned then, about x, then y, then z.")
-            .only({"move"})
-            .number("over_s", &ActionSpec::over, "s", momentRange, "How long it takes; 0 means at once.")
-            .only({"move", "ramp"})
-            .choice("ease", &ActionSpec::ease, easeNames(), "How it gets there.")
-            .only({"move", "ramp"})
-            .vector("impulse_Ns", &ActionSpec::impulse, "N s", placeRange, "Of all the points, shared by mass.")
-            .required()
-            .only({"push"})
-            .segment("plane", &ActionSpec::planePoint, &ActionSpec::planeNormal, "m", placeRange,
-                     "A point and a normal: springs that cross the plane are cut.")
-            .only({"cut"})
-            .segment("segment", &ActionSpec::from, &ActionSpec::upTo, "", share,
-                     "From where to where a cloth grid is cut, as shares of its width and height from the top left.")
-            .only({"cut"})
-            .number("mass_kg", &ActionSpec::mass, "kg", positive, "Of all the points, shared evenly.")
-            .required()
-            .only({"add-mass"})
-            .take();
-    section.check = [](const CheckInput& input, void* target) {
-        auto& action = *static_cast<ActionSpec*>(target);
-        if (action.what == Do::ramp && input.variant == "ramp" && input.table.find("to") == nullptr)
-            input.problems.addError(input.place, "do = \"ramp\" needs to", "to is the value that the ramp ends at");
-        if (!input.isClean) return;
-        checkAction(input, action);
-        if (action.what != Do::move || action.value.size() != 3) return;
-        action.to = vectorOf<dvec3>(action.value);
-        action.value.clear();
-    };
+    Field what;
+    what.key = section.variantKey;
+    what.kind = FieldKind::choice;
+    what.required = true;
+    what.help = "What happens.";
+    what.write = [](void*, const Value&) {};
+    what.read = [](const void*) { return Value(); };
+    for (const Kind<ActionSpec>& kind : kinds.all()) {
+        what.choices.push_back(kind.name);
+        section.forms.push_back(kind.section);
+    }
+    section.fields = mergedRows(kinds.all());
+    section.fields.insert(section.fields.begin() + 1, what);
     return section;
 }
 

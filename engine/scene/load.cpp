@@ -70,8 +70,7 @@ void sortByName(world::SceneSpec& spec, const world::Kinds& kinds) {
     sortByName(spec.colliders);
     sortByName(spec.cameras);
     sortByName(spec.labels);
-    std::stable_sort(spec.actions.begin(), spec.actions.end(),
-                     [](const world::ActionSpec& a, const world::ActionSpec& b) { return a.t < b.t; });
+    spec.actions.stableSort([](const world::ActionSpec& a, const world::ActionSpec& b) { return a.t < b.t; });
 }
 
 Node treeOf(std::string_view text, int origin, Problems& problems) {
@@ -135,6 +134,7 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     reportSuspicions(scene, problems);
     sortByName(scene.spec, kinds);
     scene.spec.solver.methods = std::make_shared<const ode::Methods>(kinds.methods);
+    scene.spec.actionKinds = std::make_shared<const world::KindTable<world::ActionSpec>>(kinds.actions);
     scene.spec.shapes = std::make_shared<const collision::ShapeKinds>(kinds.shapes);
     StateKeys keys(root, scene.spec);
     return {std::move(scene.spec), problems.warnings(), std::move(keys)};

@@ -15,12 +15,12 @@ namespace taut::scene {
 
 struct LoadOptions {
     // "cloth.flag.cells=[72,48]", checked like the file itself; later ones win.
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides{};
     // Where models and textures are looked for when they do not lie beside the scene file: in each folder, in its
     // `models` and in its `textures`.
-    std::vector<std::filesystem::path> assetFolders;
+    std::vector<std::filesystem::path> assetFolders{};
     // What a scene may be made of; null: what the engine has.
-    std::shared_ptr<const world::Kinds> kinds;
+    std::shared_ptr<const world::Kinds> kinds{};
     // What a scene may take [bytes]; 0: half of the machine's memory.
     double memoryLimit = 0;
 };

@@ -69,24 +69,24 @@ const Node* tableOf(const Node& root, const SceneSection& section, const std::st
     return member == nullptr ? nullptr : &member->value;
 }
 
-world::RampField accessOf(const SceneSection& section, const std::string& owner, const std::string& name, const Row& row) {
-    const auto place = [existing = section.existing, enter = row.enter, name](world::SceneSpec& scene) {
+// A row of a section's struct.
+struct RowField final : world::RampField {
+    std::string name;  // of the struct
+    std::function<void*(world::SceneSpec&, const std::string&)> existing;
+    std::function<void*(void*, const world::Source&)> enter;
+    Field row;
+
+    void* place(world::SceneSpec& scene) const {
         void* target = existing(scene, name);
         return enter ? enter(target, {}) : target;
-    };
-    world::RampField access;
-    access.affects = *row.field->ramp;
-    access.owner = owner;
-    access.read = [place, read = row.field->read](const world::SceneSpec& scene) {
-        return numbersIn(read(place(const_cast<world::SceneSpec&>(scene))));  // it is only looked at
-    };
-    const bool isNumber = row.field->kind == FieldKind::number;
-    access.write = [place, write = row.field->write, isNumber](world::SceneSpec& scene,
-                                                               const std::vector<double>& value) {
-        write(place(scene), isNumber ? Value(value.front()) : Value(value));
-    };
-    return access;
-}
+    }
+    std::vector<double> read(const world::SceneSpec& scene) const override {
+        return numbersIn(row.read(place(const_cast<world::SceneSpec&>(scene))));  // it is only looked at
+    }
+    void write(world::SceneSpec& scene, const std::vector<double>& value) const override {
+        row.write(place(scene), row.kind == FieldKind::number ? Value(value.front()) : Value(value));
+    }
+};
 
 }  // namespace
 
@@ -136,10 +136,16 @@ std::optional<RampKey> rampKey(const std::string& key, const Node& root, const s
     const std::vector<std::string>& only = row->field->only;
     if (!variant.empty() && !only.empty() && std::find(only.begin(), only.end(), variant) == only.end())
         return fail(fmt::format("{} is {}, which has no {}", owner, variant, path), "");
-    RampKey found{row->field, accessOf(*section, owner, name, *row)};
-    if (found.access.read(scene).empty())
+    auto access = std::make_shared<RowField>();
+    access->affects = *row->field->ramp;
+    access->owner = owner;
+    access->name = name;
+    access->existing = section->existing;
+    access->enter = row->enter;
+    access->row = *row->field;
+    if (access->read(scene).empty())
         return fail(fmt::format("{} has no value to begin from", key), fmt::format("give it in [{}]", owner));
-    return found;
+    return RampKey{row->field, std::move(access)};
 }
 
 std::vector<std::string> rampableKeys(const std::vector<SceneSection>& sections) {

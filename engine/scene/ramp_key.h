@@ -7,12 +7,13 @@
 
 #include "taut/scene/body_index.h"
 #include "taut/scene/sections.h"
+#include "taut/world/actions.h"
 
 namespace taut::scene {
 
 struct RampKey {
-    const Field* field = nullptr;  // a row of `sections`
-    world::RampField access;       // values as the file has them
+    const Field* field = nullptr;                    // a row of `sections`
+    std::shared_ptr<const world::RampField> access;  // values as the file has them
 };
 
 // Nothing and a fault if the key names nothing, something that cannot change, or something that has no value to begin

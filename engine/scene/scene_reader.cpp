@@ -107,7 +107,7 @@ class SceneReader {
             out_.owners.emplace(name, item.place);
             const int before = problems_.errorCount();
             readItem(section, item, name, fmt::format("[[{}]]", section.name),
-                     section.enter(out_.spec, "", sourceOf(item.place)));
+                     section.enter(out_.spec, section.forms.empty() ? "" : section.variant(item), sourceOf(item.place)));
             if (problems_.errorCount() > before) out_.faulty.insert(name);
         }
     }
@@ -125,6 +125,9 @@ class SceneReader {
     void readTable(const Section& section, const Node& table, Place place, const std::string& where, void* target) {
         const int before = problems_.errorCount();
         const std::string variant = section.variant ? section.variant(table) : "";
+        const auto named = std::find_if(section.forms.begin(), section.forms.end(),
+                                        [&](const Section& s) { return s.name == variant; });
+        const Section& own = named == section.forms.end() ? section : *named;
         // A variant that no field knows is a mistake that is reported where it stands.
         const auto fits = [&](const Field& field) {
             return field.only.empty() || variant.empty() ||
@@ -140,16 +143,17 @@ class SceneReader {
                 problems_.addError(member.place, fmt::format("{} does not go with {}", member.key, form),
                                    fmt::format("it belongs to {}", joined(field->only)));
             } else {
-                readField(*field, member, where, target);
+                const Field* row = own.find(member.key);
+                readField(row != nullptr ? *row : *field, member, where, target);
             }
         }
-        for (const Field& field : section.fields) {
+        for (const Field& field : own.fields) {
             if (!field.required || !fits(field) || table.find(field.key) != nullptr) continue;
             if (!field.only.empty() && variant.empty()) continue;
             problems_.addError(place, fmt::format("{} needs {}", where, field.key), remedyFor(field));
         }
-        if (!section.check) return;
-        section.check({problems_, table, place, where, variant, problems_.errorCount() == before}, target);
+        if (!own.check) return;
+        own.check({problems_, table, place, where, variant, problems_.errorCount() == before}, target);
     }
 
     // Whether a variant is one that the table has, not a slip such as shape = "spere".

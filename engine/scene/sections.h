@@ -15,7 +15,8 @@ using world::placeRange;
 
 // A section of a scene file, and where its fields go.
 struct SceneSection : Section {
-    // The struct to fill: a part of the scene, or a new element with its name.
+    // The struct to fill: a part of the scene, or a new element with its name; of several forms that have structs of
+    // their own, with that of its form.
     std::function<void*(world::SceneSpec&, const std::string& name, const core::Source&)> enter;
     // The struct that is there already, or null; no function: ramps change nothing of it.
     std::function<void*(world::SceneSpec&, const std::string& name)> existing;
@@ -45,7 +46,7 @@ SceneSection labelSection();
 
 // What happens while it runs, and what is claimed of it.
 SceneSection handSection();
-SceneSection atSection();
+SceneSection atSection(const world::KindTable<world::ActionSpec>& kinds);
 SceneSection checkSection();
 SceneSection goldenSection();
 

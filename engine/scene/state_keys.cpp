@@ -5,6 +5,7 @@
 
 #include "taut/core/hash.h"
 #include "taut/scene/document.h"
+#include "taut/world/actions.h"
 #include "taut/world/ticks.h"
 
 namespace taut::scene {
@@ -107,8 +108,8 @@ StateKeys::StateKeys(const Node& root, const world::SceneSpec& spec) {
                          [](const auto& a, const auto& b) { return a.first < b.first; });
     }
     // A body that will be spawned is not there from the start.
-    for (const world::ActionSpec& action : spec.actions)
-        if (action.what == world::Do::spawn) state.add(action.target);
+    world::foreseen<world::SpawnAction>(spec.actions,
+                                        [&](const world::SpawnAction& spawn) { state.add(spawn.target); });
     scene_ = state.value();
     picture_ = picture.value();
 }

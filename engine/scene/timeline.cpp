@@ -8,20 +8,25 @@
 #include "taut/scene/body_index.h"
 #include "taut/scene/ramp_key.h"
 #include "taut/fields/value_reader.h"
+#include "taut/world/actions.h"
 #include "taut/world/ticks.h"
 
 namespace taut::scene {
 
 namespace {
 
-using world::ActionSpec;
-using world::Do;
+using namespace world;
 
 struct Event {
     ActionSpec* action = nullptr;
     const Node* item = nullptr;
     std::int64_t tick = 0;
     std::size_t order = 0;  // of happening
+
+    template <class Own>
+    Own* as() const {
+        return dynamic_cast<Own*>(action);
+    }
 };
 
 // A way that a hand, a collider or a value is on.
@@ -43,7 +48,7 @@ class Timeline {
     void check() {
         collect();
         for (const Event& event : events_)
-            if (event.action->what == Do::spawn) enterSpawn(event);
+            if (const auto* spawn = event.as<SpawnAction>()) enterSpawn(event, spawn->target);
         for (const Event& event : events_) checkEvent(event);
     }
 
@@ -74,8 +79,7 @@ class Timeline {
         return fault.has_value();
     }
 
-    void enterSpawn(const Event& event) {
-        const std::string& target = event.action->target;
+    void enterSpawn(const Event& event, const std::string& target) {
         if (report(event, "target", bodies_.bodyFault(target))) return;
         for (const std::string& name : bodies_.names(target)) {
             const auto [before, isNew] = spawns_.emplace(name, event.order);
@@ -83,7 +87,7 @@ class Timeline {
                 error(event, "target",
                       fmt::format("{} is spawned already at {} s", name, events_[before->second].action->t));
         }
-        for (const world::JointSpec& joint : scene_.spec.joints) {
+        for (const JointSpec& joint : scene_.spec.joints) {
             for (const std::string& end : {joint.a, joint.b}) {
                 for (const BodyEntry* body : bodies_.matches(end)) {
                     const auto tied = bodies_.matches(target);
@@ -100,33 +104,20 @@ class Timeline {
                   fmt::format("{} s is past the end: the last frame shows {:.6g} s", event.action->t,
                               ticks_.secondsOf(ticks_.last())),
                   "set seconds in [run]");
-        switch (event.action->what) {
-            case Do::grab:
-                return checkGrab(event);
-            case Do::move:
-                return event.action->id.empty() ? checkColliderMove(event) : checkHandMove(event);
-            case Do::release:
-                return checkRelease(event);
-            case Do::ramp:
-                return checkRamp(event);
-            case Do::hold:
-            case Do::free:
-                checkTarget(event);
-                return checkHold(event);
-            case Do::push:
-            case Do::addMass:
-                checkTarget(event);
-                return;
-            case Do::cut:
-                return checkCut(event);
-            case Do::spawn:
-                return;
-        }
+        if (const auto* onPoints = event.as<PointsAction>()) checkTarget(event, onPoints->target);
+        if (const auto* hold = event.as<HoldAction>()) checkHold<FreeAction>(event, *hold);
+        if (const auto* free = event.as<FreeAction>()) checkHold<HoldAction>(event, *free);
+        if (const auto* grab = event.as<GrabAction>()) checkGrab(event, grab->id);
+        if (const auto* move = event.as<MoveAction>())
+            move->id.empty() ? checkColliderMove(event, *move) : checkHandMove(event, *move);
+        if (const auto* release = event.as<ReleaseAction>(); release != nullptr && checkHeld(event, release->id))
+            grabbed_.erase(release->id);
+        if (auto* ramp = event.as<RampAction>()) checkRamp(event, *ramp);
+        if (const auto* cut = event.as<CutAction>()) checkCut(event, *cut);
     }
 
     // Whether the target is right and there at that moment.
-    bool checkTarget(const Event& event) {
-        const std::string& target = event.action->target;
+    bool checkTarget(const Event& event, const std::string& target) {
         if (report(event, "target", bodies_.targetFault(target))) return false;
         const Event* earliest = nullptr;
         for (const std::string& name : bodies_.names(target)) {
@@ -141,9 +132,7 @@ class Timeline {
         return false;
     }
 
-    void checkGrab(const Event& event) {
-        const std::string& id = event.action->id;
-        checkTarget(event);
+    void checkGrab(const Event& event, const std::string& id) {
         if (id.empty()) return error(event, "id", "a hand needs a name");
         if (const auto held = grabbed_.find(id); held != grabbed_.end())
             return error(event, "id",
@@ -155,8 +144,7 @@ class Timeline {
     }
 
     // Whether the hand holds something; reports it if not.
-    bool checkHeld(const Event& event) {
-        const std::string& id = event.action->id;
+    bool checkHeld(const Event& event, const std::string& id) {
         if (grabbed_.contains(id)) return true;
         const bool wasReleased = std::find(known_.begin(), known_.end(), id) != known_.end();
         error(event, "id",
@@ -166,46 +154,43 @@ class Timeline {
         return false;
     }
 
-    void checkHandMove(const Event& event) {
-        if (checkHeld(event)) checkSpan(event, "hand " + event.action->id, "\"" + event.action->id + "\"", "moved");
+    void checkHandMove(const Event& event, const MoveAction& move) {
+        if (checkHeld(event, move.id)) checkSpan(event, move.over, "hand " + move.id, "\"" + move.id + "\"", "moved");
     }
 
-    void checkRelease(const Event& event) {
-        if (checkHeld(event)) grabbed_.erase(event.action->id);
-    }
-
-    void checkColliderMove(const Event& event) {
-        const std::string& target = event.action->target;
+    void checkColliderMove(const Event& event, const MoveAction& move) {
+        const std::string& target = move.target;
         std::vector<std::string> names;
-        for (const world::ColliderSpec& collider : scene_.spec.colliders) {
+        for (const ColliderSpec& collider : scene_.spec.colliders) {
             names.push_back("collider." + collider.name);
             if (names.back() != target) continue;
             if (!collider.keys.empty())
                 return error(event, "target", fmt::format("{} is led by its keys", target),
                              "move it by one of the two");
-            return checkSpan(event, target, target, "moved");
+            return checkSpan(event, move.over, target, target, "moved");
         }
         std::string remedy = suggestion(target, names);
         if (remedy.empty() && !target.starts_with("collider.")) remedy = "a move takes a collider, or a hand by its id";
         error(event, "target", fmt::format("there is no {}", target), remedy);
     }
 
-    void checkRamp(const Event& event) {
+    void checkRamp(const Event& event, RampAction& ramp) {
         TargetFault fault;
-        std::optional<RampKey> key = rampKey(event.action->key, root_, sections_, scene_.spec, fault);
+        std::optional<RampKey> key = rampKey(ramp.key, root_, sections_, scene_.spec, fault);
         if (!key) return void(report(event, "key", fault));
-        event.action->field = key->access;
+        ramp.field = key->access;
         const Node& to = event.item->find("to")->value;
         const std::optional<Value> value = fieldValue(*key->field, to, problems_);
         if (!value) return;
-        if (const double* number = std::get_if<double>(&*value)) event.action->value = {*number};
-        if (const auto* numbers = std::get_if<std::vector<double>>(&*value)) event.action->value = *numbers;
-        checkSpan(event, "ramp " + event.action->key, event.action->key, "changed");
+        if (const double* number = std::get_if<double>(&*value)) ramp.value = {*number};
+        if (const auto* numbers = std::get_if<std::vector<double>>(&*value)) ramp.value = *numbers;
+        checkSpan(event, ramp.over, "ramp " + ramp.key, ramp.key, "changed");
     }
 
     // Two ways at once contradict; one may begin where the other ends.
-    void checkSpan(const Event& event, const std::string& key, const std::string& name, const char* done) {
-        const Span span{event.action->t, event.action->t + event.action->over};
+    void checkSpan(const Event& event, double over, const std::string& key, const std::string& name,
+                   const char* done) {
+        const Span span{event.action->t, event.action->t + over};
         const auto [before, isFirst] = spans_.emplace(key, span);
         if (isFirst) return;
         const double slack = 0.5 / ticks_.perSecond;
@@ -218,33 +203,34 @@ class Timeline {
     }
 
     // The same points held and freed at one tick. Points that different selectors share are not looked for.
-    void checkHold(const Event& event) {
+    template <class Opposite>
+    void checkHold(const Event& event, const PointsAction& own) {
         const auto selectorOf = [](const std::string& target) {
             const std::size_t at = target.find('@');
             const std::string selector = at == std::string::npos ? "all" : target.substr(at + 1);
             return selector;
         };
-        const std::string selector = selectorOf(event.action->target);
-        const std::vector<std::string> names = bodies_.names(event.action->target);
+        const std::string selector = selectorOf(own.target);
+        const std::vector<std::string> names = bodies_.names(own.target);
         for (std::size_t i = 0; i < event.order; ++i) {
             const Event& other = events_[i];
-            const Do opposite = event.action->what == Do::hold ? Do::free : Do::hold;
-            if (other.tick != event.tick || other.action->what != opposite) continue;
-            if (other.action->near || event.action->near) continue;
-            const std::string otherSelector = selectorOf(other.action->target);
+            const auto* opposite = other.as<Opposite>();
+            if (other.tick != event.tick || opposite == nullptr || opposite->near || own.near) continue;
+            const std::string otherSelector = selectorOf(opposite->target);
             if (selector != otherSelector && selector != "all" && otherSelector != "all") continue;
-            for (const std::string& name : bodies_.names(other.action->target)) {
+            for (const std::string& name : bodies_.names(opposite->target)) {
                 if (std::find(names.begin(), names.end(), name) == names.end()) continue;
                 return error(event, "target", fmt::format("points of {} are held and freed at the same moment", name));
             }
         }
     }
 
-    void checkCut(const Event& event) {
-        if (!checkTarget(event)) return;
-        if (const std::string& target = event.action->target; target.find('@') != std::string::npos) {
+    void checkCut(const Event& event, const CutAction& cut) {
+        const std::string& target = cut.target;
+        if (!checkTarget(event, target)) return;
+        if (target.find('@') != std::string::npos) {
             report(event, "target", bodies_.bodyFault(target));
-        } else if (event.action->from) {
+        } else if (cut.from) {
             for (const BodyEntry* body : bodies_.matches(target)) {
                 if (body->outline.isGrid) continue;
                 return error(event, "target", fmt::format("{} is no cloth grid: it has no segment", body->title()),
@@ -258,7 +244,7 @@ class Timeline {
     ReadScene& scene_;
     Problems& problems_;
     const BodyIndex& bodies_;
-    world::Ticks ticks_;
+    Ticks ticks_;
     std::vector<Event> events_;
     std::map<std::string, std::size_t> spawns_;    // body: order of its spawn
     std::map<std::string, const Event*> grabbed_;  // hand: its grab

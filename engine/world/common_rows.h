@@ -1,7 +1,12 @@
-// Rows of fields that several sections of a scene have in common, and the kinds that structs of bodies and forces make.
+// Rows of fields that several sections of a scene have in common, and the kinds that structs of bodies, forces and
+// actions make.
 #pragma once
 
+#include <functional>
+
+#include "taut/core/error.h"
 #include "taut/fields/field_list.h"
+#include "taut/world/action_spec.h"
 #include "taut/world/body_spec.h"
 #include "taut/world/force_spec.h"
 #include "taut/world/specs.h"
@@ -75,6 +80,31 @@ Kind<BodySpec> bodyKind() {
 template <class Own>
 Kind<ForceSpec> forceKind() {
     return kindOf<Own, ForceSpec>();
+}
+
+// What no single field of a kind can say: reports what is wrong with an action that was read.
+template <class Own>
+using ActionCheck = std::function<void(const fields::CheckInput& input, const Own& action)>;
+
+// A kind of action, from the rows of the struct's own fields; its moment comes before them. A key that another kind has
+// too should mean the same. Expects no tables inside.
+template <class Own>
+Kind<ActionSpec> actionKind(fields::FieldList<Own> own, ActionCheck<Own> check = {}) {
+    Kind<ActionSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};
+    kind.section.fields = fields::FieldList<Own>()
+                              .number("t", &ActionSpec::t, "s", momentRange, "Moment; the nearest tick is taken.")
+                              .required()
+                              .role(fields::Role::time)
+                              .take();
+    for (fields::Field& row : own.take()) {
+        TAUT_EXPECTS(row.inside.empty());
+        kind.section.fields.push_back(std::move(row));
+    }
+    if (check)
+        kind.section.check = [check](const fields::CheckInput& input, void* action) {
+            check(input, *static_cast<const Own*>(action));
+        };
+    return kind;
 }
 
 }  // namespace taut::world

@@ -27,14 +27,14 @@ struct Knife {
     }
 };
 
-Knife planeThrough(const ActionSpec& action, const Island& island, const Body& body) {
+Knife planeThrough(const CutAction& action, const Island& island, const Body& body) {
     Knife knife;
     for (int i : body.pointOf)
         knife.side.push_back(glm::dot(island.position(i) - *action.planePoint, *action.planeNormal));
     return knife;
 }
 
-Knife segmentOn(const ActionSpec& action, const Body& body) {
+Knife segmentOn(const CutAction& action, const Body& body) {
     Knife knife;
     knife.from = *action.from;
     knife.upTo = *action.upTo;
@@ -64,7 +64,7 @@ std::set<Damage::Edge> edgesOf(const mechanics::Model& model) {
 
 }  // namespace
 
-Crossing crossingOf(const ActionSpec& action, const Island& island, std::span<Body* const> bodies) {
+Crossing crossingOf(const CutAction& action, const Island& island, std::span<Body* const> bodies) {
     Crossing crossing;
     const IslandPlan& plan = island.plan();
     const bool isPlane = action.planePoint.has_value() && action.planeNormal.has_value();

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "taut/world/actions.h"
 #include "taut/world/island.h"
 
 namespace taut::world {
@@ -22,7 +23,7 @@ struct Crossing {
 
 // What of the bodies lies across the plane or the segment of the action and is not severed yet. A point on the plane
 // counts as in front of it, so that every edge is either crossed or not. A segment only cuts cloth on a grid.
-Crossing crossingOf(const ActionSpec& action, const Island& island, std::span<Body* const> bodies);
+Crossing crossingOf(const CutAction& action, const Island& island, std::span<Body* const> bodies);
 
 // Severs the edges, with the springs along them, and the joints.
 void sever(const Crossing& crossing, IslandPlan& plan);

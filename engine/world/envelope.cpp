@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "taut/core/error.h"
+#include "taut/world/actions.h"
 #include "taut/world/forces/scene_forces.h"
 #include "taut/world/targets.h"
 
@@ -18,20 +19,19 @@ double size(const std::vector<double>& value) {
     return sum;
 }
 
-bool changesIslands(const ActionSpec& action) {
-    return action.what == Do::ramp &&
-           (action.field.affects == fields::Affects::forces || action.field.affects == fields::Affects::springs);
+bool changesIslands(const RampAction& ramp) {
+    return ramp.field->affects == fields::Affects::forces || ramp.field->affects == fields::Affects::springs;
 }
 
 // The scene with every field that ramps change at the largest value that it takes, or the smallest. A ramp begins
 // somewhere between the values before it and keeps between its ends, so that these are all that count.
 SceneSpec extreme(const SceneSpec& spec, bool largest) {
     SceneSpec scene = spec;
-    for (const ActionSpec& action : spec.actions) {
-        if (!changesIslands(action)) continue;
-        const double now = size(action.field.read(scene)), later = size(action.value);
-        if (largest ? later > now : later < now) action.field.write(scene, action.value);
-    }
+    foreseen<RampAction>(spec.actions, [&](const RampAction& ramp) {
+        if (!changesIslands(ramp)) return;
+        const double now = size(ramp.field->read(scene)), later = size(ramp.value);
+        if (largest ? later > now : later < now) ramp.field->write(scene, ramp.value);
+    });
     return scene;
 }
 
@@ -52,14 +52,14 @@ auto& point(IslandPlan& plan, int i) {
 
 // Whether [hand] anywhere allows for this grab already, so that a scene that was played live has the steps that it had
 // then: a grip has at least the mass of each of its points.
-bool isAllowedAnywhere(const ActionSpec& grab, const HandSpec& hand) {
+bool isAllowedAnywhere(const GrabAction& grab, const HandSpec& hand) {
     return hand.anywhere && grab.id.starts_with(liveHand) && grab.strength <= hand.strength &&
            grab.dampingRatio <= hand.dampingRatio;
 }
 
 void lighten(Envelope& envelope, const SceneSpec& spec) {
-    for (const ActionSpec& action : spec.actions) {
-        if (action.what != Do::addMass || action.mass >= 0) continue;
+    foreseen<AddMassAction>(spec.actions, [&](const AddMassAction& action) {
+        if (action.mass >= 0) return;
         const std::vector<int> points = pointsOf(envelope.plan, action.target);
         for (int i : points) {
             double& mass = point(envelope.plan, i).mass;
@@ -69,7 +69,7 @@ void lighten(Envelope& envelope, const SceneSpec& spec) {
                                   at(action.source) + "this may leave a point of \"" + action.target +
                                       "\" without any mass; take away less, or from more points");
         }
-    }
+    });
 }
 
 // Grabs by springs. The mass of a grip is at least that of its points that are free all the time; or, where it is not
@@ -77,14 +77,18 @@ void lighten(Envelope& envelope, const SceneSpec& spec) {
 void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec) {
     std::vector<bool> mayBeHeld;
     for (const auto& p : start.points) mayBeHeld.push_back(p.held);
-    for (const ActionSpec& action : spec.actions)
-        if (action.what == Do::hold || (action.what == Do::grab && action.rigid))
-            for (int i : pointsOf(start, action.target)) mayBeHeld[static_cast<std::size_t>(i)] = true;
+    const auto mayHold = [&](const PointsAction& action) {
+        for (int i : pointsOf(start, action.target)) mayBeHeld[static_cast<std::size_t>(i)] = true;
+    };
+    foreseen<HoldAction>(spec.actions, mayHold);
+    foreseen<GrabAction>(spec.actions, [&](const GrabAction& grab) {
+        if (grab.rigid) mayHold(grab);
+    });
     std::map<std::string, std::vector<GripRates>> hands;  // (points) by id
-    for (const ActionSpec& action : spec.actions) {
-        if (action.what != Do::grab || action.rigid || isAllowedAnywhere(action, spec.hand)) continue;
+    foreseen<GrabAction>(spec.actions, [&](const GrabAction& action) {
+        if (action.rigid || isAllowedAnywhere(action, spec.hand)) return;
         const std::vector<int> named = pointsOf(envelope.plan, action.target);
-        if (named.empty()) continue;
+        if (named.empty()) return;
         double mass = 0, lightest = HUGE_VAL;
         for (int i : named) {
             lightest = std::min(lightest, point(envelope.plan, i).mass);
@@ -101,7 +105,7 @@ void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec
             most.omega2 = std::max(most.omega2, rates.omega2);
             most.damping = std::max(most.damping, rates.damping);
         }
-    }
+    });
     for (std::size_t i = 0; i < envelope.plan.points.size(); ++i) {
         const double mass = envelope.plan.points[i].mass;
         double stiffness = 0, rate = 0;
@@ -192,16 +196,15 @@ GripRates gripRates(double strength, double dampingRatio, double mass) {
 }
 
 bool isSpawnedLater(const Body& body, const SceneSpec& spec) {
-    return std::any_of(spec.actions.begin(), spec.actions.end(), [&](const ActionSpec& action) {
-        if (action.what != Do::spawn) return false;
-        const Target target = parseTarget(action.target);
+    return anyForeseen<SpawnAction>(spec.actions, [&](const SpawnAction& spawn) {
+        const Target target = parseTarget(spawn.target);
         return target.kind == body.kind() &&
                (matches(target.name, body.name) || matches(target.name, body.base()));
     });
 }
 
 Envelopes::Envelopes(const SceneSpec& spec) : impl_(new Impl{spec, {}, {}}) {
-    if (std::none_of(spec.actions.begin(), spec.actions.end(), changesIslands)) return;
+    if (!anyForeseen<RampAction>(spec.actions, changesIslands)) return;
     impl_->high.emplace(extreme(spec, true));
     impl_->low.emplace(extreme(spec, false));
 }
@@ -223,12 +226,12 @@ Envelope Envelopes::of(const IslandPlan& plan, const ForceList& forces, bool has
             soft = impl_->low->like(plan, hasJoints);
         }
     }
-    for (const ActionSpec& action : spec.actions)
-        if (action.what == Do::free)
-            for (int i : pointsOf(envelope.plan, action.target)) point(envelope.plan, i).held = false;
+    foreseen<FreeAction>(spec.actions, [&](const FreeAction& action) {
+        for (int i : pointsOf(envelope.plan, action.target)) point(envelope.plan, i).held = false;
+    });
     lighten(envelope, spec);
-    const bool hasHands = spec.hand.anywhere || std::any_of(spec.actions.begin(), spec.actions.end(),
-                                                            [](const ActionSpec& a) { return a.what == Do::grab; });
+    const bool hasHands =
+        spec.hand.anywhere || anyForeseen<GrabAction>(spec.actions, [](const GrabAction&) { return true; });
     if (hasHands) addHands(envelope, plan, spec);
 
     envelope.leastTau = largestTau(soft ? *soft : envelope.plan);

@@ -5,7 +5,6 @@
 
 #include "taut/world/impl.h"
 #include "taut/world/motion.h"
-#include "taut/world/targets.h"
 
 namespace taut::world {
 
@@ -23,85 +22,10 @@ dvec3 Hand::placeAt(std::int64_t tick) const {
     return share >= 1 ? to : from + share * (to - from);
 }
 
-// Takes hold of the points named and of those within the radius of one of them, where they are. The hand is at the
-// mean of the points named.
-void World::Impl::grab(const ActionSpec& action) {
-    if (std::any_of(hands.begin(), hands.end(), [&](const Hand& h) { return h.id == action.id; }))
-        failAction(action, "there is a hand \"" + action.id + "\" already; release it first");
-    std::vector<Picked> points = pick(action);
-    Hand hand;
-    hand.id = action.id;
-    hand.rigid = action.rigid;
-    for (const Picked& p : points) hand.from += p.island->position(p.point) / static_cast<double>(points.size());
-    hand.to = hand.from;
-    hand.start = tick;
-    if (action.radius > 0) {
-        ActionSpec bodiesOnly = action;
-        bodiesOnly.target = action.target.substr(0, action.target.find('@'));
-        bodiesOnly.near.reset();
-        const std::vector<Picked> named = points;
-        points.clear();
-        for (const Picked& candidate : pick(bodiesOnly)) {
-            const dvec3 x = candidate.island->position(candidate.point);
-            if (std::any_of(named.begin(), named.end(), [&](const Picked& p) {
-                    const dvec3 d = p.island->position(p.point) - x;
-                    return glm::dot(d, d) <= action.radius * action.radius;
-                }))
-                points.push_back(candidate);
-        }
-    }
-    std::erase_if(points, [](const Picked& p) { return !isFree(p.island->plan(), p.point); });
-    if (points.empty()) failAction(action, "every point of \"" + action.target + "\" is held already");
-
-    double mass = 0;
-    for (const Picked& p : points) mass += p.island->plan().points[static_cast<std::size_t>(p.point)].mass;
-    const GripRates rates = gripRates(action.strength, action.dampingRatio, mass);
-    for (const auto& [island, numbers] : byIsland(points)) {
-        Grip grip;
-        grip.hand = action.id;
-        grip.rigid = action.rigid;
-        grip.points = numbers;
-        grip.path = {hand.from, hand.from};
-        IslandPlan& plan = island->change(now(), Change::grips);
-        for (int i : numbers) {
-            const double share = plan.points[static_cast<std::size_t>(i)].mass;
-            grip.offsets.push_back(island->position(i) - hand.from);
-            if (action.rigid) continue;
-            grip.stiffness.push_back(share * rates.omega2);
-            grip.damping.push_back(share * rates.damping);
-        }
-        plan.grips.push_back(std::move(grip));
-        if (action.rigid) island->stop(now(), numbers);
-    }
-    hands.push_back(std::move(hand));
-}
-
-Hand& World::Impl::handOf(const ActionSpec& action) {
+Hand& World::Impl::handOf(const ActionSpec& action, const std::string& id) {
     for (Hand& hand : hands)
-        if (hand.id == action.id) return hand;
-    failAction(action, "there is no hand \"" + action.id + "\" now; grab with it first");
-}
-
-void World::Impl::moveHand(const ActionSpec& action) {
-    Hand& hand = handOf(action);
-    if (!action.to) failAction(action, "it is not said where the hand goes: `to` is missing");
-    hand.from = hand.placeAt(tick);
-    hand.to = *action.to;
-    hand.start = tick;
-    hand.length = ticksIn(action.over, ticksPerSecond);
-    hand.ease = action.ease;
-}
-
-void World::Impl::release(const ActionSpec& action) {
-    handOf(action);
-    for (const auto& island : islands) {
-        const std::vector<Grip>& grips = island->plan().grips;
-        if (island->frozen() != nullptr ||
-            std::none_of(grips.begin(), grips.end(), [&](const Grip& g) { return g.hand == action.id; }))
-            continue;
-        std::erase_if(island->change(now(), Change::grips).grips, [&](const Grip& g) { return g.hand == action.id; });
-    }
-    std::erase_if(hands, [&](const Hand& h) { return h.id == action.id; });
+        if (hand.id == id) return hand;
+    failAction(action, "there is no hand \"" + id + "\" now; grab with it first");
 }
 
 // Where hands go in the coming tick. What they hold starts anew when their speed changes: the extrapolated velocities

@@ -1,8 +1,9 @@
 // What a world is made of, shared by its sources only.
 //
 //   world.cpp          building, the tick, what is asked of a world
-//   timeline.cpp       actions, each done at the start of its tick
-//   hands.cpp          grabbing, moving, releasing
+//   timeline.cpp       actions when they are due, and the points that they name
+//   actions/           what each kind of action does
+//   hands.cpp          where hands are
 //   ramps.cpp          fields of the scene that change while it runs
 //   queries.cpp        metrics, points, hashes
 //   saving.cpp         all of it as bytes
@@ -12,6 +13,7 @@
 #include <optional>
 
 #include "taut/core/parallel.h"
+#include "taut/world/actions.h"
 #include "taut/world/components.h"
 #include "taut/world/hands.h"
 #include "taut/world/island.h"
@@ -21,7 +23,7 @@ namespace taut::world {
 
 // A field on its way; one that has arrived is kept, as its value is no longer the scene's own.
 struct Ramp {
-    ActionSpec action;
+    RampAction action;
     std::vector<double> from;
     std::int64_t start = 0;   // tick
     std::int64_t length = 0;  // ticks; 0: at once
@@ -84,28 +86,19 @@ struct World::Impl {
     Island& islandOf(const Body& body) const;
     std::vector<Body*> allBodies() const;
 
-    // Actions, each at the start of the tick that is now.
-    void perform(const ActionSpec& action);
-    void performDue();
-    void push(const ActionSpec& action);
-    void hold(const ActionSpec& action);
-    void free(const ActionSpec& action);
-    void addMass(const ActionSpec& action);
-    void cut(const ActionSpec& action);
-    void spawnNamed(const ActionSpec& action);
-    void moveCollider(const ActionSpec& action);
-    // The points that it names, each once, ascending by island; only the nearest if it says where. Frozen islands are
-    // left out. Throws core::Error(badContent) if there is none.
-    std::vector<Picked> pick(const ActionSpec& action) const;
+    // The actions of the scene whose tick it is, in `world`, which this is.
+    void performDue(World& world);
+    // The points that it names, each once, ascending by island; only the nearest if it says where. Throws
+    // core::Error(badContent) if there is none.
+    std::vector<Picked> pick(const PointsAction& action) const;
+    // Whether any body of that name was waiting.
+    bool spawnWaiting(const std::string& target);
     void closeIslands();
 
-    void grab(const ActionSpec& action);
-    void moveHand(const ActionSpec& action);
-    void release(const ActionSpec& action);
-    Hand& handOf(const ActionSpec& action);
+    // Throws core::Error(badContent) if there is none of that name.
+    Hand& handOf(const ActionSpec& action, const std::string& id);
     void leadHands();
 
-    void startRamp(const ActionSpec& action);
     // Writes the values at this tick, or at a moment between two, into the scene; only of those that affect `which`.
     void applyRamps(double moment, fields::Affects which);
     void changeForces();
@@ -121,7 +114,15 @@ struct World::Impl {
     void visit(StateBytes& bytes);
 };
 
-// The islands of picked points with their points in each, in order.
+// The way of actions into a world.
+struct WorldAccess {
+    using Impl = World::Impl;
+    static Impl& of(World& world) { return *world.impl_; }
+};
+using WorldImpl = WorldAccess::Impl;
+
+double massOf(const Picked& point);  // [kg]
+// The islands of picked points with their points in each, in order; frozen ones are left out.
 std::vector<std::pair<Island*, std::vector<int>>> byIsland(const std::vector<Picked>& points);
 
 [[noreturn]] void failAction(const ActionSpec& action, const std::string& message);

@@ -9,6 +9,7 @@
 #include "taut/collision/shape_table.h"
 #include "taut/core/table.h"
 #include "taut/ode/method_table.h"
+#include "taut/world/action_spec.h"
 #include "taut/world/body_spec.h"
 #include "taut/world/common_rows.h"
 #include "taut/world/force_spec.h"
@@ -31,11 +32,13 @@ class KindTable : public core::Table<Kind<Base>> {
 struct Kinds {
     KindTable<BodySpec> bodies;
     KindTable<ForceSpec> forces;
+    KindTable<ActionSpec> actions;
     ode::Methods methods;
     collision::ShapeKinds shapes;
 };
 
 // Those of the engine.
 Kinds builtIn();
+const KindTable<ActionSpec>& builtInActions();
 
 }  // namespace taut::world

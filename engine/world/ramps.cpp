@@ -15,36 +15,23 @@ const Spec* named(const std::vector<Spec>& specs, const std::string& name) {
 
 }  // namespace
 
-// A ramp of a key that is on its way already takes over where that is.
-void World::Impl::startRamp(const ActionSpec& action) {
-    Ramp ramp{action, action.field.read(spec), tick, 0};
-    if (action.over > 0) ramp.length = ticksIn(action.over, ticksPerSecond);
-    const auto old =
-        std::find_if(ramps.begin(), ramps.end(), [&](const Ramp& r) { return r.action.key == action.key; });
-    if (old != ramps.end()) {
-        *old = std::move(ramp);
-        return;
-    }
-    ramps.push_back(std::move(ramp));
-}
-
 void World::Impl::applyRamps(double moment, fields::Affects which) {
     for (const Ramp& ramp : ramps) {
-        if (ramp.action.field.affects != which) continue;
+        if (ramp.action.field->affects != which) continue;
         const double ticks = moment - static_cast<double>(ramp.start);
         const double share = ramp.length == 0 ? 1.0 : shareOfWay(ramp.action.ease, ticks, ramp.length);
         std::vector<double> value = ramp.action.value;
         if (share < 1)
             for (std::size_t i = 0; i < value.size() && i < ramp.from.size(); ++i)
                 value[i] = ramp.from[i] + share * (value[i] - ramp.from[i]);
-        ramp.action.field.write(spec, value);
+        ramp.action.field->write(spec, value);
     }
 }
 
 // Whether one of them may be different in the coming tick from what it was in the one before.
 bool World::Impl::isRamping(fields::Affects which) const {
     return std::any_of(ramps.begin(), ramps.end(), [&](const Ramp& ramp) {
-        return ramp.action.field.affects == which && tick <= ramp.start + ramp.length;
+        return ramp.action.field->affects == which && tick <= ramp.start + ramp.length;
     });
 }
 
@@ -83,8 +70,8 @@ void World::Impl::changeSprings() {
     applyRamps(static_cast<double>(tick) + 0.5, fields::Affects::springs);
     const auto concerns = [&](const Body& body) {
         return std::any_of(ramps.begin(), ramps.end(), [&](const Ramp& ramp) {
-            const std::string& owner = ramp.action.field.owner;
-            if (ramp.action.field.affects != fields::Affects::springs || tick > ramp.start + ramp.length)
+            const std::string& owner = ramp.action.field->owner;
+            if (ramp.action.field->affects != fields::Affects::springs || tick > ramp.start + ramp.length)
                 return false;
             return owner == body.spec->fullName() || owner == "material." + std::string(body.spec->materialName());
         });

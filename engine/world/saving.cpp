@@ -4,6 +4,7 @@
 #include "taut/world/impl.h"
 #include "taut/world/kinds.h"
 #include "taut/world/state_bytes.h"
+#include "taut/world/ticks.h"
 
 namespace taut::world {
 namespace {
@@ -41,12 +42,12 @@ void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, SceneSpec&
     std::string key = ramp.action.key;
     bytes(key);
     if (bytes.isReading()) {
-        const auto like = std::find_if(start.actions.begin(), start.actions.end(),
-                                       [&](const ActionSpec& a) { return a.what == Do::ramp && a.key == key; });
-        if (like == start.actions.end()) misfit("it has no ramp of \"" + key + "\"");
-        ramp.action = *like;
+        foreseen<RampAction>(start.actions, [&](const RampAction& like) {
+            if (like.key == key) ramp.action = like;
+        });
+        if (ramp.action.field == nullptr) misfit("it has no ramp of \"" + key + "\"");
     }
-    std::vector<double> now = ramp.action.field.read(spec);
+    std::vector<double> now = ramp.action.field->read(spec);
     const std::size_t size = now.size();
     visitValue(bytes, ramp.action.value, size);
     bytes.choice(ramp.action.ease, Ease::hold);
@@ -54,15 +55,26 @@ void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, SceneSpec&
     bytes.atLeast(ramp.start, 0, longestWay);
     bytes.atLeast(ramp.length, 0, longestWay);
     visitValue(bytes, now, size);
-    if (bytes.isReading()) ramp.action.field.write(spec, now);
+    if (bytes.isReading()) ramp.action.field->write(spec, now);
 }
 
 // Before the bytes of a world with kinds of its own; no frame rate, with which all others begin.
 constexpr std::uint64_t ownKindsMark = 0xfff8'7461'7574'0001ULL;  // a NaN
 
-// What a world has that is not of the engine: "force attraction.well", "body ring.hoop", "method mine", "shape torus".
+// The kinds of actions that are not of the engine, of those that begin before the tick: "action shake".
+std::vector<std::string> ownActions(const SceneSpec& scene, std::int64_t tick) {
+    const Ticks ticks(scene.run);
+    std::vector<std::string> names;
+    for (const ActionSpec& action : scene.actions)
+        if (ticks.at(action.t) < tick && builtInActions().find(action.kind()) == nullptr)
+            names.push_back("action " + std::string(action.kind()));
+    return names;
+}
+
+// What a world has that is not of the engine: "force attraction.well", "body ring.hoop", "method mine", "shape torus",
+// and of actions those until now.
 std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added,
-                                  const std::vector<std::unique_ptr<Island>>& islands) {
+                                  const std::vector<std::unique_ptr<Island>>& islands, std::int64_t tick) {
     static const Kinds known = builtIn();
     std::vector<std::string> names;
     const auto need = [&](const std::string& name) {
@@ -79,16 +91,19 @@ std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added
     for (const auto& island : islands)
         if (known.methods.find(island->plan().solver.integrator) == nullptr)
             need("method " + island->plan().solver.integrator);
+    for (const std::string& action : ownActions(scene, tick)) need(action);
     return names;
 }
 
-// So that a world without them refuses the bytes by name.
-void visitKinds(StateBytes& bytes, const std::vector<std::string>& own) {
+// So that a world without them refuses the bytes by name; `actions` are all that its timeline has.
+void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const std::vector<std::string>& actions) {
     std::vector<std::string> names;
     if (bytes.mark(ownKindsMark, !own.empty())) {
         names = own;
         bytes.each(names, [&](std::string& name) { bytes(name); });
     }
+    if (bytes.isReading())
+        std::erase_if(names, [&](const std::string& name) { return std::count(actions.begin(), actions.end(), name) > 0; });
     for (std::size_t i = 0; i < std::max(names.size(), own.size()); ++i) {
         if (i >= own.size() || (i < names.size() && names[i] != own[i]))
             misfit("they need the " + names[i] + ", which this world has not, or not in this place");
@@ -99,7 +114,7 @@ void visitKinds(StateBytes& bytes, const std::vector<std::string>& own) {
 }  // namespace
 
 void World::Impl::visit(StateBytes& bytes) {
-    visitKinds(bytes, ownKinds(spec, added, islands));
+    visitKinds(bytes, ownKinds(spec, added, islands, tick), ownActions(spec, longestWay));
     double rate = ticksPerSecond;
     bytes(rate);
     if (rate != ticksPerSecond) misfit("its frame rate is another");
@@ -110,11 +125,8 @@ void World::Impl::visit(StateBytes& bytes) {
     std::vector<std::string> targets = spawned;
     bytes.each(targets, [&](std::string& target) { bytes(target); });
     if (bytes.isReading())
-        for (const std::string& target : targets) {
-            ActionSpec action;
-            action.target = target;
-            spawnNamed(action);
-        }
+        for (const std::string& target : targets)
+            if (!spawnWaiting(target)) misfit("no body \"" + target + "\" waits to be spawned");
     bytes.each(hands, [&](Hand& hand) { visitPart(bytes, hand); });
     registry.each<ColliderPart, Placement>([&](ecs::Entity, ColliderPart& part, Placement& placement) {
         bytes.expect(part.spec.name, "its colliders are others");

@@ -25,6 +25,9 @@ class ShapeKinds;
 
 namespace taut::world {
 
+template <class Base>
+class KindTable;
+
 struct WorldSpec {
     dvec3 gravity{0.0, -9.81, 0.0};  // [m/s²]
     double airDensity = 1.2;         // [kg/m³]
@@ -80,8 +83,9 @@ struct SceneSpec {
     std::vector<CameraSpec> cameras;
     std::vector<LabelSpec> labels;
     HandSpec hand;
-    std::vector<ActionSpec> actions;  // by time, those of one moment in the order of the file
-    std::vector<CheckSpec> checks;    // in the order of the file
+    Specs<ActionSpec> actions;  // by time, those of one moment in the order of the file
+    std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // of which they are; none: the engine's own
+    std::vector<CheckSpec> checks;                             // in the order of the file
     std::vector<GoldenSpec> goldens;
 };
 

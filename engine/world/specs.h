@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -59,6 +60,8 @@ class Specs {
     Specs(const Specs& other) {
         for (const auto& spec : other.all_) all_.push_back(spec->copy());
     }
+    template <std::derived_from<Base>... Own>
+    requires(sizeof...(Own) > 0) Specs(const Own&... specs) { (add(specs), ...); }
     Specs(Specs&&) noexcept = default;
     Specs& operator=(Specs other) noexcept {
         all_.swap(other.all_);
@@ -76,6 +79,23 @@ class Specs {
         add(std::move(second), std::move(more)...);
     }
     Base& add(std::unique_ptr<Base> spec) { return *all_.emplace_back(std::move(spec)); }
+
+    template <class Item>
+    struct Iterator {
+        const std::unique_ptr<Base>* at;
+        Item& operator*() const { return **at; }
+        Iterator& operator++() {
+            ++at;
+            return *this;
+        }
+        bool operator==(const Iterator&) const = default;
+    };
+    Iterator<Base> begin() { return {all_.data()}; }
+    Iterator<Base> end() { return {all_.data() + all_.size()}; }
+    Iterator<const Base> begin() const { return {all_.data()}; }
+    Iterator<const Base> end() const { return {all_.data() + all_.size()}; }
+    Base& operator[](std::size_t i) { return *all_[i]; }
+    const Base& operator[](std::size_t i) const { return *all_[i]; }
 
     Pointees<Base*> all() { return Pointees(pointers<Base*>(all_)); }
     Pointees<const Base*> all() const { return Pointees(pointers<const Base*>(all_)); }
@@ -125,7 +145,9 @@ class Specs {
 template <class Own, class Base>
 struct SpecOf : Base {
     std::string_view kind() const final { return Own::kindName; }
-    std::unique_ptr<Base> copy() const final { return std::make_unique<Own>(static_cast<const Own&>(*this)); }
+    decltype(std::declval<const Base&>().copy()) copy() const final {
+        return std::make_unique<Own>(static_cast<const Own&>(*this));
+    }
 };
 
 // What a scene file has to know of a kind: its section and a fresh struct for its fields.

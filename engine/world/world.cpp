@@ -98,10 +98,9 @@ void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Env
 ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
     const ecs::Entity entity = registry.create();
     registry.add(entity, Identity{"collider", collider.name});
-    const bool mayTurn = std::any_of(start->actions.begin(), start->actions.end(), [&](const ActionSpec& action) {
-        const Target target = parseTarget(action.target);
-        return action.what == Do::move && action.rotation && target.kind == "collider" &&
-               matches(target.name, collider.name);
+    const bool mayTurn = anyForeseen<MoveAction>(start->actions, [&](const MoveAction& move) {
+        const Target target = parseTarget(move.target);
+        return move.rotation && target.kind == "collider" && matches(target.name, collider.name);
     });
     const collision::ShapeKinds& kinds = spec.shapes != nullptr ? *spec.shapes : collision::builtInShapes();
     registry.add(entity, ColliderPart{collider, makeColliderModel(collider, kinds, mayTurn)});
@@ -229,7 +228,7 @@ std::optional<Divergence> World::advance() {
     Impl& w = *impl_;
     const TickTime now = w.now();
     // What acts between two ticks, systems as well as actions; then the islands that it opened start again.
-    w.performDue();
+    w.performDue(*this);
     w.changeColliders();
     w.placeColliders();
     for (const System& system : std::vector<System>(w.systems))

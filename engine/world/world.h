@@ -188,6 +188,7 @@ class World {
     std::vector<glm::dvec3> positions(ecs::Entity body) const;
 
   private:
+    friend struct WorldAccess;
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -1,6 +1,7 @@
 // What many bodies cost: both figures are to stay flat a body.
 #include <benchmark/benchmark.h>
 
+#include "taut/world/actions.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
 #include "taut/world/world.h"
@@ -41,6 +42,15 @@ void tickBodies(benchmark::State& state) {
 }
 BENCHMARK(tickBodies)->Arg(250)->Arg(1000)->Arg(4000)->Arg(8000)->Unit(benchmark::kMillisecond);
 
+struct StretchOfM final : world::RampField {
+    StretchOfM() {
+        affects = fields::Affects::springs;
+        owner = "material.m";
+    }
+    std::vector<double> read(const world::SceneSpec& s) const override { return {s.materials.at("m").stretch}; }
+    void write(world::SceneSpec& s, const std::vector<double>& v) const override { s.materials["m"].stretch = v[0]; }
+};
+
 world::SceneSpec hangingCloth() {
     world::SceneSpec scene;
     scene.materials["m"] = {};
@@ -57,15 +67,11 @@ world::SceneSpec hangingCloth() {
 void tickRamp(benchmark::State& state) {
     world::SceneSpec scene = hangingCloth();
     if (state.range(0) == 1) {
-        world::ActionSpec ramp;
-        ramp.what = world::Do::ramp;
+        world::RampAction ramp;
         ramp.key = "material.m.stretch_N_per_m";
         ramp.value = {scene.materials["m"].stretch * 1.1};
         ramp.over = 1e6;
-        ramp.field.affects = fields::Affects::springs;
-        ramp.field.owner = "material.m";
-        ramp.field.read = [](const world::SceneSpec& s) { return std::vector{s.materials.at("m").stretch}; };
-        ramp.field.write = [](world::SceneSpec& s, const std::vector<double>& v) { s.materials["m"].stretch = v[0]; };
+        ramp.field = std::make_shared<StretchOfM>();
         scene.actions = {ramp};
     }
     world::World world(scene, {.threads = 1});
@@ -77,13 +83,11 @@ BENCHMARK(tickRamp)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 void tickPlasticity(benchmark::State& state) {
     world::SceneSpec scene = hangingCloth();
     if (state.range(0) == 1) scene.materials["m"].plasticity.yieldStrain = 1e-3;
-    world::ActionSpec grab;
-    grab.what = world::Do::grab;
+    world::GrabAction grab;
     grab.id = "h";
     grab.target = "cloth.c@bottom";
     grab.rigid = true;
-    world::ActionSpec move;
-    move.what = world::Do::move;
+    world::MoveAction move;
     move.id = "h";
     move.t = 0.1;
     move.to = glm::dvec3(0.0, -1e3, 0.0);

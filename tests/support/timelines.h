@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/small_scenes.h"
+#include "taut/world/actions.h"
 #include "taut/world/bodies/block.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
@@ -25,67 +26,76 @@ inline void run(world::World& world, int ticks) {
     }
 }
 
-inline world::ActionSpec action(world::Do what, double t, const std::string& target = "") {
-    world::ActionSpec spec;
-    spec.what = what;
+// At t [s], on the target if it takes one.
+template <class Own>
+Own action(double t, const std::string& target = "") {
+    Own spec;
     spec.t = t;
-    spec.target = target;
+    if constexpr (requires { spec.target; }) spec.target = target;
     spec.source = {"timeline.toml", 7, 3};
     return spec;
 }
 
-inline world::ActionSpec grab(double t, const std::string& target, bool rigid = false) {
-    world::ActionSpec spec = action(world::Do::grab, t, target);
+inline world::GrabAction grab(double t, const std::string& target, bool rigid = false) {
+    auto spec = action<world::GrabAction>(t, target);
     spec.id = "hand";
     spec.rigid = rigid;
     return spec;
 }
-inline world::ActionSpec moveHand(double t, world::dvec3 to, double over, world::Ease ease = world::Ease::smooth) {
-    world::ActionSpec spec = action(world::Do::move, t);
+inline world::MoveAction moveHand(double t, world::dvec3 to, double over, world::Ease ease = world::Ease::smooth) {
+    auto spec = action<world::MoveAction>(t);
     spec.id = "hand";
     spec.to = to;
     spec.over = over;
     spec.ease = ease;
     return spec;
 }
-inline world::ActionSpec release(double t) {
-    world::ActionSpec spec = action(world::Do::release, t);
+inline world::ReleaseAction release(double t) {
+    auto spec = action<world::ReleaseAction>(t);
     spec.id = "hand";
     return spec;
 }
-inline world::ActionSpec push(double t, const std::string& target, world::dvec3 impulse) {
-    world::ActionSpec spec = action(world::Do::push, t, target);
+inline world::PushAction push(double t, const std::string& target, world::dvec3 impulse) {
+    auto spec = action<world::PushAction>(t, target);
     spec.impulse = impulse;
     return spec;
 }
-inline world::ActionSpec cutPlane(double t, const std::string& target, world::dvec3 point, world::dvec3 normal) {
-    world::ActionSpec spec = action(world::Do::cut, t, target);
+inline world::CutAction cutPlane(double t, const std::string& target, world::dvec3 point, world::dvec3 normal) {
+    auto spec = action<world::CutAction>(t, target);
     spec.planePoint = point;
     spec.planeNormal = normal;
     return spec;
 }
-inline world::ActionSpec cutSegment(double t, const std::string& target, world::dvec2 from, world::dvec2 upTo) {
-    world::ActionSpec spec = action(world::Do::cut, t, target);
+inline world::CutAction cutSegment(double t, const std::string& target, world::dvec2 from, world::dvec2 upTo) {
+    auto spec = action<world::CutAction>(t, target);
     spec.from = from;
     spec.upTo = upTo;
     return spec;
 }
 
-// A ramp of a number that `at` finds in the scene.
+// A number that `at` finds in the scene.
 template <class At>
-world::ActionSpec ramp(double t, const std::string& key, fields::Affects affects, double value, double over,
+struct NumberAt final : world::RampField {
+    explicit NumberAt(At finder) : at(finder) {}
+    std::vector<double> read(const world::SceneSpec& s) const override {
+        return {at(const_cast<world::SceneSpec&>(s))};
+    }
+    void write(world::SceneSpec& s, const std::vector<double>& v) const override { at(s) = v.front(); }
+    At at;
+};
+
+template <class At>
+world::RampAction ramp(double t, const std::string& key, fields::Affects affects, double value, double over,
                        world::Ease ease, At at) {
-    world::ActionSpec spec = action(world::Do::ramp, t);
+    auto spec = action<world::RampAction>(t);
     spec.key = key;
     spec.value = {value};
     spec.over = over;
     spec.ease = ease;
-    spec.field.affects = affects;
-    spec.field.owner = key.substr(0, key.rfind('.'));
-    spec.field.read = [at](const world::SceneSpec& s) {
-        return std::vector<double>{at(const_cast<world::SceneSpec&>(s))};
-    };
-    spec.field.write = [at](world::SceneSpec& s, const std::vector<double>& v) { at(s) = v.front(); };
+    auto field = std::make_shared<NumberAt<At>>(at);
+    field->affects = affects;
+    field->owner = key.substr(0, key.rfind('.'));
+    spec.field = std::move(field);
     return spec;
 }
 
@@ -93,8 +103,7 @@ world::ActionSpec ramp(double t, const std::string& key, fields::Affects affects
 // a net led rigidly, a box that is moved, a ball with less and less friction, a rope that appears.
 inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog", bool isDouble = false) {
     using Affects = fields::Affects;
-    using world::Do;
-    using world::Ease;
+    using namespace world;
     world::SceneSpec scene;
     scene.solver.integrator = method;
     if (method == "implicit-euler") scene.solver.dt = 1.0 / 240;
@@ -142,19 +151,19 @@ inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog"
     anchor.damping = 0.1;
     scene.forces.add(anchor);
 
-    world::ActionSpec rigid = grab(0.05, "block.bar@right", true);
+    auto rigid = grab(0.05, "block.bar@right", true);
     rigid.id = "vice";
-    world::ActionSpec bend = moveHand(0.05, {0.2, 0.85, 2}, 0.2);
+    auto bend = moveHand(0.05, {0.2, 0.85, 2}, 0.2);
     bend.id = "vice";
-    world::ActionSpec letGo = release(0.4);
+    auto letGo = release(0.4);
     letGo.id = "vice";
-    world::ActionSpec slide = action(Do::move, 0.1, "collider.box");
+    auto slide = action<MoveAction>(0.1, "collider.box");
     slide.to = world::dvec3{0.5, 1.4, 0.1};
     slide.rotation = world::dvec3{0, 0.5, 0};
     slide.over = 0.3;
-    world::ActionSpec weight = action(Do::addMass, 0.2, "rope.line@50%");
+    auto weight = action<AddMassAction>(0.2, "rope.line@50%");
     weight.mass = 0.3;
-    world::ActionSpec pull = grab(0.1, "cloth.sheet@bottom-right");
+    auto pull = grab(0.1, "cloth.sheet@bottom-right");
     pull.radius = 0.2;
     pull.strength = 60;
     scene.actions = {
@@ -178,14 +187,14 @@ inline world::SceneSpec everythingHappens(const std::string& method = "leapfrog"
         ramp(0.1, "light.intensity", Affects::picture, 1.0, 0.3, Ease::linear,
              [](world::SceneSpec& s) -> double& { return s.light.intensity; }),
         push(0.15, "rope.line", {0, 0, 0.5}),
-        action(Do::free, 0.2, "cloth.sheet@top-left"),
+        action<FreeAction>(0.2, "cloth.sheet@top-left"),
         weight,
         cutSegment(0.2, "cloth.sheet", {0.3, 0.45}, {1.1, 0.45}),
-        action(Do::hold, 0.25, "rope.line@end"),
-        action(Do::spawn, 0.25, "rope.late"),
+        action<HoldAction>(0.25, "rope.line@end"),
+        action<SpawnAction>(0.25, "rope.late"),
         release(0.35),
         letGo,
-        action(Do::free, 0.4, "rope.line@end"),
+        action<FreeAction>(0.4, "rope.line@end"),
     };
     return scene;
 }

@@ -12,6 +12,10 @@
 namespace taut::scene {
 namespace {
 
+std::vector<SceneSection> allSections() {
+    return sceneSections(world::builtIn());
+}
+
 // Calls visit(path, section, field) for every field, e.g. with "collider.parts.shape".
 template <class Visit>
 void visitFields(const Section& section, const std::string& path, const Visit& visit) {
@@ -24,7 +28,7 @@ void visitFields(const Section& section, const std::string& path, const Visit& v
 
 template <class Visit>
 void visitFields(const Visit& visit) {
-    for (const SceneSection& section : sceneSections(world::builtIn())) visitFields(section, section.name, visit);
+    for (const SceneSection& section : allSections()) visitFields(section, section.name, visit);
 }
 
 // Paths of all keys in a document, without names of bodies and numbers of elements.
@@ -35,7 +39,7 @@ void collectPaths(const Node& node, const std::string& path, bool isNamed, std::
         paths.insert(here);
         bool holdsNames = false;
         if (path.empty()) {
-            for (const SceneSection& section : sceneSections(world::builtIn())) {
+            for (const SceneSection& section : allSections()) {
                 holdsNames = holdsNames || (section.name == member.key && section.layout == Layout::named);
             }
         }
@@ -99,8 +103,10 @@ void expectDefaultsRestore(const Section& section, void* fresh, const std::strin
 
 TEST(SceneFieldTable, WritingADefaultChangesNothing) {
     world::SceneSpec scene;
-    for (const SceneSection& section : sceneSections(world::builtIn())) {
+    for (const SceneSection& section : allSections()) {
         expectDefaultsRestore(section, section.enter(scene, "name", {}), section.name);
+        for (const Section& form : section.forms)
+            expectDefaultsRestore(form, section.enter(scene, form.name, {}), form.name);
     }
 }
 
@@ -128,7 +134,7 @@ TEST(SceneFieldTable, DefaultsLieInTheirOwnRange) {
             }
         }
     };
-    for (const SceneSection& section : sceneSections(world::builtIn())) {
+    for (const SceneSection& section : allSections()) {
         check(check, section, section.enter(scene, "name", {}), section.name);
     }
 }
@@ -183,7 +189,7 @@ TEST(SceneSchema, ListsEveryFieldWithItsHelpAndDefault) {
 
 TEST(SceneManual, ListsEverySectionAndField) {
     const std::string text = manual();
-    for (const SceneSection& section : sceneSections(world::builtIn())) {
+    for (const SceneSection& section : allSections()) {
         EXPECT_NE(text.find(section.help), std::string::npos) << section.name;
     }
     visitFields([&](const std::string& path, const Section&, const Field& field) {

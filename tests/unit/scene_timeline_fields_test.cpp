@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "taut/core/trig.h"
+#include "taut/world/actions.h"
 #include "taut/world/bodies/block.h"
 #include "taut/world/bodies/net.h"
 #include "taut/world/bodies/rope.h"
@@ -16,9 +17,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 using glm::ivec2;
-using world::ActionSpec;
-using world::Do;
-using world::RampField;
+using namespace world;
 
 world::SceneSpec fullSpec() {
     const AssetFolder folder;
@@ -26,10 +25,9 @@ world::SceneSpec fullSpec() {
 }
 
 TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
-    const std::vector<ActionSpec> actions = fullSpec().actions;
+    const Specs<ActionSpec> actions = fullSpec().actions;
     ASSERT_EQ(actions.size(), 8U);
-    const ActionSpec& grab = actions[0];
-    EXPECT_EQ(grab.what, Do::grab);
+    const auto& grab = dynamic_cast<const GrabAction&>(actions[0]);
     EXPECT_EQ(grab.t, 1.0);
     EXPECT_EQ(grab.id, "left");
     EXPECT_EQ(grab.target, "cloth.flag.0@bottom-right");
@@ -39,26 +37,27 @@ TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
     EXPECT_EQ(grab.strength, 140.0);
     EXPECT_EQ(grab.dampingRatio, 0.2);
     EXPECT_GT(grab.source.line, 0);
-    const ActionSpec& move = actions[1];
-    EXPECT_EQ(move.what, Do::move);
+    const auto& move = dynamic_cast<const MoveAction&>(actions[1]);
     EXPECT_EQ(move.to, dvec3(4, 5, 6));
     EXPECT_EQ(move.over, 0.5);
-    EXPECT_EQ(move.ease, world::Ease::out);
-    const ActionSpec& turn = actions[2];
+    EXPECT_EQ(move.ease, Ease::out);
+    const auto& turn = dynamic_cast<const MoveAction&>(actions[2]);
     EXPECT_EQ(turn.target, "collider.ball");
     EXPECT_EQ(turn.to, std::nullopt);
     EXPECT_EQ(turn.rotation, dvec3(0, 90 * core::radians(1.0), 0));
-    EXPECT_EQ(turn.ease, world::Ease::smooth);
-    EXPECT_EQ(actions[3].from, dvec2(0, 0.25));
-    EXPECT_EQ(actions[3].upTo, dvec2(0.5, 0.75));
-    EXPECT_EQ(actions[4].planePoint, dvec3(1, 2, 3));
-    EXPECT_EQ(actions[4].planeNormal, dvec3(0, 2, 0));
-    EXPECT_EQ(actions[5].what, Do::push);  // written before the cuts, but later
-    EXPECT_EQ(actions[5].impulse, dvec3(0, 1, 2));
-    EXPECT_EQ(actions[6].what, Do::addMass);
-    EXPECT_EQ(actions[6].mass, 0.5);
-    EXPECT_EQ(actions[7].key, "wind.breeze.velocity");
-    EXPECT_EQ(actions[7].value, (std::vector<double>{9, 8, 7}));
+    EXPECT_EQ(turn.ease, Ease::smooth);
+    const auto& segment = dynamic_cast<const CutAction&>(actions[3]);
+    EXPECT_EQ(segment.from, dvec2(0, 0.25));
+    EXPECT_EQ(segment.upTo, dvec2(0.5, 0.75));
+    const auto& plane = dynamic_cast<const CutAction&>(actions[4]);
+    EXPECT_EQ(plane.planePoint, dvec3(1, 2, 3));
+    EXPECT_EQ(plane.planeNormal, dvec3(0, 2, 0));
+    // Written before the cuts, but later.
+    EXPECT_EQ(dynamic_cast<const PushAction&>(actions[5]).impulse, dvec3(0, 1, 2));
+    EXPECT_EQ(dynamic_cast<const AddMassAction&>(actions[6]).mass, 0.5);
+    const auto& ramp = dynamic_cast<const RampAction&>(actions[7]);
+    EXPECT_EQ(ramp.key, "wind.breeze.velocity");
+    EXPECT_EQ(ramp.value, (std::vector<double>{9, 8, 7}));
 }
 
 TEST(SceneTimeline, HandChecksAndGoldensLandInTheirMembers) {
@@ -173,14 +172,14 @@ TEST(SceneTimeline, RampsReadAndWriteTheFieldThatTheyName) {
     for (const RampCase& row : cases) {
         SCOPED_TRACE(row.key);
         world::SceneSpec scene = withRamp(row.key, row.to);
-        const ActionSpec ramp = scene.actions.at(0);
-        EXPECT_EQ(ramp.field.owner, row.owner);
-        EXPECT_EQ(ramp.field.affects, row.affects);
+        const auto ramp = dynamic_cast<const RampAction&>(scene.actions[0]);
+        EXPECT_EQ(ramp.field->owner, row.owner);
+        EXPECT_EQ(ramp.field->affects, row.affects);
         EXPECT_EQ(ramp.value, row.after);
-        const std::vector<double> before = ramp.field.read(scene);
+        const std::vector<double> before = ramp.field->read(scene);
         ASSERT_EQ(before.size(), row.before.size());
         for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], row.before[i], 1e-13);  // a rounding
-        ramp.field.write(scene, ramp.value);
+        ramp.field->write(scene, ramp.value);
         EXPECT_EQ(row.member(scene), row.expected);
     }
 }

@@ -10,7 +10,9 @@ list(APPEND TAUT_UNIT_TESTS
   world_hands_test.cpp
   world_islands_test.cpp
   world_motion_test.cpp
-  world_own_kinds_test.cpp world_own_method_test.cpp
+  world_own_action_test.cpp
+  world_own_kinds_test.cpp
+  world_own_method_test.cpp
   world_own_shape_test.cpp
   world_publish_test.cpp
   world_ramps_test.cpp

@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodActs,
 TEST_P(EveryMethodActs, APushFromASystemIsThatOfAnAction) {
     SceneSpec scene = loneMass(std::string(GetParam()));
     scene.solver.dt = 1.0 / 240;
-    ActionSpec push = action(Do::push, 0.1, "net.ball@m");
+    auto push = action<PushAction>(0.1, "net.ball@m");
     push.impulse = {0, 0.6, 0};
     World fromSystem(scene);
     fromSystem.addSystem([&](World& world, double, double) {
@@ -117,7 +117,7 @@ TEST_P(EveryMethodActs, AnImpulseOnAPartOfABodyIsItsMomentum) {
 
 TEST(Actions, AHeldPointStaysToTheBitAndAFreedOneFalls) {
     SceneSpec scene = loneMass();
-    scene.actions = {action(Do::hold, 0.1, "net.ball@m"), action(Do::free, 0.3, "net.ball@m")};
+    scene.actions = {action<HoldAction>(0.1, "net.ball@m"), action<FreeAction>(0.3, "net.ball@m")};
     World world(scene);
     run(world, 7);
     const dvec3 held = world.points("net.ball@m").x[0];
@@ -136,7 +136,7 @@ TEST(Actions, AddedMassMovesTheEquilibrium) {
     scene.bodies.of<NetSpec>()[0].points[0].mass = 2;
     scene.bodies.of<NetSpec>()[0].springs[0] = {"m", "wall", 500.0, 1.0, std::nullopt, {}};
     scene.bodies.of<NetSpec>()[0].drag = 8;
-    ActionSpec more = action(Do::addMass, 4.0, "net.ball@m");
+    auto more = action<AddMassAction>(4.0, "net.ball@m");
     more.mass = 3;
     scene.actions = {more};
     World world(scene);
@@ -152,7 +152,7 @@ TEST(Actions, AddedMassMovesTheEquilibrium) {
 
 TEST(Actions, AddedMassIsSharedByThePointsAndKeepsTheirVelocities) {
     SceneSpec scene = dumbbell();
-    ActionSpec more = action(Do::addMass, 0.1, "net.pair");
+    auto more = action<AddMassAction>(0.1, "net.pair");
     more.mass = 2;
     scene.actions = {support::push(0.0, "net.pair", {0, 4, 0}), more};
     World world(scene);
@@ -166,7 +166,7 @@ TEST(Actions, ASpawnedBodyIsNotThereBeforeAndThenFalls) {
     scene.solver.precision = Precision::double_;
     scene.bodies.add(support::rope("first", {0, 3, 0}, {1, 3, 0}, 4), support::rope("late", {0, 3, 2}, {1, 3, 2}, 4));
     for (RopeSpec& rope : scene.bodies.of<RopeSpec>()) rope.drag = 0;
-    scene.actions = {action(Do::spawn, 0.1, "rope.late")};
+    scene.actions = {action<SpawnAction>(0.1, "rope.late")};
     World world(scene);
     EXPECT_EQ(world.islands().size(), 1U);
     EXPECT_EQ(world.view(false).surfaces.size(), 1U);
@@ -186,7 +186,7 @@ TEST(Actions, AMovedColliderIsWhereItIsSentOnTheWayThatTheEasingHas) {
          {std::pair{Ease::linear, 0.5}, {Ease::in, 0.25}, {Ease::out, 0.75}, {Ease::smooth, 0.5}, {Ease::hold, 0.0}}) {
         SceneSpec scene;
         scene.colliders = {support::ball("ball", {0, 1, 0}, 0.3)};
-        ActionSpec move = action(Do::move, 0.1, "collider.ball");
+        auto move = action<MoveAction>(0.1, "collider.ball");
         move.to = dvec3(2, 1, 0);
         move.over = 0.2;
         move.ease = ease;
@@ -210,7 +210,7 @@ TEST(Actions, AMovedColliderTurnsFromWhereItsKeyframesHaveBroughtIt) {
     box.shape = "box";
     box.keys = {{0.0, {0, 1, 0}, dvec3(0.0), Ease::linear}, {1.0, {6, 1, 0}, dvec3(0.0), Ease::linear}};
     scene.colliders = {box};
-    ActionSpec turn = action(Do::move, 0.5, "collider.box");
+    auto turn = action<MoveAction>(0.5, "collider.box");
     turn.rotation = dvec3(0, 1.2, 0);
     turn.over = 0.1;
     scene.actions = {turn};
@@ -225,7 +225,7 @@ TEST(Actions, AFloorThatWillTiltIsDrawnAsABoard) {
     SceneSpec scene;
     scene.colliders = {support::ground()};
     EXPECT_TRUE(World(scene).view(false).ground);
-    ActionSpec tilt = action(Do::move, 0.1, "collider.ground");
+    auto tilt = action<MoveAction>(0.1, "collider.ground");
     tilt.rotation = dvec3(0, 0, 0.2);
     scene.actions = {tilt};
     EXPECT_FALSE(World(scene).view(false).ground);
@@ -238,7 +238,7 @@ TEST(Actions, AColliderThatIsSentAtOnceDoesNotTearClothApart) {
     scene.bodies.add(support::cloth("sheet", 10));
     scene.bodies.of<ClothSpec>()[0].hold = {"top"};
     scene.colliders = {support::ball("ball", {0.5, 1.5, 1.0}, 0.3)};
-    ActionSpec move = action(Do::move, 0.1, "collider.ball");
+    auto move = action<MoveAction>(0.1, "collider.ball");
     move.to = dvec3(0.5, 1.5, -0.2);
     scene.actions = {move};
     World world(scene);
@@ -350,15 +350,15 @@ TEST(ActionErrors, NameTheActionsPlaceInItsFile) {
     EXPECT_NE(errorOf(scene).find("there is no hand \"hand\""), std::string::npos);
     scene.actions = {support::grab(0.0, "net.pair@a"), support::grab(0.0, "net.pair@b")};
     EXPECT_NE(errorOf(scene).find("there is a hand \"hand\" already"), std::string::npos);
-    scene.actions = {action(Do::hold, 0.0, "net.pair"), support::grab(0.0, "net.pair@b")};
+    scene.actions = {action<HoldAction>(0.0, "net.pair"), support::grab(0.0, "net.pair@b")};
     EXPECT_NE(errorOf(scene).find("is held already"), std::string::npos);
-    scene.actions = {action(Do::move, 0.0, "collider.nothing")};
+    scene.actions = {action<MoveAction>(0.0, "collider.nothing")};
     EXPECT_NE(errorOf(scene).find("no collider \"collider.nothing\""), std::string::npos);
-    scene.actions = {action(Do::spawn, 0.0, "net.pair"), action(Do::spawn, 0.0, "net.pair")};
+    scene.actions = {action<SpawnAction>(0.0, "net.pair"), action<SpawnAction>(0.0, "net.pair")};
     EXPECT_NE(errorOf(scene).find("no body \"net.pair\" waits"), std::string::npos);
     scene.actions = {support::cutPlane(0.0, "net.pair", {5, 0, 0}, {1, 0, 0})};
     EXPECT_NE(errorOf(scene).find("nothing of \"net.pair\" where this cuts"), std::string::npos);
-    ActionSpec lighter = action(Do::addMass, 1e3, "net.pair");
+    auto lighter = action<AddMassAction>(1e3, "net.pair");
     lighter.mass = -2.5;
     scene.actions = {lighter};
     EXPECT_NE(errorOf(scene, 0).find("without any mass"), std::string::npos);  // long before it happens
@@ -373,7 +373,7 @@ TEST(ActionErrors, ASpawnedBodyCannotBeTied) {
     joint.source = {"tied.toml", 3, 1};
     scene.joints = {joint};
     EXPECT_EQ(errorOf(scene, 0), "");
-    scene.actions = {action(Do::spawn, 1.0, "rope.b")};
+    scene.actions = {action<SpawnAction>(1.0, "rope.b")};
     EXPECT_NE(errorOf(scene, 0).find("tied.toml:3:1: error: \"rope.b@start\" ties rope.b, which is spawned later"),
               std::string::npos)
         << errorOf(scene, 0);

@@ -38,12 +38,12 @@ double stepLimitOf(const SceneSpec& scene) {
 TEST(Envelope, ATimelineThatStiffensNothingChangesNoStep) {
     SceneSpec scene = hanging();
     const double limit = stepLimitOf(scene);
-    ActionSpec more = action(Do::addMass, 1.0, "cloth.sheet");
+    auto more = action<AddMassAction>(1.0, "cloth.sheet");
     more.mass = 1;
     scene.actions = {support::push(0.5, "cloth.sheet", {0, 0, 1}),
                      more,
                      support::grab(1.5, "cloth.sheet@bottom", true),
-                     action(Do::hold, 2.0, "cloth.sheet@bottom"),
+                     action<HoldAction>(2.0, "cloth.sheet@bottom"),
                      support::cutPlane(3.0, "cloth.sheet", {0.51, 0, 0}, {1, 0, 0}),
                      support::ramp(1.0, "material.silk.stretch", fields::Affects::springs, 20.0, 1.0, Ease::linear,
                                    [](SceneSpec& s) -> double& { return s.materials["silk"].stretch; })};
@@ -54,7 +54,7 @@ TEST(Envelope, ATimelineThatStiffensNothingChangesNoStep) {
 TEST(Envelope, AHandAddsItsRates) {
     SceneSpec scene = hanging();
     const ode::FastestMode before = modeOf(scene);
-    ActionSpec grab = support::grab(1.0, "cloth.sheet@bottom-right");
+    auto grab = support::grab(1.0, "cloth.sheet@bottom-right");
     grab.strength = 300;
     grab.dampingRatio = 0.25;
     scene.actions = {grab};
@@ -66,7 +66,7 @@ TEST(Envelope, AHandAddsItsRates) {
     // Two hands at a time on the same points count both; one after the other of the same name count once.
     scene.actions = {grab, support::release(2.0), grab};
     EXPECT_EQ(modeOf(scene).omega, after.omega);
-    ActionSpec other = grab;
+    GrabAction other = grab;
     other.id = "other";
     scene.actions = {grab, other};
     after = modeOf(scene);
@@ -111,7 +111,7 @@ TEST(Envelope, PointsThatAreFreedCountAsFree) {
     never.bodies.of<ClothSpec>()[0].hold = {};
     SceneSpec scene = hanging();
     scene.bodies.of<ClothSpec>()[0].hold = {"all"};
-    scene.actions = {action(Do::free, 1.0, "cloth.sheet")};
+    scene.actions = {action<FreeAction>(1.0, "cloth.sheet")};
     EXPECT_EQ(stepLimitOf(scene), stepLimitOf(never));
     // A heavy point and a light one, which is held: ω² = k/4 kg, and k/4 kg + k/10 g once it is free.
     SceneSpec rope;
@@ -122,14 +122,14 @@ TEST(Envelope, PointsThatAreFreedCountAsFree) {
     net.springs = {{"heavy", "light", 100.0, std::nullopt, std::nullopt, {}}};
     rope.bodies.add(net);
     const double before = stepLimitOf(rope);
-    rope.actions = {action(Do::free, 1.0, "net.pair@light")};
+    rope.actions = {action<FreeAction>(1.0, "net.pair@light")};
     EXPECT_NEAR(stepLimitOf(rope), 2 / std::sqrt(100 / 4.0 + 100 / 0.01), 1e-9);
     EXPECT_GT(before, 5 * stepLimitOf(rope));
 }
 
 TEST(Envelope, MassThatIsTakenAwayCountsAsGone) {
     SceneSpec scene = hanging();
-    ActionSpec less = action(Do::addMass, 1.0, "cloth.sheet@bottom-right");
+    auto less = action<AddMassAction>(1.0, "cloth.sheet@bottom-right");
     less.mass = -0.5 * 0.2 / 64 / 4;
     scene.actions = {less};
     EXPECT_LT(stepLimitOf(scene), 0.95 * stepLimitOf(hanging()));
@@ -151,11 +151,11 @@ TEST(Envelope, WindsCountAtTheirFastest) {
 
 TEST(Envelope, ASpawnedBodyIsAllowedForLikeAnother) {
     SceneSpec scene = hanging();
-    ActionSpec grab = support::grab(0.5, "cloth.sheet@bottom-right");
+    auto grab = support::grab(0.5, "cloth.sheet@bottom-right");
     grab.strength = 3000;
     scene.actions = {grab};
     const double limit = stepLimitOf(scene);
-    scene.actions = {action(Do::spawn, 0.1, "cloth.sheet"), grab};
+    scene.actions = {action<SpawnAction>(0.1, "cloth.sheet"), grab};
     World world(scene);
     for (int i = 0; i < 7; ++i) ASSERT_FALSE(world.advance());
     EXPECT_EQ(world.islands()[0].stepLimit, limit);
@@ -165,7 +165,7 @@ TEST(Envelope, ASpawnedBodyIsAllowedForLikeAnother) {
 TEST(Envelope, TheStepBearsAHandThatItWouldNotBearWithoutAllowingForIt) {
     SceneSpec scene = hanging();
     scene.solver.onDivergence = OnDivergence::stop;
-    ActionSpec grab = support::grab(0.1, "cloth.sheet@bottom-right");
+    auto grab = support::grab(0.1, "cloth.sheet@bottom-right");
     grab.strength = 5000;
     const auto survives = [&](World& world) {
         for (int tick = 0; tick < 120; ++tick) {

@@ -31,7 +31,7 @@ SceneSpec handledMass(const std::string& method = "leapfrog", double stiffness =
 
 TEST(Hands, ASpringHandLetsItsLoadSagByWeightOverStrength) {
     SceneSpec scene = handledMass();
-    ActionSpec grab = support::grab(0.0, "net.ball@m");
+    auto grab = support::grab(0.0, "net.ball@m");
     grab.strength = 150;
     grab.dampingRatio = 1;  // the slower of its rates is √(K/m) = 8.7/s
     scene.actions = {grab};
@@ -48,7 +48,7 @@ TEST(Hands, AHandSharesItsStrengthByMassAndKeepsTheShape) {
     SceneSpec scene;
     scene.solver.precision = Precision::double_;
     scene.bodies.add(support::cloth("sheet", 4));
-    ActionSpec grab = support::grab(0.0, "cloth.sheet");
+    auto grab = support::grab(0.0, "cloth.sheet");
     grab.strength = 40;
     grab.dampingRatio = 1;
     scene.actions = {grab};
@@ -66,7 +66,7 @@ TEST(Hands, TheRadiusTakesWhatIsNearAndNearTakesTheNearest) {
     scene.world.gravity = dvec3(0.0);
     scene.bodies.add(support::cloth("sheet", 4));  // a point every 25 cm
     // A push moves all points but those that a rigid hand has.
-    const auto takenBy = [&](ActionSpec grab) {
+    const auto takenBy = [&](GrabAction grab) {
         grab.rigid = true;
         World world(scene);
         world.apply(grab);
@@ -75,13 +75,13 @@ TEST(Hands, TheRadiusTakesWhatIsNearAndNearTakesTheNearest) {
         for (const dvec3& v : world.points("cloth.sheet").v) count += v == dvec3(0.0) ? 1 : 0;
         return count;
     };
-    ActionSpec corner = support::grab(0.0, "cloth.sheet@bottom-right");
+    auto corner = support::grab(0.0, "cloth.sheet@bottom-right");
     EXPECT_EQ(takenBy(corner), 1);
     corner.radius = 0.26;
     EXPECT_EQ(takenBy(corner), 3);  // and its neighbours along both edges
     corner.radius = 0.36;
     EXPECT_EQ(takenBy(corner), 4);  // and the one across
-    ActionSpec somewhere = support::grab(0.0, "cloth.sheet");
+    auto somewhere = support::grab(0.0, "cloth.sheet");
     somewhere.near = dvec3(0.95, 1.02, 0.4);
     EXPECT_EQ(takenBy(somewhere), 1);
     somewhere.radius = 0.26;
@@ -163,7 +163,7 @@ TEST(Hands, LettingGoOfASpringHandKeepsTheMomentum) {
 dvec3 placeAfterEvents(const std::string& method, int substeps) {
     SceneSpec scene = handledMass(method, 200.0);
     scene.solver.dt = 1.0 / 60 / substeps;
-    ActionSpec grab = support::grab(0.1, "net.ball@m");
+    auto grab = support::grab(0.1, "net.ball@m");
     grab.strength = 120;
     scene.actions = {
         grab,

@@ -128,7 +128,7 @@ TEST(Ramps, WindThatRisesPressesWithItsSquare) {
     wind.name = "breeze";
     wind.velocity = {0, 0, 2};
     scene.forces.add(wind);
-    ActionSpec grab = support::grab(0.0, "cloth.sail");  // keeps the shape, yields as one
+    auto grab = support::grab(0.0, "cloth.sail");  // keeps the shape, yields as one
     grab.strength = 500;
     grab.dampingRatio = 1;
     scene.actions = {grab, support::ramp(2.0, "wind.breeze.velocity", Affects::forces, 4.0, 0.5, Ease::smooth,

@@ -97,7 +97,7 @@ TEST(SavingWhole, ActionsThatWaitForTheNextTickAreSavedWithTheRest) {
     World through(scene);
     for (int i = 0; i < 5; ++i) ASSERT_FALSE(through.advance());
     through.apply(support::push(0, "rope.line", {0.1, 0.2, 0.3}));
-    through.apply(support::action(Do::hold, 0, "rope.line@25%"));
+    through.apply(support::action<HoldAction>(0, "rope.line@25%"));
     World restored(scene);
     restored.restore(through.save());
     expectSameWorld(through, restored);
@@ -137,7 +137,7 @@ TEST(SavingWhole, LaterActionsMayDiffer) {
     const SceneSpec scene = support::everythingHappens();
     SceneSpec other = scene;
     for (ActionSpec& action : other.actions)
-        if (action.what == Do::release) action.t += 0.05;
+        if (action.kind() == "release") action.t += 0.05;
     World through(scene), otherwise(other);
     for (int i = 0; i < 20; ++i) {
         ASSERT_FALSE(through.advance());

@@ -1,0 +1,80 @@
+// A hand takes hold of points.
+#include <algorithm>
+
+#include "taut/world/actions/rows.h"
+#include "taut/world/impl.h"
+
+namespace taut::world {
+
+Kind<ActionSpec> grabKind() {
+    using fields::Range;
+    return actionKind<GrabAction>(
+        withPoints(withId<GrabAction>())
+            .number("radius", &GrabAction::radius, "m", Range{0.0, 1e6},
+                    "Points of the same bodies within this distance of such a point too.")
+            .flag("rigid", &GrabAction::rigid, "Whether the points are led exactly; else springs draw them.")
+            .number("strength_N_per_m", &GrabAction::strength, "N/m", fields::positive,
+                    "Of the whole hand, shared by mass.")
+            .number("damping_ratio", &GrabAction::dampingRatio, "", Range{0.0, 10.0},
+                    "Of the grabbed mass on the hand's spring."),
+        [](const fields::CheckInput& input, const GrabAction& grab) {
+            needsTarget(input, grab);
+            needsId(input, grab);
+        });
+}
+
+// Takes hold of the points named and of those within the radius of one of them, where they are. The hand is at the
+// mean of the points named.
+void GrabAction::perform(World& world) const {
+    WorldImpl& w = WorldAccess::of(world);
+    if (std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& h) { return h.id == id; }))
+        failAction(*this, "there is a hand \"" + id + "\" already; release it first");
+    std::vector<Picked> points = w.pick(*this);
+    Hand hand;
+    hand.id = id;
+    hand.rigid = rigid;
+    for (const Picked& p : points) hand.from += p.island->position(p.point) / static_cast<double>(points.size());
+    hand.to = hand.from;
+    hand.start = w.tick;
+    if (radius > 0) {
+        GrabAction bodiesOnly = *this;
+        bodiesOnly.target = target.substr(0, target.find('@'));
+        bodiesOnly.near.reset();
+        const std::vector<Picked> named = points;
+        points.clear();
+        for (const Picked& candidate : w.pick(bodiesOnly)) {
+            const dvec3 x = candidate.island->position(candidate.point);
+            if (std::any_of(named.begin(), named.end(), [&](const Picked& p) {
+                    const dvec3 d = p.island->position(p.point) - x;
+                    return glm::dot(d, d) <= radius * radius;
+                }))
+                points.push_back(candidate);
+        }
+    }
+    std::erase_if(points, [](const Picked& p) { return !isFree(p.island->plan(), p.point); });
+    if (points.empty()) failAction(*this, "every point of \"" + target + "\" is held already");
+
+    double mass = 0;
+    for (const Picked& p : points) mass += massOf(p);
+    const GripRates rates = gripRates(strength, dampingRatio, mass);
+    for (const auto& [island, numbers] : byIsland(points)) {
+        Grip grip;
+        grip.hand = id;
+        grip.rigid = rigid;
+        grip.points = numbers;
+        grip.path = {hand.from, hand.from};
+        IslandPlan& plan = island->change(w.now(), Change::grips);
+        for (int i : numbers) {
+            const double share = plan.points[static_cast<std::size_t>(i)].mass;
+            grip.offsets.push_back(island->position(i) - hand.from);
+            if (rigid) continue;
+            grip.stiffness.push_back(share * rates.omega2);
+            grip.damping.push_back(share * rates.damping);
+        }
+        plan.grips.push_back(std::move(grip));
+        if (rigid) island->stop(w.now(), numbers);
+    }
+    w.hands.push_back(std::move(hand));
+}
+
+}  // namespace taut::world

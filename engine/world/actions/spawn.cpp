@@ -1,0 +1,16 @@
+// A body that was built at the start, and has waited, appears.
+#include "taut/world/actions/rows.h"
+#include "taut/world/impl.h"
+
+namespace taut::world {
+
+Kind<ActionSpec> spawnKind() {
+    return actionKind<SpawnAction>(withTarget<SpawnAction>(), needsTarget);
+}
+
+void SpawnAction::perform(World& world) const {
+    if (!WorldAccess::of(world).spawnWaiting(target))
+        failAction(*this, "no body \"" + target + "\" waits to be spawned");
+}
+
+}  // namespace taut::world

@@ -42,7 +42,7 @@ LabFolder folderOf(const AtlasFlags& flags, const std::string& fallback) {
 
 int oscillatorAtlas(const AtlasFlags& flags) {
     if (!flags.overrides.empty() || flags.seconds > 0.0)
-        throw core::Error(core::ExitCode::usage, "--set and --seconds are of scenes: name one");
+        throw core::Error(core::ErrorKind::usage, "--set and --seconds are of scenes: name one");
     const Interruption interruption;
     const LabFolder output = folderOf(flags, "out/atlas");
     study::StabilityMap map;
@@ -74,7 +74,7 @@ world::SceneSpec chosenScene(const AtlasFlags& flags, std::string& name) {
     name = flags.scene;
     if (study::isReferenceNetwork(flags.scene)) {
         if (!flags.overrides.empty())
-            throw core::Error(core::ExitCode::usage,
+            throw core::Error(core::ErrorKind::usage,
                               "--set changes fields of scene files; " + flags.scene + " is built in");
         return study::referenceNetwork(flags.scene);
     }

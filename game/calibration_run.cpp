@@ -42,7 +42,7 @@ std::string drawApart(const std::string& gl, const regression::Scenario& scenari
     const core::ChildResult result = core::runChild(command, {}, &stop);
     if (stop) return "";
     if (!result.end.succeeded())
-        throw core::Error(core::ExitCode::inputOutput, fmt::format("{} {}:\n{}", fmt::join(command.arguments, " "),
+        throw core::Error(core::ErrorKind::inputOutput, fmt::format("{} {}:\n{}", fmt::join(command.arguments, " "),
                                                                    result.end.text(), result.errors));
     std::filesystem::rename(image::FramePattern(frames).pathOf(golden.frame), png);
     const std::size_t space = result.output.find(' ');
@@ -54,7 +54,7 @@ class Scratch {
   public:
     Scratch() : path_((std::filesystem::temp_directory_path() / "taut-calibrate-XXXXXX").string()) {
         if (::mkdtemp(path_.data()) == nullptr)
-            throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: cannot make a folder there", path_));
+            throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: cannot make a folder there", path_));
     }
     ~Scratch() {
         std::error_code ignored;

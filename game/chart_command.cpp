@@ -10,6 +10,7 @@
 #include "taut/core/error.h"
 #include "game/chart_refinement.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
@@ -52,7 +53,7 @@ void printProblems() {
 std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
     if (const study::ProblemInfo* problem = study::findProblem(flags.subject)) {
         if (!flags.overrides.empty())
-            throw core::Error(core::ExitCode::usage,
+            throw core::Error(core::ErrorKind::usage,
                               "--set changes fields of scenes; " + flags.subject + " is a built-in problem");
         return problem->make();
     }
@@ -64,7 +65,7 @@ std::unique_ptr<study::Subject> chosenSubject(const ChartFlags& flags) {
         for (const study::ProblemInfo& problem : study::problems()) names.emplace_back(problem.name);
         names.emplace_back(refinementName);
         const std::string hint = didYouMean(flags.subject, names);
-        throw core::Error(core::ExitCode::usage,
+        throw core::Error(core::ErrorKind::usage,
                           fmt::format("there is no problem or scene '{}'{}", flags.subject,
                                       hint.empty() ? "; taut chart --list names the problems" : hint));
     }
@@ -107,7 +108,7 @@ int chartResolutions(const ChartFlags& flags) {
     if (!flags.methods.empty() || !flags.overrides.empty() || flags.precision != unset.precision ||
         flags.seconds != unset.seconds || flags.budget != unset.budget)
         throw core::Error(
-            core::ExitCode::usage,
+            core::ErrorKind::usage,
             fmt::format("{} studies bodies at rest: it takes --output and --quiet alone", refinementName));
     const pipeline::Machine machine = pipeline::machine();
     const std::filesystem::path folder = flags.output.empty() ? std::filesystem::path("out/charts") / refinementName
@@ -118,7 +119,7 @@ int chartResolutions(const ChartFlags& flags) {
 int chart(const ChartFlags& flags) {
     if (flags.list || flags.subject.empty()) {
         printProblems();
-        return static_cast<int>(core::ExitCode::ok);
+        return static_cast<int>(ExitCode::ok);
     }
     checkMethods(flags.methods);
     if (flags.subject == refinementName) return chartResolutions(flags);

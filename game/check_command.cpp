@@ -6,6 +6,7 @@
 
 #include "taut/core/error.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "taut/world/world.h"
@@ -20,7 +21,7 @@ struct CheckFlags {
 
 // Reads and builds each scene; goes on after one that is wrong, and returns the code of the first failure.
 int check(const CheckFlags& flags) {
-    auto code = core::ExitCode::ok;
+    ExitCode code = ExitCode::ok;
     for (const std::string& argument : flags.scenes) {
         try {
             const world::SceneSpec spec = readScene(argument, flags.overrides);
@@ -29,7 +30,7 @@ int check(const CheckFlags& flags) {
             fmt::print("{}: ok\n", spec.file);
         } catch (const core::Error& error) {
             printError(error);
-            if (code == core::ExitCode::ok) code = error.code();
+            if (code == ExitCode::ok) code = exitCodeOf(error.kind());
         }
     }
     return static_cast<int>(code);

@@ -69,7 +69,7 @@ void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, c
     if (!checkpoint) {
         if (flags.resume && !flags.mayOverwrite && !output.empty() &&
             !image::FramePattern(output).framesThere().empty())
-            throw core::Error(core::ExitCode::inputOutput,
+            throw core::Error(core::ErrorKind::inputOutput,
                               fmt::format("{} has no state of this run to go on from, and there are frames already; -y "
                                           "draws all of them again",
                                           folder.string()));
@@ -79,7 +79,7 @@ void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, c
     if (flags.resume && !output.empty() && checkpoint->frame > options.firstFrame &&
         checkpoint->picture != keys.picture)
         throw core::Error(
-            core::ExitCode::badContent,
+            core::ErrorKind::badContent,
             fmt::format("the pictures before frame {} were drawn with other settings of size, camera, light "
                         "or look; draw all of them again with -y and without --resume, or the rest with "
                         "--from {}",

@@ -7,6 +7,7 @@
 #include "taut/core/error.h"
 #include "taut/core/instruction_set.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/folders.h"
 #include "taut/image/video_writer.h"
 #include "taut/core/whole_file.h"
@@ -102,8 +103,8 @@ int doctor(const std::string& folder) {
     printFact("scenes", fmt::format("{}", fmt::join(shippedScenes(), " ")));
     const bool draws = printRenderers();
     files = printWriteTest(folder) && files;
-    const auto code = !files ? core::ExitCode::inputOutput : !draws ? core::ExitCode::noRenderer : core::ExitCode::ok;
-    fmt::print("{}\n", code == core::ExitCode::ok ? "Everything needed is there." : "Something is missing.");
+    const ExitCode code = !files ? ExitCode::inputOutput : !draws ? ExitCode::noRenderer : ExitCode::ok;
+    fmt::print("{}\n", code == ExitCode::ok ? "Everything needed is there." : "Something is missing.");
     return static_cast<int>(code);
 }
 

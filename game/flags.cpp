@@ -22,7 +22,7 @@ std::optional<Number> whole(std::string_view text) {
 
 FrameRange frameRange(const std::string& text) {
     const auto fail = [&] {
-        throw core::Error(core::ExitCode::usage,
+        throw core::Error(core::ErrorKind::usage,
                           "--frames " + text + ": expected a range like 0-119, the first not after the last");
     };
     const std::string_view view = text;
@@ -46,7 +46,7 @@ Size pictureSize(const std::string& text) {
         if (width && height && *width >= 1 && *height >= 1 && *width <= largest && *height <= largest)
             return {*width, *height};
     }
-    throw core::Error(core::ExitCode::usage, "--size " + text + ": expected a size in pixels like 1280x720");
+    throw core::Error(core::ErrorKind::usage, "--size " + text + ": expected a size in pixels like 1280x720");
 }
 
 std::function<std::string(const std::string&)> numberWithin(double least, double most) {

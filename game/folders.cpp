@@ -13,7 +13,7 @@ namespace {
 std::filesystem::path found(const char* variable, const char* name) {
     if (const char* wish = std::getenv(variable); wish != nullptr && *wish != '\0') {
         if (!std::filesystem::is_directory(wish))
-            throw core::Error(core::ExitCode::inputOutput, std::string(variable) + " names no folder: " + wish);
+            throw core::Error(core::ErrorKind::inputOutput, std::string(variable) + " names no folder: " + wish);
         return wish;
     }
     std::error_code error;

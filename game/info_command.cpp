@@ -10,6 +10,7 @@
 
 #include "taut/core/error.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
 #include "taut/ode/method_table.h"
@@ -193,21 +194,21 @@ void printMethods() {
 
 int info(const InfoFlags& flags) {
     if (flags.methods && !flags.scene.empty())
-        throw core::Error(core::ExitCode::usage, "--methods tells of no scene: give one or the other");
+        throw core::Error(core::ErrorKind::usage, "--methods tells of no scene: give one or the other");
     if (flags.methods) {
         if (flags.json)
             fmt::print("{}\n", methodsJson().dump(2));
         else
             printMethods();
-        return static_cast<int>(core::ExitCode::ok);
+        return static_cast<int>(ExitCode::ok);
     }
-    if (flags.scene.empty()) throw core::Error(core::ExitCode::usage, "info: give a scene, or --methods");
+    if (flags.scene.empty()) throw core::Error(core::ErrorKind::usage, "info: give a scene, or --methods");
     const Facts facts = gatherFacts(flags);
     if (flags.json)
         printJson(facts);
     else
         printTable(facts);
-    return static_cast<int>(core::ExitCode::ok);
+    return static_cast<int>(ExitCode::ok);
 }
 
 Action declareInfo(Options& options) {

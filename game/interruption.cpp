@@ -1,4 +1,5 @@
 #include "game/interruption.h"
+#include "game/exit_code.h"
 
 namespace taut::game {
 namespace {
@@ -35,9 +36,9 @@ const std::atomic<bool>& Interruption::flag() const {
     return asked;
 }
 
-std::optional<core::ExitCode> Interruption::exitCode() const {
-    if (received == SIGINT) return core::ExitCode::interrupted;
-    if (received == SIGTERM) return core::ExitCode::terminated;
+std::optional<ExitCode> Interruption::exitCode() const {
+    if (received == SIGINT) return ExitCode::interrupted;
+    if (received == SIGTERM) return ExitCode::terminated;
     return std::nullopt;
 }
 

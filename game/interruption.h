@@ -5,6 +5,7 @@
 #include <csignal>
 #include <optional>
 
+#include "game/exit_code.h"
 #include "taut/core/error.h"
 
 namespace taut::game {
@@ -20,7 +21,7 @@ class Interruption {
     const std::atomic<bool>& flag() const;
 
     // What the program is to end with: interrupted (130), terminated (143), or none.
-    std::optional<core::ExitCode> exitCode() const;
+    std::optional<ExitCode> exitCode() const;
 
   private:
     struct sigaction beforeInterrupt_ = {};

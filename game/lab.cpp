@@ -1,4 +1,5 @@
 #include "game/lab.h"
+#include "game/exit_code.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@ void checkMethods(const std::vector<std::string>& wanted) {
     for (const std::string& name : wanted)
         if (ode::findMethod(name) == nullptr) {
             const std::string hint = didYouMean(name, names);
-            throw core::Error(core::ExitCode::usage,
+            throw core::Error(core::ErrorKind::usage,
                               fmt::format("there is no method '{}'{}", name,
                                           hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
         }
@@ -69,15 +70,15 @@ int LabFolder::finish(const Interruption& interruption) const {
         fmt::print(stderr, "interrupted: what was done until then is in {}\n", folder_.string());
     else if (!isQuiet_)
         fmt::print(stderr, "in {}\n", folder_.string());
-    if (!draws_) throw core::Error(core::ExitCode::inputOutput, "no pictures: " + report::gnuplotMissing());
-    return static_cast<int>(code.value_or(core::ExitCode::ok));
+    if (!draws_) throw core::Error(core::ErrorKind::inputOutput, "no pictures: " + report::gnuplotMissing());
+    return static_cast<int>(code.value_or(ExitCode::ok));
 }
 
 int LabFolder::abandon(const Interruption& interruption) const {
     std::error_code ignored;  // a folder with something in it stays
     for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, ignored);
     fmt::print(stderr, "interrupted: nothing is written\n");
-    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::interrupted));
+    return static_cast<int>(interruption.exitCode().value_or(ExitCode::interrupted));
 }
 
 }  // namespace taut::game

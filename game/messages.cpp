@@ -7,7 +7,7 @@
 namespace taut::game {
 
 void printError(const core::Error& error) {
-    fmt::print(stderr, "{}{}\n", error.code() == core::ExitCode::badContent ? "" : "taut: ", error.what());
+    fmt::print(stderr, "{}{}\n", error.kind() == core::ErrorKind::badContent ? "" : "taut: ", error.what());
 }
 
 void printWarnings(const std::vector<std::string>& warnings) {

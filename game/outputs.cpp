@@ -40,9 +40,9 @@ void permitOverwriting(const std::filesystem::path& output, std::int64_t first, 
     if (overwrite == Overwrite::ask && ::isatty(STDIN_FILENO) == 1) {
         fmt::print(stderr, "{} exists already. Overwrite? [y/N] ", existing.string());
         if (answersYes()) return;
-        throw core::Error(core::ExitCode::inputOutput, "nothing was overwritten");
+        throw core::Error(core::ErrorKind::inputOutput, "nothing was overwritten");
     }
-    throw core::Error(core::ExitCode::inputOutput, fmt::format("{} exists already{}", existing.string(),
+    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{} exists already{}", existing.string(),
                                                                overwrite == Overwrite::no ? "" : "; -y overwrites it"));
 }
 

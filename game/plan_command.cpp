@@ -8,6 +8,7 @@
 
 #include "taut/core/error.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
@@ -61,14 +62,14 @@ void write(const std::filesystem::path& file, const std::string& text, const stu
 
 int plan(const PlanFlags& flags) {
     if (flags.write && !flags.overrides.empty())
-        throw core::Error(core::ExitCode::usage,
+        throw core::Error(core::ErrorKind::usage,
                           "--write and --set do not go together: what is planned would not be what the file says");
     const std::filesystem::path file = sceneFile(flags.scene);
     const std::string text = core::fileContent(file);
     const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
     if (flags.write && !spec.base.empty())
         throw core::Error(
-            core::ExitCode::usage,
+            core::ErrorKind::usage,
             fmt::format("{}: --write needs a scene that is one file; this one builds on {}: plan that, or "
                         "leave --write out and copy the values",
                         file.string(), spec.base));
@@ -86,10 +87,10 @@ int plan(const PlanFlags& flags) {
     if (!flags.json.empty()) core::writeWholeFile(flags.json, study::planJson(result, machineFacts(pipeline::machine())));
     if (!result.isMet()) {
         if (flags.write) fmt::print("\n{}: nothing is written, as the need is not met\n", file.string());
-        return static_cast<int>(core::ExitCode::needNotMet);
+        return static_cast<int>(ExitCode::needNotMet);
     }
     if (flags.write) write(file, text, result);
-    return static_cast<int>(core::ExitCode::ok);
+    return static_cast<int>(ExitCode::ok);
 }
 
 Action declarePlan(Options& options) {

@@ -5,6 +5,7 @@
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/flags.h"
 #include "game/interruption.h"
 #include "game/live_play.h"
@@ -40,19 +41,19 @@ int play(const PlayFlags& flags) {
     settings.records = !flags.record.empty();
     settings.record = flags.record;
     if (settings.records && settings.record.extension() != ".toml")
-        throw core::Error(core::ExitCode::usage, "--record: the name must end in .toml");
+        throw core::Error(core::ErrorKind::usage, "--record: the name must end in .toml");
     const Interruption interruption;
     const core::ThreadLimit threads(settings.threads);
     std::unique_ptr<LivePlay> live;
     try {
         live = std::make_unique<LivePlay>(settings);
     } catch (const core::Error& error) {
-        if (error.code() != core::ExitCode::noRenderer) throw;
-        throw core::Error(core::ExitCode::noRenderer, fmt::format("{}.\nWithout a window: taut render {} -o play.mp4",
+        if (error.kind() != core::ErrorKind::noRenderer) throw;
+        throw core::Error(core::ErrorKind::noRenderer, fmt::format("{}.\nWithout a window: taut render {} -o play.mp4",
                                                                   error.what(), settings.scene));
     }
     live->run(interruption.flag());
-    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+    return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
 }
 
 Action declarePlay(Options& options) {

@@ -11,13 +11,14 @@
 
 #include "taut/core/error.h"
 #include "game/command_table.h"
+#include "game/exit_code.h"
 #include "game/folders.h"
 #include "game/messages.h"
 
 namespace taut::game {
 namespace {
 
-int codeOf(core::ExitCode code) {
+int codeOf(ExitCode code) {
     return static_cast<int>(code);
 }
 
@@ -43,17 +44,20 @@ int runAction(const Action& action) {
         const int code = action();
         // A result that did not reach its reader is a failure.
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            throw core::Error(core::ExitCode::inputOutput, "cannot write to standard output");
+            throw core::Error(core::ErrorKind::inputOutput, "cannot write to standard output");
         return code;
     } catch (const core::Error& error) {
         printError(error);
-        return codeOf(error.code());
+        return codeOf(exitCodeOf(error.kind()));
+    } catch (const CheckFailed& failed) {
+        fmt::print(stderr, "taut: {}\n", failed.what());
+        return codeOf(ExitCode::checkFailed);
     } catch (const std::system_error& error) {  // of files and threads
         fmt::print(stderr, "taut: {}\n", error.what());
-        return codeOf(core::ExitCode::inputOutput);
+        return codeOf(ExitCode::inputOutput);
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "taut: there is not enough memory for this\n");
-        return codeOf(core::ExitCode::badContent);
+        return codeOf(ExitCode::badContent);
     }
 }
 
@@ -74,15 +78,15 @@ int runProgram(int argc, const char* const* argv, std::span<const Command> comma
             return runAction(request.action);
         case Request::Kind::text:
             fmt::print("{}", request.text);
-            return codeOf(core::ExitCode::ok);
+            return codeOf(ExitCode::ok);
         case Request::Kind::wrong:
             fmt::print(stderr, "taut: {}\nTry {} --help.\n", request.text, request.command);
-            return codeOf(core::ExitCode::usage);
+            return codeOf(ExitCode::usage);
         case Request::Kind::nothing:
             break;
     }
     printShortHelp();
-    return codeOf(core::ExitCode::ok);
+    return codeOf(ExitCode::ok);
 }
 
 int runProgram(int argc, const char* const* argv) {

@@ -8,6 +8,7 @@
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
@@ -47,7 +48,7 @@ int record(const RecordFlags& flags) {
     const std::filesystem::path output = flags.output;
     std::error_code ignored;
     if (!flags.yes && std::filesystem::exists(output, ignored))
-        throw core::Error(core::ExitCode::inputOutput,
+        throw core::Error(core::ErrorKind::inputOutput,
                           fmt::format("{} exists already; -y overwrites it", output.string()));
     regression::Tape tape = regression::blankTape();
     const world::SceneSpec spec = readRecorded(sceneFile(flags.scene), flags, tape);
@@ -70,8 +71,8 @@ int record(const RecordFlags& flags) {
     regression::writeTape(output, tape);
     fmt::print("{}: {} ticks, {:.4g} s, last hash {:016x}\n", output.string(), tape.ticks(),
                static_cast<double>(tape.ticks()) * tape.tickSeconds, tape.chain.back());
-    if (divergence) throw core::Error(core::ExitCode::diverged, divergence->message);
-    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+    if (divergence) throw core::Error(core::ErrorKind::diverged, divergence->message);
+    return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
 }
 
 Action declareRecord(Options& options) {

@@ -13,6 +13,7 @@
 #include "taut/core/parallel.h"
 #include "game/command_line.h"
 #include "game/continuation.h"
+#include "game/exit_code.h"
 #include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
@@ -57,7 +58,7 @@ std::vector<std::string> allOverrides(const RenderFlags& flags) {
 }
 
 void checkFlags(const RenderFlags& flags) {
-    const auto fail = [](const char* message) { throw core::Error(core::ExitCode::usage, message); };
+    const auto fail = [](const char* message) { throw core::Error(core::ErrorKind::usage, message); };
     if (!flags.output.empty()) checkOutputName(flags.output);
     if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
     if (!flags.video.empty() && !image::isVideoPath(flags.video))
@@ -84,7 +85,7 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec
     const std::int64_t last = range.last.value_or(count - 1);
     if (range.first >= count || last >= count)
         throw core::Error(
-            core::ExitCode::usage,
+            core::ErrorKind::usage,
             fmt::format("{}: the scene has frames 0-{}; --seconds makes it longer",
                         flags.frames.empty() ? fmt::format("--from {}", range.first) : "--frames " + flags.frames,
                         count - 1));
@@ -116,7 +117,7 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pi
         for (const char* record : {"run.json", "metrics.csv"})
             if (std::filesystem::exists(sink->companion(record)) &&
                 (flags.metrics || record == std::string("run.json")))
-                throw core::Error(core::ExitCode::inputOutput,
+                throw core::Error(core::ErrorKind::inputOutput,
                                   fmt::format("{} exists already", sink->companion(record).string()));
     return sink;
 }
@@ -227,8 +228,8 @@ int render(const RenderFlags& flags) {
     std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
     printWarnings(met);
     if (!flags.quiet) printSummary(flags, result, options.before.size());
-    if (result.divergence) throw core::Error(core::ExitCode::diverged, result.divergence->message);
-    return static_cast<int>(interruption.exitCode().value_or(core::ExitCode::ok));
+    if (result.divergence) throw core::Error(core::ErrorKind::diverged, result.divergence->message);
+    return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
 }
 
 void addOutputFlags(Options& options, RenderFlags& flags) {

@@ -9,6 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
@@ -53,7 +54,7 @@ world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape)
     }
     if (tape.origin.text.empty())
         throw core::Error(
-            core::ExitCode::usage,
+            core::ErrorKind::usage,
             fmt::format("{}: this tape holds no scene (it is the golden of a scenario): say which to play "
                         "with --scene",
                         flags.tape));
@@ -76,7 +77,7 @@ regression::Tape played(const ReplayFlags& flags, const regression::Tape& tape, 
     };
     while (world.tick() < tape.ticks() && !interruption.flag() && !differs()) {
         if (const auto divergence = world.advance())
-            throw core::Error(core::ExitCode::diverged, fmt::format("at tick {} of the tape's {}\n{}", world.tick(),
+            throw core::Error(core::ErrorKind::diverged, fmt::format("at tick {} of the tape's {}\n{}", world.tick(),
                                                                     tape.ticks(), divergence->message));
         regression::addTick(now, world, hasPoints(tape));
         progress.show(static_cast<double>(world.tick()) / static_cast<double>(tape.ticks()),
@@ -89,7 +90,7 @@ int verdict(const ReplayFlags& flags, const regression::Tape& tape, const regres
     auto difference = regression::firstDifference(tape, now);
     if (!difference) {
         fmt::print("the same state at all {} ticks, to the last bit\n", tape.ticks());
-        return static_cast<int>(core::ExitCode::ok);
+        return static_cast<int>(ExitCode::ok);
     }
     fmt::print("{}\n", regression::describe(*difference));
     const auto by = [](const regression::TapeOrigin& origin) {
@@ -99,19 +100,19 @@ int verdict(const ReplayFlags& flags, const regression::Tape& tape, const regres
                flags.other.empty() ? "now" : flags.other.c_str(), by(now.origin));
     if (difference->fault == regression::TapeFault::state && difference->point < 0)
         fmt::print("  which point it is, two tapes with points can tell (taut record without --no-points)\n");
-    return static_cast<int>(core::ExitCode::checkFailed);
+    return static_cast<int>(ExitCode::checkFailed);
 }
 
 int replay(const ReplayFlags& flags) {
     const regression::Tape tape = regression::readTape(flags.tape);
     if (!flags.verify) {
-        if (!flags.scene.empty()) throw core::Error(core::ExitCode::usage, "--scene goes with --verify");
+        if (!flags.scene.empty()) throw core::Error(core::ErrorKind::usage, "--scene goes with --verify");
         printFacts(flags.tape, tape);
-        return static_cast<int>(core::ExitCode::ok);
+        return static_cast<int>(ExitCode::ok);
     }
     if (!flags.other.empty()) {
         if (!flags.scene.empty())
-            throw core::Error(core::ExitCode::usage, "--verify with a second tape plays nothing: leave --scene out");
+            throw core::Error(core::ErrorKind::usage, "--verify with a second tape plays nothing: leave --scene out");
         return verdict(flags, tape, regression::readTape(flags.other));
     }
     const Interruption interruption;

@@ -25,13 +25,13 @@ std::filesystem::path sceneFile(const std::string& argument) {
     }
 
     if (std::filesystem::is_directory(given, ignored))
-        throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: this is a folder, not a scene file", argument));
+        throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: this is a folder, not a scene file", argument));
     if (std::filesystem::exists(given, ignored) || ignored == std::errc::permission_denied) return given;
     if (hasFolder)
-        throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: there is no such scene file", argument));
+        throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: there is no such scene file", argument));
     const std::vector<std::string> scenes = shippedScenes();
     const std::string hint = didYouMean(name, scenes);
-    throw core::Error(core::ExitCode::inputOutput,
+    throw core::Error(core::ErrorKind::inputOutput,
                       fmt::format("{}: there is no such file and no such shipped scene{}", argument,
                                   !hint.empty() || scenes.empty()
                                       ? hint
@@ -58,7 +58,7 @@ scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<s
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {
     if (core::fileContent(file) != expected)
         throw core::Error(
-            core::ExitCode::inputOutput,
+            core::ErrorKind::inputOutput,
             fmt::format("{}: the file has changed while it was planned; nothing is written", file.string()));
     std::error_code ignored;
     const std::filesystem::path real = std::filesystem::canonical(file, ignored);

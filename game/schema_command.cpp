@@ -4,6 +4,7 @@
 
 #include "taut/core/error.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "taut/scene/load.h"
 
 namespace taut::game {
@@ -14,7 +15,7 @@ Action declareSchema(Options& options) {
     options.flag("--manual", *manual, "Print it for people: every field with its unit, range and default");
     return [manual] {
         fmt::print("{}\n", *manual ? scene::manual() : scene::jsonSchema());
-        return static_cast<int>(core::ExitCode::ok);
+        return static_cast<int>(ExitCode::ok);
     };
 }
 

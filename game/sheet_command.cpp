@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "taut/image/png.h"
 #include "taut/report/contact_sheet.h"
 
@@ -22,12 +23,12 @@ int sheet(const SheetFlags& flags) {
     const std::filesystem::path output =
         flags.output.empty() ? pattern.folder() / "sheet.png" : std::filesystem::path(flags.output);
     if (output.extension() != ".png")
-        throw core::Error(core::ExitCode::usage,
+        throw core::Error(core::ErrorKind::usage,
                           fmt::format("{}: let the name of the sheet end in .png", output.string()));
     const image::Image picture = report::contactSheet(pattern, flags.layout);
     image::writePng(output, picture);
     fmt::print("{}: {}x{} pixels\n", output.string(), picture.width, picture.height);
-    return static_cast<int>(core::ExitCode::ok);
+    return static_cast<int>(ExitCode::ok);
 }
 
 Action declareSheet(Options& options) {

@@ -14,6 +14,7 @@
 #include "taut/core/parallel.h"
 #include "game/calibration_run.h"
 #include "game/command_line.h"
+#include "game/exit_code.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/live_line.h"
@@ -76,7 +77,7 @@ void choose(const TestFlags& flags, std::vector<regression::Scenario>& scenarios
         if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return fits(word, name); })) {
             const std::string hint = didYouMean(word, names);
             throw core::Error(
-                core::ExitCode::usage,
+                core::ErrorKind::usage,
                 fmt::format("{}: there is no scenario '{}'{}", updates ? "--update" : "--filter", word,
                             hint.empty() ? "; there are " + fmt::format("{}", fmt::join(names, ", ")) : hint));
         }
@@ -87,7 +88,7 @@ void choose(const TestFlags& flags, std::vector<regression::Scenario>& scenarios
 }
 
 void checkFlags(const TestFlags& flags) {
-    const auto fail = [](const char* message) { throw core::Error(core::ExitCode::usage, message); };
+    const auto fail = [](const char* message) { throw core::Error(core::ErrorKind::usage, message); };
     const bool hasWhy = flags.why.find_first_not_of(" \t\r\n") != std::string::npos;
     if (!flags.updates.empty() && !hasWhy)
         fail("--update changes what counts as right: say why with --why \"…\"; the manifest keeps it");
@@ -165,16 +166,16 @@ void writePictures(const std::filesystem::path& folder, const report::TestScenar
 int exitCodeOf(report::Verdict verdict) {
     switch (verdict) {
         case report::Verdict::diverged:
-            return static_cast<int>(core::ExitCode::diverged);
+            return static_cast<int>(ExitCode::diverged);
         case report::Verdict::failed:
-            return static_cast<int>(core::ExitCode::checkFailed);
+            return static_cast<int>(ExitCode::checkFailed);
         case report::Verdict::missing:
-            return static_cast<int>(core::ExitCode::goldenMissing);
+            return static_cast<int>(ExitCode::goldenMissing);
         case report::Verdict::passed:
         case report::Verdict::skipped:
             break;
     }
-    return static_cast<int>(core::ExitCode::ok);
+    return static_cast<int>(ExitCode::ok);
 }
 
 report::TestReport blankReport(const Run& run) {
@@ -268,16 +269,14 @@ int test(const TestFlags& flags) {
 
 // What became of a scenario that cannot be made a golden.
 void refuseToUpdate(const regression::Scenario& scenario, const regression::Played& played) {
-    if (played.divergence) throw core::Error(core::ExitCode::diverged, played.divergence->message);
+    if (played.divergence) throw core::Error(core::ErrorKind::diverged, played.divergence->message);
     for (const report::TestCheck& check : played.checks)
         if (check.verdict == report::Verdict::failed)
-            throw core::Error(core::ExitCode::checkFailed,
-                              fmt::format("{}: a check fails, so nothing of it becomes golden\n{}: {}", scenario.name,
+            throw CheckFailed(fmt::format("{}: a check fails, so nothing of it becomes golden\n{}: {}", scenario.name,
                                           check.source, check.reason));
     for (const regression::PlayedPicture& picture : played.pictures)
         if (!picture.fault.empty())
-            throw core::Error(
-                core::ExitCode::checkFailed,
+            throw CheckFailed(
                 fmt::format("{}: picture {} cannot be drawn: {}", scenario.name, picture.request.key(), picture.fault));
 }
 
@@ -297,7 +296,7 @@ int update(const TestFlags& flags) {
         for (const std::string& change : changes) fmt::print("{}\n", change);
         if (changes.empty()) fmt::print("{}: nothing differs from its goldens\n", scenario.name);
     }
-    return static_cast<int>(core::ExitCode::ok);
+    return static_cast<int>(ExitCode::ok);
 }
 
 Action declareTest(Options& options) {

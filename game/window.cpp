@@ -14,7 +14,7 @@ namespace taut::game {
 namespace {
 
 [[noreturn]] void failWithoutWindow(const char* what) {
-    throw core::Error(core::ExitCode::noRenderer, std::string(what) + " (" + SDL_GetError() + ")");
+    throw core::Error(core::ErrorKind::noRenderer, std::string(what) + " (" + SDL_GetError() + ")");
 }
 
 std::string nameOf(SDL_Keycode key) {
@@ -91,7 +91,7 @@ Window::Window(const std::string& title, int width, int height) : impl_(new Impl
     SDL_SetHintWithPriority(SDL_HINT_RENDER_DRIVER, "software", SDL_HINT_DEFAULT);
     SDL_SetHintWithPriority(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0", SDL_HINT_DEFAULT);
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    if (!isThereADisplay()) throw core::Error(core::ExitCode::noRenderer, "there is no display to open a window on");
+    if (!isThereADisplay()) throw core::Error(core::ErrorKind::noRenderer, "there is no display to open a window on");
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) failWithoutWindow("the display takes no window");
     impl_->window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
                                      SDL_WINDOW_RESIZABLE);

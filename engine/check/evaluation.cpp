@@ -25,7 +25,7 @@ const world::PointsNow& Now::points(const std::string& target) const {
     auto found = points_.find(target);
     if (found == points_.end()) found = points_.emplace(target, world_.points(selection(target))).first;
     if (found->second.x.empty())
-        throw core::Error(core::ExitCode::badContent,
+        throw core::Error(core::ErrorKind::badContent,
                           fmt::format("{} finds no points at {:.6g} s", target, world_.time()));
     return found->second;
 }

@@ -52,7 +52,7 @@ Watcher::Watcher(const world::SceneSpec& scene) {
         try {
             watched.check = spec.parsed ? *spec.parsed : Check::parse(spec.that);
         } catch (const Fault& fault) {
-            throw core::Error(core::ExitCode::badContent,
+            throw core::Error(core::ErrorKind::badContent,
                               fmt::format("{}:{}:{}: error: {}", spec.source.file, spec.source.line, spec.source.column,
                                           fault.what()));
         }

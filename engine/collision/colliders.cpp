@@ -14,7 +14,7 @@ Colliders& Colliders::operator=(Colliders&&) noexcept = default;
 
 int Colliders::add(const Shape& shape, const Material& material, const Pose& pose) {
     const auto fail = [](const std::string& what) {
-        throw core::Error(core::ExitCode::badContent, "collider material: " + what);
+        throw core::Error(core::ErrorKind::badContent, "collider material: " + what);
     };
     if (!(material.friction >= 0.0) || !isFinite(material.friction)) fail("the friction has to be zero or more");
     if (!(material.restitution >= 0.0 && material.restitution <= 1.0)) fail("the restitution has to be from 0 to 1");

@@ -14,7 +14,7 @@ constexpr std::size_t mostTriangles = 2'000'000;  // Bullet numbers a mesh's tri
 constexpr int cellsAlongLongest = 24;
 
 [[noreturn]] void failMesh(const std::string& what) {
-    throw core::Error(core::ExitCode::badContent, "collider mesh: " + what);
+    throw core::Error(core::ErrorKind::badContent, "collider mesh: " + what);
 }
 
 }  // namespace

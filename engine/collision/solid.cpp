@@ -9,7 +9,7 @@ namespace taut::collision {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-    throw core::Error(core::ExitCode::badContent, "collider " + what);
+    throw core::Error(core::ErrorKind::badContent, "collider " + what);
 }
 
 glm::dquat unit(const glm::dquat& q) {

@@ -74,7 +74,7 @@ class ByteReader {
     }
     bool isAtEnd() const { return bytes_.empty(); }
     [[noreturn]] static void fail() {
-        throw Error(ExitCode::badContent, "the bytes end too early, or are not what they say");
+        throw Error(ErrorKind::badContent, "the bytes end too early, or are not what they say");
     }
 
   private:

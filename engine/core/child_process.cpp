@@ -112,7 +112,7 @@ ChildProcess::ChildProcess(const ChildCommand& command) {
     if (error == 0) return;
     for (const int descriptor : {input_, output_, errors_})
         if (descriptor >= 0) ::close(descriptor);
-    throw Error(ExitCode::inputOutput, "cannot run " + command.arguments.front() + ": " + std::strerror(error));
+    throw Error(ErrorKind::inputOutput, "cannot run " + command.arguments.front() + ": " + std::strerror(error));
 }
 
 ChildProcess::~ChildProcess() {

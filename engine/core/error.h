@@ -1,4 +1,4 @@
-// What goes wrong for a reason the user can mend: an exception with a message and the exit code it leads to.
+// What goes wrong for a reason the user can mend: an exception with a message and a kind.
 #pragma once
 
 #include <stdexcept>
@@ -6,28 +6,22 @@
 
 namespace taut::core {
 
-// Exit codes of the program; every Error carries one.
-enum class ExitCode : int {
-    ok = 0,
-    checkFailed = 1,
-    usage = 2,
-    badContent = 3,  // a file says something wrong, or asks for more than the machine has
-    diverged = 4,
-    needNotMet = 5,
-    inputOutput = 6,  // a file is missing, unreadable, unwritable; the disk is full; a program did not run
-    noRenderer = 7,
-    goldenMissing = 8,
-    interrupted = 130,
-    terminated = 143,
+enum class ErrorKind {
+    usage,        // asked for in a way that cannot be meant
+    badContent,   // a file says something wrong, or asks for more than the machine has
+    diverged,     // the motion left all bounds
+    inputOutput,  // a file is missing, unreadable, unwritable; the disk is full; a program did not run
+    noRenderer,   // there is nothing to draw with
+    interrupted,  // by who waits for it
 };
 
 class Error : public std::runtime_error {
   public:
-    Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-    ExitCode code() const { return code_; }
+    Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    ErrorKind kind() const { return kind_; }
 
   private:
-    ExitCode code_;
+    ErrorKind kind_;
 };
 
 // Ends the program with a message: a programmer's mistake, never a user's.

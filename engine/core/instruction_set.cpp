@@ -14,9 +14,9 @@ InstructionSet chosenAtStart() {
         for (InstructionSet set : {InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512})
             if (nameOf(set) == wish) {
                 if (isSupported(set)) return set;
-                throw Error(ExitCode::usage, "TAUT_SIMD=" + std::string(wish) + ": this processor does not have it");
+                throw Error(ErrorKind::usage, "TAUT_SIMD=" + std::string(wish) + ": this processor does not have it");
             }
-        throw Error(ExitCode::usage, "TAUT_SIMD=" + std::string(wish) + ": expected sse2, avx2 or avx512");
+        throw Error(ErrorKind::usage, "TAUT_SIMD=" + std::string(wish) + ": expected sse2, avx2 or avx512");
     }
     return isSupported(InstructionSet::avx2) ? InstructionSet::avx2 : InstructionSet::sse2;
 }

@@ -14,7 +14,7 @@ namespace taut::core {
 namespace {
 
 [[noreturn]] void failOn(const std::filesystem::path& path, const char* what, int error) {
-    throw Error(ExitCode::inputOutput, path.string() + ": " + what + ": " + std::strerror(error));
+    throw Error(ErrorKind::inputOutput, path.string() + ": " + what + ": " + std::strerror(error));
 }
 
 }  // namespace

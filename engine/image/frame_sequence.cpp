@@ -13,7 +13,7 @@ namespace taut::image {
 
 FramePattern::FramePattern(const std::filesystem::path& pattern) {
     const auto fail = [&](const std::string& reason) {
-        throw core::Error(core::ExitCode::usage, fmt::format("{}: {}", pattern.string(), reason));
+        throw core::Error(core::ErrorKind::usage, fmt::format("{}: {}", pattern.string(), reason));
     };
     if (pattern.empty()) fail("a name for the frames is missing, for example out/frame_######.png");
     const std::string name = pattern.filename().string();

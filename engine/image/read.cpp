@@ -51,7 +51,7 @@ bool pngIsDamaged(const std::string& content) {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-    throw core::Error(core::ExitCode::badContent, path.string() + ": not a whole PNG or JPEG picture: " + reason);
+    throw core::Error(core::ErrorKind::badContent, path.string() + ": not a whole PNG or JPEG picture: " + reason);
 }
 
 }  // namespace

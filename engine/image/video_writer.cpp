@@ -34,7 +34,7 @@ VideoWriter::VideoWriter(std::filesystem::path path, VideoOptions options)
     TAUT_EXPECTS(isVideoPath(path_));
     TAUT_EXPECTS(options_.fps > 0.0);
     if (!core::isInPath(options_.program))
-        throw core::Error(core::ExitCode::inputOutput,
+        throw core::Error(core::ErrorKind::inputOutput,
                           fmt::format("{}: {} is not installed. Install the package 'ffmpeg', or write pictures "
                                       "instead: -o {}/frame_######.png",
                                       path_.string(), options_.program, (path_.parent_path() / path_.stem()).string()));
@@ -91,7 +91,7 @@ void VideoWriter::start(int width, int height) {
     try {
         encoder_ = std::make_unique<core::ChildProcess>(core::ChildCommand{std::move(arguments)});
     } catch (const core::Error& error) {
-        throw core::Error(error.code(), fmt::format("{}: {}", path_.string(), error.what()));
+        throw core::Error(error.kind(), fmt::format("{}: {}", path_.string(), error.what()));
     }
 }
 
@@ -118,7 +118,7 @@ void VideoWriter::fail(const std::string& what) {
     const std::string text = encoder_->errors();
     encoder_.reset();
     ::unlink(temporary_.c_str());
-    throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: {} {}{}{}", path_.string(), options_.program, what,
+    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {} {}{}{}", path_.string(), options_.program, what,
                                                                text.empty() ? "" : ":\n", text));
 }
 

@@ -146,7 +146,7 @@ ScenarioParts partsOf(const std::string& scenario) {
 std::string actionText(const world::ActionSpec& action, double t, const world::KindTable<world::ActionSpec>& kinds) {
     const auto* kind = kinds.find(action.kind());
     if (kind == nullptr)
-        throw core::Error(core::ExitCode::badContent,
+        throw core::Error(core::ErrorKind::badContent,
                           fmt::format("no table has the kind \"{}\" of an action", action.kind()));
     const auto fresh = kind->make();
     std::string text = fmt::format("{{ t = {}, do = \"{}\"", t, kind->name);

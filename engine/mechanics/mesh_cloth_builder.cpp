@@ -21,7 +21,7 @@ struct EdgeUse {
 };
 
 [[noreturn]] void reject(const std::string& what) {
-    throw core::Error(core::ExitCode::badContent, "mesh: " + what);
+    throw core::Error(core::ErrorKind::badContent, "mesh: " + what);
 }
 
 std::string nameOf(const Edge& edge) {

@@ -114,7 +114,7 @@ Model buildRope(const RopeShape& shape) {
     const int n = shape.segments;
     const double distance = glm::length(shape.end - shape.start);
     const double length = shape.length > 0.0 ? shape.length : distance;
-    if (!(length > 0.0)) throw core::Error(core::ExitCode::badContent, "a rope needs a length or two distinct ends");
+    if (!(length > 0.0)) throw core::Error(core::ErrorKind::badContent, "a rope needs a length or two distinct ends");
     const double link = length / n;
 
     Model model;

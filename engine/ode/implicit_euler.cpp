@@ -97,7 +97,7 @@ class ImplicitEuler final : public Method<Real> {
 
     static ImplicitSystem<Real>& linearOf(SecondOrderSystem<Real>& system) {
         if (ImplicitSystem<Real>* linear = system.implicitPart()) return *linear;
-        throw core::Error(core::ExitCode::usage,
+        throw core::Error(core::ErrorKind::usage,
                           "implicit Euler needs a system that gives masses and the derivatives of its forces");
     }
 

@@ -57,7 +57,7 @@ std::unique_ptr<FirstOrderMethod<Real>> Methods::makeFirstOrder(std::string_view
                                                 : std::string(method->title) +
                                                       " needs x'' = a with positions and velocities apart, and this "
                                                       "problem is y' = f(t, y)";
-    throw core::Error(core::ExitCode::usage, wrong + "; these methods would do: " + names);
+    throw core::Error(core::ErrorKind::usage, wrong + "; these methods would do: " + names);
 }
 
 std::span<const MethodInfo> methods() {

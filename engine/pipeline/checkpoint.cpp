@@ -89,7 +89,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& path) {
         if (!reader.isAtEnd() || static_cast<std::int64_t>(count) != checkpoint.frame) core::ByteReader::fail();
         return checkpoint;
     } catch (const core::Error& error) {
-        throw core::Error(core::ExitCode::badContent, fmt::format("{}: {}", path.string(), error.what()));
+        throw core::Error(core::ErrorKind::badContent, fmt::format("{}: {}", path.string(), error.what()));
     }
 }
 
@@ -128,7 +128,7 @@ std::optional<Checkpoint> CheckpointFolder::latest(std::int64_t frame,
                             "before frame {}",
                             path.string(), there.back()));
         } catch (const core::Error& error) {
-            if (error.code() != core::ExitCode::badContent) throw;
+            if (error.kind() != core::ErrorKind::badContent) throw;
             refused.push_back(error.what());
         }
     }

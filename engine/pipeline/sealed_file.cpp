@@ -29,7 +29,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes) {
 }
 
 [[noreturn]] void refuse(const std::string& name, const std::string& why) {
-    throw core::Error(core::ExitCode::badContent, fmt::format("{}: {}", name, why));
+    throw core::Error(core::ErrorKind::badContent, fmt::format("{}: {}", name, why));
 }
 
 std::span<const std::byte> bytesOf(const std::string& text) {

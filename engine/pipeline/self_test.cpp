@@ -58,7 +58,7 @@ void testRenderer(render::Renderer& renderer) {
     const image::Image picture = renderer.draw(testView());
     const render::RendererInfo info = renderer.info();
     const auto fail = [&](const std::string& what) {
-        throw core::Error(core::ExitCode::noRenderer, fmt::format("{}: {} ({}, {}, OpenGL {})", info.backend, what,
+        throw core::Error(core::ErrorKind::noRenderer, fmt::format("{}: {} ({}, {}, OpenGL {})", info.backend, what,
                                                                   info.vendor, info.renderer, info.version));
     };
     if (!picture.isWhole()) fail("drew no picture");
@@ -82,11 +82,11 @@ std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions option
             testRenderer(*renderer);
             return renderer;
         } catch (const core::Error& error) {
-            if (error.code() != core::ExitCode::noRenderer) throw;
+            if (error.kind() != core::ErrorKind::noRenderer) throw;
             tried += fmt::format("\n  {}: {}", nameOf(backend), error.what());
         }
     }
-    throw core::Error(core::ExitCode::noRenderer,
+    throw core::Error(core::ErrorKind::noRenderer,
                       "nothing here can draw. Tried:" + tried +
                           "\nInstall the packages libosmesa6-dev and libgl1-mesa-dri, or choose another with --gl.");
 }

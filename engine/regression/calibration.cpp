@@ -120,7 +120,7 @@ class Calibration {
             try {
                 now = other_->draw(picture.view, scenario_->spec.picture, picture.request.size);
             } catch (const core::Error& error) {
-                if (error.code() != core::ExitCode::noRenderer) throw;
+                if (error.kind() != core::ErrorKind::noRenderer) throw;
             }
             CalibrationRow noise =
                 row(picture, now ? "the other GL backend" : "the other GL backend: not here", now ? &*now : nullptr);

@@ -21,14 +21,14 @@ const pipeline::SealedKind storedKind{"tautgold", 1, "stored state of a golden p
 void removeFile(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::remove(path, error);
-    if (error) throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: {}", path.string(), error.message()));
+    if (error) throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", path.string(), error.message()));
 }
 
 bool hasSameChain(const std::filesystem::path& file, const Tape& tape) {
     try {
         return core::isThere(file) && !firstDifference(readTape(file), tape);
     } catch (const core::Error& error) {
-        if (error.code() == core::ExitCode::inputOutput) throw;
+        if (error.kind() == core::ErrorKind::inputOutput) throw;
         return false;  // damaged: written anew
     }
 }
@@ -37,7 +37,7 @@ bool hasSamePicture(const std::filesystem::path& file, const image::Image& pictu
     try {
         return core::isThere(file) && image::compare(image::readImage(file), picture, tolerance).within;
     } catch (const core::Error& error) {
-        if (error.code() == core::ExitCode::inputOutput) throw;
+        if (error.kind() == core::ErrorKind::inputOutput) throw;
         return false;
     }
 }

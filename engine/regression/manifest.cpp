@@ -57,12 +57,12 @@ class Reader {
         for (const auto& [key, value] : json_.items()) call(key, Reader(value, file_, join(key)));
     }
     [[noreturn]] void below(const std::string& key, const std::string& what) const {
-        throw core::Error(core::ExitCode::badContent, fmt::format("{}: {} {}", file_, join(key), what));
+        throw core::Error(core::ErrorKind::badContent, fmt::format("{}: {} {}", file_, join(key), what));
     }
 
   private:
     [[noreturn]] void fail(const std::string& what) const {
-        throw core::Error(core::ExitCode::badContent,
+        throw core::Error(core::ErrorKind::badContent,
                           fmt::format("{}: {} {}", file_, place_.empty() ? "the content" : place_, what));
     }
     std::string join(const std::string& key) const { return place_.empty() ? key : place_ + "." + key; }
@@ -131,7 +131,7 @@ Manifest readManifest(const GoldenFolder& folder) {
     } catch (const nlohmann::json::parse_error& error) {
         const std::size_t at = std::min<std::size_t>(error.byte, content.size());
         const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-        throw core::Error(core::ExitCode::badContent, fmt::format("{}:{}: error: this is no JSON", file, line));
+        throw core::Error(core::ErrorKind::badContent, fmt::format("{}:{}: error: this is no JSON", file, line));
     }
     const Reader reader(json, file, "");
     if (const std::int64_t version = reader.whole("schema", 1); version != schema)

@@ -76,7 +76,7 @@ class Player {
             picture.picture = drawer_.draw(picture.view, scenario_.spec.picture, request.size);
             played_.renderer = drawer_.renderer();
         } catch (const core::Error& error) {
-            if (error.code() == core::ExitCode::noRenderer) throw;
+            if (error.kind() == core::ErrorKind::noRenderer) throw;
             picture.fault = error.what();
         }
         played_.pictures.push_back(std::move(picture));

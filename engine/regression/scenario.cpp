@@ -20,17 +20,17 @@ std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder) 
          !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
         if (std::error_code ignored; entry->path().extension() == ".toml" && entry->is_regular_file(ignored))
             files.push_back(entry->path());
-    if (error) throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: {}", folder.string(), error.message()));
+    if (error) throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", folder.string(), error.message()));
     if (files.empty())
         throw core::Error(
-            core::ExitCode::inputOutput,
+            core::ErrorKind::inputOutput,
             fmt::format("{}: there is no scenario in this folder, that is, no file NAME.toml", folder.string()));
     std::sort(files.begin(), files.end());
     return files;
 }
 
 [[noreturn]] void refuse(const world::SceneSpec& spec, const world::Source& source, const std::string& what) {
-    throw core::Error(core::ExitCode::badContent, source.line > 0 ? fmt::format("{}:{}:{}: error: {}", source.file,
+    throw core::Error(core::ErrorKind::badContent, source.line > 0 ? fmt::format("{}:{}:{}: error: {}", source.file,
                                                                                 source.line, source.column, what)
                                                                   : fmt::format("{}: {}", spec.file, what));
 }
@@ -49,7 +49,7 @@ std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesyst
             const std::vector<std::filesystem::path> inside = filesIn(path);
             files.insert(files.end(), inside.begin(), inside.end());
         } else if (!std::filesystem::exists(path, error)) {
-            throw core::Error(core::ExitCode::inputOutput,
+            throw core::Error(core::ErrorKind::inputOutput,
                               fmt::format("{}: there is no such file or folder of scenarios", path.string()));
         } else {
             files.push_back(path);
@@ -63,7 +63,7 @@ std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesyst
         if (isNew)
             once.push_back(file);
         else if (!std::filesystem::equivalent(other->second, file, ignored))
-            throw core::Error(core::ExitCode::usage,
+            throw core::Error(core::ErrorKind::usage,
                               fmt::format("two scenarios are called {}: {} and {}; goldens are kept by name",
                                           file.stem().string(), other->second.string(), file.string()));
     }
@@ -104,11 +104,11 @@ std::vector<Scenario> readScenarios(const std::vector<std::filesystem::path>& fi
             scenarios.push_back(
                 {file.stem().string(), file, std::move(loaded.spec), std::move(goldens), std::move(loaded.warnings)});
         } catch (const core::Error& error) {
-            if (error.code() != core::ExitCode::badContent) throw;
+            if (error.kind() != core::ErrorKind::badContent) throw;
             faults += (faults.empty() ? "" : "\n") + std::string(error.what());
         }
     }
-    if (!faults.empty()) throw core::Error(core::ExitCode::badContent, faults);
+    if (!faults.empty()) throw core::Error(core::ErrorKind::badContent, faults);
     return scenarios;
 }
 

@@ -71,7 +71,7 @@ class Suite {
             if (played.interrupted) return;
             result = judged(scenario, played, options_.goldens, manifest_);
         } catch (const core::Error& error) {
-            if (error.code() != core::ExitCode::badContent) throw;
+            if (error.kind() != core::ErrorKind::badContent) throw;
             result = brokenScenario(scenario, error.what());
         }
         const std::lock_guard lock(mutex_);

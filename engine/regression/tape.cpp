@@ -149,7 +149,7 @@ Tape readTape(const std::filesystem::path& path) {
     try {
         return tapeIn(content);
     } catch (const core::Error& error) {
-        throw core::Error(error.code(), fmt::format("{}: {}", path.string(), error.what()));
+        throw core::Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
     }
 }
 

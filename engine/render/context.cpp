@@ -18,7 +18,7 @@ std::unique_ptr<Context> makeContext(Backend backend) {
     const auto load = [](void* self, const char* name) { return static_cast<Context*>(self)->functionNamed(name); };
     const int version = gladLoadGLContextUserPtr(context->gl_.get(), load, context.get());
     if (version < GLAD_MAKE_VERSION(3, 3)) {
-        throw core::Error(core::ExitCode::noRenderer,
+        throw core::Error(core::ErrorKind::noRenderer,
                           "no renderer: the GL library offers less than OpenGL 3.3; Mesa's llvmpipe does, on Debian in "
                           "the package libosmesa6 (or libegl-mesa0 with --gl egl)");
     }

@@ -12,7 +12,7 @@ namespace taut::render {
 namespace {
 
 [[noreturn]] void failEgl(const std::string& step) {
-    throw core::Error(core::ExitCode::noRenderer,
+    throw core::Error(core::ErrorKind::noRenderer,
                       "no renderer: EGL without a surface failed at " + step +
                           "; install Debian's libegl1 and libegl-mesa0, or try --gl osmesa");
 }

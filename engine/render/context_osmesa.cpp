@@ -28,7 +28,7 @@ class OsmesaContext final : public Context {
         context_ = OSMesaCreateContextAttribs(wanted.data(), nullptr);
         if (context_ == nullptr) {
             throw core::Error(
-                core::ExitCode::noRenderer,
+                core::ErrorKind::noRenderer,
                 "no renderer: OSMesa gave no OpenGL 3.3 core context (OSMesaCreateContextAttribs failed); "
                 "install Debian's libosmesa6, or try --gl egl");
         }
@@ -37,7 +37,7 @@ class OsmesaContext final : public Context {
 
     void makeCurrent() override {
         if (OSMesaMakeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE) {
-            throw core::Error(core::ExitCode::noRenderer,
+            throw core::Error(core::ErrorKind::noRenderer,
                               "no renderer: OSMesa's context cannot be used (OSMesaMakeCurrent failed); try --gl egl");
         }
     }

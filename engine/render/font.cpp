@@ -34,14 +34,14 @@ constexpr const char* places[] = {
 
 std::vector<unsigned char> bytesOf(const std::filesystem::path& file) {
     if (file.empty()) {
-        throw core::Error(core::ExitCode::inputOutput,
+        throw core::Error(core::ErrorKind::inputOutput,
                           std::string("no font for the labels: ") + places[0] +
                               " is missing; install the package fonts-dejavu-core, or name a font file with TAUT_FONT");
     }
     std::error_code ignored;
     std::ifstream stream(file, std::ios::binary);
     if (!stream || !std::filesystem::is_regular_file(file, ignored)) {
-        throw core::Error(core::ExitCode::inputOutput, "the font " + file.string() +
+        throw core::Error(core::ErrorKind::inputOutput, "the font " + file.string() +
                                                            " cannot be read; name another with TAUT_FONT, or install "
                                                            "the package fonts-dejavu-core and name none");
     }
@@ -71,7 +71,7 @@ Font::Font(const std::filesystem::path& file) : impl_(std::make_unique<Impl>()) 
     constexpr std::size_t header = 12;  // [bytes] of the table directory, without which there is nothing to look at
     const int start = impl_->bytes.size() < header ? -1 : stbtt_GetFontOffsetForIndex(impl_->bytes.data(), 0);
     if (start < 0 || stbtt_InitFont(&impl_->info, impl_->bytes.data(), start) == 0) {
-        throw core::Error(core::ExitCode::badContent, path.string() + " is no TrueType font");
+        throw core::Error(core::ErrorKind::badContent, path.string() + " is no TrueType font");
     }
 }
 

@@ -28,7 +28,7 @@ MapTarget::MapTarget(const Gl& gl, int edge, GLenum format, GLenum filter, float
         gl.ReadBuffer(GL_NONE);
     }
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        throw core::Error(core::ExitCode::noRenderer, "no renderer: GL cannot draw into the maps that shadows need");
+        throw core::Error(core::ErrorKind::noRenderer, "no renderer: GL cannot draw into the maps that shadows need");
     }
 }
 

@@ -14,7 +14,7 @@ std::string fileText(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
     if (!file || !(text << file.rdbuf())) {
-        throw core::Error(core::ExitCode::inputOutput,
+        throw core::Error(core::ErrorKind::inputOutput,
                           "cannot read the shader " + path.string() + "; is the shader folder the right one?");
     }
     return text.str();
@@ -23,7 +23,7 @@ std::string fileText(const std::filesystem::path& path) {
 // Takes in `#include "file"` lines. GL's log names sources by number: `files` lists which is which.
 std::string withIncludes(const std::filesystem::path& folder, const std::string& name,
                          std::vector<std::string>& files) {
-    if (files.size() > 16) throw core::Error(core::ExitCode::badContent, "shader " + name + " includes itself");
+    if (files.size() > 16) throw core::Error(core::ErrorKind::badContent, "shader " + name + " includes itself");
     const std::size_t number = files.size();
     files.push_back(name);
     std::istringstream lines(fileText(folder / name));
@@ -108,7 +108,7 @@ GlObject ShaderFolder::compiled(const std::string& file, GLenum type,
     if (good == GL_TRUE) return shader;
     std::array<char, 4096> log{};
     gl_->GetShaderInfoLog(shader.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw core::Error(core::ExitCode::badContent, "shader " + (folder_ / file).string() + " does not compile (source " +
+    throw core::Error(core::ErrorKind::badContent, "shader " + (folder_ / file).string() + " does not compile (source " +
                                                       listed(files) + "):\n" + log.data());
 }
 
@@ -127,7 +127,7 @@ Program ShaderFolder::program(const std::string& vertexFile, const std::string& 
     if (good == GL_TRUE) return {*gl_, std::move(program)};
     std::array<char, 4096> log{};
     gl_->GetProgramInfoLog(program.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw core::Error(core::ExitCode::badContent, "shaders " + (folder_ / vertexFile).string() + " and " +
+    throw core::Error(core::ErrorKind::badContent, "shaders " + (folder_ / vertexFile).string() + " and " +
                                                       fragmentFile + " do not fit together:\n" + log.data());
 }
 

@@ -13,7 +13,7 @@ int checkedSize(const Gl& gl, int texels) {
     GLint largest = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (texels < boundsEdge || texels % boundsEdge != 0 || texels > largest) {
-        throw core::Error(core::ExitCode::badContent,
+        throw core::Error(core::ErrorKind::badContent,
                           "a shadow map of " + std::to_string(texels) +
                               " texels cannot be drawn: it must be a multiple of 128, at most " +
                               std::to_string(largest));

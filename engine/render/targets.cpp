@@ -14,7 +14,7 @@ void expectSize(const Gl& gl, int width, int height) {
     GLint largest = 0;
     gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     if (width < 1 || height < 1 || width > largest || height > largest) {
-        throw core::Error(core::ExitCode::badContent,
+        throw core::Error(core::ErrorKind::badContent,
                           "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
                               " cannot be drawn: each side must be 1 to " + std::to_string(largest) + " pixels");
     }
@@ -22,7 +22,7 @@ void expectSize(const Gl& gl, int width, int height) {
 
 void expectComplete(const Gl& gl) {
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
-    throw core::Error(core::ExitCode::noRenderer, "no renderer: GL cannot draw into the targets that a picture needs");
+    throw core::Error(core::ErrorKind::noRenderer, "no renderer: GL cannot draw into the targets that a picture needs");
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Targets::Targets(const Gl& gl, int width, int height, int samples)
       resolveTarget_(gl, GlKind::framebuffer) {
     expectSize(gl, width, height);
     if (samples != 1 && samples != 4) {
-        throw core::Error(core::ExitCode::badContent,
+        throw core::Error(core::ErrorKind::badContent,
                           "anti-aliasing takes 1 or 4 samples a pixel, not " + std::to_string(samples));
     }
     const auto storage = [&](const GlObject& buffer, GLenum format, int count) {

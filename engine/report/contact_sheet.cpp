@@ -39,14 +39,14 @@ std::vector<std::int64_t> evenlySpaced(const std::vector<std::int64_t>& numbers,
 image::Image contactSheet(const image::FramePattern& pattern, const SheetLayout& layout) {
     const std::vector<std::int64_t> frames = evenlySpaced(pattern.framesThere(), layout.pictures);
     if (frames.empty())
-        throw core::Error(core::ExitCode::inputOutput,
+        throw core::Error(core::ErrorKind::inputOutput,
                           fmt::format("no frames like {}; taut render SCENE -o {} makes some",
                                       pattern.pathOf(0).string(), pattern.folder().string()));
     const int count = static_cast<int>(frames.size());
     const int columns = std::min(layout.columns, count), rows = (count + columns - 1) / columns;
     const int width = (layout.width - (columns + 1) * layout.gap) / columns;
     if (width < 8)
-        throw core::Error(core::ExitCode::badContent,
+        throw core::Error(core::ErrorKind::badContent,
                           fmt::format("{} columns do not fit into {} pixels", columns, layout.width));
     image::Image sheet;
     int height = 0, fullWidth = 0, fullHeight = 0;
@@ -62,7 +62,7 @@ image::Image contactSheet(const image::FramePattern& pattern, const SheetLayout&
                              background);
         }
         if (picture.width != fullWidth || picture.height != fullHeight)
-            throw core::Error(core::ExitCode::badContent,
+            throw core::Error(core::ErrorKind::badContent,
                               fmt::format("{}: {}x{} pixels, but the first frame has {}x{}: frames of two runs?",
                                           path.string(), picture.width, picture.height, fullWidth, fullHeight));
         paste(image::resized(picture, width, height), layout.gap + i % columns * (width + layout.gap),

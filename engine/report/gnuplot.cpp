@@ -19,7 +19,7 @@ void draw(const Chart& chart, Format format, const std::filesystem::path& path) 
     const auto fail = [&](const std::string& what) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
-        throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: {}", path.string(), what));
+        throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", path.string(), what));
     };
     if (!core::isInPath(gnuplotProgram)) fail(gnuplotMissing());
     // "-d": no settings of the user's own.

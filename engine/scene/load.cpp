@@ -26,7 +26,7 @@ namespace {
 constexpr std::uint64_t maxSceneSize = 16U << 20U;  // [bytes]
 
 void throwIfAny(const Problems& problems) {
-    if (problems.errorCount() > 0) throw core::Error(core::ExitCode::badContent, problems.errors());
+    if (problems.errorCount() > 0) throw core::Error(core::ErrorKind::badContent, problems.errors());
 }
 
 // Refuses a scene that asks for too much, at the body that asks for most.
@@ -78,7 +78,7 @@ Node treeOf(std::string_view text, int origin, Problems& problems) {
         return documentTree(text, origin);
     } catch (const SyntaxError& error) {
         problems.addError(error.place, error.what());
-        throw core::Error(core::ExitCode::badContent, problems.errors());
+        throw core::Error(core::ErrorKind::badContent, problems.errors());
     }
 }
 

@@ -42,7 +42,7 @@ class ObjReader {
 
   private:
     [[noreturn]] void fail(const std::string& message) const {
-        throw core::Error(core::ExitCode::badContent, fmt::format("{}:{}: error: {}", fileName_, line_, message));
+        throw core::Error(core::ErrorKind::badContent, fmt::format("{}:{}: error: {}", fileName_, line_, message));
     }
 
     // One line without its comment; a backslash at the end joins the next.

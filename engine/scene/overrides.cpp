@@ -79,7 +79,7 @@ std::string overrideLabel(const std::string& text) {
     const std::string key = withoutBlanks(std::string_view(text).substr(0, equals));
     if (equals == std::string::npos || key.empty() ||
         withoutBlanks(std::string_view(text).substr(equals + 1)).empty()) {
-        throw core::Error(core::ExitCode::usage,
+        throw core::Error(core::ErrorKind::usage,
                           fmt::format("--set {}: error: write KEY=VALUE, e.g. --set cloth.flag.cells=[72,48]", text));
     }
     return "--set " + key;

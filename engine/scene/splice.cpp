@@ -16,7 +16,7 @@ namespace {
 using KeyPath = std::vector<std::string>;
 
 [[noreturn]] void fail(const Change& change, const std::string& why) {
-    throw core::Error(core::ExitCode::badContent,
+    throw core::Error(core::ErrorKind::badContent,
                       fmt::format("{} = {} cannot be written into the file: {}", change.key, change.value, why));
 }
 
@@ -24,7 +24,7 @@ Node treeOf(std::string_view text) {
     try {
         return documentTree(text, 0);
     } catch (const SyntaxError& error) {
-        throw core::Error(core::ExitCode::badContent,
+        throw core::Error(core::ErrorKind::badContent,
                           fmt::format("line {}, column {}: {}", error.place.line, error.place.column, error.what()));
     }
 }

@@ -13,7 +13,7 @@ namespace taut::scene {
 namespace {
 
 [[noreturn]] void failReading(const std::filesystem::path& path, const std::string& why) {
-    throw core::Error(core::ExitCode::inputOutput, fmt::format("{}: error: {}", path.string(), why));
+    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: error: {}", path.string(), why));
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ std::string textFile(const std::filesystem::path& path, std::uint64_t maxBytes) 
     while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0) {
         text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
         if (text.size() > maxBytes) {
-            throw core::Error(core::ExitCode::badContent, fmt::format("{}: error: the file is larger than {} MiB",
+            throw core::Error(core::ErrorKind::badContent, fmt::format("{}: error: the file is larger than {} MiB",
                                                                       path.string(), maxBytes / (1024 * 1024)));
         }
     }

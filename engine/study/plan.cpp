@@ -33,7 +33,7 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     context.grid = planGrid(context.spec, asked);
     PlanRun base = play(model, context.resolution, context.grid, {0, true});
     if (!base.isWhole())
-        throw core::Error(core::ExitCode::diverged,
+        throw core::Error(core::ErrorKind::diverged,
                           fmt::format("{}: leap-frog with the step found for it: {}", plan.name, base.failure));
     plan.need = resolvedNeed(context.spec, base.scales);
     context.target = plan.need.target;

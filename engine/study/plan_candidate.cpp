@@ -154,7 +154,7 @@ StepFacts stepFacts(const SceneSpec& model) {
             facts.limit = island.stepLimit;
         }
     } catch (const core::Error& error) {
-        if (error.code() != core::ExitCode::badContent) throw;
+        if (error.kind() != core::ErrorKind::badContent) throw;
         facts.isPossible = false;
     }
     return facts;

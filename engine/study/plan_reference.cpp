@@ -30,7 +30,7 @@ PlanRun exactRunAt(const PlanContext& context, int count, int finer) {
     PlanRun run = play(model, context.resolution, context.grid);
     if (!run.isWhole())
         throw core::Error(
-            core::ExitCode::diverged,
+            core::ErrorKind::diverged,
             context.spec.file + ": even the reference, RK4 with a step far below its limit: " + run.failure);
     return run;
 }
@@ -59,7 +59,7 @@ PlanReference referenceOfOneResolution(const PlanContext& context) {
 
 void PlanContext::tell(const std::string& doing, double done) const {
     if (settings.stop != nullptr && *settings.stop)
-        throw core::Error(core::ExitCode::interrupted, "interrupted before a plan was found");
+        throw core::Error(core::ErrorKind::interrupted, "interrupted before a plan was found");
     if (settings.progress) settings.progress({doing, done});
 }
 

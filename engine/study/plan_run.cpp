@@ -212,7 +212,7 @@ PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const 
         run.springEvaluations = springEvaluations(world) - atStart;
         run.hasContacts = world.metrics().contacts > 0;
     } catch (const core::Error& error) {
-        if (error.code() != core::ExitCode::badContent) throw;
+        if (error.kind() != core::ErrorKind::badContent) throw;
         run.failure = "no step: unstable for all, or more than a million a tick";
     }
     return run;

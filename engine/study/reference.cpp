@@ -21,7 +21,7 @@ std::vector<Observation> play(const Subject& subject, const RunPlan& plan) {
     std::vector<Observation> seen;
     for (int i = 0; i < plan.grid.samples; ++i) {
         if (!trial->advance())
-            throw core::Error(core::ExitCode::diverged,
+            throw core::Error(core::ErrorKind::diverged,
                               subject.name() + ": even the reference, RK4 with a step far below its limit, diverged");
         seen.push_back(trial->observe());
     }

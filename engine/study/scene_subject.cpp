@@ -69,7 +69,7 @@ class SceneSubject final : public Subject {
         world::World world(played(spec, "leapfrog", Precision::double_, 1.0, 0.0), {.threads = 1});
         tick_ = world.tickSeconds();
         if (!hasFreePoint(world))
-            throw core::Error(core::ExitCode::badContent,
+            throw core::Error(core::ErrorKind::badContent,
                               spec.file + (spec.file.empty() ? "" : ": ") +
                                   "error: nothing in the scene can move: it has no point that is free");
     }

@@ -194,7 +194,7 @@ void Sweep::curve(const MethodFacts& method, Precision precision) {
 }
 
 std::vector<MethodFacts> chosenMethods(const Subject& subject, const StudySettings& settings) {
-    const auto fail = [](const std::string& what) { throw core::Error(core::ExitCode::usage, what); };
+    const auto fail = [](const std::string& what) { throw core::Error(core::ErrorKind::usage, what); };
     for (const std::string& name : settings.methods) {
         const ode::MethodInfo* info = ode::findMethod(name);
         if (info == nullptr)

@@ -13,7 +13,7 @@ namespace taut::world {
 namespace {
 
 using core::Error;
-using core::ExitCode;
+using core::ErrorKind;
 
 // A number in [-1, 1) from a seed and two indices.
 double randomNumber(std::int64_t seed, int point, int axis) {
@@ -26,7 +26,7 @@ void holdPoints(Body& body) {
     for (const std::string& selector : body.spec->hold) {
         const std::vector<int> points = selectPoints(body.model, selector);
         if (points.empty())
-            throw Error(ExitCode::badContent, at(body.spec->source) + "hold = \"" + selector + "\" names no point of " +
+            throw Error(ErrorKind::badContent, at(body.spec->source) + "hold = \"" + selector + "\" names no point of " +
                                                   body.fullName());
         for (int i : points) body.model.held[static_cast<std::size_t>(i)] = true;
     }
@@ -82,7 +82,7 @@ void addMasses(std::vector<Body>& bodies, const SceneSpec& spec) {
         for (Body* body : matchBodies(all, extra.target))
             for (int i : selectPoints(body->model, parseTarget(extra.target).selector)) points.emplace_back(body, i);
         if (points.empty())
-            throw Error(ExitCode::badContent, at(extra.source) + "target = \"" + extra.target + "\" names no point");
+            throw Error(ErrorKind::badContent, at(extra.source) + "target = \"" + extra.target + "\" names no point");
         for (auto& [body, i] : points)
             body->model.masses[static_cast<std::size_t>(i)] += extra.mass / static_cast<double>(points.size());
     }

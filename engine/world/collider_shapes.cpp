@@ -40,7 +40,7 @@ class Maker {
             return shape;
         }
         const collision::ShapeKind* kind = kinds_.find(spec.shape);
-        if (kind == nullptr) throw core::Error(core::ExitCode::badContent, "there is no shape \"" + spec.shape + "\"");
+        if (kind == nullptr) throw core::Error(core::ErrorKind::badContent, "there is no shape \"" + spec.shape + "\"");
         collision::ShapeSizes sizes = sizesOf(spec);
         for (const collision::OwnSize& own : kind->own) sizes.own.emplace(own.key, own.standard);
         shape.form = kind->form(sizes);
@@ -73,7 +73,7 @@ std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec,
         model->shape = Maker(kinds, spec.finish, isDrawn ? &model->pieces : nullptr).make(spec, glm::mat4(1.0F));
         collision::Colliders().add(model->shape, model->material, poseAt(spec, 0.0));
     } catch (const core::Error& error) {
-        throw core::Error(error.code(), spec.source.file + ":" + std::to_string(spec.source.line) + ":" +
+        throw core::Error(error.kind(), spec.source.file + ":" + std::to_string(spec.source.line) + ":" +
                                             std::to_string(spec.source.column) + ": error: collider." + spec.name +
                                             ": " + error.what());
     }

@@ -65,7 +65,7 @@ void lighten(Envelope& envelope, const SceneSpec& spec) {
             double& mass = point(envelope.plan, i).mass;
             mass += action.near ? action.mass : action.mass / static_cast<double>(points.size());
             if (!(mass > 0))
-                throw core::Error(core::ExitCode::badContent,
+                throw core::Error(core::ErrorKind::badContent,
                                   at(action.source) + "this may leave a point of \"" + action.target +
                                       "\" without any mass; take away less, or from more points");
         }

@@ -12,7 +12,7 @@ namespace taut::world {
 namespace {
 
 using core::Error;
-using core::ExitCode;
+using core::ErrorKind;
 
 // Disjoint sets with path halving; the smallest member stands for its set.
 class Sets {
@@ -88,7 +88,7 @@ class Planner {
         for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
             if (names(text, body(number)))
                 for (int i : selectPoints(body(number).model, parseTarget(text).selector)) found.push_back({number, i});
-        if (found.empty()) throw Error(ExitCode::badContent, at(source) + "\"" + text + "\" names no point");
+        if (found.empty()) throw Error(ErrorKind::badContent, at(source) + "\"" + text + "\" names no point");
         return found;
     }
 
@@ -125,7 +125,7 @@ class Planner {
                                         ? "the nearest two points are " + std::to_string(nearest) + " m apart, more than reach_m = " +
                                               std::to_string(joint.reach) + "; move the bodies together, or use kind = \"spring\""
                                         : "both sides are the same body";
-            throw Error(ExitCode::badContent,
+            throw Error(ErrorKind::badContent,
                         at(joint.source) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" joins nothing: " + why);
         }
     }
@@ -243,7 +243,7 @@ class Planner {
         const Body& first = *plan.bodies.front();
         for (const Body* other : plan.bodies)
             if (!same(first, *other))
-                throw Error(ExitCode::badContent, at(other->spec->source) + other->fullName() + " and " + first.fullName() +
+                throw Error(ErrorKind::badContent, at(other->spec->source) + other->fullName() + " and " + first.fullName() +
                                                       " are joined but differ in their solver; give both the same `solver`");
         solver.integrator = first.spec->solver.integrator.value_or(solver.integrator);
         solver.safety = first.spec->solver.safety.value_or(solver.safety);

@@ -16,7 +16,7 @@
 namespace taut::world {
 
 [[noreturn]] inline void misfit(const std::string& what) {
-    throw core::Error(core::ExitCode::badContent, "the bytes are not of this scene: " + what);
+    throw core::Error(core::ErrorKind::badContent, "the bytes are not of this scene: " + what);
 }
 
 // Writing leaves what it is given as it is. Reading throws core::Error(badContent) for bytes that end too early or hold

@@ -10,7 +10,7 @@ namespace taut::world {
 namespace {
 
 using core::Error;
-using core::ExitCode;
+using core::ErrorKind;
 
 constexpr double mostSubsteps = 1e6;
 
@@ -78,7 +78,7 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
     const ode::MethodInfo* method = methodsOf(plan.solver).find(plan.solver.integrator);
     const Body& body = *plan.bodies.front();
     if (method == nullptr)
-        throw Error(ExitCode::badContent, at(body.spec->source) + "no method \"" + plan.solver.integrator + "\"");
+        throw Error(ErrorKind::badContent, at(body.spec->source) + "no method \"" + plan.solver.integrator + "\"");
 
     StepChoice choice;
     choice.anywhere = mechanics::boundAnywhere(network, share.stiffness);
@@ -96,14 +96,14 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
 
     const double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
     if (!(wanted > 0))
-        throw Error(ExitCode::badContent, at(body.spec->source) + body.fullName() + ": dt = \"auto\" finds no step: " +
+        throw Error(ErrorKind::badContent, at(body.spec->source) + body.fullName() + ": dt = \"auto\" finds no step: " +
                                               std::string(method->title) +
                                               " is unstable for every step without damping; give dt in seconds, add "
                                               "damping, or choose another integrator");
     // A hair less, so that a dt of exactly a tick's part is not cut once more.
     const double substeps = std::ceil(tickSeconds / wanted * (1 - 1e-12));
     if (substeps > mostSubsteps)
-        throw Error(ExitCode::badContent, at(body.spec->source) + body.fullName() + ": a step of " + inSeconds(wanted) +
+        throw Error(ErrorKind::badContent, at(body.spec->source) + body.fullName() + ": a step of " + inSeconds(wanted) +
                                               " would need more than a million steps a tick; set by the " +
                                               choice.limitingSpring + "; soften it, give its points more mass, or use fewer cells");
     choice.substeps = std::max(1, static_cast<int>(substeps));

@@ -16,7 +16,7 @@ double distance2(const dvec3& a, const dvec3& b) {
 }  // namespace
 
 void failAction(const ActionSpec& action, const std::string& message) {
-    throw core::Error(core::ExitCode::badContent, at(action.source) + message);
+    throw core::Error(core::ErrorKind::badContent, at(action.source) + message);
 }
 
 std::vector<std::pair<Island*, std::vector<int>>> byIsland(const std::vector<Picked>& points) {

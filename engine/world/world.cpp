@@ -53,7 +53,7 @@ void World::Impl::checkUntied(Body& body) const {
     for (const JointSpec& joint : spec.joints)
         for (const std::string& side : {joint.a, joint.b})
             if (!matchBodies(one, side).empty())
-                throw core::Error(core::ExitCode::badContent,
+                throw core::Error(core::ErrorKind::badContent,
                                   at(joint.source) + "\"" + side + "\" ties " + body.fullName() +
                                       ", which is spawned later; a spawned body cannot be tied to another");
 }
@@ -305,10 +305,10 @@ void World::addForce(std::shared_ptr<const Force> force) {
     Impl& w = *impl_;
     const std::string kind = force->name().substr(0, force->name().find('.'));
     if (kind == "wind" || kind == "anchor" || kind == "world")
-        throw core::Error(core::ExitCode::usage, force->name() + ": forces of this kind come with the scene");
+        throw core::Error(core::ErrorKind::usage, force->name() + ": forces of this kind come with the scene");
     for (const auto& other : w.forces())
         if (other->name() == force->name())
-            throw core::Error(core::ExitCode::usage, "there is a force " + force->name() + " already");
+            throw core::Error(core::ErrorKind::usage, "there is a force " + force->name() + " already");
     w.added.push_back(std::move(force));
     const ForceList current = w.forces();
     for (const auto& island : w.islands) {

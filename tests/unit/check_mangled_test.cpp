@@ -248,7 +248,7 @@ TEST(CheckRobustness, MangledScenariosRunOrLeadToAMessage) {
             isLoaded = true;
             ran += runs(spec) ? 1 : 0;
         } catch (const core::Error& error) {
-            EXPECT_EQ(error.code(), core::ExitCode::badContent);
+            EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
             EXPECT_NE(std::string(error.what()), "");
             ++(isLoaded ? failedLate : refused);
         }

@@ -14,7 +14,7 @@ void expectRefused(const SizedShape& shape, const std::string& message, const Ma
         colliders.add(shape, material, pose);
         FAIL() << "accepted, expected: " << message;
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         EXPECT_EQ(std::string(error.what()), message);
         EXPECT_EQ(colliders.size(), 0);
     }

@@ -44,7 +44,7 @@ TEST(ChildProcess, HasTheEnvironmentThatTheCommandSays) {
 TEST(ChildProcess, ThatCannotBeRunIsAnErrorWithItsName) {
     for (const char* program : {"no-such-program-here", "/no/such/program"}) {
         EXPECT_FALSE(isInPath(program));
-        const std::string said = test::messageOf(ExitCode::inputOutput, [&] { runChild({{program}}); });
+        const std::string said = test::messageOf(ErrorKind::inputOutput, [&] { runChild({{program}}); });
         EXPECT_TRUE(test::has(said, std::string("cannot run ") + program + ": No such file")) << said;
     }
     EXPECT_TRUE(isInPath("sh"));

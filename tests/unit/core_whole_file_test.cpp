@@ -41,7 +41,7 @@ TEST(WholeFile, FullDiskIsReportedAndLeavesNothing) {
     const auto path = folder / "a.txt";
     test::writeText(path, "old");
     std::filesystem::create_symlink("/dev/full", temporaryName(path));
-    const std::string message = messageOf(ExitCode::inputOutput, [&] { writeWholeFile(path, "new"); });
+    const std::string message = messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(path, "new"); });
     EXPECT_NE(message.find("a.txt: cannot write: No space left on device"), std::string::npos) << message;
     EXPECT_EQ(contentOf(path), "old");
     EXPECT_EQ(folder.entryCount(), 1);
@@ -51,10 +51,10 @@ TEST(WholeFile, FullDiskIsReportedAndLeavesNothing) {
 TEST(WholeFile, UnwritableFolderIsReported) {
     const TemporaryFolder folder;
     test::writeText(folder / "file", "");
-    EXPECT_NE(messageOf(ExitCode::inputOutput, [&] { writeWholeFile(folder / "file" / "a.txt", "x"); })
+    EXPECT_NE(messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(folder / "file" / "a.txt", "x"); })
                   .find("Not a directory"),
               std::string::npos);
-    EXPECT_NE(messageOf(ExitCode::inputOutput, [&] { prepareFolderOf(folder / "file/deep/a.txt"); })
+    EXPECT_NE(messageOf(ErrorKind::inputOutput, [&] { prepareFolderOf(folder / "file/deep/a.txt"); })
                   .find("cannot make the folder"),
               std::string::npos);
 }
@@ -62,9 +62,9 @@ TEST(WholeFile, UnwritableFolderIsReported) {
 TEST(WholeFile, MissingFolderIsReportedAndAFolderIsNotOverwritten) {
     const TemporaryFolder folder;
     EXPECT_NE(
-        messageOf(ExitCode::inputOutput, [&] { writeWholeFile(folder / "none/a.txt", "x"); }).find("No such file"),
+        messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(folder / "none/a.txt", "x"); }).find("No such file"),
         std::string::npos);
-    EXPECT_NE(messageOf(ExitCode::inputOutput, [&] { writeWholeFile(folder.path(), "x"); }).find("Is a directory"),
+    EXPECT_NE(messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(folder.path(), "x"); }).find("Is a directory"),
               std::string::npos);
 }
 
@@ -77,8 +77,8 @@ TEST(WholeFile, PreparingMakesTheFolderAndNothingInIt) {
 
 TEST(WholeFile, ReadingReportsWhatIsMissingOrAFolder) {
     const TemporaryFolder folder;
-    messageOf(ExitCode::inputOutput, [&] { fileContent(folder / "none"); });
-    messageOf(ExitCode::inputOutput, [&] { fileContent(folder.path()); });
+    messageOf(ErrorKind::inputOutput, [&] { fileContent(folder / "none"); });
+    messageOf(ErrorKind::inputOutput, [&] { fileContent(folder.path()); });
     test::writeText(folder / "a", std::string("x\0y", 3));
     EXPECT_EQ(fileContent(folder / "a"), std::string("x\0y", 3));
 }

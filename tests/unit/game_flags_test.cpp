@@ -29,7 +29,7 @@ TEST(Flags, BadFrameRangesAreUsageErrors) {
             frameRange(text);
             ADD_FAILURE() << "'" << text << "'";
         } catch (const core::Error& error) {
-            EXPECT_EQ(error.code(), core::ExitCode::usage);
+            EXPECT_EQ(error.kind(), core::ErrorKind::usage);
         }
     }
 }
@@ -79,7 +79,7 @@ TEST(Progress, LineTellsShareSpeedAndTimeLeft) {
 
 TEST(Interruption, FirstSignalSetsTheFlagAndTheExitCode) {
     for (const auto& [signal, code] :
-         {std::pair{SIGINT, core::ExitCode::interrupted}, {SIGTERM, core::ExitCode::terminated}}) {
+         {std::pair{SIGINT, ExitCode::interrupted}, {SIGTERM, ExitCode::terminated}}) {
         const Interruption interruption;
         EXPECT_FALSE(interruption.flag());
         EXPECT_FALSE(interruption.exitCode().has_value());

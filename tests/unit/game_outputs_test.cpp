@@ -9,7 +9,7 @@
 namespace taut::game {
 namespace {
 
-using core::ExitCode;
+using core::ErrorKind;
 using test::messageOf;
 using test::TemporaryFolder;
 
@@ -34,9 +34,9 @@ TEST(Outputs, ExistingFrameInTheRangeIsNotOverwrittenUnasked) {
     const auto pattern = folder / "f_##.png";
     test::writeText(folder / "f_05.png", "old");
     const std::string message =
-        messageOf(ExitCode::inputOutput, [&] { permitOverwriting(pattern, 0, 9, Overwrite::ask); });
+        messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(pattern, 0, 9, Overwrite::ask); });
     EXPECT_NE(message.find("f_05.png exists already; -y overwrites it"), std::string::npos) << message;
-    messageOf(ExitCode::inputOutput, [&] { permitOverwriting(pattern, 5, 5, Overwrite::no); });
+    messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(pattern, 5, 5, Overwrite::no); });
     EXPECT_NO_THROW(permitOverwriting(pattern, 0, 9, Overwrite::yes));
     EXPECT_NO_THROW(permitOverwriting(pattern, 6, 9, Overwrite::no));
     EXPECT_NO_THROW(permitOverwriting(folder / "new", 0, 9, Overwrite::no));
@@ -46,7 +46,7 @@ TEST(Outputs, ExistingVideoIsNotOverwrittenUnasked) {
     const WithoutTerminal noTerminal;
     const TemporaryFolder folder;
     test::writeText(folder / "a.mp4", "old");
-    messageOf(ExitCode::inputOutput, [&] { permitOverwriting(folder / "a.mp4", 0, 9, Overwrite::ask); });
+    messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(folder / "a.mp4", 0, 9, Overwrite::ask); });
     EXPECT_NO_THROW(permitOverwriting(folder / "b.mp4", 0, 9, Overwrite::ask));
 }
 
@@ -54,7 +54,7 @@ TEST(Outputs, NameDecidesBetweenVideoAndFrames) {
     const TemporaryFolder folder;
     EXPECT_NE(dynamic_cast<image::VideoWriter*>(makeSink(folder / "a.mp4", 60.0).get()), nullptr);
     EXPECT_NE(dynamic_cast<image::FrameSequence*>(makeSink(folder / "a_#.png", 60.0).get()), nullptr);
-    messageOf(ExitCode::usage, [&] { checkOutputName(folder / "a.png"); });
+    messageOf(ErrorKind::usage, [&] { checkOutputName(folder / "a.png"); });
     EXPECT_NO_THROW(checkOutputName(folder / "a.mkv"));
 }
 

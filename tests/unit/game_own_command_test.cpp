@@ -22,7 +22,7 @@ game::Action declareGreet(game::Options& options) {
     options.flag("--fail", flags->fails, "Do not reach anybody");
     options.footer("Example: taut greet you");
     return [flags] {
-        if (flags->fails) throw core::Error(core::ExitCode::inputOutput, flags->name + " is not at home");
+        if (flags->fails) throw core::Error(core::ErrorKind::inputOutput, flags->name + " is not at home");
         for (int i = 0; i < flags->times; ++i) std::printf("hello %s\n", flags->name.c_str());
         return 5;
     };

@@ -9,7 +9,7 @@
 namespace taut::image {
 namespace {
 
-using core::ExitCode;
+using core::ErrorKind;
 using test::messageOf;
 using test::TemporaryFolder;
 
@@ -28,7 +28,7 @@ TEST(FramePattern, FolderMeansFrameWithSixDigits) {
 
 TEST(FramePattern, SaysWhatIsWrongAndShowsAnExample) {
     const auto message = [](const char* pattern) {
-        return messageOf(ExitCode::usage, [&] { FramePattern p(pattern); });
+        return messageOf(ErrorKind::usage, [&] { FramePattern p(pattern); });
     };
     EXPECT_NE(message("out/a.png").find("for example out/a_######.png"), std::string::npos) << message("out/a.png");
     EXPECT_NE(message("a#b#.png").find("one place"), std::string::npos);
@@ -52,7 +52,7 @@ TEST(FrameSequence, WritesAFileAFrameAndKeepsItsCompanionsBeside) {
 TEST(FrameSequence, UnwritableFolderFailsBeforeTheFirstFrame) {
     const TemporaryFolder folder;
     test::writeText(folder / "file", "");
-    messageOf(ExitCode::inputOutput, [&] { FrameSequence s{FramePattern(folder / "file/f_#.png")}; });
+    messageOf(ErrorKind::inputOutput, [&] { FrameSequence s{FramePattern(folder / "file/f_#.png")}; });
 }
 
 TEST(SeveralSinks, EachGetsEveryFrameAndTheFirstHasTheCompanions) {

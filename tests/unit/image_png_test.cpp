@@ -8,7 +8,7 @@
 namespace taut::image {
 namespace {
 
-using core::ExitCode;
+using core::ErrorKind;
 using test::contentOf;
 using test::messageOf;
 using test::TemporaryFolder;
@@ -43,7 +43,7 @@ TEST(Png, FullDiskIsReportedAndLeavesNoPicture) {
     const TemporaryFolder folder;
     const auto path = folder / "a.png";
     std::filesystem::create_symlink("/dev/full", path.string() + ".part");
-    const std::string message = messageOf(ExitCode::inputOutput, [&] { writePng(path, testPicture(64, 64)); });
+    const std::string message = messageOf(ErrorKind::inputOutput, [&] { writePng(path, testPicture(64, 64)); });
     EXPECT_NE(message.find("No space left"), std::string::npos) << message;
     EXPECT_EQ(folder.entryCount(), 0);
 }
@@ -54,7 +54,7 @@ TEST(Png, BrokenOffAnywhereIsAnErrorAndNeverAPicture) {
     const std::string content = contentOf(folder / "whole.png");
     for (std::size_t length = 0; length < content.size(); length += 1 + content.size() / 97) {
         test::writeText(folder / "cut.png", content.substr(0, length));
-        const std::string message = messageOf(ExitCode::badContent, [&] { readImage(folder / "cut.png"); });
+        const std::string message = messageOf(ErrorKind::badContent, [&] { readImage(folder / "cut.png"); });
         EXPECT_NE(message.find("cut.png: not a whole PNG or JPEG"), std::string::npos) << message;
     }
 }
@@ -65,16 +65,16 @@ TEST(Png, DamagedByteIsAnError) {
     std::string content = contentOf(folder / "a.png");
     content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
     test::writeText(folder / "a.png", content);
-    messageOf(ExitCode::badContent, [&] { readImage(folder / "a.png"); });
+    messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.png"); });
 }
 
 TEST(Png, OtherFilesAreRefused) {
     const TemporaryFolder folder;
     test::writeText(folder / "a.png", "this is no picture");
-    messageOf(ExitCode::badContent, [&] { readImage(folder / "a.png"); });
+    messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.png"); });
     test::writeText(folder / "b.png", "GIF89a\1\0\1\0\0\0\0;");
-    messageOf(ExitCode::badContent, [&] { readImage(folder / "b.png"); });
-    messageOf(ExitCode::inputOutput, [&] { readImage(folder / "none.png"); });
+    messageOf(ErrorKind::badContent, [&] { readImage(folder / "b.png"); });
+    messageOf(ErrorKind::inputOutput, [&] { readImage(folder / "none.png"); });
 }
 
 // 1 x 1 grey JPEG written by hand: quantisation of ones, one Huffman code a table, DC category 0 and end of block.
@@ -99,7 +99,7 @@ TEST(Jpeg, IsReadAndBrokenOffIsAnError) {
     // A block of zeros is the middle of the range.
     EXPECT_EQ(picture.rgb, (std::vector<std::uint8_t>{128, 128, 128}));
     test::writeText(folder / "cut.jpg", smallestJpeg().substr(0, smallestJpeg().size() - 2));
-    EXPECT_NE(messageOf(ExitCode::badContent, [&] { readImage(folder / "cut.jpg"); }).find("breaks off"),
+    EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "cut.jpg"); }).find("breaks off"),
               std::string::npos);
 }
 

@@ -62,11 +62,11 @@ inline void writeText(const std::filesystem::path& path, const std::string& text
 
 // The message of the core::Error that a call throws, after checking its exit code.
 template <class Call>
-std::string messageOf(core::ExitCode expected, Call&& call) {
+std::string messageOf(core::ErrorKind expected, Call&& call) {
     try {
         call();
     } catch (const core::Error& error) {
-        EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(expected)) << error.what();
+        EXPECT_EQ(static_cast<int>(error.kind()), static_cast<int>(expected)) << error.what();
         return error.what();
     }
     ADD_FAILURE() << "expected a core::Error";

@@ -9,7 +9,7 @@
 namespace taut::image {
 namespace {
 
-using core::ExitCode;
+using core::ErrorKind;
 using test::messageOf;
 using test::TemporaryFolder;
 
@@ -79,7 +79,7 @@ TEST(VideoWriter, MissingProgramIsReportedWithItsPackageBeforeTheFirstFrame) {
     const TemporaryFolder folder;
     for (const char* program : {"no-such-program-here", "/no/such/program"}) {
         const std::string message =
-            messageOf(ExitCode::inputOutput, [&] { VideoWriter v(folder / "a.mp4", {.program = program}); });
+            messageOf(ErrorKind::inputOutput, [&] { VideoWriter v(folder / "a.mp4", {.program = program}); });
         EXPECT_NE(message.find("Install the package 'ffmpeg'"), std::string::npos) << message;
     }
     EXPECT_EQ(folder.entryCount(), 0);
@@ -90,7 +90,7 @@ TEST(VideoWriter, FailureOfTheEncoderIsReportedInItsOwnWords) {
     const auto program = script(folder, "cat >/dev/null; echo 'Unknown encoder libx264' >&2; exit 3");
     VideoWriter video(folder / "a.mp4", {.program = program.string()});
     video.write(0, test::testPicture(64, 48));
-    const std::string message = messageOf(ExitCode::inputOutput, [&] { video.finish(); });
+    const std::string message = messageOf(ErrorKind::inputOutput, [&] { video.finish(); });
     EXPECT_NE(message.find("exit code 3:\nUnknown encoder libx264"), std::string::npos) << message;
     EXPECT_EQ(folder.entryCount(), 1);  // the script
 }
@@ -101,7 +101,7 @@ TEST(VideoWriter, EncoderThatEndsEarlyIsAnErrorAndNoSignal) {
     const auto before = std::signal(SIGPIPE, SIG_DFL);
     const auto program = script(folder, "echo 'gone' >&2; exit 1");
     VideoWriter video(folder / "a.mp4", {.program = program.string()});
-    const std::string message = messageOf(ExitCode::inputOutput, [&] {
+    const std::string message = messageOf(ErrorKind::inputOutput, [&] {
         for (int frame = 0; frame < 100; ++frame) video.write(frame, test::testPicture(320, 240));
     });
     EXPECT_NE(message.find("gone"), std::string::npos) << message;
@@ -113,7 +113,7 @@ TEST(VideoWriter, FullDiskIsReported) {
     const TemporaryFolder folder;
     VideoWriter video(folder / "a.mkv", {});
     std::filesystem::create_symlink("/dev/full", folder / "a.mkv.part");
-    const std::string message = messageOf(ExitCode::inputOutput, [&] {
+    const std::string message = messageOf(ErrorKind::inputOutput, [&] {
         for (int frame = 0; frame < 30; ++frame) video.write(frame, test::testPicture(64, 48));
         video.finish();
     });
@@ -124,7 +124,7 @@ TEST(VideoWriter, FullDiskIsReported) {
 TEST(VideoWriter, UnwritableFolderFailsBeforeTheFirstFrame) {
     const TemporaryFolder folder;
     test::writeText(folder / "file", "");
-    messageOf(ExitCode::inputOutput, [&] { VideoWriter v(folder / "file/a.mp4", {}); });
+    messageOf(ErrorKind::inputOutput, [&] { VideoWriter v(folder / "file/a.mp4", {}); });
 }
 
 TEST(VideoWriter, KnowsVideosByTheirEnding) {

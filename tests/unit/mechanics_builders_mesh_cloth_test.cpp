@@ -33,7 +33,7 @@ std::string messageFor(const MeshClothShape& shape) {
     try {
         buildMeshCloth(shape);
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         return error.what();
     }
     return "";

@@ -86,7 +86,7 @@ std::string messageOf(const char* name) {
     try {
         ode::makeFirstOrderMethod<double>(name);
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::usage);
+        EXPECT_EQ(error.kind(), core::ErrorKind::usage);
         return error.what();
     }
     ADD_FAILURE() << name << " was made";

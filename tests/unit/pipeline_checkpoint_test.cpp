@@ -33,7 +33,7 @@ std::string refusal(const std::vector<std::byte>& bytes) {
     try {
         unsealed(kind, bytes, "a.taut");
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         return error.what();
     }
     return "";

@@ -144,7 +144,7 @@ TEST(Play, FailureOfTheFilesIsRethrown) {
     class FullDisk : public RecordingSink {
       public:
         void write(std::int64_t, const image::Image&) override {
-            throw core::Error(core::ExitCode::inputOutput, "disk full");
+            throw core::Error(core::ErrorKind::inputOutput, "disk full");
         }
     } sink;
     world::World world(pendulum());

@@ -38,7 +38,7 @@ TEST(SelfTest, ABlankPictureIsNoRendererAndSaysWhatWasTried) {
         workingRenderer(optionsWith(folder.path()), {render::Backend::osmesa, render::Backend::egl});
         FAIL() << "a blank picture passed";
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::noRenderer) << error.what();
+        EXPECT_EQ(error.kind(), core::ErrorKind::noRenderer) << error.what();
         for (const char* word : {"osmesa", "egl", "llvmpipe"})
             EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
     }

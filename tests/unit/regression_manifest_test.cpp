@@ -64,7 +64,7 @@ TEST(Manifest, SaysWhatIsWrongInIt) {
     for (const BadManifest& row : cases) {
         SCOPED_TRACE(row.text);
         test::writeText(folder / "manifest.json", row.text);
-        const std::string said = test::messageOf(core::ExitCode::badContent, [&] { readManifest({folder.path()}); });
+        const std::string said = test::messageOf(core::ErrorKind::badContent, [&] { readManifest({folder.path()}); });
         EXPECT_TRUE(has(said, row.said)) << said;
         EXPECT_TRUE(has(said, "manifest.json")) << said;
     }
@@ -73,7 +73,7 @@ TEST(Manifest, SaysWhatIsWrongInIt) {
 TEST(Manifest, ThatCannotBeReadIsAnErrorOfTheDisk) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "manifest.json");
-    test::messageOf(core::ExitCode::inputOutput, [&] { readManifest({folder.path()}); });
+    test::messageOf(core::ErrorKind::inputOutput, [&] { readManifest({folder.path()}); });
 }
 
 }  // namespace

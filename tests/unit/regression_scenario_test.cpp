@@ -23,14 +23,14 @@ TEST(ScenarioFiles, OfAFolderAreItsTomlFilesByName) {
 TEST(ScenarioFiles, WhatIsNotThereOrNotToldApartIsRefused) {
     const TemporaryFolder folder;
     const auto missing = [&](const std::string& name) {
-        return test::messageOf(core::ExitCode::inputOutput, [&] { scenarioFiles({folder / name}); });
+        return test::messageOf(core::ErrorKind::inputOutput, [&] { scenarioFiles({folder / name}); });
     };
     EXPECT_TRUE(has(missing("none"), "none: there is no such file or folder of scenarios"));
     std::filesystem::create_directory(folder / "empty");
     EXPECT_TRUE(has(missing("empty"), "empty: there is no scenario in this folder"));
     std::filesystem::create_directory(folder / "other");
     for (const char* name : {"same.toml", "other/same.toml"}) test::writeText(folder / name, "");
-    const std::string twice = test::messageOf(core::ExitCode::usage, [&] {
+    const std::string twice = test::messageOf(core::ErrorKind::usage, [&] {
         scenarioFiles({folder.path(), folder / "other"});
     });
     EXPECT_TRUE(has(twice, "two scenarios are called same")) << twice;
@@ -40,7 +40,7 @@ TEST(Scenarios, AllFaultsAreSaidAtOnce) {
     const TemporaryFolder folder;
     test::writeText(folder / "a.toml", "schema = 1\n[run]\nfps = -3\n");
     test::writeText(folder / "b.toml", "schema = 1\n[run]\nsecond = 3\n");
-    const std::string said = test::messageOf(core::ExitCode::badContent, [&] {
+    const std::string said = test::messageOf(core::ErrorKind::badContent, [&] {
         readScenarios({folder / "a.toml", folder / "b.toml"}, {});
     });
     EXPECT_TRUE(has(said, "a.toml:3:")) << said;
@@ -64,7 +64,7 @@ TEST(GoldenRequests, ThatCannotBeMeantAreRefused) {
     spec.run = {20.0, 1.0};
     const auto said = [&](std::vector<int> frames, const std::string& camera = "") {
         spec.goldens = {{{"s.toml", 9, 1}, std::move(frames), false, false, camera, {64, 36}}};
-        return test::messageOf(core::ExitCode::badContent, [&] { goldenRequests(spec); });
+        return test::messageOf(core::ErrorKind::badContent, [&] { goldenRequests(spec); });
     };
     EXPECT_TRUE(has(said({20}), "s.toml:9:1: error: there is no frame 20: the run has frames 0 to 19"));
     EXPECT_TRUE(has(said({-1}), "there is no frame -1"));

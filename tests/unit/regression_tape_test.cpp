@@ -123,7 +123,7 @@ TEST(Tape, DamagedForeignAndFutureOnesAreRefused) {
     const std::string whole = test::contentOf(folder / "a.tape");
     const auto said = [&](const std::string& content) {
         test::writeText(folder / "b.tape", content);
-        return test::messageOf(core::ExitCode::badContent, [&] { readTape(folder / "b.tape"); });
+        return test::messageOf(core::ErrorKind::badContent, [&] { readTape(folder / "b.tape"); });
     };
     EXPECT_TRUE(has(said("no tape at all"), "b.tape: this is no tape of taut"));
     EXPECT_TRUE(has(said(""), "this is no tape"));
@@ -137,7 +137,7 @@ TEST(Tape, DamagedForeignAndFutureOnesAreRefused) {
     }
     for (std::size_t length : {std::size_t{10}, whole.size() / 2, whole.size() - 1})
         EXPECT_FALSE(said(whole.substr(0, length)).empty()) << length;
-    test::messageOf(core::ExitCode::inputOutput, [&] { readTape(folder / "none.tape"); });
+    test::messageOf(core::ErrorKind::inputOutput, [&] { readTape(folder / "none.tape"); });
 }
 
 // Whole by its checksum and yet nonsense inside: counts that do not fit each other.
@@ -146,10 +146,10 @@ TEST(Tape, ContentThatContradictsItselfIsRefused) {
     Tape tape = record(test::springText(), 3);
     tape.bodies.pop_back();
     writeTape(folder / "a.tape", tape);
-    EXPECT_TRUE(has(test::messageOf(core::ExitCode::badContent, [&] { readTape(folder / "a.tape"); }), "a.tape: "));
+    EXPECT_TRUE(has(test::messageOf(core::ErrorKind::badContent, [&] { readTape(folder / "a.tape"); }), "a.tape: "));
     const std::vector<std::byte> nothing;
     pipeline::writeSealed(folder / "b.tape", {"tauttape", 1, "tape"}, nothing);
-    EXPECT_TRUE(has(test::messageOf(core::ExitCode::badContent, [&] { readTape(folder / "b.tape"); }), "b.tape: "));
+    EXPECT_TRUE(has(test::messageOf(core::ErrorKind::badContent, [&] { readTape(folder / "b.tape"); }), "b.tape: "));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Text in pictures: where it stands, that it can be read on anything, and what happens without a font.
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include <fstream>
 #include <limits>
 
@@ -224,19 +226,19 @@ TEST(Text, KeptLettersAreTheSameAsNewOnes) {
     EXPECT_EQ(kept.picture("text 12", 23.0F).letters, fresh.picture("text 12", 23.0F).letters);
 }
 
-core::ExitCode codeOf(const std::filesystem::path& file, std::string& message) {
+std::optional<core::ErrorKind> codeOf(const std::filesystem::path& file, std::string& message) {
     try {
         const Font font(file);
     } catch (const core::Error& error) {
         message = error.what();
-        return error.code();
+        return error.kind();
     }
-    return core::ExitCode::ok;
+    return std::nullopt;
 }
 
 TEST(Font, OneThatIsNotThereNamesThePackage) {
     std::string message;
-    EXPECT_EQ(codeOf("/nowhere/at all.ttf", message), core::ExitCode::inputOutput);
+    EXPECT_EQ(codeOf("/nowhere/at all.ttf", message), core::ErrorKind::inputOutput);
     for (const char* word : {"/nowhere/at all.ttf", "fonts-dejavu-core", "TAUT_FONT"})
         EXPECT_NE(message.find(word), std::string::npos) << message;
 }
@@ -246,9 +248,9 @@ TEST(Font, AFileThatIsNoneIsRefused) {
     std::string message;
     for (const std::string& text : {std::string(), std::string("OTTO"), std::string(4000, 'x')}) {
         taut::test::writeText(folder / "f.ttf", text);
-        EXPECT_EQ(codeOf(folder / "f.ttf", message), core::ExitCode::badContent) << text.size();
+        EXPECT_EQ(codeOf(folder / "f.ttf", message), core::ErrorKind::badContent) << text.size();
     }
-    EXPECT_EQ(codeOf(folder.path(), message), core::ExitCode::inputOutput);
+    EXPECT_EQ(codeOf(folder.path(), message), core::ErrorKind::inputOutput);
 }
 
 TEST(Font, OnlyAViewWithTextNeedsOne) {

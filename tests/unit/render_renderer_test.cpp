@@ -29,11 +29,11 @@ view::FrameView someView() {
     return view;
 }
 
-std::string messageOf(const std::function<void()>& action, core::ExitCode code) {
+std::string messageOf(const std::function<void()>& action, core::ErrorKind code) {
     try {
         action();
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), code) << error.what();
+        EXPECT_EQ(error.kind(), code) << error.what();
         return error.what();
     }
     ADD_FAILURE() << "nothing was thrown";
@@ -113,7 +113,7 @@ TEST(RenderRenderer, SurfaceWithoutTrianglesIsLeftOut) {
 TEST(RenderRenderer, MissingShaderFolderIsNamed) {
     RendererOptions options = smallOptions();
     options.shaders = "/nowhere/shaders";
-    const std::string message = messageOf([&] { Renderer renderer(options); }, core::ExitCode::inputOutput);
+    const std::string message = messageOf([&] { Renderer renderer(options); }, core::ErrorKind::inputOutput);
     EXPECT_NE(message.find("/nowhere/shaders/"), std::string::npos) << message;
 }
 
@@ -124,7 +124,7 @@ TEST(RenderRenderer, ShaderThatDoesNotCompileIsNamedWithTheLog) {
     std::ofstream(folder / "background.frag") << "out vec4 colour;\nvoid main() { colour = wrongName; }\n";
     RendererOptions options = smallOptions();
     options.shaders = folder;
-    const std::string message = messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    const std::string message = messageOf([&] { Renderer renderer(options); }, core::ErrorKind::badContent);
     EXPECT_NE(message.find("background.frag"), std::string::npos) << message;
     EXPECT_NE(message.find("wrongName"), std::string::npos) << message;
     std::filesystem::remove_all(folder);
@@ -136,23 +136,23 @@ TEST(RenderRenderer, MissingTextureIsNamed) {
     finish.pattern = view::Pattern::image;
     finish.texture = "/nowhere/linen.png";
     view.surfaces[0].finish = std::make_shared<const view::Finish>(finish);
-    const std::string message = messageOf([&] { pictureOf(view); }, core::ExitCode::inputOutput);
+    const std::string message = messageOf([&] { pictureOf(view); }, core::ErrorKind::inputOutput);
     EXPECT_NE(message.find("/nowhere/linen.png"), std::string::npos) << message;
 }
 
 TEST(RenderRenderer, SizesThatCannotBeDrawnAreRefused) {
     RendererOptions options = smallOptions();
     options.width = 1000000;
-    messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    messageOf([&] { Renderer renderer(options); }, core::ErrorKind::badContent);
     options = smallOptions();
     options.height = 0;
-    messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    messageOf([&] { Renderer renderer(options); }, core::ErrorKind::badContent);
     options = smallOptions();
     options.shadowSize = 1000;
-    messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    messageOf([&] { Renderer renderer(options); }, core::ErrorKind::badContent);
     options = smallOptions();
     options.samples = 3;
-    messageOf([&] { Renderer renderer(options); }, core::ExitCode::badContent);
+    messageOf([&] { Renderer renderer(options); }, core::ErrorKind::badContent);
 }
 
 }  // namespace

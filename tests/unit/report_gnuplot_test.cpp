@@ -139,7 +139,7 @@ std::string withPath(const std::filesystem::path& folder, const std::function<vo
     try {
         action();
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::inputOutput);
+        EXPECT_EQ(error.kind(), core::ErrorKind::inputOutput);
         said = error.what();
     }
     ::setenv("PATH", before.c_str(), 1);

@@ -8,25 +8,26 @@ namespace {
 constexpr const char* minimal = "schema = 1\n[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\n";
 
 // The message and the exit code of loading a path.
-std::pair<std::string, core::ExitCode> failureOf(const AssetFolder& folder, const std::string& name) {
+std::pair<std::string, core::ErrorKind> failureOf(const AssetFolder& folder, const std::string& name) {
     try {
         loadScene(folder / name, {});
     } catch (const core::Error& error) {
-        return {folder.withoutFolder(error.what()), error.code()};
+        return {folder.withoutFolder(error.what()), error.kind()};
     }
-    return {"", core::ExitCode::ok};
+    ADD_FAILURE() << name << " was read";
+    return {};
 }
 
 TEST(SceneFiles, AMissingFileAFolderAndALoopOfLinksAreInputOutputErrors) {
     const AssetFolder folder;
-    using core::ExitCode;
+    using core::ErrorKind;
     EXPECT_EQ(failureOf(folder, "no.toml"),
-              std::pair(std::string("no.toml: error: there is no such file"), ExitCode::inputOutput));
+              std::pair(std::string("no.toml: error: there is no such file"), ErrorKind::inputOutput));
     EXPECT_EQ(failureOf(folder, "models"),
-              std::pair(std::string("models: error: this is a folder, not a file"), ExitCode::inputOutput));
+              std::pair(std::string("models: error: this is a folder, not a file"), ErrorKind::inputOutput));
     std::filesystem::create_symlink(folder / "loop.toml", folder / "loop.toml");
-    EXPECT_EQ(failureOf(folder, "loop.toml").second, ExitCode::inputOutput);
-    EXPECT_EQ(failureOf(folder, "s.toml/x").second, ExitCode::inputOutput);
+    EXPECT_EQ(failureOf(folder, "loop.toml").second, ErrorKind::inputOutput);
+    EXPECT_EQ(failureOf(folder, "s.toml/x").second, ErrorKind::inputOutput);
 }
 
 TEST(SceneFiles, AFileThatCannotBeReadIsAnInputOutputError) {
@@ -35,7 +36,7 @@ TEST(SceneFiles, AFileThatCannotBeReadIsAnInputOutputError) {
         loadScene("/proc/self/mem", {});
         ADD_FAILURE() << "was read";
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::inputOutput);
+        EXPECT_EQ(error.kind(), core::ErrorKind::inputOutput);
         EXPECT_STREQ(error.what(), "/proc/self/mem: error: the file cannot be read to its end");
     }
 }
@@ -44,7 +45,7 @@ TEST(SceneFiles, AFileAboveTheLimitIsRefused) {
     const AssetFolder folder;
     folder.write("large.toml", std::string(minimal) + "#" + std::string(16U << 20U, 'x'));
     EXPECT_EQ(failureOf(folder, "large.toml"),
-              std::pair(std::string("large.toml: error: the file is larger than 16 MiB"), core::ExitCode::badContent));
+              std::pair(std::string("large.toml: error: the file is larger than 16 MiB"), core::ErrorKind::badContent));
 }
 
 TEST(SceneFiles, ByteOrderMarksAndWindowsLineEndsAreRead) {

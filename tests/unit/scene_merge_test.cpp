@@ -121,7 +121,7 @@ TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {
         try {
             loadScene(folder / "s.toml", {});
         } catch (const core::Error& error) {
-            EXPECT_EQ(error.code(), core::ExitCode::badContent);
+            EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
             return folder.withoutFolder(error.what());
         }
         return std::string();

@@ -16,7 +16,7 @@ std::string messageOf(const std::string& text) {
     try {
         objMeshText(text, "m.obj");
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         return error.what();
     }
     return "";

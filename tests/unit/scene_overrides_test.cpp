@@ -94,7 +94,7 @@ TEST(SceneOverrides, OneWithoutKeyOrValueIsWrongUsage) {
             sceneWith({override});
             ADD_FAILURE() << "accepted: " << override;
         } catch (const core::Error& error) {
-            EXPECT_EQ(error.code(), core::ExitCode::usage);
+            EXPECT_EQ(error.kind(), core::ErrorKind::usage);
             EXPECT_NE(std::string(error.what()).find("write KEY=VALUE"), std::string::npos);
         }
     }

@@ -69,7 +69,7 @@ TEST(SceneRobustness, MangledScenesLoadOrLeadToAMessage) {
             ++loaded;
         } catch (const core::Error& error) {
             ++refused;
-            EXPECT_EQ(error.code(), core::ExitCode::badContent) << text;
+            EXPECT_EQ(error.kind(), core::ErrorKind::badContent) << text;
             const std::string message = folder.withoutFolder(error.what());
             EXPECT_TRUE(message.starts_with("s.toml:")) << message;
             EXPECT_NE(message.find(": error: "), std::string::npos) << message;

@@ -21,7 +21,7 @@ std::string refusal(const std::string& text, const std::string& key, const std::
     try {
         (void)splicedOne(text, key, value);
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         return error.what();
     }
     return "";

@@ -50,7 +50,7 @@ class AssetFolder {
         try {
             load(text, options);
         } catch (const core::Error& error) {
-            EXPECT_EQ(error.code(), core::ExitCode::badContent);
+            EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
             return withoutFolder(error.what());
         }
         return "";

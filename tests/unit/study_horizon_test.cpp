@@ -32,7 +32,7 @@ std::string horizonRefusal(const world::SceneSpec& scene) {
     try {
         (void)makeSceneSubject(scene, "s");
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         return error.what();
     }
     return "";

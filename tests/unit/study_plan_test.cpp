@@ -37,7 +37,7 @@ std::string planRefusal(const world::SceneSpec& scene) {
     try {
         checkNeed(scene);
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         return error.what();
     }
     return "";

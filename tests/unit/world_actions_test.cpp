@@ -51,7 +51,7 @@ std::string errorOf(const SceneSpec& scene, int ticks = 3) {
         World world(scene);
         for (int i = 0; i < ticks; ++i) (void)world.advance();
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         return error.what();
     }
     return "";

@@ -61,7 +61,7 @@ TEST(Bodies, AHoldThatNamesNothingIsAnError) {
         FAIL();
     } catch (const core::Error& error) {
         EXPECT_STREQ(error.what(), "x.toml:3:4: error: hold = \"middle\" names no point of cloth.a");
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
     }
 }
 

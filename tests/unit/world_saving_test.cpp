@@ -157,7 +157,7 @@ std::string refusal(const SceneSpec& scene, std::span<const std::byte> bytes) {
     try {
         world.restore(bytes);
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         return error.what();
     }
     return "";

@@ -67,7 +67,7 @@ TEST(StepChoice, ExplicitEulerWithoutDampingHasNoAutomaticStep) {
         const World world(scene);
         FAIL();
     } catch (const core::Error& error) {
-        EXPECT_EQ(error.code(), core::ExitCode::badContent);
+        EXPECT_EQ(error.kind(), core::ErrorKind::badContent);
         EXPECT_EQ(std::string(error.what()).find("s.toml:5:1: error: rope.a: dt = \"auto\" finds no step"), 0U)
             << error.what();
     }

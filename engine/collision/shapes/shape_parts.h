@@ -9,7 +9,7 @@
 namespace taut::collision {
 
 [[noreturn]] inline void failShape(const std::string& what) {
-    throw core::Error(core::ExitCode::badContent, "collider " + what);
+    throw core::Error(core::ErrorKind::badContent, "collider " + what);
 }
 
 inline void expectSize(double size, const char* what) {

@@ -22,7 +22,7 @@ dvec3 unit(const dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scene) {
     const auto found = scene.materials.find(spec.material);
     if (found == scene.materials.end() && !spec.material.empty())
-        throw core::Error(core::ExitCode::badContent, at(spec.source) + "no [material." + spec.material + "]");
+        throw core::Error(core::ErrorKind::badContent, at(spec.source) + "no [material." + spec.material + "]");
     const MaterialSpec m = found == scene.materials.end() ? MaterialSpec{} : found->second;
     return {.density = m.density,
             .stretch = m.stretch,
@@ -104,7 +104,7 @@ mechanics::Model ClothSpec::build(const SceneSpec& scene) const {
     try {
         return mechanics::buildMeshCloth(shape);
     } catch (const core::Error& error) {
-        throw core::Error(error.code(), at(source) + mesh + ": " + error.what());
+        throw core::Error(error.kind(), at(source) + mesh + ": " + error.what());
     }
 }
 

@@ -32,7 +32,7 @@ Json rendererJson(const std::optional<render::RendererInfo>& info) {
 
 Json seedsJson(const world::SceneSpec& spec) {
     Json seeds = Json::object();
-    for (const world::BodySpec& body : spec.bodies.all()) {
+    for (const world::BodySpec& body : spec.bodies) {
         if (body.jitter > 0.0) seeds[body.fullName() + ".seed"] = body.seed;
     }
     for (const world::WindSpec& wind : spec.forces.of<world::WindSpec>())

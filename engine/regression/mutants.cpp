@@ -21,7 +21,7 @@ bool isOf(const std::string& name, const std::string& body) {
 // Each island with half as many steps a tick; one that takes a single step, which cannot be longer, with two.
 std::optional<world::SceneSpec> withOtherStep(world::SceneSpec spec, const Islands& islands) {
     bool changed = false;
-    for (world::BodySpec& body : spec.bodies.all()) {
+    for (world::BodySpec& body : spec.bodies) {
         for (const world::IslandInfo& island : islands)
             for (const std::string& name : island.bodies) {
                 if (!isOf(name, body.fullName())) continue;

@@ -85,7 +85,7 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vect
         assets.emplace(reference.text, asset);
     }
 
-    for (world::BodySpec& body : scene.spec.bodies.all()) {
+    for (world::BodySpec& body : scene.spec.bodies) {
         if (world::MeshSource* source = body.meshSource()) setMesh(*source, meshes);
         setAsset(body.finish, textures);
     }

@@ -92,7 +92,7 @@ std::optional<TargetFault> selectorFaultIn(const BodyEntry& body, const std::str
 
 BodyIndex::BodyIndex(const world::SceneSpec& scene, const world::Kinds& kinds, const std::set<std::string>& faulty) {
     for (const auto& kind : kinds.bodies.all()) kinds_.push_back(kind.name);
-    for (const world::BodySpec& spec : scene.bodies.all()) {
+    for (const world::BodySpec& spec : scene.bodies) {
         BodyEntry& body = bodies_.emplace_back();
         body.kind = spec.kind();
         body.name = spec.name;

@@ -18,7 +18,7 @@ BodySize sizeOf(const world::BodySpec& body, const world::SceneSpec& scene) {
 
 BodySize sizeOf(const world::SceneSpec& scene) {
     BodySize sum;
-    for (const world::BodySpec& body : scene.bodies.all()) {
+    for (const world::BodySpec& body : scene.bodies) {
         const BodySize size = sizeOf(body, scene);
         sum.points += size.points;
         sum.springs += size.springs;

@@ -31,9 +31,9 @@ std::vector<Part> partsOf(const world::SceneSpec& scene, const std::vector<Scene
         for (const SceneSection& s : sections)
             if (s.name == section) parts.push_back({&s, name});
     };
-    for (const world::BodySpec& body : scene.bodies.all()) add(body.kind(), body.name);
+    for (const world::BodySpec& body : scene.bodies) add(body.kind(), body.name);
     for (const auto& [name, material] : scene.materials) add("material", name);
-    for (const world::ForceSpec& force : scene.forces.all()) add(force.kind(), force.name);
+    for (const world::ForceSpec& force : scene.forces) add(force.kind(), force.name);
     add("solver", "");
     return parts;
 }

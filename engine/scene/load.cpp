@@ -36,7 +36,7 @@ void checkSize(const ReadScene& scene, double limit, Problems& problems) {
     if (bytes <= limit && total.points <= maxPoints) return;
     double largest = 0;
     std::string largestTitle;
-    for (const world::BodySpec& body : scene.spec.bodies.all()) {
+    for (const world::BodySpec& body : scene.spec.bodies) {
         const double size = sizeOf(body, scene.spec).bytes();
         if (size <= largest) continue;
         largest = size;

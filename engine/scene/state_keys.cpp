@@ -90,7 +90,7 @@ double timeOf(const Node& action) {
 StateKeys::StateKeys(const Node& root, const world::SceneSpec& spec) {
     core::Hash state, picture;
     for (const Member* section : sorted(root)) addSection(*section, state, picture);
-    for (const world::BodySpec& body : spec.bodies.all())
+    for (const world::BodySpec& body : spec.bodies)
         if (const world::MeshSource* source = body.meshSource()) add(source->meshData.get(), state);
     for (const world::ColliderSpec& collider : spec.colliders) {
         add(collider.meshData.get(), state);

@@ -12,8 +12,7 @@ namespace taut::scene {
 namespace {
 
 bool usesMaterial(const world::SceneSpec& spec, const std::string& name) {
-    const auto bodies = spec.bodies.all();
-    return std::any_of(bodies.begin(), bodies.end(),
+    return std::any_of(spec.bodies.begin(), spec.bodies.end(),
                        [&](const world::BodySpec& body) { return body.materialName() == name; });
 }
 

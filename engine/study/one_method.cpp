@@ -10,7 +10,7 @@ world::SceneSpec byMethod(const world::SceneSpec& spec, std::string_view method,
     scene.solver.precision = precision;
     scene.solver.onDivergence = world::OnDivergence::stop;
     scene.solver.dt.reset();
-    for (world::BodySpec& body : scene.bodies.all()) {
+    for (world::BodySpec& body : scene.bodies) {
         body.solver = {};
         body.jitter += shift;  // moves points by the shift times a number between -1 and 1
     }

@@ -164,7 +164,7 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
         add(fmt::format("Warning: what happens between {:.3g} s and the end of the run at {:.3g} s was not looked at.",
                         plan.seconds, plan.runSeconds));
     bool hasJitter = false;
-    for (const world::BodySpec& body : context.spec.bodies.all()) hasJitter = hasJitter || body.jitter > 0;
+    for (const world::BodySpec& body : context.spec.bodies) hasJitter = hasJitter || body.jitter > 0;
     if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");

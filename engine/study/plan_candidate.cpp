@@ -41,7 +41,7 @@ void tieBodies(const SceneSpec& spec, std::map<std::string, std::string>& fixed)
         tie(joint.a, "a joint ties its points to others");
         tie(joint.b, "a joint ties its points to others");
     }
-    for (const world::ForceSpec& force : spec.forces.all())
+    for (const world::ForceSpec& force : spec.forces)
         if (!force.pulledPoints().empty()) tie(std::string(force.pulledPoints()), "anchors pull at single points of it");
     for (const world::MassSpec& mass : spec.masses)
         if (namesPlaces(world::parseTarget(mass.target).selector)) tie(mass.target, "a mass hangs at a single point");
@@ -116,7 +116,7 @@ Resolution resolutionOf(const SceneSpec& spec) {
 }
 
 SceneSpec withoutJitter(SceneSpec spec) {
-    for (world::BodySpec& body : spec.bodies.all()) body.jitter = 0.0;
+    for (world::BodySpec& body : spec.bodies) body.jitter = 0.0;
     return spec;
 }
 
@@ -129,7 +129,7 @@ SceneSpec modelOf(const SceneSpec& spec, const Resolution& resolution, const Can
     model.solver.precision = candidate.precision;
     model.solver.dt.reset();
     model.solver.onDivergence = world::OnDivergence::stop;
-    for (world::BodySpec& body : model.bodies.all()) {
+    for (world::BodySpec& body : model.bodies) {
         body.solver.integrator.reset();
         body.solver.dt.reset();
         body.solver.safety.reset();

@@ -32,7 +32,7 @@ void addOverrides(const world::SceneSpec& written, const world::SceneSpec& plann
     const auto number = [&](const std::string& key, const std::optional<double>& before, double after) {
         if (before && *before != after) changes.push_back({key, scene::numberText(after)});
     };
-    for (const world::BodySpec& body : written.bodies.all()) {
+    for (const world::BodySpec& body : written.bodies) {
         const std::string key = body.fullName() + ".solver.";
         if (body.solver.integrator && *body.solver.integrator != planned.solver.integrator)
             changes.push_back({key + "integrator", "\"" + planned.solver.integrator + "\""});

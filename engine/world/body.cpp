@@ -151,7 +151,7 @@ std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string&
 
 std::vector<Body> buildBodies(const SceneSpec& spec) {
     std::vector<Body> bodies;
-    for (const BodySpec& body : spec.bodies.all()) addCopies(bodies, body, spec);
+    for (const BodySpec& body : spec.bodies) addCopies(bodies, body, spec);
     std::sort(bodies.begin(), bodies.end(), sortsBefore);
     addMasses(bodies, spec);
     for (Body& body : bodies) startBody(body);

@@ -81,9 +81,9 @@ std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     };
     for (const auto& force : added) need("force " + force->name());
-    for (const ForceSpec& force : scene.forces.all())
+    for (const ForceSpec& force : scene.forces)
         if (known.forces.find(force.kind()) == nullptr) need("force " + force.fullName());
-    for (const BodySpec& body : scene.bodies.all())
+    for (const BodySpec& body : scene.bodies)
         if (known.bodies.find(body.kind()) == nullptr) need("body " + body.fullName());
     for (const ColliderSpec& collider : scene.colliders)
         if (collider.shape != "compound" && known.shapes.find(collider.shape) == nullptr)

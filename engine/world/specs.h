@@ -20,37 +20,39 @@
 
 namespace taut::world {
 
-// Pointers, shown as what they point to.
-template <class Pointer>
+// Goes through pointers of any sort and shows what they point to, an Item.
+template <class Item, class Pointer>
+struct Pointee {
+    using iterator_category = std::input_iterator_tag;
+    using value_type = std::remove_const_t<Item>;
+    using difference_type = std::ptrdiff_t;
+    using pointer = Item*;
+    using reference = Item&;
+    const Pointer* at;
+    Item& operator*() const { return **at; }
+    Pointee& operator++() {
+        ++at;
+        return *this;
+    }
+    bool operator==(const Pointee&) const = default;
+};
+
+// Some of a list, in its order; as long as that is not changed.
+template <class Item>
 class Pointees {
   public:
-    struct Iterator {
-        using iterator_category = std::input_iterator_tag;
-        using value_type = std::remove_cvref_t<decltype(*Pointer())>;
-        using difference_type = std::ptrdiff_t;
-        using pointer = Pointer;
-        using reference = decltype(*Pointer());
-        typename std::vector<Pointer>::const_iterator at;
-        auto& operator*() const { return **at; }
-        Iterator& operator++() {
-            ++at;
-            return *this;
-        }
-        bool operator==(const Iterator&) const = default;
-    };
-    explicit Pointees(std::vector<Pointer> pointers) : pointers_(std::move(pointers)) {}
-
-    Iterator begin() const { return {pointers_.begin()}; }
-    Iterator end() const { return {pointers_.end()}; }
-    std::size_t size() const { return pointers_.size(); }
-    bool empty() const { return pointers_.empty(); }
-    auto& operator[](std::size_t i) const { return *pointers_[i]; }
-    auto& at(std::size_t i) const { return *pointers_.at(i); }
-    auto& front() const { return *pointers_.front(); }
-    auto& back() const { return *pointers_.back(); }
+    explicit Pointees(std::vector<Item*> items) : items_(std::move(items)) {}
+    Pointee<Item, Item*> begin() const { return {items_.data()}; }
+    Pointee<Item, Item*> end() const { return {items_.data() + items_.size()}; }
+    std::size_t size() const { return items_.size(); }
+    bool empty() const { return items_.empty(); }
+    Item& operator[](std::size_t i) const { return *items_[i]; }
+    Item& at(std::size_t i) const { return *items_.at(i); }
+    Item& front() const { return *items_.front(); }
+    Item& back() const { return *items_.back(); }
 
   private:
-    std::vector<Pointer> pointers_;
+    std::vector<Item*> items_;
 };
 
 template <class Base>
@@ -80,33 +82,21 @@ class Specs {
     }
     Base& add(std::unique_ptr<Base> spec) { return *all_.emplace_back(std::move(spec)); }
 
-    template <class Item>
-    struct Iterator {
-        const std::unique_ptr<Base>* at;
-        Item& operator*() const { return **at; }
-        Iterator& operator++() {
-            ++at;
-            return *this;
-        }
-        bool operator==(const Iterator&) const = default;
-    };
-    Iterator<Base> begin() { return {all_.data()}; }
-    Iterator<Base> end() { return {all_.data() + all_.size()}; }
-    Iterator<const Base> begin() const { return {all_.data()}; }
-    Iterator<const Base> end() const { return {all_.data() + all_.size()}; }
+    Pointee<Base, std::unique_ptr<Base>> begin() { return {all_.data()}; }
+    Pointee<Base, std::unique_ptr<Base>> end() { return {all_.data() + all_.size()}; }
+    Pointee<const Base, std::unique_ptr<Base>> begin() const { return {all_.data()}; }
+    Pointee<const Base, std::unique_ptr<Base>> end() const { return {all_.data() + all_.size()}; }
     Base& operator[](std::size_t i) { return *all_[i]; }
     const Base& operator[](std::size_t i) const { return *all_[i]; }
 
-    Pointees<Base*> all() { return Pointees(pointers<Base*>(all_)); }
-    Pointees<const Base*> all() const { return Pointees(pointers<const Base*>(all_)); }
-    // Those of one kind, in their order.
+    // Those of one kind.
     template <class Spec>
-    Pointees<Spec*> of() {
-        return Pointees(pointers<Spec*>(all_));
+    Pointees<Spec> of() {
+        return some<Spec>(all_);
     }
     template <class Spec>
-    Pointees<const Spec*> of() const {
-        return Pointees(pointers<const Spec*>(all_));
+    Pointees<const Spec> of() const {
+        return some<const Spec>(all_);
     }
 
     // The one of that name, or null.
@@ -130,12 +120,12 @@ class Specs {
     }
 
   private:
-    template <class Pointer, class All>
-    static std::vector<Pointer> pointers(All& all) {
-        std::vector<Pointer> found;
+    template <class Spec, class All>
+    static Pointees<Spec> some(All& all) {
+        std::vector<Spec*> found;
         for (auto& spec : all)
-            if (auto* one = dynamic_cast<Pointer>(spec.get())) found.push_back(one);
-        return found;
+            if (auto* one = dynamic_cast<Spec*>(spec.get())) found.push_back(one);
+        return Pointees<Spec>(std::move(found));
     }
 
     std::vector<std::unique_ptr<Base>> all_;

@@ -84,7 +84,7 @@ ForceList World::Impl::forces() const {
 void World::Impl::checkForces() const {
     std::vector<Body*> all = allBodies();
     for (const auto& body : waiting) all.push_back(body.get());
-    for (const ForceSpec& force : spec.forces.all()) force.checkBodies(all);
+    for (const ForceSpec& force : spec.forces) force.checkBodies(all);
 }
 
 void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints) {

@@ -40,7 +40,7 @@ ForceList sceneForces(const SceneSpec& spec) {
     };
     add(spec.forces.of<WindSpec>());
     add(spec.forces.of<AnchorSpec>());
-    for (const ForceSpec& force : spec.forces.all())
+    for (const ForceSpec& force : spec.forces)
         if (force.kind() != WindSpec::kindName && force.kind() != AnchorSpec::kindName)
             if (auto made = force.make(spec)) all.push_back(std::move(made));
     return all;

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
 #include "game/command_line.h"
 #include "game/flags.h"
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/scene_file.h"
+#include "taut/core/error.h"
 #include "taut/pipeline/machine.h"
 #include "taut/study/atlas_chart.h"
 #include "taut/study/atlas_text.h"

@@ -43,7 +43,7 @@ std::string drawApart(const std::string& gl, const regression::Scenario& scenari
     if (stop) return "";
     if (!result.end.succeeded())
         throw core::Error(core::ErrorKind::inputOutput, fmt::format("{} {}:\n{}", fmt::join(command.arguments, " "),
-                                                                   result.end.text(), result.errors));
+                                                                    result.end.text(), result.errors));
     std::filesystem::rename(image::FramePattern(frames).pathOf(golden.frame), png);
     const std::size_t space = result.output.find(' ');
     return space == std::string::npos ? "" : result.output.substr(space + 1, 16);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
 #include "game/chart_refinement.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
@@ -17,6 +16,7 @@
 #include "game/lab.h"
 #include "game/scene_file.h"
 #include "game/suggestion.h"
+#include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/machine.h"
 #include "taut/study/growth_table.h"

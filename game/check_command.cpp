@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
+#include "taut/core/error.h"
 #include "taut/world/world.h"
 
 namespace taut::game {

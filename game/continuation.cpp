@@ -8,8 +8,8 @@
 
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
-#include "taut/image/frame_sequence.h"
 #include "taut/core/whole_file.h"
+#include "taut/image/frame_sequence.h"
 #include "taut/pipeline/checkpoint.h"
 
 namespace taut::game {

@@ -4,13 +4,13 @@
 #include <memory>
 #include <string>
 
-#include "taut/core/error.h"
-#include "taut/core/instruction_set.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/folders.h"
-#include "taut/image/video_writer.h"
+#include "taut/core/error.h"
+#include "taut/core/instruction_set.h"
 #include "taut/core/whole_file.h"
+#include "taut/image/video_writer.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/self_test.h"
 #include "taut/render/font.h"

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
+#include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
 #include "taut/world/world.h"

@@ -7,10 +7,10 @@
 #include <system_error>
 
 #include "commit.h"
-#include "taut/core/error.h"
 #include "game/messages.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
+#include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/ode/method_table.h"
 #include "taut/report/gnuplot.h"

@@ -7,11 +7,11 @@
 #include <thread>
 #include <utility>
 
-#include "taut/core/error.h"
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
+#include "taut/core/error.h"
 #include "taut/live/between.h"
 
 namespace taut::game {

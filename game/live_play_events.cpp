@@ -68,17 +68,13 @@ void LivePlay::handle(const WindowEvent& event) {
     using What = WindowEvent::What;
     hasChanged_ = hasChanged_ || event.what != What::motion || dragging_ != Dragging::nothing;
     switch (event.what) {
-        case What::quit:
-            isOver_ = true;
-            return;
-        case What::key:
-            return press(event.key, event.isRepeat);
+        case What::quit: isOver_ = true; return;
+        case What::key: return press(event.key, event.isRepeat);
         case What::press:
             mouse_ = event.place;
             if (dragging_ != Dragging::nothing) return;
             return event.isLeft ? beginDrag(event) : void(dragging_ = Dragging::view);
-        case What::motion:
-            return drag(event);
+        case What::motion: return drag(event);
         case What::release:
             if (dragging_ == Dragging::point && event.isLeft) {
                 session_->hand().release();
@@ -86,10 +82,8 @@ void LivePlay::handle(const WindowEvent& event) {
             }
             if (event.isLeft == (dragging_ == Dragging::point)) dragging_ = Dragging::nothing;
             return;
-        case What::wheel:
-            return orbit_.zoom(std::pow(zoomPerNotch, event.amount), camera());
-        case What::exposed:
-            return;
+        case What::wheel: return orbit_.zoom(std::pow(zoomPerNotch, event.amount), camera());
+        case What::exposed: return;
     }
 }
 

@@ -42,8 +42,9 @@ void permitOverwriting(const std::filesystem::path& output, std::int64_t first, 
         if (answersYes()) return;
         throw core::Error(core::ErrorKind::inputOutput, "nothing was overwritten");
     }
-    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{} exists already{}", existing.string(),
-                                                               overwrite == Overwrite::no ? "" : "; -y overwrites it"));
+    throw core::Error(
+        core::ErrorKind::inputOutput,
+        fmt::format("{} exists already{}", existing.string(), overwrite == Overwrite::no ? "" : "; -y overwrites it"));
 }
 
 std::unique_ptr<image::FrameSink> makeSink(const std::filesystem::path& output, double fps) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/folders.h"
@@ -15,6 +14,7 @@
 #include "game/live_line.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
+#include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/scene/load.h"
@@ -84,7 +84,8 @@ int plan(const PlanFlags& flags) {
         throw;
     }
     fmt::print("{}", study::planSummary(result));
-    if (!flags.json.empty()) core::writeWholeFile(flags.json, study::planJson(result, machineFacts(pipeline::machine())));
+    if (!flags.json.empty())
+        core::writeWholeFile(flags.json, study::planJson(result, machineFacts(pipeline::machine())));
     if (!result.isMet()) {
         if (flags.write) fmt::print("\n{}: nothing is written, as the need is not met\n", file.string());
         return static_cast<int>(ExitCode::needNotMet);

@@ -2,13 +2,13 @@
 
 #include <memory>
 
-#include "taut/core/error.h"
-#include "taut/core/parallel.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/flags.h"
 #include "game/interruption.h"
 #include "game/live_play.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 
 namespace taut::game {
 namespace {
@@ -50,7 +50,7 @@ int play(const PlayFlags& flags) {
     } catch (const core::Error& error) {
         if (error.kind() != core::ErrorKind::noRenderer) throw;
         throw core::Error(core::ErrorKind::noRenderer, fmt::format("{}.\nWithout a window: taut render {} -o play.mp4",
-                                                                  error.what(), settings.scene));
+                                                                   error.what(), settings.scene));
     }
     live->run(interruption.flag());
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));

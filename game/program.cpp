@@ -9,11 +9,11 @@
 #include <system_error>
 #include <vector>
 
-#include "taut/core/error.h"
 #include "game/command_table.h"
 #include "game/exit_code.h"
 #include "game/folders.h"
 #include "game/messages.h"
+#include "taut/core/error.h"
 
 namespace taut::game {
 namespace {
@@ -74,16 +74,12 @@ int runProgram(int argc, const char* const* argv, std::span<const Command> comma
         commands);
     const Request request = line.read(argc, argv);
     switch (request.kind) {
-        case Request::Kind::run:
-            return runAction(request.action);
-        case Request::Kind::text:
-            fmt::print("{}", request.text);
-            return codeOf(ExitCode::ok);
+        case Request::Kind::run: return runAction(request.action);
+        case Request::Kind::text: fmt::print("{}", request.text); return codeOf(ExitCode::ok);
         case Request::Kind::wrong:
             fmt::print(stderr, "taut: {}\nTry {} --help.\n", request.text, request.command);
             return codeOf(ExitCode::usage);
-        case Request::Kind::nothing:
-            break;
+        case Request::Kind::nothing: break;
     }
     printShortHelp();
     return codeOf(ExitCode::ok);

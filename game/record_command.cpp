@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
-#include "taut/core/parallel.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/flags.h"
@@ -15,6 +13,8 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/tape.h"
@@ -39,7 +39,8 @@ world::SceneSpec readRecorded(const std::filesystem::path& file, const RecordFla
     tape.origin.text = core::fileContent(file);
     tape.origin.overrides = flags.overrides;
     if (flags.seconds > 0.0) tape.origin.overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
-    scene::Loaded loaded = scene::loadSceneText(tape.origin.text, tape.origin.scene, loadOptions(tape.origin.overrides));
+    scene::Loaded loaded =
+        scene::loadSceneText(tape.origin.text, tape.origin.scene, loadOptions(tape.origin.overrides));
     printWarnings(loaded.warnings);
     return std::move(loaded.spec);
 }

@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
-#include "taut/core/parallel.h"
 #include "game/command_line.h"
 #include "game/continuation.h"
 #include "game/exit_code.h"
@@ -22,9 +20,11 @@
 #include "game/progress.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
+#include "taut/core/whole_file.h"
 #include "taut/image/several_sinks.h"
 #include "taut/image/video_writer.h"
-#include "taut/core/whole_file.h"
 #include "taut/pipeline/overlay.h"
 #include "taut/pipeline/run.h"
 #include "taut/pipeline/run_record.h"

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/error.h"
-#include "taut/core/parallel.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/folders.h"
@@ -15,6 +13,8 @@
 #include "game/lab.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
+#include "taut/core/error.h"
+#include "taut/core/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/regression/tape.h"
 #include "taut/regression/tape_compare.h"
@@ -78,7 +78,7 @@ regression::Tape played(const ReplayFlags& flags, const regression::Tape& tape, 
     while (world.tick() < tape.ticks() && !interruption.flag() && !differs()) {
         if (const auto divergence = world.advance())
             throw core::Error(core::ErrorKind::diverged, fmt::format("at tick {} of the tape's {}\n{}", world.tick(),
-                                                                    tape.ticks(), divergence->message));
+                                                                     tape.ticks(), divergence->message));
         regression::addTick(now, world, hasPoints(tape));
         progress.show(static_cast<double>(world.tick()) / static_cast<double>(tape.ticks()),
                       fmt::format("{:.2f} s", world.time()));

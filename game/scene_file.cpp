@@ -4,10 +4,10 @@
 
 #include <system_error>
 
-#include "taut/core/error.h"
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/suggestion.h"
+#include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/scene/load.h"
 
@@ -25,7 +25,8 @@ std::filesystem::path sceneFile(const std::string& argument) {
     }
 
     if (std::filesystem::is_directory(given, ignored))
-        throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: this is a folder, not a scene file", argument));
+        throw core::Error(core::ErrorKind::inputOutput,
+                          fmt::format("{}: this is a folder, not a scene file", argument));
     if (std::filesystem::exists(given, ignored) || ignored == std::errc::permission_denied) return given;
     if (hasFolder)
         throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: there is no such scene file", argument));

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "taut/core/error.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "taut/core/error.h"
 #include "taut/scene/load.h"
 
 namespace taut::game {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "taut/core/error.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "taut/core/error.h"
 #include "taut/image/png.h"
 #include "taut/report/contact_sheet.h"
 

@@ -9,9 +9,6 @@
 #include <thread>
 #include <vector>
 
-#include "taut/core/error.h"
-#include "taut/core/glob.h"
-#include "taut/core/parallel.h"
 #include "game/calibration_run.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
@@ -23,6 +20,9 @@
 #include "game/scene_file.h"
 #include "game/shell_word.h"
 #include "game/suggestion.h"
+#include "taut/core/error.h"
+#include "taut/core/glob.h"
+#include "taut/core/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/regression/goldens.h"
@@ -165,15 +165,11 @@ void writePictures(const std::filesystem::path& folder, const report::TestScenar
 
 int exitCodeOf(report::Verdict verdict) {
     switch (verdict) {
-        case report::Verdict::diverged:
-            return static_cast<int>(ExitCode::diverged);
-        case report::Verdict::failed:
-            return static_cast<int>(ExitCode::checkFailed);
-        case report::Verdict::missing:
-            return static_cast<int>(ExitCode::goldenMissing);
+        case report::Verdict::diverged: return static_cast<int>(ExitCode::diverged);
+        case report::Verdict::failed: return static_cast<int>(ExitCode::checkFailed);
+        case report::Verdict::missing: return static_cast<int>(ExitCode::goldenMissing);
         case report::Verdict::passed:
-        case report::Verdict::skipped:
-            break;
+        case report::Verdict::skipped: break;
     }
     return static_cast<int>(ExitCode::ok);
 }

@@ -55,8 +55,7 @@ struct Window::Impl {
         using What = WindowEvent::What;
         WindowEvent result;
         switch (event.type) {
-            case SDL_QUIT:
-                return result;
+            case SDL_QUIT: return result;
             case SDL_KEYDOWN:
                 result.what = What::key;
                 result.key = nameOf(event.key.keysym.sym);
@@ -80,8 +79,7 @@ struct Window::Impl {
                 if (event.window.event != SDL_WINDOWEVENT_EXPOSED) return std::nullopt;
                 result.what = What::exposed;
                 return result;
-            default:
-                return std::nullopt;
+            default: return std::nullopt;
         }
     }
 };

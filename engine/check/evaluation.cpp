@@ -18,7 +18,8 @@ const world::Selection& Now::selection(const std::string& target) const {
 const world::Metrics& Now::metrics(const std::string& bodies) const {
     const auto found = metrics_.find(bodies);
     if (found != metrics_.end()) return found->second;
-    return metrics_.emplace(bodies, bodies.empty() ? world_.metrics() : world_.metrics(selection(bodies))).first->second;
+    return metrics_.emplace(bodies, bodies.empty() ? world_.metrics() : world_.metrics(selection(bodies)))
+        .first->second;
 }
 
 const world::PointsNow& Now::points(const std::string& target) const {
@@ -44,26 +45,16 @@ Quantity valueOf(const Expression& expression, const Now& now) {
         return expression.inside[i].isVector ? x : glm::dvec3(x.x);
     };
     switch (expression.part) {
-        case Part::number:
-            return {glm::dvec3(expression.number, 0, 0)};
-        case Part::vector:
-            return {glm::dvec3(operand(0).x, operand(1).x, operand(2).x)};
-        case Part::call:
-            return expression.function->value(now, expression.inside);
-        case Part::negative:
-            return {-operand(0)};
-        case Part::sum:
-            return {operand(0) + operand(1)};
-        case Part::difference:
-            return {operand(0) - operand(1)};
-        case Part::product:
-            return {factor(0) * factor(1)};
-        case Part::quotient:
-            return {factor(0) / factor(1)};
-        case Part::component:
-            return {glm::dvec3(operand(0)[expression.axis], 0, 0)};
-        case Part::target:
-            break;
+        case Part::number: return {glm::dvec3(expression.number, 0, 0)};
+        case Part::vector: return {glm::dvec3(operand(0).x, operand(1).x, operand(2).x)};
+        case Part::call: return expression.function->value(now, expression.inside);
+        case Part::negative: return {-operand(0)};
+        case Part::sum: return {operand(0) + operand(1)};
+        case Part::difference: return {operand(0) - operand(1)};
+        case Part::product: return {factor(0) * factor(1)};
+        case Part::quotient: return {factor(0) / factor(1)};
+        case Part::component: return {glm::dvec3(operand(0)[expression.axis], 0, 0)};
+        case Part::target: break;
     }
     return {};
 }
@@ -87,8 +78,7 @@ std::string unitOf(const Expression& expression) {
             if (!expression.function->unit.empty() || expression.inside.size() != 1) return expression.function->unit;
             return unitOf(expression.inside[0]);  // abs and length keep the unit
         case Part::negative:
-        case Part::component:
-            return unitOf(expression.inside[0]);
+        case Part::component: return unitOf(expression.inside[0]);
         case Part::sum:
         case Part::difference: {
             const std::string first = unitOf(expression.inside[0]), second = unitOf(expression.inside[1]);
@@ -98,10 +88,8 @@ std::string unitOf(const Expression& expression) {
             const std::string unit = scaled(0, 1);
             return unit.empty() ? scaled(1, 0) : unit;
         }
-        case Part::quotient:
-            return scaled(1, 0);
-        default:
-            return {};
+        case Part::quotient: return scaled(1, 0);
+        default: return {};
     }
 }
 

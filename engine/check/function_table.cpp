@@ -10,16 +10,11 @@ namespace {
 
 const char* word(Takes takes) {
     switch (takes) {
-        case Takes::bodies:
-            return "BODIES";
-        case Takes::points:
-            return "POINTS";
-        case Takes::place:
-            return "PLACE";
-        case Takes::number:
-            return "NUMBER";
-        case Takes::vector:
-            return "VECTOR";
+        case Takes::bodies: return "BODIES";
+        case Takes::points: return "POINTS";
+        case Takes::place: return "PLACE";
+        case Takes::number: return "NUMBER";
+        case Takes::vector: return "VECTOR";
     }
     return "";
 }

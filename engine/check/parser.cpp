@@ -118,10 +118,12 @@ class Parser {
     }
 
     Expression sum() {
-        return series({{{"+", Part::sum}, {"-", Part::difference}}}, [&] { return product(); });
+        return series(
+            {{{"+", Part::sum}, {"-", Part::difference}}}, [&] { return product(); });
     }
     Expression product() {
-        return series({{{"*", Part::product}, {"/", Part::quotient}}}, [&] { return factor(); });
+        return series(
+            {{{"*", Part::product}, {"/", Part::quotient}}}, [&] { return factor(); });
     }
     template <class Operand>
     Expression series(std::array<std::pair<const char*, Part>, 2> signs, const Operand& operand) {

@@ -35,7 +35,7 @@ void TriangleMesh::takeTriangles(std::span<const dvec3> vertices, std::span<cons
     for (const std::uint32_t corner : triangles)
         if (corner >= vertices.size())
             failMesh("a triangle names vertex " + std::to_string(corner) + ", there are " +
-                 std::to_string(vertices.size()));
+                     std::to_string(vertices.size()));
     for (std::size_t i = 0; i < triangles.size(); i += 3) {
         const dvec3& a = vertices[triangles[i]];
         const dvec3 ab = vertices[triangles[i + 1]] - a;

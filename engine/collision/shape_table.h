@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "taut/core/table.h"
 #include "taut/collision/form.h"
+#include "taut/core/table.h"
 #include "taut/view/primitives.h"
 
 namespace taut::collision {

@@ -163,11 +163,10 @@ bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
     const Triangle& t = triangles_[static_cast<std::size_t>(endFoot.triangle)];
     const dvec3 apart = path.to - endFoot.point;
     dvec3 normal = apart * (1.0 / distance);
-    if (!(distance > path.skin)) {
+    if (!(distance > path.skin))
         normal = isInFront(path, t) ? t.normal : -t.normal;
-    } else if (endFoot.square - endFoot.facing * endFoot.facing <= path.skin * path.skin) {
+    else if (endFoot.square - endFoot.facing * endFoot.facing <= path.skin * path.skin)
         normal = glm::dot(apart, t.normal) > 0.0 ? t.normal : -t.normal;
-    }
     touch = {normal, glm::dot(normal, endFoot.point) + path.thickness};
     return true;
 }

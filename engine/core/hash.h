@@ -1,5 +1,5 @@
-// Numbers from numbers. The state hash: FNV-1a with 64 bits, fed number by number in a fixed order. Negative zero counts as zero.
-// A number at a time instead of a byte at a time costs an eighth; the fold makes up for the bits that a
+// Numbers from numbers. The state hash: FNV-1a with 64 bits, fed number by number in a fixed order. Negative zero
+// counts as zero. A number at a time instead of a byte at a time costs an eighth; the fold makes up for the bits that a
 // multiplication only carries upwards.
 #pragma once
 

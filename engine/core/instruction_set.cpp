@@ -48,7 +48,9 @@ bool isSupported(InstructionSet set) {
     return false;
 }
 
-InstructionSet instructionSet() { return current(); }
+InstructionSet instructionSet() {
+    return current();
+}
 
 void useInstructionSet(InstructionSet set) {
     TAUT_EXPECTS(isSupported(set));

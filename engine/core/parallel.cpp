@@ -23,15 +23,14 @@ void parallelFor(int count, const std::function<void(int)>& task) {
     // What is shared out is no less than what sharing costs.
     const int grain = std::max(1, count / mostShares);
     // Isolation keeps a waiting thread from picking up an unrelated task in the middle of this one.
-    oneapi::tbb::this_task_arena::isolate(
-        [&] {
-            oneapi::tbb::parallel_for(
-                oneapi::tbb::blocked_range<int>(0, count, static_cast<std::size_t>(grain)),
-                [&](const auto& range) {
-                    for (int i = range.begin(); i < range.end(); ++i) task(i);
-                },
-                oneapi::tbb::simple_partitioner());
-        });
+    oneapi::tbb::this_task_arena::isolate([&] {
+        oneapi::tbb::parallel_for(
+            oneapi::tbb::blocked_range<int>(0, count, static_cast<std::size_t>(grain)),
+            [&](const auto& range) {
+                for (int i = range.begin(); i < range.end(); ++i) task(i);
+            },
+            oneapi::tbb::simple_partitioner());
+    });
 }
 
 struct ThreadLimit::Impl {

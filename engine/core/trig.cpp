@@ -36,7 +36,11 @@ double evaluate(double angle, int shift) {
 
 }  // namespace
 
-double sine(double angle) { return evaluate(angle, 0); }
-double cosine(double angle) { return evaluate(angle, 1); }
+double sine(double angle) {
+    return evaluate(angle, 0);
+}
+double cosine(double angle) {
+    return evaluate(angle, 1);
+}
 
 }  // namespace taut::core

@@ -11,6 +11,8 @@ double sine(double angle);
 double cosine(double angle);
 
 // [rad] from degrees.
-inline constexpr double radians(double degrees) { return degrees * (pi / 180.0); }
+inline constexpr double radians(double degrees) {
+    return degrees * (pi / 180.0);
+}
 
 }  // namespace taut::core

@@ -9,9 +9,13 @@
 namespace taut::fields {
 
 bool isName(const std::string& name) {
-    return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-    });
+    return !name.empty() && name.size() <= 100 &&
+           std::all_of(
+               name.begin(), name.end(),
+               [](char c) {
+                   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                          c == '_';
+               });
 }
 
 Place CheckInput::at(const std::string& key) const {
@@ -45,38 +49,23 @@ std::string description(const Range& range, const std::string& unit) {
 std::string description(const Field& field) {
     const std::string unit = field.unit.empty() ? "" : fmt::format(" [{}]", field.unit);
     switch (field.kind) {
-        case FieldKind::number:
-            return "a number" + unit;
-        case FieldKind::whole:
-            return "a whole number" + unit;
-        case FieldKind::flag:
-            return "true or false";
-        case FieldKind::text:
-            return "a text";
-        case FieldKind::choice:
-            return "one of " + joined(field.choices);
-        case FieldKind::stepLength:
-            return "\"auto\" or a number" + unit;
-        case FieldKind::vector:
-            return fmt::format("a list of {} numbers{}", field.components, unit);
-        case FieldKind::wholeVector:
-            return fmt::format("a list of {} whole numbers{}", field.components, unit);
-        case FieldKind::direction:
-            return "a list of 3 numbers, not all 0";
-        case FieldKind::colour:
-            return "a list of 3 numbers from 0 to 1, or \"#rrggbb\"";
+        case FieldKind::number: return "a number" + unit;
+        case FieldKind::whole: return "a whole number" + unit;
+        case FieldKind::flag: return "true or false";
+        case FieldKind::text: return "a text";
+        case FieldKind::choice: return "one of " + joined(field.choices);
+        case FieldKind::stepLength: return "\"auto\" or a number" + unit;
+        case FieldKind::vector: return fmt::format("a list of {} numbers{}", field.components, unit);
+        case FieldKind::wholeVector: return fmt::format("a list of {} whole numbers{}", field.components, unit);
+        case FieldKind::direction: return "a list of 3 numbers, not all 0";
+        case FieldKind::colour: return "a list of 3 numbers from 0 to 1, or \"#rrggbb\"";
         case FieldKind::segment:
             return fmt::format("a list of two points, each a list of {} numbers{}", field.components, unit);
-        case FieldKind::texts:
-            return "a list of texts";
-        case FieldKind::wholes:
-            return "a list of whole numbers";
-        case FieldKind::numbers:
-            return "a number, a list of numbers or \"#rrggbb\"";
-        case FieldKind::table:
-            return "a table";
-        case FieldKind::tables:
-            return "a list of tables";
+        case FieldKind::texts: return "a list of texts";
+        case FieldKind::wholes: return "a list of whole numbers";
+        case FieldKind::numbers: return "a number, a list of numbers or \"#rrggbb\"";
+        case FieldKind::table: return "a table";
+        case FieldKind::tables: return "a list of tables";
     }
     return "";
 }

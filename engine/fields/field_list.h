@@ -26,9 +26,8 @@ std::vector<double> numbersOf(const glm::vec<N, Scalar, glm::defaultp>& vector) 
 template <class Vector>
 Vector vectorOf(const std::vector<double>& numbers, std::size_t first = 0) {
     Vector vector;
-    for (int i = 0; i < Vector::length(); ++i) {
+    for (int i = 0; i < Vector::length(); ++i)
         vector[i] = static_cast<typename Vector::value_type>(numbers[first + static_cast<std::size_t>(i)]);
-    }
     return vector;
 }
 
@@ -43,11 +42,10 @@ class FieldList {
             key, FieldKind::number, unit, range, help,
             [=](Spec& s, const Value& value) { s.*member = std::get<double>(value) * factor; },
             [=](const Spec& s) -> Value {
-                if constexpr (std::is_same_v<Number, double>) {
+                if constexpr (std::is_same_v<Number, double>)
                     return s.*member / factor;
-                } else {
+                else
                     return s.*member ? Value(*(s.*member) / factor) : Value();
-                }
             });
     }
     // A number of a part of the struct.
@@ -105,11 +103,10 @@ class FieldList {
                    key, FieldKind::text, "", anyNumber, help,
                    [=](Spec& s, const Value& value) { s.*member = std::get<std::string>(value); },
                    [=](const Spec& s) -> Value {
-                       if constexpr (std::is_same_v<Text, std::string>) {
+                       if constexpr (std::is_same_v<Text, std::string>)
                            return s.*member;
-                       } else {
+                       else
                            return s.*member ? Value(*(s.*member)) : Value();
-                       }
                    })
             .role(role);
     }
@@ -127,9 +124,8 @@ class FieldList {
         add(
             key, FieldKind::choice, "", anyNumber, help,
             [=](Spec& s, const Value& value) {
-                for (std::size_t i = 0; i < choices.size(); ++i) {
+                for (std::size_t i = 0; i < choices.size(); ++i)
                     if (choices[i] == std::get<std::string>(value)) s.*member = static_cast<Enum>(i);
-                }
             },
             [=](const Spec& s) -> Value { return choices[static_cast<std::size_t>(s.*member)]; });
         last().choices = std::move(choices);
@@ -140,11 +136,10 @@ class FieldList {
         return add(
             key, FieldKind::stepLength, "s", Range{1e-9, 1.0}, help,
             [=](Spec& s, const Value& value) {
-                if (const double* number = std::get_if<double>(&value)) {
+                if (const double* number = std::get_if<double>(&value))
                     s.*member = *number;
-                } else {
+                else
                     s.*member = std::nullopt;
-                }
             },
             [=](const Spec& s) -> Value { return s.*member ? Value(*(s.*member)) : Value(std::string("auto")); });
     }
@@ -198,11 +193,10 @@ class FieldList {
                 s.*member = vectorOf<glm::dvec3>(std::get<std::vector<double>>(value));
             },
             [=](const Spec& s) -> Value {
-                if constexpr (std::is_same_v<Colour, glm::dvec3>) {
+                if constexpr (std::is_same_v<Colour, glm::dvec3>)
                     return numbersOf(s.*member);
-                } else {
+                else
                     return s.*member ? Value(numbersOf(*(s.*member))) : Value();
-                }
             });
         last().components = 3;
         return *this;
@@ -271,21 +265,21 @@ class FieldList {
     // A table inside, for a member of the struct, or for the struct itself.
     template <class Part, class Base>
     FieldList& table(const char* key, Part Base::*member, Section section, const char* help) {
-        return addInside(key, FieldKind::table, std::move(section), help,
-                         [=](Spec& s, const core::Source&) -> void* { return &(s.*member); });
+        return addInside(
+            key, FieldKind::table, std::move(section), help,
+            [=](Spec& s, const core::Source&) -> void* { return &(s.*member); });
     }
     FieldList& tableOfSelf(const char* key, Section section, const char* help) {
-        return addInside(key, FieldKind::table, std::move(section), help,
-                         [](Spec& s, const core::Source&) -> void* { return &s; });
+        return addInside(
+            key, FieldKind::table, std::move(section), help, [](Spec& s, const core::Source&) -> void* { return &s; });
     }
     template <class Entry, class Base>
     FieldList& tables(const char* key, std::vector<Entry> Base::*member, Section section, const char* help) {
-        addInside(key, FieldKind::tables, std::move(section), help,
-                  [=](Spec& s, const core::Source& source) -> void* {
-                      Entry& entry = (s.*member).emplace_back();
-                      if constexpr (requires { entry.source; }) entry.source = source;
-                      return &entry;
-                  });
+        addInside(key, FieldKind::tables, std::move(section), help, [=](Spec& s, const core::Source& source) -> void* {
+            Entry& entry = (s.*member).emplace_back();
+            if constexpr (requires { entry.source; }) entry.source = source;
+            return &entry;
+        });
         last().entries = [=](void* spec) {
             std::vector<void*> entries;
             for (Entry& entry : static_cast<Spec*>(spec)->*member) entries.push_back(&entry);

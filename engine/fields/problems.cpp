@@ -54,11 +54,10 @@ std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
     std::vector<std::string> characters;
     for (const char c : line) {
         const auto byte = static_cast<unsigned char>(c);
-        if ((byte & 0xC0U) == 0x80U && !characters.empty()) {
+        if ((byte & 0xC0U) == 0x80U && !characters.empty())
             characters.back() += c;
-        } else if (c != '\r') {
+        else if (c != '\r')
             characters.emplace_back(1, c == '\t' ? ' ' : byte < 0x20 || byte == 0x7F ? '?' : c);
-        }
     }
     for (std::string& character : characters)
         if (!isWholeCharacter(character)) character = "?";
@@ -71,9 +70,8 @@ std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
 
 // What a text says must not move the cursor of a terminal.
 std::string printable(std::string text) {
-    for (char& c : text) {
+    for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-    }
     return text;
 }
 

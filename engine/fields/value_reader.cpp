@@ -16,36 +16,22 @@ class ValueReader {
 
     std::optional<Value> value(const Node& node) const {
         switch (field_.kind) {
-            case FieldKind::number:
-                return wrapped(number(node, field_.key));
-            case FieldKind::whole:
-                return whole(node);
-            case FieldKind::flag:
-                return flag(node);
-            case FieldKind::text:
-                return wrapped(text(node, field_.key));
-            case FieldKind::choice:
-                return choice(node);
-            case FieldKind::stepLength:
-                return stepLength(node);
+            case FieldKind::number: return wrapped(number(node, field_.key));
+            case FieldKind::whole: return whole(node);
+            case FieldKind::flag: return flag(node);
+            case FieldKind::text: return wrapped(text(node, field_.key));
+            case FieldKind::choice: return choice(node);
+            case FieldKind::stepLength: return stepLength(node);
             case FieldKind::vector:
-            case FieldKind::wholeVector:
-                return wrapped(numbers(node, field_.key));
-            case FieldKind::direction:
-                return direction(node);
-            case FieldKind::colour:
-                return wrapped(colour(node));
-            case FieldKind::segment:
-                return segment(node);
-            case FieldKind::texts:
-                return texts(node);
-            case FieldKind::wholes:
-                return wholes(node);
-            case FieldKind::numbers:
-                return anyNumbers(node);
+            case FieldKind::wholeVector: return wrapped(numbers(node, field_.key));
+            case FieldKind::direction: return direction(node);
+            case FieldKind::colour: return wrapped(colour(node));
+            case FieldKind::segment: return segment(node);
+            case FieldKind::texts: return texts(node);
+            case FieldKind::wholes: return wholes(node);
+            case FieldKind::numbers: return anyNumbers(node);
             case FieldKind::table:
-            case FieldKind::tables:
-                break;
+            case FieldKind::tables: break;
         }
         return std::nullopt;
     }
@@ -70,15 +56,10 @@ class ValueReader {
         const std::string unit = field_.unit.empty() ? "" : fmt::format(" [{}]", field_.unit);
         const bool isWhole = field_.kind == FieldKind::whole || field_.kind == FieldKind::wholeVector ||
                              field_.kind == FieldKind::wholes;
-        if (node.kind == NodeKind::number && isWhole) {
-            return fail(node, name, "a whole number", description(node));
-        }
-        if (node.kind != NodeKind::number && node.kind != NodeKind::whole) {
+        if (node.kind == NodeKind::number && isWhole) return fail(node, name, "a whole number", description(node));
+        if (node.kind != NodeKind::number && node.kind != NodeKind::whole)
             return fail(node, name, (isWhole ? "a whole number" : "a number") + unit, description(node));
-        }
-        if (!std::isfinite(node.number)) {
-            return fail(node, name, "a finite number" + unit, description(node));
-        }
+        if (!std::isfinite(node.number)) return fail(node, name, "a finite number" + unit, description(node));
         const Range& range = field_.range;
         if (node.number >= range.low && node.number <= range.high) return node.number;
         const std::string found = description(node);
@@ -88,9 +69,8 @@ class ValueReader {
             return fail(node, name, fmt::format("between {:g} and {:g}{}", range.low, range.high, suffix), found);
         }
         std::string expected = description(range, field_.unit);
-        if (expected.empty() || (node.number > range.high && range.high == anyNumber.high)) {
+        if (expected.empty() || (node.number > range.high && range.high == anyNumber.high))
             expected = fmt::format("at most {:g} in size", anyNumber.high);
-        }
         return fail(node, name, expected, found);
     }
 
@@ -108,25 +88,21 @@ class ValueReader {
         if (node.kind != NodeKind::text) return fail(node, name, "a text", description(node));
         // A path or a name with a zero byte or a line break in it can only be a trap.
         const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
-        if (std::any_of(node.text.begin(), node.text.end(), isControl)) {
+        if (std::any_of(node.text.begin(), node.text.end(), isControl))
             return fail(node, name, "a text of one line", "one with control characters");
-        }
         return node.text;
     }
 
     std::optional<Value> choice(const Node& node) const {
         if (node.kind != NodeKind::text) return failKind(node);
-        if (std::find(field_.choices.begin(), field_.choices.end(), node.text) != field_.choices.end()) {
+        if (std::find(field_.choices.begin(), field_.choices.end(), node.text) != field_.choices.end())
             return Value(node.text);
-        }
         return fail(node, field_.key, description(field_), description(node), suggestion(node.text, field_.choices));
     }
 
     std::optional<Value> stepLength(const Node& node) const {
         if (node.kind == NodeKind::text && node.text == "auto") return Value(node.text);
-        if (node.kind == NodeKind::text) {
-            return fail(node, field_.key, description(field_), description(node));
-        }
+        if (node.kind == NodeKind::text) return fail(node, field_.key, description(field_), description(node));
         if (node.kind != NodeKind::number && node.kind != NodeKind::whole) return failKind(node);
         return wrapped(number(node, field_.key));
     }
@@ -137,9 +113,7 @@ class ValueReader {
         const std::string unit = field_.unit.empty() ? "" : fmt::format(" [{}]", field_.unit);
         const std::string expected = fmt::format("a list of {} {}numbers{}", size, isWhole ? "whole " : "", unit);
         if (node.kind != NodeKind::list) return fail(node, name, expected, description(node));
-        if (node.items.size() != size) {
-            return fail(node, name, expected, description(node));
-        }
+        if (node.items.size() != size) return fail(node, name, expected, description(node));
         std::vector<double> values;
         for (std::size_t i = 0; i < size; ++i) {
             const std::optional<double> value = number(node.items[i], fmt::format("{}[{}]", name, i));
@@ -162,26 +136,21 @@ class ValueReader {
 
     std::optional<std::vector<double>> colour(const Node& node) const {
         if (node.kind == NodeKind::list) return numbers(node, field_.key);
-        if (node.kind != NodeKind::text) {
-            return fail(node, field_.key, description(field_), description(node));
-        }
+        if (node.kind != NodeKind::text) return fail(node, field_.key, description(field_), description(node));
         std::vector<double> digits;
         for (const char c : node.text) {
             const std::size_t digit = std::string_view("0123456789abcdefABCDEF").find(c);
             if (digit != std::string_view::npos) digits.push_back(static_cast<double>(digit < 16 ? digit : digit - 6));
         }
-        if (node.text.size() != 7 || node.text[0] != '#' || digits.size() != 6) {
+        if (node.text.size() != 7 || node.text[0] != '#' || digits.size() != 6)
             return fail(node, field_.key, description(field_), description(node));
-        }
         return std::vector<double>{(16 * digits[0] + digits[1]) / 255, (16 * digits[2] + digits[3]) / 255,
                                    (16 * digits[4] + digits[5]) / 255};
     }
 
     std::optional<Value> segment(const Node& node) const {
         if (node.kind != NodeKind::list) return failKind(node);
-        if (node.items.size() != 2) {
-            return fail(node, field_.key, description(field_), description(node));
-        }
+        if (node.items.size() != 2) return fail(node, field_.key, description(field_), description(node));
         auto start = numbers(node.items[0], field_.key + "[0]");
         const auto end = numbers(node.items[1], field_.key + "[1]");
         if (!start || !end) return std::nullopt;

@@ -6,8 +6,8 @@
 #include <charconv>
 
 #include "taut/core/error.h"
-#include "taut/image/png.h"
 #include "taut/core/whole_file.h"
+#include "taut/image/png.h"
 
 namespace taut::image {
 

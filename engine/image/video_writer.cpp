@@ -119,7 +119,7 @@ void VideoWriter::fail(const std::string& what) {
     encoder_.reset();
     ::unlink(temporary_.c_str());
     throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {} {}{}{}", path_.string(), options_.program, what,
-                                                               text.empty() ? "" : ":\n", text));
+                                                                text.empty() ? "" : ":\n", text));
 }
 
 std::filesystem::path VideoWriter::companion(const std::string& name) const {

@@ -11,8 +11,7 @@ constexpr double leastWay = 0.002;  // [m]
 constexpr int timeDecimals = 6;     // [s]: far finer than a tick
 
 glm::dvec3 roundedPlace(const glm::dvec3& place) {
-    return {rounded(place.x, placeDecimals), rounded(place.y, placeDecimals),
-            rounded(place.z, placeDecimals)};
+    return {rounded(place.x, placeDecimals), rounded(place.y, placeDecimals), rounded(place.z, placeDecimals)};
 }
 
 }  // namespace

@@ -108,8 +108,9 @@ class LatticeBuilder {
             stepY[y] = 1;
             stepZ[z] = 1;
             const ivec3 last = n_ - stepY - stepZ;
-            forBox(ivec3(0), last,
-                   [&](ivec3 p) { add(p, p + stepY + stepZ, k.diagonal[x] * half(p, x), d, SpringKind::shear); });
+            forBox(
+                ivec3(0), last,
+                [&](ivec3 p) { add(p, p + stepY + stepZ, k.diagonal[x] * half(p, x), d, SpringKind::shear); });
             forBox(ivec3(0), last,
                    [&](ivec3 p) { add(p + stepY, p + stepZ, k.diagonal[x] * half(p, x), d, SpringKind::shear); });
         }

@@ -41,11 +41,11 @@ struct ClothMaterial {
 };
 
 struct ClothShape {
-    glm::dvec3 origin{0.0};          // top left corner [m]
-    glm::dvec3 across{1, 0, 0};      // unit, from left to right
-    glm::dvec3 down{0, -1, 0};       // unit, from top to bottom
-    glm::dvec2 size{1.0, 1.0};       // across, down [m]
-    glm::ivec2 cells{16, 16};        // across, down
+    glm::dvec3 origin{0.0};      // top left corner [m]
+    glm::dvec3 across{1, 0, 0};  // unit, from left to right
+    glm::dvec3 down{0, -1, 0};   // unit, from top to bottom
+    glm::dvec2 size{1.0, 1.0};   // across, down [m]
+    glm::ivec2 cells{16, 16};    // across, down
     ClothMaterial material;
 };
 // Points row by row from the top left. Structural springs on the boundary are halved when lumping is weighted.
@@ -69,15 +69,15 @@ Model buildMeshCloth(const MeshClothShape& shape);
 std::vector<std::string> meshClothGroups();
 
 struct BlockShape {
-    glm::dvec3 centre{0.0};       // [m]
-    glm::dmat3 axes{1.0};         // columns: the block's own x, y, z
-    glm::dvec3 size{1.0};         // [m]
+    glm::dvec3 centre{0.0};  // [m]
+    glm::dmat3 axes{1.0};    // columns: the block's own x, y, z
+    glm::dvec3 size{1.0};    // [m]
     glm::ivec3 cells{4};
-    double density = 300.0;       // [kg/m³]
-    double young = 2e4;           // E [Pa]: lattice springs k = 0.4 E ℓ on edges and face diagonals
-    double bulk = 2e4;            // K [Pa] of the volume term
-    double dampingTime = 0.0;     // τ [s]
-    double dragRate = 0.0;        // γ/m [1/s]
+    double density = 300.0;    // [kg/m³]
+    double young = 2e4;        // E [Pa]: lattice springs k = 0.4 E ℓ on edges and face diagonals
+    double bulk = 2e4;         // K [Pa] of the volume term
+    double dampingTime = 0.0;  // τ [s]
+    double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
 };
 // Points x fastest, then y, then z. Springs shared by several cells add up, so that faces and edges carry their
@@ -90,8 +90,8 @@ struct NetPoint {
     std::string name;
     glm::dvec3 position{0.0};  // [m]
     glm::dvec3 velocity{0.0};  // [m/s]
-    double mass = 1.0;      // [kg] > 0
-    double dragRate = 0.0;  // γ/m [1/s]
+    double mass = 1.0;         // [kg] > 0
+    double dragRate = 0.0;     // γ/m [1/s]
     bool held = false;
 };
 struct NetSpring {

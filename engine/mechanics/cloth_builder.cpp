@@ -129,7 +129,8 @@ Model buildCloth(const ClothShape& shape) {
 }
 
 std::vector<std::string> clothGroups() {
-    return {"left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right", "corners", "edges"};
+    return {"left",      "right",       "top",          "bottom",  "top-left",
+            "top-right", "bottom-left", "bottom-right", "corners", "edges"};
 }
 
 }  // namespace taut::mechanics

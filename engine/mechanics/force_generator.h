@@ -13,10 +13,10 @@ template <class Real>
 struct Motion {
     int count = 0;
     int stride = 0;
-    double t = 0;                     // [s]
-    const Real* x = nullptr;          // (3 · stride) [m]
-    const Real* v = nullptr;          // (3 · stride) [m/s]
-    const Real* mass = nullptr;       // (stride) [kg], also of held points
+    double t = 0;                       // [s]
+    const Real* x = nullptr;            // (3 · stride) [m]
+    const Real* v = nullptr;            // (3 · stride) [m/s]
+    const Real* mass = nullptr;         // (stride) [kg], also of held points
     const Real* inverseMass = nullptr;  // (stride) [1/kg], 0 if held
 };
 
@@ -33,7 +33,8 @@ class ForceGenerator {
   public:
     virtual ~ForceGenerator() = default;
 
-    // Whether the force on a point depends on that point alone. Then addForces() may be called for a part of the points.
+    // Whether the force on a point depends on that point alone. Then addForces() may be called for a part of the
+    // points.
     virtual bool isLocal() const { return false; }
 
     // Adds the force on points first … last - 1 to f (3 · stride) [N]. Not local: first = 0, last = count.
@@ -51,9 +52,9 @@ class ForceGenerator {
     // Adds K u to out (3 · stride), K = -∂f/∂x [N/m], u a displacement (3 · stride) [m]. Nothing when K = 0.
     virtual void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const = 0;
 
-    // For implicit methods: fixes W = stiffness K + damping C at the motion, C = -∂f/∂v [kg/s], both without what is not
-    // positive or not symmetric in them; then products W u, and the diagonal of W, added to out. A force that depends on
-    // neither position nor velocity has nothing to do.
+    // For implicit methods: fixes W = stiffness K + damping C at the motion, C = -∂f/∂v [kg/s], both without what is
+    // not positive or not symmetric in them; then products W u, and the diagonal of W, added to out. A force that
+    // depends on neither position nor velocity has nothing to do.
     virtual void linearise(const Motion<Real>&, double /*stiffness*/, double /*damping*/) {}
     virtual void addProduct(int /*stride*/, const Real* /*u*/, Real* /*out*/) const {}
     virtual void addDiagonal(int /*stride*/, Real* /*out*/) const {}

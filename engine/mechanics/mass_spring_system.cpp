@@ -19,8 +19,8 @@ std::vector<PointMass> pointMassesOf(const Model& model) {
 
 template <class Real>
 MassSpringSystem<Real>::MassSpringSystem(const Model& model)
-    : MassSpringSystem(pointMassesOf(model),
-                       std::vector<Body>{{0, model.grid[0] > 0 ? model.grid[0] + 1 : 0}}, model.springs) {}
+    : MassSpringSystem(pointMassesOf(model), std::vector<Body>{{0, model.grid[0] > 0 ? model.grid[0] + 1 : 0}},
+                       model.springs) {}
 
 template <class Real>
 MassSpringSystem<Real>::MassSpringSystem(std::span<const PointMass> points, std::span<const Body> bodies,
@@ -73,7 +73,8 @@ void MassSpringSystem<Real>::layOutLanes() {
             network_.blocks[static_cast<std::size_t>(chunk.firstBlock + std::max(0, blocksWaiting - 1))];
         const int waiting = blocksWaiting > 0 ? lastWaiting.lastPoint - chunk.firstPoint : 0;
         const int all = chunk.lastPoint + chunk.spill - chunk.firstPoint;
-        lanes_.push_back({window(chunk.firstPoint, std::min(need + slack, all)), window(chunk.firstPoint, waiting), blocksWaiting});
+        lanes_.push_back(
+            {window(chunk.firstPoint, std::min(need + slack, all)), window(chunk.firstPoint, waiting), blocksWaiting});
         incoming = chunk.spill;
     }
 }
@@ -87,7 +88,8 @@ void MassSpringSystem<Real>::add(std::unique_ptr<ForceGenerator<Real>> generator
 template <class Real>
 void MassSpringSystem<Real>::removeGenerators(std::size_t from) {
     generators_.resize(from);
-    if (std::all_of(generators_.begin(), generators_.end(), [](const auto& g) { return g->isUniform(); })) external_ = {};
+    if (std::all_of(generators_.begin(), generators_.end(), [](const auto& g) { return g->isUniform(); }))
+        external_ = {};
 }
 
 template <class Real>

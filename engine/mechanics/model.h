@@ -18,10 +18,10 @@ enum class Lumping { weighted, uniform };
 enum class SpringKind : std::uint8_t { structural, shear, bend, joint };
 
 struct Spring {
-    int a = 0, b = 0;       // point indices, a != b
-    double stiffness = 0;   // k [N/m] >= 0
-    double restLength = 0;  // L [m] >= 0
-    double dampingTime = 0; // τ [s]: the dashpot is c = τ k [kg/s]
+    int a = 0, b = 0;        // point indices, a != b
+    double stiffness = 0;    // k [N/m] >= 0
+    double restLength = 0;   // L [m] >= 0
+    double dampingTime = 0;  // τ [s]: the dashpot is c = τ k [kg/s]
     SpringKind kind = SpringKind::structural;
 };
 

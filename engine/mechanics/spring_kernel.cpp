@@ -32,7 +32,8 @@ inline Real factor(Real dx, Real dy, Real dz, Real ux, Real uy, Real uz, Real k,
 constexpr int slice = 128;
 
 // n <= slice springs of a run from the given one on. With both ends `apart` (offset >= n) forces go straight to
-// both; else the ends b have to wait until all ends a are done. `mixed`: with rest lengths and damping times of their own.
+// both; else the ends b have to wait until all ends a are done. `mixed`: with rest lengths and damping times of their
+// own.
 template <class Real, bool damped, bool mixed, bool apart>
 inline void runSlice(const SpringRunArgs<Real>& s, int first, int n) {
     const long stride = s.stride, windowStride = s.windowStride, offset = s.offset;
@@ -55,8 +56,8 @@ inline void runSlice(const SpringRunArgs<Real>& s, int first, int n) {
             uy = vb[i] - va[i];
             uz = wb[i] - wa[i];
         }
-        const Real pull = factor<Real, damped>(dx, dy, dz, ux, uy, uz, k[i], mixed ? rests[i] : rest,
-                                               mixed ? taus[i] : tau);
+        const Real pull =
+            factor<Real, damped>(dx, dy, dz, ux, uy, uz, k[i], mixed ? rests[i] : rest, mixed ? taus[i] : tau);
         const Real fx = pull * dx, fy = pull * dy, fz = pull * dz;
         fxa[i] += fx;
         fya[i] += fy;

@@ -23,10 +23,8 @@ SpringKernels<float> springKernels() {
     switch (core::instructionSet()) {
         case core::InstructionSet::avx512:
             return {avx512::springRunFloat, avx512::springListFloat, avx512::accelerateFloat};
-        case core::InstructionSet::avx2:
-            return {avx2::springRunFloat, avx2::springListFloat, avx2::accelerateFloat};
-        case core::InstructionSet::sse2:
-            break;
+        case core::InstructionSet::avx2: return {avx2::springRunFloat, avx2::springListFloat, avx2::accelerateFloat};
+        case core::InstructionSet::sse2: break;
     }
     return {sse2::springRunFloat, sse2::springListFloat, sse2::accelerateFloat};
 }
@@ -36,10 +34,8 @@ SpringKernels<double> springKernels() {
     switch (core::instructionSet()) {
         case core::InstructionSet::avx512:
             return {avx512::springRunDouble, avx512::springListDouble, avx512::accelerateDouble};
-        case core::InstructionSet::avx2:
-            return {avx2::springRunDouble, avx2::springListDouble, avx2::accelerateDouble};
-        case core::InstructionSet::sse2:
-            break;
+        case core::InstructionSet::avx2: return {avx2::springRunDouble, avx2::springListDouble, avx2::accelerateDouble};
+        case core::InstructionSet::sse2: break;
     }
     return {sse2::springRunDouble, sse2::springListDouble, sse2::accelerateDouble};
 }

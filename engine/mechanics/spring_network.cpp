@@ -11,7 +11,7 @@ namespace {
 
 constexpr int blockPoints = 256;   // a block's springs and points fit the first-level cache
 constexpr int chunkPoints = 8192;  // at least: enough work for a thread
-constexpr int mostChunks = 8;       // each has a window of its own, which costs memory traffic
+constexpr int mostChunks = 8;      // each has a window of its own, which costs memory traffic
 constexpr int shortestRun = 8;     // below that, single springs are as fast
 constexpr int longestBridge = 3;   // missing springs that a run steps over with stiffness zero
 
@@ -130,7 +130,9 @@ class Builder {
         return to;
     }
 
-    static std::size_t gap(const Sorted& one, const Sorted& next) { return static_cast<std::size_t>(next.a - one.a - 1); }
+    static std::size_t gap(const Sorted& one, const Sorted& next) {
+        return static_cast<std::size_t>(next.a - one.a - 1);
+    }
 
     void addSingle(const Sorted& s) {
         network_.singles.a.push_back(s.a);
@@ -141,7 +143,7 @@ class Builder {
     SpringNetwork<Real>& network_;
     int points_;
     std::vector<std::vector<Sorted>> sorted_;  // (blocks)
-    std::vector<int> singles_;  // which springs they are
+    std::vector<int> singles_;                 // which springs they are
 };
 
 }  // namespace
@@ -161,7 +163,8 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
     std::vector<Real> k, lengths, taus;
     const int* next = order.data();
     for (SpringRun<Real>& run : runs) {
-        for (std::vector<Real>* table : {&k, &lengths, &taus}) table->assign(static_cast<std::size_t>(run.count), Real(0));
+        for (std::vector<Real>* table : {&k, &lengths, &taus})
+            table->assign(static_cast<std::size_t>(run.count), Real(0));
         bool isMixed = false;
         for (std::size_t i = 0; i < k.size(); ++i, ++next) {
             if (*next < 0) continue;

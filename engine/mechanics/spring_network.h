@@ -38,7 +38,7 @@ struct SpringRun {
     int a;       // first point
     int offset;  // b - a
     int count;
-    int table;  // where its stiffnesses begin in `stiffness`
+    int table;             // where its stiffnesses begin in `stiffness`
     Real restLength, tau;  // of all its springs …
     int mixed;             // … if < 0; else where their rest lengths begin in `mixed`, followed by their taus
 };

@@ -11,12 +11,9 @@ namespace {
 template <class Real>
 auto productKernel() -> void (*)(const ProductRun<Real>&) {
     switch (core::instructionSet()) {
-        case core::InstructionSet::avx512:
-            return avx512::addProducts;
-        case core::InstructionSet::avx2:
-            return avx2::addProducts;
-        case core::InstructionSet::sse2:
-            break;
+        case core::InstructionSet::avx512: return avx512::addProducts;
+        case core::InstructionSet::avx2: return avx2::addProducts;
+        case core::InstructionSet::sse2: break;
     }
     return sse2::addProducts;
 }

@@ -39,8 +39,7 @@ double largestExtra(const NetworkView& network, std::span<const double> extra) {
     return largest;
 }
 
-FrequencyBound overSprings(const NetworkView& network, std::span<const double> atPoint,
-                           std::span<const double> extra) {
+FrequencyBound overSprings(const NetworkView& network, std::span<const double> atPoint, std::span<const double> extra) {
     FrequencyBound bound;
     double largest = 0;
     for (std::size_t s = 0; s < network.springs.size(); ++s) {
@@ -57,9 +56,9 @@ FrequencyBound overSprings(const NetworkView& network, std::span<const double> a
     return bound;
 }
 
-// The last component of the normalised eigenvector s of a symmetric tridiagonal matrix (diagonal alpha, beside it beta) for
-// its eigenvalue theta. A recurrence from one end drowns in rounding where s decays; two pivot sequences of T - θI, from
-// both ends to where s is largest, do not (twisted factorisation, Dhillon and Parlett 2004).
+// The last component of the normalised eigenvector s of a symmetric tridiagonal matrix (diagonal alpha, beside it beta)
+// for its eigenvalue theta. A recurrence from one end drowns in rounding where s decays; two pivot sequences of T - θI,
+// from both ends to where s is largest, do not (twisted factorisation, Dhillon and Parlett 2004).
 double lastComponent(const std::vector<double>& alpha, const std::vector<double>& beta, double theta) {
     const std::size_t n = alpha.size();
     const auto safe = [](double pivot) { return pivot == 0.0 ? 1e-300 : pivot; };

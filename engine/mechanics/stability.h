@@ -16,8 +16,8 @@ struct NetworkView {
 };
 
 struct FrequencyBound {
-    double omega = 0;  // [1/s]
-    int spring = -1;   // the spring that sets the springs' part, -1 without springs
+    double omega = 0;       // [1/s]
+    int spring = -1;        // the spring that sets the springs' part, -1 without springs
     bool bySprings = true;  // false: what generators add is more than the springs' part
 };
 

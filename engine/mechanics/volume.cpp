@@ -16,12 +16,9 @@ using Corners = std::array<dvec3, 4>;
 template <class Real>
 auto volumeKernel() -> void (*)(const VolumeBatch<Real>&) {
     switch (core::instructionSet()) {
-        case core::InstructionSet::avx512:
-            return avx512::addVolume;
-        case core::InstructionSet::avx2:
-            return avx2::addVolume;
-        case core::InstructionSet::sse2:
-            break;
+        case core::InstructionSet::avx512: return avx512::addVolume;
+        case core::InstructionSet::avx2: return avx2::addVolume;
+        case core::InstructionSet::sse2: break;
     }
     return sse2::addVolume;
 }

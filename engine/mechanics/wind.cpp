@@ -12,12 +12,9 @@ namespace {
 template <class Real>
 auto windKernel() -> void (*)(const WindBatch<Real>&) {
     switch (core::instructionSet()) {
-        case core::InstructionSet::avx512:
-            return avx512::addWind;
-        case core::InstructionSet::avx2:
-            return avx2::addWind;
-        case core::InstructionSet::sse2:
-            break;
+        case core::InstructionSet::avx512: return avx512::addWind;
+        case core::InstructionSet::avx2: return avx2::addWind;
+        case core::InstructionSet::sse2: break;
     }
     return sse2::addWind;
 }

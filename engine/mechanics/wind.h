@@ -8,10 +8,10 @@
 // ∝ A sin α, the area that the flow sees, and lift, at a right angle to u towards n, is ½ρ A C_L u² sin α cos α.
 // Both vanish edge-on, where cloth spends its time and where a lift C_L |u|² n would jump with the sign of n.
 //
-// Smoothness. Edge-on, at u·n = 0, the drag's |u·n| has a kink: F is continuous and its slope jumps by ρA C_D |u|. A step
-// across it is off by O(h²) in v whatever the method, so that methods of order 4 fall to 2 once triangles turn through
-// the flow or are carried along by it; methods of order 1 and 2 keep theirs. The lift is smooth wherever u is not zero,
-// and gusts are smooth enough for order 4 (noise.h).
+// Smoothness. Edge-on, at u·n = 0, the drag's |u·n| has a kink: F is continuous and its slope jumps by ρA C_D |u|. A
+// step across it is off by O(h²) in v whatever the method, so that methods of order 4 fall to 2 once triangles turn
+// through the flow or are carried along by it; methods of order 1 and 2 keep theirs. The lift is smooth wherever u is
+// not zero, and gusts are smooth enough for order 4 (noise.h).
 #pragma once
 
 #include <array>

@@ -16,7 +16,8 @@ std::unique_ptr<FirstOrderMethod<Real>> makeExplicitEuler() {
 // the first is τ + γ/ω², and an overdamped mode decays at most at the rate ω (ζ + √(ζ²-1)). Springs under tension add
 // motion that no dashpot damps; then the limit is too high.
 double explicitEulerLargestStep(const FastestMode& mode) {
-    return explicitLimit(mode, 2.0, [](double zeta) { return zeta < 1.0 ? 2.0 * zeta : overdampedLimit(zeta, 2.0); });
+    return explicitLimit(
+        mode, 2.0, [](double zeta) { return zeta < 1.0 ? 2.0 * zeta : overdampedLimit(zeta, 2.0); });
 }
 
 }  // namespace

@@ -123,10 +123,12 @@ class ImplicitEuler final : public Method<Real> {
         std::fill(inverse_.begin(), inverse_.end(), Real(0));
         now.linear.addDiagonal(inverse_.data());
         const Real step = static_cast<Real>(h);
-        forEach(layout, [&](std::size_t at, std::size_t i) {
-            const Real own = mass[i] * (Real(1) + step * drag[i]);
-            inverse_[at] = inverseMass[i] > Real(0) ? Real(1) / (inverse_[at] + own) : Real(0);
-        });
+        forEach(
+            layout,
+            [&](std::size_t at, std::size_t i) {
+                const Real own = mass[i] * (Real(1) + step * drag[i]);
+                inverse_[at] = inverseMass[i] > Real(0) ? Real(1) / (inverse_[at] + own) : Real(0);
+            });
         const auto multiply = [&](const Real* in, Real* out) {
             std::fill_n(out, layout.size(), Real(0));
             forEach(layout,

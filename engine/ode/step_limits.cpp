@@ -43,13 +43,15 @@ double slowGrowthStep(double omega, double drag) {
 
 // ζ < 1: the root of z³/4 - ζ z² + 2ζ² z - 2ζ = 0, at most 2.2; ζ >= 1 as explicit Euler.
 double heunLargestStep(const FastestMode& mode) {
-    return explicitLimit(mode, 2.0, [](double zeta) {
-        if (zeta >= 1.0) return overdampedLimit(zeta, 2.0);
-        if (zeta <= 0.0) return 0.0;
-        return bisect(0.0, 2.5, [&](double z) {
-            return 0.25 * z * z * z - zeta * z * z + 2.0 * zeta * zeta * z - 2.0 * zeta < 0.0;
+    return explicitLimit(
+        mode, 2.0,
+        [](double zeta) {
+            if (zeta >= 1.0) return overdampedLimit(zeta, 2.0);
+            if (zeta <= 0.0) return 0.0;
+            return bisect(
+                0.0, 2.5,
+                [&](double z) { return 0.25 * z * z * z - zeta * z * z + 2.0 * zeta * zeta * z - 2.0 * zeta < 0.0; });
         });
-    });
 }
 
 // The stable step, but at least that at which the fastest motion, undamped, grows slowly, unless it is overdamped; and

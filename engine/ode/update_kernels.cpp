@@ -17,12 +17,9 @@ TAUT_DECLARE(avx512)
 template <>
 UpdateKernels<float> updateKernels() {
     switch (core::instructionSet()) {
-        case core::InstructionSet::avx512:
-            return {avx512::leapfrogFloat};
-        case core::InstructionSet::avx2:
-            return {avx2::leapfrogFloat};
-        case core::InstructionSet::sse2:
-            break;
+        case core::InstructionSet::avx512: return {avx512::leapfrogFloat};
+        case core::InstructionSet::avx2: return {avx2::leapfrogFloat};
+        case core::InstructionSet::sse2: break;
     }
     return {sse2::leapfrogFloat};
 }
@@ -30,12 +27,9 @@ UpdateKernels<float> updateKernels() {
 template <>
 UpdateKernels<double> updateKernels() {
     switch (core::instructionSet()) {
-        case core::InstructionSet::avx512:
-            return {avx512::leapfrogDouble};
-        case core::InstructionSet::avx2:
-            return {avx2::leapfrogDouble};
-        case core::InstructionSet::sse2:
-            break;
+        case core::InstructionSet::avx512: return {avx512::leapfrogDouble};
+        case core::InstructionSet::avx2: return {avx2::leapfrogDouble};
+        case core::InstructionSet::sse2: break;
     }
     return {sse2::leapfrogDouble};
 }

@@ -32,9 +32,8 @@ Json rendererJson(const std::optional<render::RendererInfo>& info) {
 
 Json seedsJson(const world::SceneSpec& spec) {
     Json seeds = Json::object();
-    for (const world::BodySpec& body : spec.bodies) {
+    for (const world::BodySpec& body : spec.bodies)
         if (body.jitter > 0.0) seeds[body.fullName() + ".seed"] = body.seed;
-    }
     for (const world::WindSpec& wind : spec.forces.of<world::WindSpec>())
         if (wind.gustAmplitude > 0.0) seeds[wind.fullName() + ".gust.seed"] = wind.gustSeed;
     return seeds;

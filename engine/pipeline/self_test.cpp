@@ -59,7 +59,7 @@ void testRenderer(render::Renderer& renderer) {
     const render::RendererInfo info = renderer.info();
     const auto fail = [&](const std::string& what) {
         throw core::Error(core::ErrorKind::noRenderer, fmt::format("{}: {} ({}, {}, OpenGL {})", info.backend, what,
-                                                                  info.vendor, info.renderer, info.version));
+                                                                   info.vendor, info.renderer, info.version));
     };
     if (!picture.isWhole()) fail("drew no picture");
     const bool blank = std::all_of(picture.rgb.begin(), picture.rgb.end(),

@@ -5,9 +5,9 @@
 #include <system_error>
 
 #include "taut/core/error.h"
+#include "taut/core/whole_file.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"
-#include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/regression/judging.h"
@@ -62,7 +62,8 @@ bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const 
     const auto known = goldens.pictures.find(key);
     const std::string hash = hexadecimal(played.stateHash);
     const bool isKnown = known != goldens.pictures.end();
-    const bool hasState = !played.request.restart || (isKnown && core::isThere(stored) && known->second.stateHash == hash);
+    const bool hasState =
+        !played.request.restart || (isKnown && core::isThere(stored) && known->second.stateHash == hash);
     if (isKnown && hasState && hasSamePicture(file, played.picture, manifest.tolerance)) {
         known->second.stateHash = hash;  // the picture stays and so does its reason; its state may have changed unseen
         return false;

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "taut/core/error.h"
+#include "taut/core/whole_file.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"
-#include "taut/core/whole_file.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/tape_compare.h"
 

@@ -31,8 +31,8 @@ std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder) 
 
 [[noreturn]] void refuse(const world::SceneSpec& spec, const world::Source& source, const std::string& what) {
     throw core::Error(core::ErrorKind::badContent, source.line > 0 ? fmt::format("{}:{}:{}: error: {}", source.file,
-                                                                                source.line, source.column, what)
-                                                                  : fmt::format("{}: {}", spec.file, what));
+                                                                                 source.line, source.column, what)
+                                                                   : fmt::format("{}: {}", spec.file, what));
 }
 
 }  // namespace

@@ -81,16 +81,12 @@ std::optional<TapeDifference> firstDifference(const Tape& a, const Tape& b) {
 
 std::string describe(const TapeDifference& d) {
     switch (d.fault) {
-        case TapeFault::rates:
-            return "their ticks differ in length, so no state can be compared";
-        case TapeFault::cast:
-            return fmt::format("{}: {} is there in only one of them", place(d), d.body);
+        case TapeFault::rates: return "their ticks differ in length, so no state can be compared";
+        case TapeFault::cast: return fmt::format("{}: {} is there in only one of them", place(d), d.body);
         case TapeFault::chain:
             return fmt::format("{}: the hash of the chain differs although that of every body agrees", place(d));
-        case TapeFault::length:
-            return fmt::format("{} is there in only one of them; up to it they agree", place(d));
-        case TapeFault::state:
-            break;
+        case TapeFault::length: return fmt::format("{} is there in only one of them; up to it they agree", place(d));
+        case TapeFault::state: break;
     }
     std::string text = fmt::format("{}: {} differs first", place(d), d.body);
     if (d.point >= 0)

@@ -32,9 +32,8 @@ class EglContext final : public Context {
                                            EGL_NONE};
         EGLConfig chosen = nullptr;
         EGLint count = 0;
-        if (eglChooseConfig(display_, config.data(), &chosen, 1, &count) != EGL_TRUE || count == 0) {
+        if (eglChooseConfig(display_, config.data(), &chosen, 1, &count) != EGL_TRUE || count == 0)
             failEgl("eglChooseConfig");
-        }
         const std::array<EGLint, 7> wanted{
             EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};

@@ -70,11 +70,10 @@ void EdgePass::drawCoverage(const view::FrameView& view, std::span<const DrawIte
         const view::Surface& surface = *items[i].surface;
         surfaces_.set("transform", surface.transform);
         surfaces_.set("mark", itemMark(i));
-        if (surface.twoSided) {
+        if (surface.twoSided)
             gl_->Disable(GL_CULL_FACE);
-        } else {
+        else
             gl_->Enable(GL_CULL_FACE);
-        }
         meshes.drawShape(items[i]);
     }
     gl_->Disable(GL_CULL_FACE);

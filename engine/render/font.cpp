@@ -42,8 +42,8 @@ std::vector<unsigned char> bytesOf(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream || !std::filesystem::is_regular_file(file, ignored)) {
         throw core::Error(core::ErrorKind::inputOutput, "the font " + file.string() +
-                                                           " cannot be read; name another with TAUT_FONT, or install "
-                                                           "the package fonts-dejavu-core and name none");
+                                                            " cannot be read; name another with TAUT_FONT, or install "
+                                                            "the package fonts-dejavu-core and name none");
     }
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
@@ -52,9 +52,8 @@ std::vector<unsigned char> bytesOf(const std::filesystem::path& file) {
 
 std::filesystem::path defaultFont() {
     std::error_code ignored;
-    for (const char* place : places) {
+    for (const char* place : places)
         if (std::filesystem::is_regular_file(place, ignored)) return place;
-    }
     return {};
 }
 
@@ -70,9 +69,8 @@ Font::Font(const std::filesystem::path& file) : impl_(std::make_unique<Impl>()) 
     impl_->bytes = bytesOf(path);
     constexpr std::size_t header = 12;  // [bytes] of the table directory, without which there is nothing to look at
     const int start = impl_->bytes.size() < header ? -1 : stbtt_GetFontOffsetForIndex(impl_->bytes.data(), 0);
-    if (start < 0 || stbtt_InitFont(&impl_->info, impl_->bytes.data(), start) == 0) {
+    if (start < 0 || stbtt_InitFont(&impl_->info, impl_->bytes.data(), start) == 0)
         throw core::Error(core::ErrorKind::badContent, path.string() + " is no TrueType font");
-    }
 }
 
 Font::~Font() = default;

@@ -44,11 +44,9 @@ GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightB
     const std::vector<Footprint> footprints = footprintsOf(casters, box, height, softness);
     GroundMesh mesh;
     const auto place = [&](int i) { return i < 0 ? -gridLine(-i) : gridLine(i); };
-    for (int row = -halfCells; row <= halfCells; ++row) {
-        for (int column = -halfCells; column <= halfCells; ++column) {
+    for (int row = -halfCells; row <= halfCells; ++row)
+        for (int column = -halfCells; column <= halfCells; ++column)
             mesh.positions.emplace_back(middle.x + radius * place(column), height, middle.z + radius * place(row));
-        }
-    }
     for (int row = -halfCells; row < halfCells; ++row) {
         for (int column = -halfCells; column < halfCells; ++column) {
             // Cells wholly outside the disc are faded away anyway.

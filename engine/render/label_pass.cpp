@@ -99,9 +99,8 @@ void LabelPass::draw(const view::FrameView& view, const glm::mat4& viewProjectio
         const TextPicture text = painter_->picture(label.text, std::min(pixels, largestType));
         const std::optional<PixelPlace> pen = penOf(label, viewProjection, size, text.advance);
         if (!pen) continue;
-        if (label.plate > 0.0F && text.width > 0) {
+        if (label.plate > 0.0F && text.width > 0)
             drawPlate(canvas, *pen, text.advance, pixels, std::min(label.plate, 1.0F));
-        }
         drawText(canvas, *pen, text, label.colour);
     }
 }

@@ -42,9 +42,8 @@ void Bounds::include(glm::vec3 point) {
 
 std::array<glm::vec3, 8> Bounds::corners() const {
     std::array<glm::vec3, 8> result{};
-    for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < 8; ++i)
         result[i] = {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
-    }
     return result;
 }
 
@@ -66,9 +65,8 @@ LightBox lightBox(const view::FrameView& view, std::span<const Bounds> casters, 
 
     Bounds across;
     for (const Bounds& caster : casters) {
-        if (!caster.empty) {
+        if (!caster.empty)
             for (const glm::vec3& corner : caster.corners()) across.include(box.toLight * corner);
-        }
     }
     if (across.empty) across.include(box.toLight * view.camera.target);
     const Bounds seen = seenPart(view, box.toLight, aspect);
@@ -90,9 +88,7 @@ LightBox lightBox(const view::FrameView& view, std::span<const Bounds> casters, 
 
     glm::mat4 toMap(1.0F);
     const glm::vec3 scale(1.0F / box.size.x, 1.0F / box.size.y, -1.0F / box.size.z);
-    for (int column = 0; column < 3; ++column) {
-        toMap[column] = glm::vec4(scale * box.toLight[column], 0.0F);
-    }
+    for (int column = 0; column < 3; ++column) toMap[column] = glm::vec4(scale * box.toLight[column], 0.0F);
     toMap[3] = glm::vec4(glm::vec3(0.5F) - scale * middle, 1.0F);
     box.toMap = toMap;
     return box;

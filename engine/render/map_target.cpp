@@ -27,9 +27,8 @@ MapTarget::MapTarget(const Gl& gl, int edge, GLenum format, GLenum filter, float
         gl.DrawBuffer(GL_NONE);
         gl.ReadBuffer(GL_NONE);
     }
-    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw core::Error(core::ErrorKind::noRenderer, "no renderer: GL cannot draw into the maps that shadows need");
-    }
 }
 
 void MapTarget::bind(const Gl& gl) const {

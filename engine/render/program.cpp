@@ -108,8 +108,9 @@ GlObject ShaderFolder::compiled(const std::string& file, GLenum type,
     if (good == GL_TRUE) return shader;
     std::array<char, 4096> log{};
     gl_->GetShaderInfoLog(shader.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw core::Error(core::ErrorKind::badContent, "shader " + (folder_ / file).string() + " does not compile (source " +
-                                                      listed(files) + "):\n" + log.data());
+    throw core::Error(
+        core::ErrorKind::badContent,
+        "shader " + (folder_ / file).string() + " does not compile (source " + listed(files) + "):\n" + log.data());
 }
 
 Program ShaderFolder::program(const std::string& vertexFile, const std::string& fragmentFile,
@@ -128,7 +129,7 @@ Program ShaderFolder::program(const std::string& vertexFile, const std::string& 
     std::array<char, 4096> log{};
     gl_->GetProgramInfoLog(program.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
     throw core::Error(core::ErrorKind::badContent, "shaders " + (folder_ / vertexFile).string() + " and " +
-                                                      fragmentFile + " do not fit together:\n" + log.data());
+                                                       fragmentFile + " do not fit together:\n" + log.data());
 }
 
 }  // namespace taut::render

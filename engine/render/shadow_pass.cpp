@@ -55,11 +55,10 @@ void ShadowPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, 
     depth_.use();
     for (const DrawItem& item : items) {
         // Of closed things the sides towards the light are enough.
-        if (item.surface->twoSided) {
+        if (item.surface->twoSided)
             gl_->Disable(GL_CULL_FACE);
-        } else {
+        else
             gl_->Enable(GL_CULL_FACE);
-        }
         depth_.set("toMap", box.toMap * item.surface->transform);
         meshes.drawShape(item);
     }

@@ -39,11 +39,10 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
         program.set("dulled", surface.dulled);
         program.set("mark", itemMark(i));
         if (finish.pattern == view::Pattern::image) textures_.bind(finish.texture);
-        if (surface.twoSided) {
+        if (surface.twoSided)
             gl_->Disable(GL_CULL_FACE);
-        } else {
+        else
             gl_->Enable(GL_CULL_FACE);
-        }
         meshes.draw(item);
     }
     gl_->Disable(GL_CULL_FACE);

@@ -111,8 +111,7 @@ ShadedPixels Targets::shaded(const PixelBox& part) const {
     ShadedPixels pixels{part, std::vector<std::uint32_t>(count), std::vector<float>(count)};
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                    pixels.colour.data());
+    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.colour.data());
     gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, pixels.depth.data());
     return pixels;
 }

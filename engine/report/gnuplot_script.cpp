@@ -13,14 +13,13 @@ namespace {
 // Within double quotes gnuplot takes a backtick for a command to run, and a backslash for an escape.
 std::string quoted(const std::string& text) {
     std::string out = "\"";
-    for (const char c : text) {
+    for (const char c : text)
         if (c == '`')
             out += "\\140";
         else if (c == '"' || c == '\\')
             out += std::string("\\") + c;
         else
             out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
     return out + "\"";
 }
 

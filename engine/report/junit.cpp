@@ -49,17 +49,10 @@ std::string escaped(const std::string& text) {
             continue;
         }
         switch (text[at]) {
-            case '\n':
-                out += "&#10;";
-                break;
-            case '\r':
-                out += "&#13;";
-                break;
-            case '\t':
-                out += "&#9;";
-                break;
-            default:
-                out += htmlText(text.substr(at, length));
+            case '\n': out += "&#10;"; break;
+            case '\r': out += "&#13;"; break;
+            case '\t': out += "&#9;"; break;
+            default: out += htmlText(text.substr(at, length));
         }
         at += length;
     }
@@ -85,7 +78,8 @@ bool isFailure(Verdict verdict) {
 }
 
 std::string counts(const std::vector<Case>& cases, double seconds) {
-    const auto failures = std::count_if(cases.begin(), cases.end(), [](const Case& c) { return isFailure(c.verdict); });
+    const auto failures = std::count_if(
+        cases.begin(), cases.end(), [](const Case& c) { return isFailure(c.verdict); });
     const auto skipped =
         std::count_if(cases.begin(), cases.end(), [](const Case& c) { return c.verdict == Verdict::skipped; });
     return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"", cases.size(),

@@ -13,7 +13,7 @@ namespace {
 // As a JavaScript string within a script element, where "</" would end the element.
 std::string scriptText(const std::string& text) {
     std::string out = "\"";
-    for (const char c : text) {
+    for (const char c : text)
         if (c == '"' || c == '\\')
             out += std::string("\\") + c;
         else if (c == '\n')
@@ -22,7 +22,6 @@ std::string scriptText(const std::string& text) {
             out += fmt::format("\\u{:04x}", static_cast<int>(c));
         else
             out += c;
-    }
     return out + "\"";
 }
 
@@ -75,9 +74,10 @@ std::string frameJson(const TestPicture& picture) {
     return fmt::format(
         "{{\"key\":{},\"frame\":{},\"label\":{},\"verdict\":\"{}\",\"reason\":{},\"figures\":{},\"why\":{},"
         "\"madeBy\":{},\"same\":{},\"golden\":\"{}\",\"actual\":\"{}\",\"difference\":\"{}\"}}",
-        scriptText(picture.key), picture.frame, scriptText(fmt::format("frame {}, {:.3f} s", picture.frame, picture.time)),
-        nameOf(picture.verdict), scriptText(picture.reason), scriptText(picture.figures), scriptText(picture.why),
-        scriptText(picture.madeBy), picture.isSame, base64(picture.golden), picture.isSame ? "" : base64(picture.actual),
+        scriptText(picture.key), picture.frame,
+        scriptText(fmt::format("frame {}, {:.3f} s", picture.frame, picture.time)), nameOf(picture.verdict),
+        scriptText(picture.reason), scriptText(picture.figures), scriptText(picture.why), scriptText(picture.madeBy),
+        picture.isSame, base64(picture.golden), picture.isSame ? "" : base64(picture.actual),
         base64(picture.difference));
 }
 
@@ -197,23 +197,12 @@ std::string join(const std::vector<std::string>& parts) {
 std::string htmlText(const std::string& text) {
     std::string out;
     for (const char c : text) switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\'':
-                out += "&#39;";
-                break;
-            default:
-                out += c;
+            case '&': out += "&amp;"; break;
+            case '<': out += "&lt;"; break;
+            case '>': out += "&gt;"; break;
+            case '"': out += "&quot;"; break;
+            case '\'': out += "&#39;"; break;
+            default: out += c;
         }
     return out;
 }

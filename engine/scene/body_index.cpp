@@ -25,9 +25,8 @@ std::string_view kindOf(std::string_view title) {
 bool fits(std::string_view pattern, const BodyEntry& body) {
     if (kindOf(pattern) != body.kind) return false;
     if (body.copies == 1) return core::matches(pattern, body.title());
-    for (int i = 0; i < body.copies; ++i) {
+    for (int i = 0; i < body.copies; ++i)
         if (core::matches(pattern, fmt::format("{}.{}", body.title(), i))) return true;
-    }
     return false;
 }
 
@@ -67,9 +66,8 @@ std::optional<TargetFault> uvFault(const BodyEntry& body, const std::string& sel
 }
 
 std::optional<TargetFault> percentFault(const BodyEntry& body, const std::string& selector) {
-    if (!isShare(std::string_view(selector).substr(0, selector.size() - 1), 100.0)) {
+    if (!isShare(std::string_view(selector).substr(0, selector.size() - 1), 100.0))
         return TargetFault{fmt::format("\"{}\" is not a place along a rope", selector), "write 0% … 100%"};
-    }
     if (body.outline.isLine) return std::nullopt;
     return TargetFault{fmt::format("{} is no rope: it has no {}", body.title(), selector), ""};
 }
@@ -78,8 +76,8 @@ std::optional<TargetFault> selectorFaultIn(const BodyEntry& body, const std::str
     if (selector.starts_with('#')) return indexFault(body, selector);
     if (selector.starts_with('(')) return uvFault(body, selector);
     if (selector.ends_with('%')) return percentFault(body, selector);
-    const bool isGroup =
-        selector == "all" || std::find(body.outline.groups.begin(), body.outline.groups.end(), selector) != body.outline.groups.end();
+    const bool isGroup = selector == "all" || std::find(body.outline.groups.begin(), body.outline.groups.end(),
+                                                        selector) != body.outline.groups.end();
     if (isGroup || body.isFaulty) return std::nullopt;
     std::vector<std::string> groups = body.outline.groups;
     groups.push_back("all");
@@ -117,9 +115,8 @@ std::optional<TargetFault> BodyIndex::pointsFault(const std::string& target) con
                            fmt::format("write {}@all or another selector", target)};
     }
     const std::string selector = target.substr(at + 1);
-    for (const BodyEntry* body : matches(target)) {
+    for (const BodyEntry* body : matches(target))
         if (auto fault = selectorFaultIn(*body, selector)) return fault;
-    }
     return std::nullopt;
 }
 
@@ -143,17 +140,15 @@ std::optional<TargetFault> BodyIndex::surfaceFault(const std::string& target) co
 }
 
 std::optional<TargetFault> BodyIndex::selectorFault(const std::string& title, const std::string& selector) const {
-    for (const BodyEntry& body : bodies_) {
+    for (const BodyEntry& body : bodies_)
         if (body.title() == title) return selectorFaultIn(body, selector);
-    }
     return std::nullopt;
 }
 
 std::vector<const BodyEntry*> BodyIndex::matches(const std::string& target) const {
     std::vector<const BodyEntry*> found;
-    for (const BodyEntry& body : bodies_) {
+    for (const BodyEntry& body : bodies_)
         if (fits(withoutSelector(target), body)) found.push_back(&body);
-    }
     return found;
 }
 
@@ -173,9 +168,8 @@ std::vector<std::string> BodyIndex::names(const std::string& target) const {
 std::optional<TargetFault> BodyIndex::bodiesFault(const std::string& target) const {
     const std::string title(withoutSelector(target));
     const std::string kind(kindOf(title));
-    if (kind.size() == title.size()) {
+    if (kind.size() == title.size())
         return TargetFault{fmt::format("\"{}\" names no body", target), "write KIND.NAME, e.g. cloth.flag"};
-    }
     if (std::find(kinds_.begin(), kinds_.end(), kind) == kinds_.end()) {
         std::string remedy = suggestion(kind, kinds_);
         if (remedy.empty()) remedy = "bodies are " + joined(kinds_);

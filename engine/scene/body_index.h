@@ -19,10 +19,10 @@ struct TargetFault {
 
 // What is known of one body without building it.
 struct BodyEntry {
-    std::string kind, name;           // "cloth", "flag"
-    int copies = 1;                   // more than one: called flag.0, flag.1, …
-    bool isFaulty = false;            // its numbers are not to be trusted
-    world::BodyOutline outline;       // of one copy
+    std::string kind, name;      // "cloth", "flag"
+    int copies = 1;              // more than one: called flag.0, flag.1, …
+    bool isFaulty = false;       // its numbers are not to be trusted
+    world::BodyOutline outline;  // of one copy
     world::SolverOverride solver;
 
     std::string title() const { return kind + "." + name; }

@@ -41,7 +41,8 @@ Node nodeOf(const toml::node& source, int origin) {
     if (const toml::table* table = source.as_table()) {
         node.kind = NodeKind::table;
         for (const auto& [key, value] : *table) {
-            node.members.push_back({std::string(key.str()), placeOf(key.source().begin, origin), nodeOf(value, origin)});
+            node.members.push_back(
+                {std::string(key.str()), placeOf(key.source().begin, origin), nodeOf(value, origin)});
         }
         std::stable_sort(node.members.begin(), node.members.end(), isBefore);
     } else if (const toml::array* list = source.as_array()) {
@@ -137,9 +138,8 @@ class Scanner {
 // The line at which toml++ stumbles: the first lines up to it are the fewest that make it stumble.
 int stumbleLine(std::string_view text) {
     std::vector<std::size_t> ends;
-    for (std::size_t i = 0; i < text.size(); ++i) {
+    for (std::size_t i = 0; i < text.size(); ++i)
         if (text[i] == '\n') ends.push_back(i + 1);
-    }
     ends.push_back(text.size());
     const auto doesStumble = [&](std::size_t end) {
         try {

@@ -1,7 +1,7 @@
 // The field table, part one: settings of the whole scene.
 #include "taut/fields/field_list.h"
-#include "taut/scene/sections.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/sections.h"
 
 namespace taut::scene {
 
@@ -17,17 +17,15 @@ constexpr auto picture = Affects::picture;
 void checkView(const CheckInput& input, const Node& table, Place place, const dvec3& eye, const dvec3& target) {
     const Member* member = table.find("eye");
     const Place where = member != nullptr ? member->value.place : place;
-    if (eye == target) {
+    if (eye == target)
         input.problems.addError(where, "eye and target are the same point");
-    } else if (eye.x == target.x && eye.z == target.z) {
+    else if (eye.x == target.x && eye.z == target.z)
         input.problems.addError(where, "the camera looks straight up or down", "move eye a little aside");
-    }
 }
 
 void checkCamera(const CheckInput& input, const CameraSpec& camera) {
-    if (camera.orbitPeriod && *camera.orbitPeriod == 0.0) {
+    if (camera.orbitPeriod && *camera.orbitPeriod == 0.0)
         input.problems.addError(input.at("orbit_period_s"), "orbit_period_s must not be 0");
-    }
     if (camera.keys.empty()) checkView(input, input.table, input.place, camera.eye, camera.target);
     for (std::size_t i = 0; i < camera.keys.size(); ++i) {
         const Node& item = input.table.find("keys")->value.items[i];

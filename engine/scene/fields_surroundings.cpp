@@ -6,8 +6,8 @@
 
 #include "taut/collision/shape_table.h"
 #include "taut/fields/field_list.h"
-#include "taut/scene/sections.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/sections.h"
 
 namespace taut::scene {
 
@@ -89,9 +89,8 @@ Section partSection(const collision::ShapeKinds& shapes) {
 void checkCollider(const CheckInput& input, ColliderSpec& collider) {
     checkAscending(input);
     collider.normal /= std::sqrt(glm::dot(collider.normal, collider.normal));
-    if (input.isClean && collider.shape == "compound" && collider.parts.empty()) {
+    if (input.isClean && collider.shape == "compound" && collider.parts.empty())
         input.problems.addError(input.at("parts"), "a compound needs parts");
-    }
     if (input.table.find("keys") == nullptr) return;
     for (const char* key : {"position", "rotation_deg"}) {
         const Member* member = input.table.find(key);

@@ -52,7 +52,8 @@ void checkSize(const ReadScene& scene, double limit, Problems& problems) {
 
 template <class Element>
 void sortByName(std::vector<Element>& elements) {
-    std::sort(elements.begin(), elements.end(), [](const Element& a, const Element& b) { return a.name < b.name; });
+    std::sort(
+        elements.begin(), elements.end(), [](const Element& a, const Element& b) { return a.name < b.name; });
 }
 
 // By kind in the order of the table, then by name.
@@ -114,9 +115,8 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     Node root = treeOf(text, 0, problems);
     const std::filesystem::path base = layOnBase(root, fileName, options, problems);
     const std::vector<SceneSection> sections = sceneSections(kinds);
-    for (std::size_t i = 0; i < options.overrides.size(); ++i) {
+    for (std::size_t i = 0; i < options.overrides.size(); ++i)
         applyOverride(options.overrides[i], static_cast<int>(i) + 1, sections, root, problems);
-    }
     if (const Member* member = root.find("scene"); member != nullptr && member->value.place.origin > 0)
         problems.addError(member->value.place, "the scene that a file builds on cannot be set");
     ReadScene scene = readScene(root, sections, fileName, problems);

@@ -27,10 +27,9 @@ bool isFile(const path& file) {
 // Names of the scene files in a folder, sorted, for suggestions.
 void addScenesIn(const path& folder, const path& but, std::vector<std::string>& names) {
     std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
         if (entry.path().extension() == ".toml" && !isSame(entry.path(), but))
             names.push_back(entry.path().stem().string());
-    }
     std::sort(names.begin(), names.end());
 }
 

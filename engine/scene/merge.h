@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/scene/document.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/document.h"
 
 namespace taut::scene {
 

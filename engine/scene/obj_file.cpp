@@ -20,7 +20,7 @@ using world::dvec2;
 using world::dvec3;
 
 constexpr std::uint64_t maxObjSize = 256U << 20U;  // [bytes]
-constexpr std::size_t maxCorners = 1000;            // of one face; cutting it takes their cube
+constexpr std::size_t maxCorners = 1000;           // of one face; cutting it takes their cube
 
 struct Corner {
     int position = 0, uv = -1;  // from 0; -1: none
@@ -109,14 +109,12 @@ class ObjReader {
     int index(std::string_view word, std::string_view kind, std::size_t count) const {
         long long value = 0;
         const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (code != std::errc() || end != word.data() + word.size()) {
+        if (code != std::errc() || end != word.data() + word.size())
             fail(fmt::format("\"{}\" is not the number of a {}", shortened(word), kind));
-        }
         const auto size = static_cast<long long>(count);
         const long long place = value < 0 ? size + value : value - 1;
-        if (value == 0 || place < 0 || place >= size) {
+        if (value == 0 || place < 0 || place >= size)
             fail(fmt::format("there is no {} {}: {} are defined so far", kind, value, size));
-        }
         return static_cast<int>(place);
     }
 

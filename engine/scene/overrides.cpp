@@ -31,10 +31,12 @@ std::vector<std::string> partsOf(std::string_view key) {
 }
 
 bool isWord(std::string_view text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-               std::string_view("0123456789-_./@#%*").find(c) != std::string_view::npos;
-    });
+    return !text.empty() && std::all_of(
+                                text.begin(), text.end(),
+                                [](char c) {
+                                    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                                           std::string_view("0123456789-_./@#%*").find(c) != std::string_view::npos;
+                                });
 }
 
 std::optional<Node> valueOf(const std::string& text, Place place, Problems& problems) {
@@ -108,9 +110,8 @@ void applyOverride(const std::string& text, int origin, const std::vector<SceneS
             if (isLast) *node = *value;
         } else if (node->kind == NodeKind::table) {
             Member* member = node->find(part);
-            if (member == nullptr && i == 0 && section != sections.end() && section->layout == Layout::list) {
+            if (member == nullptr && i == 0 && section != sections.end() && section->layout == Layout::list)
                 return problems.addError(place, fmt::format("the scene has no [[{}]]", part));
-            }
             // A new body, collider, … cannot be made of one value: this is a slip.
             if (member == nullptr && i == 1 && section != sections.end() && section->layout == Layout::named) {
                 const std::string remedy = suggestion(part, keysOf(*node));

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/scene/sections.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/sections.h"
 
 namespace taut::scene {
 

@@ -31,9 +31,8 @@ std::vector<dvec2> flattened(std::span<const dvec3> corners) {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
     std::vector<dvec2> flat;
-    for (const dvec3& corner : corners) {
+    for (const dvec3& corner : corners)
         flat.push_back(normal[axis] < 0.0 ? dvec2(corner[v], corner[u]) : dvec2(corner[u], corner[v]));
-    }
     return flat;
 }
 

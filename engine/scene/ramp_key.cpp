@@ -12,13 +12,11 @@ namespace {
 
 std::vector<std::string> partsOf(const std::string& key) {
     std::vector<std::string> parts(1);
-    for (const char c : key) {
-        if (c == '.') {
+    for (const char c : key)
+        if (c == '.')
             parts.emplace_back();
-        } else {
+        else
             parts.back() += c;
-        }
-    }
     return parts;
 }
 

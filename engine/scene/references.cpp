@@ -12,9 +12,8 @@ void report(const Reference& reference, const std::optional<TargetFault>& fault,
 
 void checkName(const Reference& reference, const std::string& kind, const std::vector<std::string>& names,
                Problems& problems) {
-    for (const std::string& name : names) {
+    for (const std::string& name : names)
         if (name == reference.text) return;
-    }
     std::string remedy = suggestion(reference.text, names);
     if (remedy.empty()) remedy = fmt::format("add a table [{}.{}]", kind, reference.text);
     if (reference.text.empty()) remedy = "give a name";
@@ -54,31 +53,19 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
 
     for (const Reference& reference : scene.references) {
         switch (reference.role) {
-            case Role::material:
-                checkName(reference, "material", materials, problems);
-                break;
-            case Role::camera:
-                checkName(reference, "camera", cameras, problems);
-                break;
-            case Role::points:
-                report(reference, bodies.pointsFault(reference.text), problems);
-                break;
-            case Role::bodies:
-                report(reference, bodies.surfaceFault(reference.text), problems);
-                break;
-            case Role::anyBodies:
-                report(reference, bodies.bodyFault(reference.text), problems);
-                break;
+            case Role::material: checkName(reference, "material", materials, problems); break;
+            case Role::camera: checkName(reference, "camera", cameras, problems); break;
+            case Role::points: report(reference, bodies.pointsFault(reference.text), problems); break;
+            case Role::bodies: report(reference, bodies.surfaceFault(reference.text), problems); break;
+            case Role::anyBodies: report(reference, bodies.bodyFault(reference.text), problems); break;
             case Role::selector:
                 report(reference, bodies.selectorFault(reference.owner, reference.text), problems);
                 break;
-            default:
-                break;
+            default: break;
         }
     }
-    for (std::size_t i = 0; i < scene.spec.joints.size(); ++i) {
+    for (std::size_t i = 0; i < scene.spec.joints.size(); ++i)
         checkJoint(scene.spec.joints[i], scene.owners.at(fmt::format("joint[{}]", i)), bodies, problems);
-    }
 }
 
 }  // namespace taut::scene

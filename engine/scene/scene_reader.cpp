@@ -24,13 +24,12 @@ class SceneReader {
         for (const Member& member : root.members) {
             const auto section = std::find_if(sections_.begin(), sections_.end(),
                                               [&](const Section& s) { return s.name == member.key; });
-            if (section != sections_.end() && !section->name.empty()) {
+            if (section != sections_.end() && !section->name.empty())
                 readSection(*section, member);
-            } else if (file.find(member.key) != nullptr) {
+            else if (file.find(member.key) != nullptr)
                 settings.members.push_back(member);
-            } else {
+            else
                 reportUnknownSection(file, member);
-            }
         }
         owner_.clear();
         readTable(file, settings, settings.place, "the scene", file.enter(out_.spec, "", {}));
@@ -44,9 +43,8 @@ class SceneReader {
 
     void reportUnknownSection(const Section& file, const Member& member) {
         std::vector<std::string> names = file.keys();
-        for (const Section& section : sections_) {
+        for (const Section& section : sections_)
             if (!section.name.empty()) names.push_back(section.name);
-        }
         problems_.addError(member.place, fmt::format("a scene has no \"{}\"", member.key),
                            suggestion(member.key, names));
     }
@@ -106,8 +104,9 @@ class SceneReader {
             const std::string name = fmt::format("{}[{}]", section.name, i);
             out_.owners.emplace(name, item.place);
             const int before = problems_.errorCount();
-            readItem(section, item, name, fmt::format("[[{}]]", section.name),
-                     section.enter(out_.spec, section.forms.empty() ? "" : section.variant(item), sourceOf(item.place)));
+            readItem(
+                section, item, name, fmt::format("[[{}]]", section.name),
+                section.enter(out_.spec, section.forms.empty() ? "" : section.variant(item), sourceOf(item.place)));
             if (problems_.errorCount() > before) out_.faulty.insert(name);
         }
     }
@@ -115,11 +114,10 @@ class SceneReader {
     // An element of a list of tables.
     void readItem(const Section& section, const Node& item, const std::string& name, const std::string& where,
                   void* target) {
-        if (item.kind == NodeKind::table) {
+        if (item.kind == NodeKind::table)
             readTable(section, item, item.place, where, target);
-        } else {
+        else
             problems_.addError(item.place, fmt::format("{} must be a table, not {}", name, description(item)));
-        }
     }
 
     void readTable(const Section& section, const Node& table, Place place, const std::string& where, void* target) {
@@ -219,15 +217,13 @@ class SceneReader {
 
     void addReferences(const Field& field, const Node& node, const Value& value) {
         if (field.role == Role::none) return;
-        if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) {
-            for (std::size_t i = 0; i < texts->size(); ++i) {
+        if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
+            for (std::size_t i = 0; i < texts->size(); ++i)
                 out_.references.push_back({field.role, node.items[i].place, (*texts)[i], 0.0, owner_});
-            }
-        } else if (const auto* text = std::get_if<std::string>(&value)) {
+        else if (const auto* text = std::get_if<std::string>(&value))
             out_.references.push_back({field.role, node.place, *text, 0.0, owner_});
-        } else if (const auto* number = std::get_if<double>(&value)) {
+        else if (const auto* number = std::get_if<double>(&value))
             out_.references.push_back({field.role, node.place, "", *number, owner_});
-        }
     }
 
     const std::vector<SceneSection>& sections_;

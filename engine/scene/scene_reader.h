@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/scene/sections.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/sections.h"
 #include "taut/world/spec.h"
 
 namespace taut::scene {

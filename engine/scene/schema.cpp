@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "taut/scene/sections.h"
 #include "taut/scene/load.h"
+#include "taut/scene/sections.h"
 
 namespace taut::scene {
 
@@ -31,41 +31,29 @@ Json listSchema(const Json& items, int count) {
 
 Json valueSchema(const Field& field) {
     switch (field.kind) {
-        case FieldKind::number:
-            return numberSchema(field, false);
-        case FieldKind::whole:
-            return numberSchema(field, true);
-        case FieldKind::flag:
-            return {{"type", "boolean"}};
-        case FieldKind::text:
-            return {{"type", "string"}};
-        case FieldKind::choice:
-            return {{"enum", field.choices}};
-        case FieldKind::stepLength:
-            return {{"anyOf", {{{"const", "auto"}}, numberSchema(field, false)}}};
+        case FieldKind::number: return numberSchema(field, false);
+        case FieldKind::whole: return numberSchema(field, true);
+        case FieldKind::flag: return {{"type", "boolean"}};
+        case FieldKind::text: return {{"type", "string"}};
+        case FieldKind::choice: return {{"enum", field.choices}};
+        case FieldKind::stepLength: return {{"anyOf", {{{"const", "auto"}}, numberSchema(field, false)}}};
         case FieldKind::vector:
-        case FieldKind::direction:
-            return listSchema(numberSchema(field, false), field.components);
-        case FieldKind::wholeVector:
-            return listSchema(numberSchema(field, true), field.components);
+        case FieldKind::direction: return listSchema(numberSchema(field, false), field.components);
+        case FieldKind::wholeVector: return listSchema(numberSchema(field, true), field.components);
         case FieldKind::colour:
             return {
                 {"anyOf",
                  {listSchema(numberSchema(field, false), 3), {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}}}};
-        case FieldKind::segment:
-            return listSchema(listSchema(numberSchema(field, false), field.components), 2);
-        case FieldKind::texts:
-            return {{"type", "array"}, {"items", {{"type", "string"}}}};
-        case FieldKind::wholes:
-            return {{"type", "array"}, {"items", numberSchema(field, true)}};
+        case FieldKind::segment: return listSchema(listSchema(numberSchema(field, false), field.components), 2);
+        case FieldKind::texts: return {{"type", "array"}, {"items", {{"type", "string"}}}};
+        case FieldKind::wholes: return {{"type", "array"}, {"items", numberSchema(field, true)}};
         case FieldKind::numbers:
             return {{"anyOf",
                      {{{"type", "number"}},
                       {{"type", "array"}, {"items", {{"type", "number"}}}},
                       {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}}}};
         case FieldKind::table:
-        case FieldKind::tables:
-            break;
+        case FieldKind::tables: break;
     }
     return {};
 }
@@ -78,13 +66,11 @@ Json defaultJson(const Field& field, const Value& value) {
     if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return *texts;
     const auto& numbers = std::get<std::vector<double>>(value);
     Json list = Json::array();
-    for (const double number : numbers) {
-        if (field.kind == FieldKind::wholeVector || field.kind == FieldKind::wholes) {
+    for (const double number : numbers)
+        if (field.kind == FieldKind::wholeVector || field.kind == FieldKind::wholes)
             list.push_back(static_cast<std::int64_t>(number));
-        } else {
+        else
             list.push_back(number);
-        }
-    }
     return list;
 }
 

@@ -33,8 +33,8 @@ void nameMethods(Section& section, const std::vector<std::string>& names) {
 }  // namespace
 
 std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
-    std::vector<SceneSection> all{fileSection(),  needSection(),    solverSection(),  worldSection(),
-                                  runSection(),   pictureSection(), materialSection()};
+    std::vector<SceneSection> all{fileSection(), needSection(),    solverSection(),  worldSection(),
+                                  runSection(),  pictureSection(), materialSection()};
     for (const auto& kind : kinds.bodies.all()) all.push_back(kindSection(kind, &world::SceneSpec::bodies));
     all.insert(all.end(), {jointSection(), massSection()});
     for (const auto& kind : kinds.forces.all()) all.push_back(kindSection(kind, &world::SceneSpec::forces));

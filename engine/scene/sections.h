@@ -58,7 +58,9 @@ template <class Spec>
 auto enterNamed(std::vector<Spec> world::SceneSpec::*list) {
     return [list](world::SceneSpec& scene, const std::string& name, const world::Source& source) -> void* {
         Spec& spec = (scene.*list).emplace_back();
-        if constexpr (requires { spec.name; }) spec.name = name;
+        if constexpr (
+            requires { spec.name; })
+            spec.name = name;
         spec.source = source;
         return &spec;
     };

@@ -147,9 +147,9 @@ class Written {
 
     // A table that there is only because a header says one inside it.
     bool isImplied(const Node& table) const {
-        return std::any_of(table.members.begin(), table.members.end(), [&](const Member& member) {
-            return hasHeader(member.value) && at(member.value.place) == at(table.place);
-        });
+        return std::any_of(
+            table.members.begin(), table.members.end(),
+            [&](const Member& member) { return hasHeader(member.value) && at(member.value.place) == at(table.place); });
     }
 
     // key = value, of a table itself or of one that dotted keys make in it.

@@ -12,8 +12,9 @@ namespace taut::scene {
 namespace {
 
 bool usesMaterial(const world::SceneSpec& spec, const std::string& name) {
-    return std::any_of(spec.bodies.begin(), spec.bodies.end(),
-                       [&](const world::BodySpec& body) { return body.materialName() == name; });
+    return std::any_of(
+        spec.bodies.begin(), spec.bodies.end(),
+        [&](const world::BodySpec& body) { return body.materialName() == name; });
 }
 
 }  // namespace
@@ -34,9 +35,8 @@ void reportSuspicions(const ReadScene& scene, Problems& problems) {
         if (isUsed) continue;
         problems.addWarning(scene.owners.at("material." + name), fmt::format("no cloth is made of {}", name));
     }
-    if (spec.bodies.empty()) {
+    if (spec.bodies.empty())
         problems.addWarning({0, 1, 1}, "there is nothing to move: the scene has no cloth, rope, block or net");
-    }
 }
 
 }  // namespace taut::scene

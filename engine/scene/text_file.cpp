@@ -35,7 +35,7 @@ std::string textFile(const std::filesystem::path& path, std::uint64_t maxBytes) 
         text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
         if (text.size() > maxBytes) {
             throw core::Error(core::ErrorKind::badContent, fmt::format("{}: error: the file is larger than {} MiB",
-                                                                      path.string(), maxBytes / (1024 * 1024)));
+                                                                       path.string(), maxBytes / (1024 * 1024)));
         }
     }
     if (stream.bad()) failReading(path, "the file cannot be read to its end");

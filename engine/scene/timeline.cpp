@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "taut/fields/value_reader.h"
 #include "taut/scene/body_index.h"
 #include "taut/scene/ramp_key.h"
-#include "taut/fields/value_reader.h"
 #include "taut/world/actions.h"
 #include "taut/world/ticks.h"
 
@@ -188,8 +188,7 @@ class Timeline {
     }
 
     // Two ways at once contradict; one may begin where the other ends.
-    void checkSpan(const Event& event, double over, const std::string& key, const std::string& name,
-                   const char* done) {
+    void checkSpan(const Event& event, double over, const std::string& key, const std::string& name, const char* done) {
         const Span span{event.action->t, event.action->t + over};
         const auto [before, isFirst] = spans_.emplace(key, span);
         if (isFirst) return;
@@ -254,8 +253,8 @@ class Timeline {
 
 }  // namespace
 
-void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, const BodyIndex& bodies, ReadScene& scene,
-             Problems& problems) {
+void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, const BodyIndex& bodies,
+                   ReadScene& scene, Problems& problems) {
     Timeline(root, sections, bodies, scene, problems).check();
 }
 

@@ -32,9 +32,9 @@ std::string limitText(double limit) {
 }
 
 const Boundary& nearest(const StabilityPanel& panel, double zeta) {
-    return *std::min_element(panel.boundaries.begin(), panel.boundaries.end(), [&](const auto& a, const auto& b) {
-        return std::abs(a.zeta - zeta) < std::abs(b.zeta - zeta);
-    });
+    return *std::min_element(
+        panel.boundaries.begin(), panel.boundaries.end(),
+        [&](const auto& a, const auto& b) { return std::abs(a.zeta - zeta) < std::abs(b.zeta - zeta); });
 }
 
 const char* nameOf(ThresholdKind kind) {
@@ -156,11 +156,10 @@ std::string stabilitySummary(const StabilityMap& map) {
     for (const StabilityPanel& panel : map.panels) {
         std::vector<report::Cell> row = {panel.method, nameOf(panel.damping)};
         for (const double zeta : {0.0, 0.5, 1.0, 2.0}) row.emplace_back(limitText(nearest(panel, zeta).measured));
-        if (panel.isWithoutLimit) {
+        if (panel.isWithoutLimit)
             row.insert(row.end(), {std::string("no limit"), std::string("")});
-        } else {
+        else
             row.insert(row.end(), {panel.largestGap, panel.gapZeta});
-        }
         table.rows.push_back(std::move(row));
     }
     return fmt::format(

@@ -1,6 +1,5 @@
 #include "taut/study/one_method.h"
 
-
 namespace taut::study {
 
 world::SceneSpec byMethod(const world::SceneSpec& spec, std::string_view method, world::Precision precision,

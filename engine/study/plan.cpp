@@ -106,8 +106,7 @@ void verify(const PlanContext& context, Plan& plan) {
         candidate.substeps = std::max(candidate.substeps, facts.leastSubsteps);
         return candidate;
     };
-    const world::SceneSpec model =
-        trial.isAsWritten ? withoutJitter(context.spec) : sceneOf(context, trial.candidate);
+    const world::SceneSpec model = trial.isAsWritten ? withoutJitter(context.spec) : sceneOf(context, trial.candidate);
     context.tell("verification", 0.9);
     PlanRun chosen = play(model, context.resolution, context.grid);
     std::vector<double> seconds{chosen.seconds};

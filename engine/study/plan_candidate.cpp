@@ -34,15 +34,15 @@ void tieBodies(const SceneSpec& spec, std::map<std::string, std::string>& fixed)
     std::vector<world::Body> bodies = world::buildBodies(spec);
     const std::vector<world::Body*> all = world::pointersTo(bodies);
     const auto tie = [&](const std::string& target, const std::string& why) {
-        for (const world::Body* body : world::matchBodies(all, target))
-            fixed.emplace(body->spec->fullName(), why);
+        for (const world::Body* body : world::matchBodies(all, target)) fixed.emplace(body->spec->fullName(), why);
     };
     for (const world::JointSpec& joint : spec.joints) {
         tie(joint.a, "a joint ties its points to others");
         tie(joint.b, "a joint ties its points to others");
     }
     for (const world::ForceSpec& force : spec.forces)
-        if (!force.pulledPoints().empty()) tie(std::string(force.pulledPoints()), "anchors pull at single points of it");
+        if (!force.pulledPoints().empty())
+            tie(std::string(force.pulledPoints()), "anchors pull at single points of it");
     for (const world::MassSpec& mass : spec.masses)
         if (namesPlaces(world::parseTarget(mass.target).selector)) tie(mass.target, "a mass hangs at a single point");
 }
@@ -164,11 +164,10 @@ void setSubsteps(SceneSpec& model, const StepFacts& facts, int substeps) {
     if (substeps == 0 || substeps == facts.leastSubsteps) return;
     const double step = facts.tick / substeps;
     const double safety = step / facts.limit;
-    if (facts.islands > 1 && std::isfinite(facts.limit) && safety > leastSafety && safety <= 1) {
+    if (facts.islands > 1 && std::isfinite(facts.limit) && safety > leastSafety && safety <= 1)
         model.solver.safety = roundedUp(safety);
-    } else {
+    else
         model.solver.dt = roundedUp(step);
-    }
 }
 
 }  // namespace taut::study

@@ -13,7 +13,7 @@ namespace taut::study {
 
 // What can be left out of a scene.
 struct Generator {
-    std::string name;  // "wind breeze", "drag", "bend springs", …
+    std::string name;                    // "wind breeze", "drag", "bend springs", …
     std::vector<std::string_view> keys;  // of the numbers that are all zero without it, see scene::eachNumber
     std::string owner{};                 // that has them, e.g. "wind.breeze"; empty: every body and material
 };

@@ -12,10 +12,9 @@ namespace {
 using scene::Change;
 
 // What a plan may change.
-constexpr std::string_view plannedKeys[] = {"cells",  "segments",       "drag_per_s", "damping_time_s",
-                                            "bend_N", "bend_N_per_m",   "bulk_Pa",    "drag",
-                                            "lift",   "integrator",     "dt",         "safety",
-                                            "precision"};
+constexpr std::string_view plannedKeys[] = {"cells",        "segments", "drag_per_s", "damping_time_s", "bend_N",
+                                            "bend_N_per_m", "bulk_Pa",  "drag",       "lift",           "integrator",
+                                            "dt",           "safety",   "precision"};
 
 // [s] that the island of a body steps by.
 double stepOf(const std::vector<world::IslandInfo>& islands, const std::string& body) {

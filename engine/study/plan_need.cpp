@@ -40,8 +40,7 @@ void checkNeed(const world::SceneSpec& spec) {
         fail(spec,
              fmt::format("[need] contradicts [run]: horizon_s = {:.4g} is later than the end of the run at {:.4g} s",
                          *need.horizon, spec.run.seconds));
-    if (spec.bodies.empty())
-        fail(spec, "nothing moves by springs here: there is nothing to plan");
+    if (spec.bodies.empty()) fail(spec, "nothing moves by springs here: there is nothing to plan");
 }
 
 Need resolvedNeed(const world::SceneSpec& spec, const Scales& scales) {

@@ -54,8 +54,9 @@ struct Rope {
     }
     double sag() const {
         const double v = 0.5 * mass * g, perWeight = length / (mass * g);
-        const double pull = core::rootOf(
-            [&](double h) { return 1.0 - h * length / stretch - 2.0 * h * perWeight * std::asinh(v / h); }, 1e-6, 1e6, 200);
+        const double pull =
+            core::rootOf([&](double h) { return 1.0 - h * length / stretch - 2.0 * h * perWeight * std::asinh(v / h); },
+                         1e-6, 1e6, 200);
         return pull * perWeight * (std::hypot(1.0, v / pull) - 1.0) + v * length / (4.0 * stretch);
     }
 };

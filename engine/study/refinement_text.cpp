@@ -15,8 +15,9 @@ using Json = nlohmann::ordered_json;
 using report::In;
 
 const RefinementFacts& factsOf(const RefinementStudy& study, const std::string& body) {
-    return *std::find_if(study.bodies.begin(), study.bodies.end(),
-                         [&](const RefinementFacts& facts) { return facts.body->name == body; });
+    return *std::find_if(
+        study.bodies.begin(), study.bodies.end(),
+        [&](const RefinementFacts& facts) { return facts.body->name == body; });
 }
 
 report::Columns<RefinementRun> runColumns(const RefinementStudy& study) {

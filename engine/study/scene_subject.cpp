@@ -90,13 +90,12 @@ class SceneSubject final : public Subject {
     long long quantum(const Grid& grid) const override { return std::llround(grid.spacing / tick_); }
 
     std::unique_ptr<Trial> begin(const RunPlan& plan) const override {
-        return std::make_unique<SceneTrial>(
-            played(spec_, plan.method, plan.precision, plan.step(), plan.perturbation), quantum(plan.grid));
+        return std::make_unique<SceneTrial>(played(spec_, plan.method, plan.precision, plan.step(), plan.perturbation),
+                                            quantum(plan.grid));
     }
 
     double stepLimit(const ode::MethodInfo& method) const override {
-        const world::World world(played(spec_, method.name, Precision::double_, tick_, 0.0),
-                                 {.threads = 1});
+        const world::World world(played(spec_, method.name, Precision::double_, tick_, 0.0), {.threads = 1});
         double limit = HUGE_VAL;
         for (const world::IslandInfo& island : world.islands()) limit = std::min(limit, island.stepLimit);
         return limit;

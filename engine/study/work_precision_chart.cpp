@@ -248,8 +248,8 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
         hasFailed ? "Top strip: runs that diverged, or whose error exceeds the whole motion." : "";
     const std::string floors = " White dot: not told apart from the reference's own error.";
     const std::string ring = " Ring: the largest step within the method's stability bound.";
-    const bool hasFloor =
-        std::any_of(study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.isAtFloor; });
+    const bool hasFloor = std::any_of(
+        study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.isAtFloor; });
     const bool hasLimit = std::any_of(study.methods.begin(), study.methods.end(), [](const MethodFacts& m) {
         return m.stepLimit > 0 && std::isfinite(m.stepLimit);
     });

@@ -62,7 +62,8 @@ Mesh revolved(const std::vector<ProfilePoint>& profile) {
         const float distance = at.x > 1e-6F * widest ? at.x : 0.0F;
         for (int i = 0; i <= steps; ++i) {
             const float part = static_cast<float>(i) / static_cast<float>(steps);
-            const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i % steps) / static_cast<float>(steps);
+            const float angle =
+                2.0F * std::numbers::pi_v<float> * static_cast<float>(i % steps) / static_cast<float>(steps);
             const float x = std::cos(angle);
             const float z = -std::sin(angle);
             geometry.positions.emplace_back(distance * x, at.y, distance * z);
@@ -87,7 +88,8 @@ std::vector<float> boxLines(float halfSize, float edgeRadius) {
     const float inner = halfSize - edgeRadius;
     if (edgeRadius > 0.0F) {
         for (int i = roundSteps; i > 0; --i) {
-            const float angle = 0.25F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(roundSteps);
+            const float angle =
+                0.25F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(roundSteps);
             lines.push_back(i == roundSteps ? halfSize : inner + edgeRadius * std::tan(angle));
         }
     }
@@ -139,7 +141,8 @@ void appendBoxSide(Topology& topology, Geometry& geometry, glm::vec3 halfSize, f
 Mesh sphereMesh(float radius) {
     TAUT_EXPECTS(radius > 0.0F);
     std::vector<ProfilePoint> profile;
-    appendArc(profile, {0.0F, 0.0F}, radius, -0.5F * std::numbers::pi_v<float>, 0.5F * std::numbers::pi_v<float>, turnSteps(radius) / 2);
+    appendArc(profile, {0.0F, 0.0F}, radius, -0.5F * std::numbers::pi_v<float>, 0.5F * std::numbers::pi_v<float>,
+              turnSteps(radius) / 2);
     return revolved(profile);
 }
 

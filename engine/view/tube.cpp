@@ -11,7 +11,6 @@ namespace taut::view {
 
 namespace {
 
-
 // Rings that a cap adds between its pole and the tube's first ring.
 int capRings(int sides) {
     return std::max(2, sides / 4) - 1;
@@ -116,7 +115,8 @@ Topology tubeTopology(int points, int subdivisions, int sides, float length, flo
         if (ring >= cap + along) u = length + radius * capAngle(rings - 1 - ring, sides);
         for (int k = 0; k < sides; ++k) {
             const int steps = std::min(k, sides - k);
-            tube.uv.emplace_back(u, 2.0F * std::numbers::pi_v<float> * radius * static_cast<float>(steps) / static_cast<float>(sides));
+            tube.uv.emplace_back(
+                u, 2.0F * std::numbers::pi_v<float> * radius * static_cast<float>(steps) / static_cast<float>(sides));
         }
     }
     tube.uv.emplace_back(length + 0.5F * std::numbers::pi_v<float> * radius, 0.0F);
@@ -132,9 +132,8 @@ Topology tubeTopology(int points, int subdivisions, int sides, float length, flo
                                   {vertex(ring, k), vertex(ring + 1, k + 1), vertex(ring + 1, k)});
         }
     }
-    for (int k = 0; k < sides; ++k) {
+    for (int k = 0; k < sides; ++k)
         tube.triangles.insert(tube.triangles.end(), {vertex(rings - 1, k), vertex(rings - 1, k + 1), lastPole});
-    }
     return tube;
 }
 
@@ -152,15 +151,12 @@ Geometry tubeGeometry(std::span<const glm::vec3> line, int subdivisions, int sid
     tube.normals.reserve(vertices);
     tube.positions.push_back(smooth.front() - radius * tangents.front());
     tube.normals.push_back(-tangents.front());
-    for (int ring = 0; ring < cap; ++ring) {
+    for (int ring = 0; ring < cap; ++ring)
         appendRing(tube, smooth.front(), tangents.front(), sideways.front(), -capAngle(ring, sides), sides, radius);
-    }
-    for (std::size_t i = 0; i < smooth.size(); ++i) {
+    for (std::size_t i = 0; i < smooth.size(); ++i)
         appendRing(tube, smooth[i], tangents[i], sideways[i], 0.0F, sides, radius);
-    }
-    for (int ring = cap; ring-- > 0;) {
+    for (int ring = cap; ring-- > 0;)
         appendRing(tube, smooth.back(), tangents.back(), sideways.back(), capAngle(ring, sides), sides, radius);
-    }
     tube.positions.push_back(smooth.back() + radius * tangents.back());
     tube.normals.push_back(tangents.back());
     return tube;

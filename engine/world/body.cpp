@@ -26,8 +26,8 @@ void holdPoints(Body& body) {
     for (const std::string& selector : body.spec->hold) {
         const std::vector<int> points = selectPoints(body.model, selector);
         if (points.empty())
-            throw Error(ErrorKind::badContent, at(body.spec->source) + "hold = \"" + selector + "\" names no point of " +
-                                                  body.fullName());
+            throw Error(ErrorKind::badContent,
+                        at(body.spec->source) + "hold = \"" + selector + "\" names no point of " + body.fullName());
         for (int i : points) body.model.held[static_cast<std::size_t>(i)] = true;
     }
 }
@@ -49,8 +49,7 @@ void setInMotion(Body& body) {
         model.velocities[i] += body.spec->velocity + glm::cross(body.spec->spin, model.positions[i] - centre);
         if (body.spec->jitter > 0)
             for (int axis = 0; axis < 3; ++axis)
-                model.positions[i][axis] +=
-                    body.spec->jitter * randomNumber(body.seed, static_cast<int>(i), axis);
+                model.positions[i][axis] += body.spec->jitter * randomNumber(body.seed, static_cast<int>(i), axis);
     }
 }
 
@@ -64,8 +63,8 @@ void addCopies(std::vector<Body>& bodies, const BodySpec& spec, const SceneSpec&
         for (int y = 0; y < array.count.y; ++y)
             for (int x = 0; x < array.count.x; ++x, ++number) {
                 Body body = first;
-                const dvec3 shift =
-                    static_cast<double>(x) * array.stepX + static_cast<double>(y) * array.stepY + static_cast<double>(z) * array.stepZ;
+                const dvec3 shift = static_cast<double>(x) * array.stepX + static_cast<double>(y) * array.stepY +
+                                    static_cast<double>(z) * array.stepZ;
                 for (dvec3& position : body.model.positions) position += shift;
                 if (!single) {
                     body.name = spec.name + "." + std::to_string(number);
@@ -96,7 +95,9 @@ bool sortsBefore(const Body& a, const Body& b) {
     return a.name.size() != b.name.size() ? a.name.size() < b.name.size() : a.name < b.name;
 }
 
-std::string Body::fullName() const { return std::string(kind()) + "." + name; }
+std::string Body::fullName() const {
+    return std::string(kind()) + "." + name;
+}
 
 Body buildBody(const BodySpec& spec, const SceneSpec& scene) {
     Body body;

@@ -27,8 +27,8 @@ struct Body {
 
     // In the island that owns it.
     Island* island = nullptr;
-    std::vector<int> pointOf;            // (points) number in the island, for each point of the model
-    int firstPoint = 0, lastPoint = 0;   // the range that collides for this body
+    std::vector<int> pointOf;           // (points) number in the island, for each point of the model
+    int firstPoint = 0, lastPoint = 0;  // the range that collides for this body
 
     std::string_view kind() const { return spec->kind(); }
     const std::string& base() const { return spec->name; }  // "flag"

@@ -27,13 +27,13 @@ struct PlasticitySpec {
     std::optional<double> breakStrain;  // (l - L)/L beyond which a spring is gone; none: never
 };
 
-struct MaterialSpec {                  // of cloth, per metre of material
-    double density = 0.2;              // [kg/m²]
-    double stretch = 900.0;            // k_s [N/m]
-    std::optional<double> shear;       // k_d [N/m]; none: stretch / 2, isotropic
-    double bend = 1.0;                 // k_b [N/m]
-    double dampingTime = 1e-4;         // τ [s]
-    double drag = 0.3;                 // γ/m [1/s]
+struct MaterialSpec {             // of cloth, per metre of material
+    double density = 0.2;         // [kg/m²]
+    double stretch = 900.0;       // k_s [N/m]
+    std::optional<double> shear;  // k_d [N/m]; none: stretch / 2, isotropic
+    double bend = 1.0;            // k_b [N/m]
+    double dampingTime = 1e-4;    // τ [s]
+    double drag = 0.3;            // γ/m [1/s]
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
 };

@@ -27,8 +27,8 @@ struct CheckSpec {
     Source source;  // of the text's first character
     std::string that;
     std::shared_ptr<const check::Check> parsed;  // by the loader; none: whoever looks reads it
-    std::optional<double> at;          // [s] at this moment
-    std::optional<double> from, upTo;  // [s] all through this span, ends included
+    std::optional<double> at;                    // [s] at this moment
+    std::optional<double> from, upTo;            // [s] all through this span, ends included
 };
 
 // Pictures to compare with recorded ones.

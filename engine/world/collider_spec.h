@@ -32,9 +32,9 @@ struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh
     std::map<std::string, double, std::less<>> sizes;  // what the shape adds to these, by its key
     double scale = 1.0;
     std::vector<ColliderSpec> parts;  // compound
-    double friction = 0.3;     // Coulomb's μ [-]
-    double restitution = 0.0;  // 0 … 1: speed after a bounce / speed before [-]
-    std::vector<PoseKey> keys;  // keyframes; then position and rotation are not used
+    double friction = 0.3;            // Coulomb's μ [-]
+    double restitution = 0.0;         // 0 … 1: speed after a bounce / speed before [-]
+    std::vector<PoseKey> keys;        // keyframes; then position and rotation are not used
     bool visible = true;
     double edge = 0.01;  // [m] rounding of a drawn box's edges
     FinishSpec finish;

@@ -21,13 +21,14 @@ constexpr double maxCopies = 100000;
 
 Section arraySection() {
     Section section;
-    section.fields = FieldList<ArraySpec>()
-                         .vector("count", &ArraySpec::count, "", copies, "Copies along the three directions.")
-                         .required()
-                         .vector("step_x", &ArraySpec::stepX, "m", placeRange, "From one copy to the next, first direction.")
-                         .vector("step_y", &ArraySpec::stepY, "m", placeRange, "The same, second direction.")
-                         .vector("step_z", &ArraySpec::stepZ, "m", placeRange, "The same, third direction.")
-                         .take();
+    section.fields =
+        FieldList<ArraySpec>()
+            .vector("count", &ArraySpec::count, "", copies, "Copies along the three directions.")
+            .required()
+            .vector("step_x", &ArraySpec::stepX, "m", placeRange, "From one copy to the next, first direction.")
+            .vector("step_y", &ArraySpec::stepY, "m", placeRange, "The same, second direction.")
+            .vector("step_z", &ArraySpec::stepZ, "m", placeRange, "The same, third direction.")
+            .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& array = *static_cast<ArraySpec*>(target);
         const dvec3 steps[] = {array.stepX, array.stepY, array.stepZ};

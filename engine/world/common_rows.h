@@ -14,13 +14,13 @@
 namespace taut::world {
 
 // Limits that many fields share.
-inline constexpr fields::Range placeRange{-1e6, 1e6};     // [m]
-inline constexpr fields::Range lengthRange{1e-6, 1e6};    // [m]
-inline constexpr fields::Range momentRange{0.0, 1e6};     // [s]
-inline constexpr fields::Range countRange{1.0, 1e9};      // of cells; what is too much is said once all is read
+inline constexpr fields::Range placeRange{-1e6, 1e6};       // [m]
+inline constexpr fields::Range lengthRange{1e-6, 1e6};      // [m]
+inline constexpr fields::Range momentRange{0.0, 1e6};       // [s]
+inline constexpr fields::Range countRange{1.0, 1e9};        // of cells; what is too much is said once all is read
 inline constexpr fields::Range dampingTimeRange{0.0, 1e3};  // [s]
-inline constexpr fields::Range dragRange{0.0, 1e6};       // [1/s]
-inline constexpr fields::Range strainRange{1e-6, 1e3};    // |l - L|/L
+inline constexpr fields::Range dragRange{0.0, 1e6};         // [1/s]
+inline constexpr fields::Range strainRange{1e-6, 1e3};      // |l - L|/L
 
 fields::Section finishSection();
 fields::Section overrideSection();  // of [solver], by a body
@@ -45,7 +45,8 @@ fields::FieldList<Spec> withLosses(fields::FieldList<Spec> list) {
     list.number("damping_time_s", &Spec::dampingTime, "s", dampingTimeRange,
                 "Damping of a spring over its stiffness: inner friction.")
         .ramps(fields::Affects::springs);
-    list.number("drag_per_s", &Spec::drag, "1/s", dragRange, "Rate at which still air slows a point.").ramps(fields::Affects::springs);
+    list.number("drag_per_s", &Spec::drag, "1/s", dragRange, "Rate at which still air slows a point.")
+        .ramps(fields::Affects::springs);
     return list;
 }
 
@@ -54,7 +55,8 @@ template <class Spec>
 std::vector<fields::Field> bodyRows() {
     using fields::Range;
     fields::FieldList<Spec> list;
-    list.texts("hold", &Spec::hold, fields::Role::selector, "Points that never move: a group, \"#12\", \"(u,v)\", \"50%\".")
+    list.texts("hold", &Spec::hold, fields::Role::selector,
+               "Points that never move: a group, \"#12\", \"(u,v)\", \"50%\".")
         .vector("velocity", &Spec::velocity, "m/s", placeRange, "At the start.")
         .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange, "At the start, about the centre of mass.")
         .number("jitter_m", &Spec::jitter, "m", Range{0.0, 1.0},

@@ -7,8 +7,8 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/world/body.h"
-#include "taut/world/drawing.h"
 #include "taut/world/collider_spec.h"
+#include "taut/world/drawing.h"
 #include "taut/world/picture_spec.h"
 
 namespace taut::world {

@@ -18,9 +18,9 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
 
 }  // namespace
 
-std::string explainDivergence(const Divergence& d, const Fault& fault, const StepChoice& choice,
-                              const IslandPlan& plan, std::string_view methodTitle) {
-    const std::string why = fault.strain > 0    ? format("has a spring with a strain of %.3g", fault.strain)
+std::string explainDivergence(const Divergence& d, const Fault& fault, const StepChoice& choice, const IslandPlan& plan,
+                              std::string_view methodTitle) {
+    const std::string why = fault.strain > 0 ? format("has a spring with a strain of %.3g", fault.strain)
                             : fault.isNumber ? "moves faster than 3000 m/s"
                                              : "has a velocity that is not a number";
     std::string text = format("%s diverged at t = %.4f s (tick %lld): point %d %s\n", d.body.c_str(), d.time,
@@ -39,8 +39,9 @@ std::string explainDivergence(const Divergence& d, const Fault& fault, const Ste
     if (d.safeStep > 0 && choice.step > d.safeStep)
         text += "  remedy: dt = " + inSeconds(d.safeStep) + " or less holds in any shape; dt = \"auto\" finds it\n";
     else if (d.limit > 0)
-        text += "  the step is within the limit, so something else feeds energy in: look at colliders that move fast, "
-                "winds, anchors, and working_stretch of blocks\n";
+        text +=
+            "  the step is within the limit, so something else feeds energy in: look at colliders that move fast, "
+            "winds, anchors, and working_stretch of blocks\n";
     for (const ode::MethodInfo& other : methodsOf(plan.solver).all()) {
         const double limit = other.automaticStep(choice.mode);
         if (other.name == plan.solver.integrator || !(limit > 0) || !std::isfinite(limit)) continue;
@@ -58,7 +59,8 @@ std::string unconvergedWarning(const ode::Work& work, const IslandPlan& plan) {
     std::string text = format("%s: %lld solves of %s did not reach cg_tolerance = %.3g within cg_iterations = %d",
                               plan.bodies.front()->fullName().c_str(), static_cast<long long>(work.unconverged),
                               solver.integrator.c_str(), solver.cgTolerance, solver.cgIterations);
-    if (solver.newtonSteps > 1) text += format(", or Newton's method not its end within newton_steps = %d", solver.newtonSteps);
+    if (solver.newtonSteps > 1)
+        text += format(", or Newton's method not its end within newton_steps = %d", solver.newtonSteps);
     return text + "; the motion is less accurate than it seems: allow more, or shorten dt";
 }
 

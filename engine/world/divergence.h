@@ -9,8 +9,8 @@
 
 namespace taut::world {
 
-std::string explainDivergence(const Divergence& d, const Fault& fault, const StepChoice& choice,
-                              const IslandPlan& plan, std::string_view methodTitle);
+std::string explainDivergence(const Divergence& d, const Fault& fault, const StepChoice& choice, const IslandPlan& plan,
+                              std::string_view methodTitle);
 
 // Says that a method's solves did not reach their tolerance.
 std::string unconvergedWarning(const ode::Work& work, const IslandPlan& plan);

@@ -131,7 +131,6 @@ class SkinDrawing final : public BodyDrawing {
     std::shared_ptr<const view::Topology> topology_;
 };
 
-
 // Springs as rods, points as balls.
 class RodDrawing final : public BodyDrawing {
   public:

@@ -117,8 +117,9 @@ class DynamicsOf final : public Dynamics {
     }
     void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
     bool isBounded() const override {
-        // Without their sign, numbers come in the order of their bits, infinity and NaN last. What is added carries those
-        // from the limit on into the sign's place. Written so, a line of the cache at a time, it takes a tenth of the time.
+        // Without their sign, numbers come in the order of their bits, infinity and NaN last. What is added carries
+        // those from the limit on into the sign's place. Written so, a line of the cache at a time, it takes a tenth of
+        // the time.
         using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
         constexpr Bits sign = Bits{1} << (8 * sizeof(Real) - 1);
         constexpr Bits room = sign - std::bit_cast<Bits>(static_cast<Real>(mechanics::speedLimit));
@@ -239,8 +240,8 @@ class DynamicsOf final : public Dynamics {
         for (const Body* body : plan_.bodies) {
             const std::vector<mechanics::VolumeCell> cells = cellsOf(*body);
             if (cells.empty()) continue;
-            auto volume =
-                std::make_unique<mechanics::VolumePreservation<Real>>(cells, plan_.positions, body->model.workingStretch);
+            auto volume = std::make_unique<mechanics::VolumePreservation<Real>>(cells, plan_.positions,
+                                                                                body->model.workingStretch);
             volumes_.emplace_back(body, volume.get());
             system_.add(std::move(volume));
         }

@@ -61,7 +61,8 @@ class Dynamics {
     virtual void goBack() = 0;
     virtual ode::Work work() const = 0;  // since the island was made or read
 
-    // Velocities as the method stores them, those at t [s], which may cost an evaluation, and the first made the second.
+    // Velocities as the method stores them, those at t [s], which may cost an evaluation, and the first made the
+    // second.
     virtual std::vector<dvec3> velocities() const = 0;
     virtual std::vector<dvec3> velocitiesAt(double t) = 0;
     virtual void synchronise(double t) = 0;
@@ -75,11 +76,12 @@ class Dynamics {
     virtual mechanics::StabilityShare stabilityShare(double t) const = 0;
     virtual void addEnergies(double t, const std::vector<bool>& only, double& uniform, double& other) const = 0;
     virtual void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const = 0;
-    virtual std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t) const = 0;  // that have cells
+    virtual std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(
+        double t) const = 0;  // that have cells
 
     // x and the stored v of points.
     virtual void addToHash(std::span<const int> points, core::Hash& hash) const = 0;
-    virtual void visit(StateBytes& bytes) = 0;           // the state
+    virtual void visit(StateBytes& bytes) = 0;          // the state
     virtual void describe(IslandInfo& info) const = 0;  // its runs, single springs and bytes
 };
 

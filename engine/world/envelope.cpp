@@ -58,18 +58,20 @@ bool isAllowedAnywhere(const GrabAction& grab, const HandSpec& hand) {
 }
 
 void lighten(Envelope& envelope, const SceneSpec& spec) {
-    foreseen<AddMassAction>(spec.actions, [&](const AddMassAction& action) {
-        if (action.mass >= 0) return;
-        const std::vector<int> points = pointsOf(envelope.plan, action.target);
-        for (int i : points) {
-            double& mass = point(envelope.plan, i).mass;
-            mass += action.near ? action.mass : action.mass / static_cast<double>(points.size());
-            if (!(mass > 0))
-                throw core::Error(core::ErrorKind::badContent,
-                                  at(action.source) + "this may leave a point of \"" + action.target +
-                                      "\" without any mass; take away less, or from more points");
-        }
-    });
+    foreseen<AddMassAction>(
+        spec.actions,
+        [&](const AddMassAction& action) {
+            if (action.mass >= 0) return;
+            const std::vector<int> points = pointsOf(envelope.plan, action.target);
+            for (int i : points) {
+                double& mass = point(envelope.plan, i).mass;
+                mass += action.near ? action.mass : action.mass / static_cast<double>(points.size());
+                if (!(mass > 0))
+                    throw core::Error(core::ErrorKind::badContent,
+                                      at(action.source) + "this may leave a point of \"" + action.target +
+                                          "\" without any mass; take away less, or from more points");
+            }
+        });
 }
 
 // Grabs by springs. The mass of a grip is at least that of its points that are free all the time; or, where it is not
@@ -157,7 +159,7 @@ ForceList strongest(const ForceList& forces, const SceneSpec& strong) {
 struct EnvelopeSide {
     SceneSpec spec;
     std::vector<std::shared_ptr<Body>> bodies;
-    std::vector<IslandPlan> plans;  // of the bodies that are there from the start
+    std::vector<IslandPlan> plans;                      // of the bodies that are there from the start
     std::map<std::string, std::size_t> bodyOf, planOf;  // by name, the plan by that of its first body
 
     explicit EnvelopeSide(SceneSpec scene) : spec(std::move(scene)) {
@@ -196,11 +198,12 @@ GripRates gripRates(double strength, double dampingRatio, double mass) {
 }
 
 bool isSpawnedLater(const Body& body, const SceneSpec& spec) {
-    return anyForeseen<SpawnAction>(spec.actions, [&](const SpawnAction& spawn) {
-        const Target target = parseTarget(spawn.target);
-        return target.kind == body.kind() &&
-               (matches(target.name, body.name) || matches(target.name, body.base()));
-    });
+    return anyForeseen<SpawnAction>(
+        spec.actions,
+        [&](const SpawnAction& spawn) {
+            const Target target = parseTarget(spawn.target);
+            return target.kind == body.kind() && (matches(target.name, body.name) || matches(target.name, body.base()));
+        });
 }
 
 Envelopes::Envelopes(const SceneSpec& spec) : impl_(new Impl{spec, {}, {}}) {

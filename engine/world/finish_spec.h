@@ -15,12 +15,12 @@ struct FinishSpec {
     std::optional<dvec3> backColour;  // none: a paler colour
     dvec3 accent{0.95, 0.93, 0.88};
     view::Pattern pattern = view::Pattern::plain;
-    double repeat = 0.25;           // [m]
-    double weave = 0.0;             // 0 … 1
-    double thread = 0.012;          // [m]
-    double roughness = 0.7;         // 0 … 1
-    double sheen = 0.0;             // 0 … 1
-    std::string texture;            // path, resolved by the loader
+    double repeat = 0.25;    // [m]
+    double weave = 0.0;      // 0 … 1
+    double thread = 0.012;   // [m]
+    double roughness = 0.7;  // 0 … 1
+    double sheen = 0.0;      // 0 … 1
+    std::string texture;     // path, resolved by the loader
 };
 
 }  // namespace taut::world

@@ -25,8 +25,8 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
 
 void Island::setColliders(collision::Colliders colliders) {
     colliders_ = std::move(colliders);
-    mayCollide_ = colliders_.size() > 0 && std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
-                                                       [](const Body* b) { return b->spec->collide; });
+    mayCollide_ = colliders_.size() > 0 &&
+                  std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* b) { return b->spec->collide; });
 }
 
 std::optional<Fault> Island::tick(const TickTime& time, std::span<const ColliderMotion> moving) {

@@ -67,7 +67,8 @@ void Island::setForces(const TickTime& time, const ForceList& forces) {
 // What is changed while it runs may go beyond what the step was chosen for; that is said once. Rest lengths have no
 // part in the limit.
 void Island::watchLimit(double t) {
-    if (changes_ == Changes{}.add(Change::lengths) || !limitWarning_.empty() || !(choice_.step <= choice_.limit)) return;
+    if (changes_ == Changes{}.add(Change::lengths) || !limitWarning_.empty() || !(choice_.step <= choice_.limit))
+        return;
     const double limit = stepLimit(plan_, dynamics_->stabilityShare(t));
     if (choice_.step <= limit * (1 + 1e-6)) return;  // single precision computes the share a little differently
     limitWarning_ = plan_.bodies.front()->fullName() + ": since " + inSeconds(t) + " its step of " +

@@ -50,7 +50,11 @@ struct JointSpring {
 class Planner {
   public:
     Planner(std::span<Body* const> bodies, const SceneSpec& spec)
-        : bodies_(bodies), spec_(spec), islands_(bodies.size()), firstGlobal_(firsts(bodies)), welds_(firstGlobalEnd()) {
+        : bodies_(bodies),
+          spec_(spec),
+          islands_(bodies.size()),
+          firstGlobal_(firsts(bodies)),
+          welds_(firstGlobalEnd()) {
         for (const JointSpec& joint : spec.joints) addJoint(joint);
     }
 
@@ -122,8 +126,9 @@ class Planner {
         }
         if (made == 0) {
             const std::string why = std::isfinite(nearest)
-                                        ? "the nearest two points are " + std::to_string(nearest) + " m apart, more than reach_m = " +
-                                              std::to_string(joint.reach) + "; move the bodies together, or use kind = \"spring\""
+                                        ? "the nearest two points are " + std::to_string(nearest) +
+                                              " m apart, more than reach_m = " + std::to_string(joint.reach) +
+                                              "; move the bodies together, or use kind = \"spring\""
                                         : "both sides are the same body";
             throw Error(ErrorKind::badContent,
                         at(joint.source) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" joins nothing: " + why);
@@ -214,7 +219,8 @@ class Planner {
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
         std::vector<int> starts = order;
         std::stable_sort(starts.begin(), starts.end(), [&](int a, int b) {
-            return model.positions[static_cast<std::size_t>(a)][axis] < model.positions[static_cast<std::size_t>(b)][axis];
+            return model.positions[static_cast<std::size_t>(a)][axis] <
+                   model.positions[static_cast<std::size_t>(b)][axis];
         });
         std::vector<bool> seen(order.size(), false);
         order.clear();
@@ -237,14 +243,13 @@ class Planner {
 
     SolverSpec solverOf(const IslandPlan& plan) const {
         SolverSpec solver = spec_.solver;
-        const auto same = [&](const Body& a, const Body& b) {
-            return a.spec->solver == b.spec->solver;
-        };
+        const auto same = [&](const Body& a, const Body& b) { return a.spec->solver == b.spec->solver; };
         const Body& first = *plan.bodies.front();
         for (const Body* other : plan.bodies)
             if (!same(first, *other))
-                throw Error(ErrorKind::badContent, at(other->spec->source) + other->fullName() + " and " + first.fullName() +
-                                                      " are joined but differ in their solver; give both the same `solver`");
+                throw Error(ErrorKind::badContent,
+                            at(other->spec->source) + other->fullName() + " and " + first.fullName() +
+                                " are joined but differ in their solver; give both the same `solver`");
         solver.integrator = first.spec->solver.integrator.value_or(solver.integrator);
         solver.safety = first.spec->solver.safety.value_or(solver.safety);
         if (first.spec->solver.dt) solver.dt = first.spec->solver.dt;
@@ -256,9 +261,9 @@ class Planner {
 
     std::span<Body* const> bodies_;
     const SceneSpec& spec_;
-    Sets islands_;                 // (bodies)
+    Sets islands_;                  // (bodies)
     std::vector<int> firstGlobal_;  // (bodies)
-    Sets welds_;                   // (points of all bodies)
+    Sets welds_;                    // (points of all bodies)
     std::vector<JointSpring> joints_;
 };
 
@@ -309,9 +314,11 @@ std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
 
 bool isFree(const IslandPlan& plan, int point) {
     return !plan.points[static_cast<std::size_t>(point)].held &&
-           std::none_of(plan.grips.begin(), plan.grips.end(), [&](const Grip& grip) {
-               return grip.rigid && std::binary_search(grip.points.begin(), grip.points.end(), point);
-           });
+           std::none_of(
+               plan.grips.begin(), plan.grips.end(),
+               [&](const Grip& grip) {
+                   return grip.rigid && std::binary_search(grip.points.begin(), grip.points.end(), point);
+               });
 }
 
 double lengthOf(const mechanics::Spring& spring, std::span<const dvec3> x) {

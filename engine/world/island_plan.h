@@ -31,13 +31,13 @@ struct Grip {
 struct IslandPlan {
     std::vector<Body*> bodies;
     SolverSpec solver;
-    std::vector<dvec3> positions, velocities;                        // (points)
+    std::vector<dvec3> positions, velocities;  // (points)
     std::vector<mechanics::PointMass> points;
-    std::vector<mechanics::PointRange> ranges;                       // (bodies)
-    std::vector<mechanics::Spring> springs;                          // joints last
-    std::vector<SpringOrigin> origins;                               // (springs)
-    std::vector<bool> broken;                                        // (springs) cut or torn; then without stiffness
-    std::vector<Grip> grips;                                         // in the order of grabbing
+    std::vector<mechanics::PointRange> ranges;  // (bodies)
+    std::vector<mechanics::Spring> springs;     // joints last
+    std::vector<SpringOrigin> origins;          // (springs)
+    std::vector<bool> broken;                   // (springs) cut or torn; then without stiffness
+    std::vector<Grip> grips;                    // in the order of grabbing
 };
 
 // The smallest sets of bodies that springs or welds couple. Fills pointOf, firstPoint and lastPoint of every body.

@@ -83,7 +83,8 @@ void Island::visitPlan(StateBytes& bytes) {
     }
     for (auto& point : plan_.points) {
         bytes.notNegative(point.mass);
-        bytes.require(plan_.solver.precision == Precision::double_ ? point.mass > 0 : static_cast<float>(point.mass) > 0);
+        bytes.require(plan_.solver.precision == Precision::double_ ? point.mass > 0
+                                                                   : static_cast<float>(point.mass) > 0);
         bytes.notNegative(point.dragRate);
         bytes(point.held);
     }

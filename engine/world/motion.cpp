@@ -21,12 +21,13 @@ Span<Key> spanAt(const std::vector<Key>& keys, double t) {
     if (t <= keys.front().t) return {&keys.front(), &keys.front(), 0.0};
     for (std::size_t i = 1; i < keys.size(); ++i)
         if (t < keys[i].t)
-            return {&keys[i - 1], &keys[i],
-                    eased(keys[i].ease, (t - keys[i - 1].t) / (keys[i].t - keys[i - 1].t))};
+            return {&keys[i - 1], &keys[i], eased(keys[i].ease, (t - keys[i - 1].t) / (keys[i].t - keys[i - 1].t))};
     return {&keys.back(), &keys.back(), 0.0};
 }
 
-dvec3 mix(const dvec3& a, const dvec3& b, double share) { return a + share * (b - a); }
+dvec3 mix(const dvec3& a, const dvec3& b, double share) {
+    return a + share * (b - a);
+}
 
 }  // namespace
 

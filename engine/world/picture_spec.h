@@ -12,8 +12,8 @@ namespace taut::world {
 enum class Align { left, centre, right };
 
 struct CameraKey {
-    double t = 0.0;               // [s]
-    dvec3 eye{0.0}, target{0.0};  // [m]
+    double t = 0.0;                     // [s]
+    dvec3 eye{0.0}, target{0.0};        // [m]
     std::optional<double> fieldOfView;  // [rad]
     Ease ease = Ease::smooth;
 };

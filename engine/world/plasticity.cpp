@@ -54,9 +54,9 @@ bool Island::settle(const TickTime& time) {
 }
 
 void Island::watchPlasticity() {
-    mayGiveWay_ = std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* body) {
-        return body->plasticity.yieldStrain || body->plasticity.breakStrain;
-    });
+    mayGiveWay_ = std::any_of(
+        plan_.bodies.begin(), plan_.bodies.end(),
+        [](const Body* body) { return body->plasticity.yieldStrain || body->plasticity.breakStrain; });
 }
 
 }  // namespace taut::world

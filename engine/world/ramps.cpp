@@ -30,9 +30,9 @@ void World::Impl::applyRamps(double moment, fields::Affects which) {
 
 // Whether one of them may be different in the coming tick from what it was in the one before.
 bool World::Impl::isRamping(fields::Affects which) const {
-    return std::any_of(ramps.begin(), ramps.end(), [&](const Ramp& ramp) {
-        return ramp.action.field->affects == which && tick <= ramp.start + ramp.length;
-    });
+    return std::any_of(
+        ramps.begin(), ramps.end(),
+        [&](const Ramp& ramp) { return ramp.action.field->affects == which && tick <= ramp.start + ramp.length; });
 }
 
 // Gravity, flows and places change evenly during the tick; all else stays at its value in the middle.
@@ -71,8 +71,7 @@ void World::Impl::changeSprings() {
     const auto concerns = [&](const Body& body) {
         return std::any_of(ramps.begin(), ramps.end(), [&](const Ramp& ramp) {
             const std::string& owner = ramp.action.field->owner;
-            if (ramp.action.field->affects != fields::Affects::springs || tick > ramp.start + ramp.length)
-                return false;
+            if (ramp.action.field->affects != fields::Affects::springs || tick > ramp.start + ramp.length) return false;
             return owner == body.spec->fullName() || owner == "material." + std::string(body.spec->materialName());
         });
     };

@@ -34,7 +34,8 @@ void visitPart(StateBytes& bytes, PoseMove& move) {
 // As many numbers as the field has.
 void visitValue(StateBytes& bytes, std::vector<double>& value, std::size_t size) {
     bytes.list(value);
-    bytes.require(value.size() == size && std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
+    bytes.require(value.size() == size &&
+                  std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
 }
 
 // Its field is that of any action of the scene with the same key. Reading writes the value as it was into the scene.
@@ -103,7 +104,8 @@ void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const st
         bytes.each(names, [&](std::string& name) { bytes(name); });
     }
     if (bytes.isReading())
-        std::erase_if(names, [&](const std::string& name) { return std::count(actions.begin(), actions.end(), name) > 0; });
+        std::erase_if(names,
+                      [&](const std::string& name) { return std::count(actions.begin(), actions.end(), name) > 0; });
     for (std::size_t i = 0; i < std::max(names.size(), own.size()); ++i) {
         if (i >= own.size() || (i < names.size() && names[i] != own[i]))
             misfit("they need the " + names[i] + ", which this world has not, or not in this place");
@@ -127,7 +129,8 @@ void World::Impl::visit(StateBytes& bytes) {
     if (bytes.isReading())
         for (const std::string& target : targets)
             if (!spawnWaiting(target)) misfit("no body \"" + target + "\" waits to be spawned");
-    bytes.each(hands, [&](Hand& hand) { visitPart(bytes, hand); });
+    bytes.each(
+        hands, [&](Hand& hand) { visitPart(bytes, hand); });
     registry.each<ColliderPart, Placement>([&](ecs::Entity, ColliderPart& part, Placement& placement) {
         bytes.expect(part.spec.name, "its colliders are others");
         bytes(placement.from);

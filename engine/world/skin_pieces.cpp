@@ -98,12 +98,11 @@ class Cutter {
         }
         std::vector<SkinVertex::Term> terms;
         double ofA = 1;
-        for (const auto& [point, weight] : weights) {
+        for (const auto& [point, weight] : weights)
             if (point == a)
                 ofA += weight / sum;
             else
                 terms.push_back({point, static_cast<float>(weight / sum)});
-        }
         terms.push_back({a, static_cast<float>(ofA)});
         return terms;
     }

@@ -101,9 +101,8 @@ class Specs {
 
     // The one of that name, or null.
     const Base* find(std::string_view kind, std::string_view name) const {
-        const auto found = std::find_if(all_.begin(), all_.end(), [&](const auto& spec) {
-            return spec->name == name && spec->kind() == kind;
-        });
+        const auto found = std::find_if(all_.begin(), all_.end(),
+                                        [&](const auto& spec) { return spec->name == name && spec->kind() == kind; });
         return found == all_.end() ? nullptr : found->get();
     }
     Base* find(std::string_view kind, std::string_view name) {
@@ -116,7 +115,8 @@ class Specs {
 
     template <class Before>
     void stableSort(Before before) {
-        std::stable_sort(all_.begin(), all_.end(), [&](const auto& a, const auto& b) { return before(*a, *b); });
+        std::stable_sort(
+            all_.begin(), all_.end(), [&](const auto& a, const auto& b) { return before(*a, *b); });
     }
 
   private:

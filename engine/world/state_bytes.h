@@ -98,7 +98,8 @@ class StateBytes {
     }
     void operator()(collision::Pose& pose) {
         (*this)(pose.position);
-        for (double* number : {&pose.rotation.w, &pose.rotation.x, &pose.rotation.y, &pose.rotation.z}) (*this)(*number);
+        for (double* number : {&pose.rotation.w, &pose.rotation.x, &pose.rotation.y, &pose.rotation.z})
+            (*this)(*number);
         const double length2 = glm::dot(pose.rotation, pose.rotation);
         require(length2 > 0.25 && length2 < 4.0);
     }

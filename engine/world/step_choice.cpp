@@ -37,9 +37,9 @@ void warnOverLimit(const IslandPlan& plan, const ode::MethodInfo& method, StepCh
         choice.warnings.push_back(name + ": " + std::string(method.title) +
                                   " is unstable for every step here: nothing damps its fastest motion" + by);
     } else if (choice.step > limitHere * (1 + 1e-9)) {
-        choice.warnings.push_back(name + ": the step of " + inSeconds(choice.step) + " is over the stability limit of " +
-                                  std::string(method.title) + ", " + inSeconds(limitHere) +
-                                  " as the scene starts: it will diverge" + by);
+        choice.warnings.push_back(name + ": the step of " + inSeconds(choice.step) +
+                                  " is over the stability limit of " + std::string(method.title) + ", " +
+                                  inSeconds(limitHere) + " as the scene starts: it will diverge" + by);
     } else if (choice.step > choice.limit * (1 + 1e-9)) {
         choice.warnings.push_back(name + ": the step of " + inSeconds(choice.step) +
                                   " is within the stability limit as the scene starts, " + inSeconds(limitHere) +
@@ -96,16 +96,17 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
 
     const double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
     if (!(wanted > 0))
-        throw Error(ErrorKind::badContent, at(body.spec->source) + body.fullName() + ": dt = \"auto\" finds no step: " +
-                                              std::string(method->title) +
-                                              " is unstable for every step without damping; give dt in seconds, add "
-                                              "damping, or choose another integrator");
+        throw Error(ErrorKind::badContent, at(body.spec->source) + body.fullName() +
+                                               ": dt = \"auto\" finds no step: " + std::string(method->title) +
+                                               " is unstable for every step without damping; give dt in seconds, add "
+                                               "damping, or choose another integrator");
     // A hair less, so that a dt of exactly a tick's part is not cut once more.
     const double substeps = std::ceil(tickSeconds / wanted * (1 - 1e-12));
     if (substeps > mostSubsteps)
-        throw Error(ErrorKind::badContent, at(body.spec->source) + body.fullName() + ": a step of " + inSeconds(wanted) +
-                                              " would need more than a million steps a tick; set by the " +
-                                              choice.limitingSpring + "; soften it, give its points more mass, or use fewer cells");
+        throw Error(ErrorKind::badContent,
+                    at(body.spec->source) + body.fullName() + ": a step of " + inSeconds(wanted) +
+                        " would need more than a million steps a tick; set by the " + choice.limitingSpring +
+                        "; soften it, give its points more mass, or use fewer cells");
     choice.substeps = std::max(1, static_cast<int>(substeps));
     choice.step = tickSeconds / choice.substeps;
     if (!method->caution.empty())

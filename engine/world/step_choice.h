@@ -12,9 +12,9 @@ namespace taut::world {
 
 struct StepChoice {
     int substeps = 1;
-    double step = 0;             // h = tick / substeps [s]
-    double limit = 0;            // largest stable step [s], by the bound that holds in any configuration
-    ode::FastestMode mode;       // what the limit is computed from
+    double step = 0;        // h = tick / substeps [s]
+    double limit = 0;       // largest stable step [s], by the bound that holds in any configuration
+    ode::FastestMode mode;  // what the limit is computed from
     mechanics::FrequencyBound anywhere, here;
     std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
     std::vector<std::string> warnings;

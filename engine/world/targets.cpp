@@ -37,7 +37,8 @@ Target parseTarget(std::string_view text) {
     const std::size_t dot = text.find('.'), at = text.find('@');
     Target target;
     target.kind = text.substr(0, dot);
-    if (dot != std::string_view::npos) target.name = text.substr(dot + 1, at == std::string_view::npos ? at : at - dot - 1);
+    if (dot != std::string_view::npos)
+        target.name = text.substr(dot + 1, at == std::string_view::npos ? at : at - dot - 1);
     if (at != std::string_view::npos) target.selector = text.substr(at + 1);
     return target;
 }

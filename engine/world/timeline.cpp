@@ -55,11 +55,14 @@ std::vector<Picked> World::Impl::pick(const PointsAction& action) const {
         points = {nearest};
     }
     const auto number = [&](const Picked& p) {
-        return std::find_if(islands.begin(), islands.end(), [&](const auto& i) { return i.get() == p.island; });
+        return std::find_if(
+            islands.begin(), islands.end(), [&](const auto& i) { return i.get() == p.island; });
     };
-    std::stable_sort(points.begin(), points.end(), [&](const Picked& a, const Picked& b) {
-        return a.island != b.island ? number(a) < number(b) : a.point < b.point;
-    });
+    std::stable_sort(
+        points.begin(), points.end(),
+        [&](const Picked& a, const Picked& b) {
+            return a.island != b.island ? number(a) < number(b) : a.point < b.point;
+        });
     const auto same = [](const Picked& a, const Picked& b) { return a.island == b.island && a.point == b.point; };
     points.erase(std::unique(points.begin(), points.end(), same), points.end());
     return points;

@@ -127,9 +127,8 @@ ecs::Entity World::Impl::spawn(Body body) {
 // An island of its own.
 ecs::Entity World::Impl::addAlone(std::unique_ptr<Body> body) {
     const Member newcomer = addBody(std::move(body));
-    const auto place = std::find_if(bodies.begin(), bodies.end(), [&](const Member& other) {
-        return sortsBefore(*newcomer.body, *other.body);
-    });
+    const auto place = std::find_if(bodies.begin(), bodies.end(),
+                                    [&](const Member& other) { return sortsBefore(*newcomer.body, *other.body); });
     bodies.insert(place, newcomer);
     ++generation;
     SceneSpec alone;  // the joints of the scene do not concern it
@@ -336,7 +335,8 @@ void World::destroy(ecs::Entity entity) {
     if (const BodyPart* part = w.registry.find<BodyPart>(entity)) {
         const Island* island = &w.islandOf(*part->body);
         TAUT_EXPECTS(island->plan().bodies.size() == 1);
-        std::erase_if(w.islands, [&](const auto& other) { return other.get() == island; });
+        std::erase_if(
+            w.islands, [&](const auto& other) { return other.get() == island; });
         std::erase_if(w.bodies, [&](const Impl::Member& member) { return member.entity == entity; });
         ++w.generation;
     }

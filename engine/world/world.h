@@ -104,7 +104,7 @@ struct IslandInfo {
 };
 
 struct Options {
-    int threads = 0;  // 0: as many as the machine has
+    int threads = 0;                                     // 0: as many as the machine has
     std::vector<std::shared_ptr<const Force>> forces{};  // besides those of the scene; steps allow for them
 };
 
@@ -143,7 +143,7 @@ class World {
     std::vector<BodyHash> bodyHashes() const;                        // in the order of the state hash; not chained
     std::vector<std::uint64_t> pointHashes(ecs::Entity body) const;  // of x and the stored v, in the order of authoring
     Metrics metrics() const;
-    Metrics metrics(const std::string& bodies) const;  // of those that "cloth.*" names; zeros where it names none
+    Metrics metrics(const std::string& bodies) const;   // of those that "cloth.*" names; zeros where it names none
     PointsNow points(const std::string& target) const;  // empty where it names none
     // A selection serves until a body comes or goes; expects one that is current, of this world.
     Selection select(const std::string& target) const;
@@ -152,9 +152,9 @@ class World {
     PointsNow points(const Selection& selection) const;
 
     // Everything that the ticks so far have changed, as bytes, and back into a world that was built from the same scene
-    // up to that tick, with the same forces, and has not ticked yet; what a scene says of later ticks may differ as long
-    // as it leads to the same steps. restore() throws core::Error(badContent) for bytes that do not fit this world, and
-    // leaves it unusable then.
+    // up to that tick, with the same forces, and has not ticked yet; what a scene says of later ticks may differ as
+    // long as it leads to the same steps. restore() throws core::Error(badContent) for bytes that do not fit this
+    // world, and leaves it unusable then.
     std::vector<std::byte> save() const;
     void restore(std::span<const std::byte> bytes);
 
@@ -172,13 +172,14 @@ class World {
     using System = std::function<void(World& world, double t, double dt)>;
     void addSystem(System system);
 
-    // A force acts from now on, on the bodies that are there and on those that come; its energy counts among the elastic
-    // ones, or among the gravitational where it is uniform. Steps are not chosen anew: where it is too stiff for them,
-    // warnings() says so; Options::forces are allowed for. Throws core::Error(usage) where one of that name acts already.
+    // A force acts from now on, on the bodies that are there and on those that come; its energy counts among the
+    // elastic ones, or among the gravitational where it is uniform. Steps are not chosen anew: where it is too stiff
+    // for them, warnings() says so; Options::forces are allowed for. Throws core::Error(usage) where one of that name
+    // acts already.
     void addForce(std::shared_ptr<const Force> force);
 
-    // In mid-run. A new body is an island of its own, felt by the winds and colliders that are there. Throws and expects
-    // what the constructor does.
+    // In mid-run. A new body is an island of its own, felt by the winds and colliders that are there. Throws and
+    // expects what the constructor does.
     ecs::Entity spawn(const ColliderSpec& spec);
     ecs::Entity spawn(const BodySpec& spec);
     // Removes the entity and what it stood for. Expects that it is alive, and a body not joined to another.

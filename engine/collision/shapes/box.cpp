@@ -41,9 +41,10 @@ ShapeKind boxKind() {
             .own = {},
             .isBounded = true,
             .form = makeBox,
-            .mesh = [](const ShapeSizes& sizes) {
-                return view::boxMesh(glm::vec3(sizes.halfSize), static_cast<float>(sizes.edge));
-            }};
+            .mesh =
+                [](const ShapeSizes& sizes) {
+                    return view::boxMesh(glm::vec3(sizes.halfSize), static_cast<float>(sizes.edge));
+                }};
 }
 
 }  // namespace taut::collision

@@ -34,9 +34,10 @@ ShapeKind capsuleKind() {
             .own = {},
             .isBounded = true,
             .form = makeCapsule,
-            .mesh = [](const ShapeSizes& sizes) {
-                return view::capsuleMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
-            }};
+            .mesh =
+                [](const ShapeSizes& sizes) {
+                    return view::capsuleMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
+                }};
 }
 
 }  // namespace taut::collision

@@ -57,9 +57,10 @@ ShapeKind coneKind() {
             .own = {},
             .isBounded = true,
             .form = makeCone,
-            .mesh = [](const ShapeSizes& sizes) {
-                return view::coneMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
-            }};
+            .mesh =
+                [](const ShapeSizes& sizes) {
+                    return view::coneMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
+                }};
 }
 
 }  // namespace taut::collision

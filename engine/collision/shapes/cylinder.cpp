@@ -41,9 +41,10 @@ ShapeKind cylinderKind() {
             .own = {},
             .isBounded = true,
             .form = makeCylinder,
-            .mesh = [](const ShapeSizes& sizes) {
-                return view::cylinderMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
-            }};
+            .mesh =
+                [](const ShapeSizes& sizes) {
+                    return view::cylinderMesh(static_cast<float>(sizes.radius), static_cast<float>(sizes.height));
+                }};
 }
 
 }  // namespace taut::collision

@@ -7,15 +7,15 @@
 namespace taut::world {
 
 Kind<ActionSpec> rampKind() {
-    return actionKind<RampAction>(withWay(fields::FieldList<RampAction>()
-                                              .text("key", &RampAction::key, fields::Role::none,
-                                                    "The field that changes, e.g. \"wind.breeze.velocity\".")
-                                              .required()
-                                              .numbers("to", &RampAction::value, endHelp)),
-                                  [](const fields::CheckInput& input, const RampAction&) {
-                                      if (input.table.find("to") == nullptr)
-                                          reportLack(input, "to", "to is the value that the ramp ends at");
-                                  });
+    return actionKind<RampAction>(
+        withWay(fields::FieldList<RampAction>()
+                    .text("key", &RampAction::key, fields::Role::none,
+                          "The field that changes, e.g. \"wind.breeze.velocity\".")
+                    .required()
+                    .numbers("to", &RampAction::value, endHelp)),
+        [](const fields::CheckInput& input, const RampAction&) {
+            if (input.table.find("to") == nullptr) reportLack(input, "to", "to is the value that the ramp ends at");
+        });
 }
 
 void RampAction::perform(World& world) const {

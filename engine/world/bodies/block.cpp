@@ -30,24 +30,25 @@ Section BlockSpec::section() {
         .number("working_stretch", &BlockSpec::workingStretch, "", Range{1.0, 100.0},
                 "Stretch up to which the step must hold.");
     section.fields = withPlasticity(withLosses(list))
-                                        .choice("lumping", &BlockSpec::lumping, lumpingNames(),
-                                                "How mass is shared out: by volume, or the same for every point.").take();
+                         .choice("lumping", &BlockSpec::lumping, lumpingNames(),
+                                 "How mass is shared out: by volume, or the same for every point.")
+                         .take();
     return section;
 }
 
 mechanics::Model BlockSpec::build(const SceneSpec&) const {
     const glm::dquat turn = rotationOf(rotation);
-    mechanics::Model model =
-        mechanics::buildBlock({.centre = position,
-                               .axes = glm::dmat3(rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1})),
-                               .size = size,
-                               .cells = cells,
-                               .density = density,
-                               .young = young,
-                               .bulk = bulk,
-                               .dampingTime = dampingTime,
-                               .dragRate = drag,
-                               .lumping = lumping});
+    mechanics::Model model = mechanics::buildBlock(
+        {.centre = position,
+         .axes = glm::dmat3(rotated(turn, {1, 0, 0}), rotated(turn, {0, 1, 0}), rotated(turn, {0, 0, 1})),
+         .size = size,
+         .cells = cells,
+         .density = density,
+         .young = young,
+         .bulk = bulk,
+         .dampingTime = dampingTime,
+         .dragRate = drag,
+         .lumping = lumping});
     model.workingStretch = workingStretch;
     return model;
 }

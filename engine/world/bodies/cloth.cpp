@@ -17,7 +17,9 @@ using fields::Section;
 
 namespace {
 
-dvec3 unit(const dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
+dvec3 unit(const dvec3& v) {
+    return v / std::sqrt(glm::dot(v, v));
+}
 
 mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scene) {
     const auto found = scene.materials.find(spec.material);
@@ -52,28 +54,28 @@ Section ClothSpec::section() {
         return table.find("mesh") != nullptr ? "a cloth from a mesh" : "a cloth grid";
     };
     const std::vector<std::string> grid{"a cloth grid"}, mesh{"a cloth from a mesh"};
-    section.fields =
-        FieldList<ClothSpec>()
-                           .text("material", &ClothSpec::material, Role::material, "Name of its material.")
-                           .required()
-                           .vector("size", &ClothSpec::size, "m", lengthRange, "Across and down.")
-                           .only(grid)
-                           .vector("cells", &ClothSpec::cells, "", countRange, "Number of cells across and down.")
-                           .only(grid)
-                           .vector("origin", &ClothSpec::origin, "m", placeRange, "Top left corner.")
-                           .only(grid)
-                           .direction("across", &ClothSpec::across, "Direction from left to right; any length.")
-                           .only(grid)
-                           .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
-                           .only(grid)
-                           .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file.")
-                           .only(mesh)
-                           .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
-                           .only(mesh)
-                           .rotation("rotation_deg", &ClothSpec::rotation, "About x, then y, then z.")
-                           .only(mesh)
-                           .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-                           .only(mesh).take();
+    section.fields = FieldList<ClothSpec>()
+                         .text("material", &ClothSpec::material, Role::material, "Name of its material.")
+                         .required()
+                         .vector("size", &ClothSpec::size, "m", lengthRange, "Across and down.")
+                         .only(grid)
+                         .vector("cells", &ClothSpec::cells, "", countRange, "Number of cells across and down.")
+                         .only(grid)
+                         .vector("origin", &ClothSpec::origin, "m", placeRange, "Top left corner.")
+                         .only(grid)
+                         .direction("across", &ClothSpec::across, "Direction from left to right; any length.")
+                         .only(grid)
+                         .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
+                         .only(grid)
+                         .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file.")
+                         .only(mesh)
+                         .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
+                         .only(mesh)
+                         .rotation("rotation_deg", &ClothSpec::rotation, "About x, then y, then z.")
+                         .only(mesh)
+                         .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+                         .only(mesh)
+                         .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& cloth = *static_cast<ClothSpec*>(target);
         if (input.table.find("across") == nullptr && input.table.find("down") == nullptr) return;

@@ -15,8 +15,8 @@ struct ClothSpec final : SpecOf<ClothSpec, BodySpec>, MeshSource {
     dvec3 across{1.0, 0.0, 0.0};  // direction from left to right
     dvec3 down{0.0, -1.0, 0.0};   // direction from top to bottom
     // … or an OBJ mesh (then the five fields above are not allowed).
-    dvec3 position{0.0};                       // [m]
-    dvec3 rotation{0.0};                       // [rad] about x, then y, then z
+    dvec3 position{0.0};  // [m]
+    dvec3 rotation{0.0};  // [rad] about x, then y, then z
     double scale = 1.0;
     std::string material;  // name of a [material.NAME]
 

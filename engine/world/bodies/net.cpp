@@ -93,8 +93,9 @@ Section NetSpec::section() {
         .required()
         .tables("springs", &NetSpec::springs, netSpringSection(), "Its springs.");
     section.fields = withPlasticity(withLosses(list))
-                           .number("radius", &NetSpec::radius, "m", lengthRange, "Radius of a spring as it is drawn.")
-                           .number("ball", &NetSpec::ball, "m", lengthRange, "Radius of a point as it is drawn.").take();
+                         .number("radius", &NetSpec::radius, "m", lengthRange, "Radius of a spring as it is drawn.")
+                         .number("ball", &NetSpec::ball, "m", lengthRange, "Radius of a point as it is drawn.")
+                         .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         const auto& net = *static_cast<const NetSpec*>(target);
         if (input.isClean && net.points.empty()) input.problems.addError(input.at("points"), "a net needs points");

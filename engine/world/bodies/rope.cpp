@@ -100,9 +100,10 @@ Section RopeSpec::section() {
         .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
         .ramps(Affects::springs);
     section.fields = withPlasticity(withLosses(list))
-                                        .number("radius", &RopeSpec::radius, "m", lengthRange, "As it is drawn.")
-                                        .choice("lumping", &RopeSpec::lumping, lumpingNames(),
-                                                "How mass is shared out: by length, or the same for every point.").take();
+                         .number("radius", &RopeSpec::radius, "m", lengthRange, "As it is drawn.")
+                         .choice("lumping", &RopeSpec::lumping, lumpingNames(),
+                                 "How mass is shared out: by length, or the same for every point.")
+                         .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         const auto& rope = *static_cast<const RopeSpec*>(target);
         if (input.isClean && rope.start == rope.end) {

@@ -1,7 +1,6 @@
 // What claims are built of, and how their parts become numbers. It parses nothing.
 #pragma once
 
-#include <array>
 #include <map>
 #include <span>
 #include <string>

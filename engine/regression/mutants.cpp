@@ -1,6 +1,5 @@
 #include "taut/regression/mutants.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "taut/scene/by_key.h"

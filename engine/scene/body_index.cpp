@@ -102,6 +102,9 @@ BodyIndex::BodyIndex(const world::SceneSpec& scene, const world::Kinds& kinds, c
             body.isFaulty = body.outline.hasSurface = true;
         }
         body.solver = spec.solver;
+        if (body.outline.hasSurface && !body.isFaulty &&
+            std::find(surfaceKinds_.begin(), surfaceKinds_.end(), body.kind) == surfaceKinds_.end())
+            surfaceKinds_.push_back(body.kind);
     }
     const auto isBefore = [](const BodyEntry& a, const BodyEntry& b) { return a.title() < b.title(); };
     std::sort(bodies_.begin(), bodies_.end(), isBefore);
@@ -135,7 +138,7 @@ std::optional<TargetFault> BodyIndex::surfaceFault(const std::string& target) co
     for (const BodyEntry* body : matches(target))
         if (!body->outline.hasSurface)
             return TargetFault{fmt::format("a {} has no surface", body->kind),
-                               "bodies with a surface are cloth, block"};
+                               "bodies with a surface are " + joined(surfaceKinds_)};
     return std::nullopt;
 }
 

@@ -1,7 +1,6 @@
 // The bodies of a scene by name, and whether a target such as "cloth.flag@left" finds points in them.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -58,6 +57,7 @@ class BodyIndex {
     std::optional<TargetFault> bodiesFault(const std::string& target) const;
 
     std::vector<std::string> kinds_;
+    std::vector<std::string> surfaceKinds_{"cloth", "block"};  // and those that the scene has
     std::vector<BodyEntry> bodies_;
 };
 

@@ -28,6 +28,7 @@ void nameMethods(Section& section, const std::vector<std::string>& names) {
         if (field.role == Role::method) field.choices = names;
         for (Section& inside : field.inside) nameMethods(inside, names);
     }
+    for (Section& form : section.forms) nameMethods(form, names);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct ActionSpec {
     // Does it now, with what a world offers, such as apply() of other actions. Throws core::Error(badContent), with the
     // source, where it finds nothing to act on.
     virtual void perform(World& world) const = 0;
-    // How long it goes on after t [s]: a timeline performs it at every tick up to then.
+    // How long it goes on after t [s], finite: a timeline performs it at every tick up to then.
     virtual double lasts() const { return 0.0; }
 
     // Calls visit for itself; an action that applies others, for those. So steps allow for what they will do, and

@@ -20,6 +20,7 @@ double size(const std::vector<double>& value) {
 }
 
 bool changesIslands(const RampAction& ramp) {
+    TAUT_EXPECTS(ramp.field != nullptr);
     return ramp.field->affects == fields::Affects::forces || ramp.field->affects == fields::Affects::springs;
 }
 

@@ -27,8 +27,6 @@ struct Ramp {
     std::vector<double> from;
     std::int64_t start = 0;   // tick
     std::int64_t length = 0;  // ticks; 0: at once
-
-    bool isRunning(std::int64_t tick) const { return tick < start + length; }
 };
 
 // A point that an action names.

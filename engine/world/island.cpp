@@ -27,6 +27,7 @@ void Island::setColliders(collision::Colliders colliders) {
     colliders_ = std::move(colliders);
     mayCollide_ = colliders_.size() > 0 &&
                   std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* b) { return b->spec->collide; });
+    if (!mayCollide_) contacts_.clear();
 }
 
 std::optional<Fault> Island::tick(const TickTime& time, std::span<const ColliderMotion> moving) {

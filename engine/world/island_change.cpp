@@ -1,5 +1,4 @@
-// What is changed of an island between two ticks. Its dynamics are always what the plan and the forces say, so that
-// both together are enough to make them again.
+// What is changed of an island between two ticks.
 #include <algorithm>
 
 #include "taut/world/island.h"

@@ -128,6 +128,7 @@ void Island::visit(StateBytes& bytes) {
     });
     if (!bytes.isReading()) return;
     workElsewhere_ = done;
+    bytes.require(!frozen_ || mayFreeze_);
     if (frozen_) {
         frozen_->name = name;
         for (const Body* body : plan_.bodies) frozen_->bodies.push_back(body->fullName());

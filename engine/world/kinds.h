@@ -1,7 +1,7 @@
 // What a scene can be made of: the tables of kinds, as one value.
 //
 // To add a kind of your own: Kinds kinds = builtIn(); kinds.bodies.add(bodyKind<Mine>()); scene::loadSceneText(text,
-// name, {.kinds = kinds}).
+// name, {.kinds = std::make_shared<const Kinds>(kinds)}).
 #pragma once
 
 #include <utility>

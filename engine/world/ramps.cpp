@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "taut/world/impl.h"
-#include "taut/world/targets.h"
 
 namespace taut::world {
 namespace {

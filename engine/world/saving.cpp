@@ -141,6 +141,12 @@ void World::Impl::visit(StateBytes& bytes) {
     auto count = static_cast<std::uint64_t>(islands.size());
     bytes(count);
     if (count != islands.size()) misfit("its bodies hang together in another way");
+    // What ramps have made of the bodies, for the next one that takes an island's springs from them.
+    const bool ramped = std::any_of(ramps.begin(), ramps.end(), [](const Ramp& ramp) {
+        return ramp.action.field->affects == fields::Affects::springs;
+    });
+    if (bytes.isReading() && ramped)
+        for (const Member& member : bodies) takeSprings(*member.body);
     if (bytes.isReading()) {
         const ForceList current = forces();
         for (const auto& island : islands) island->setForces(now(), current);

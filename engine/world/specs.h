@@ -1,8 +1,8 @@
 // A list of structs of several kinds under one base, such as the bodies of a scene. It is a value: a copy of the list
 // copies what is in it. And what makes a struct a kind that such lists and scene files know.
 //
-// To add a kind: derive from SpecOf<Own, Base>, give it a `kindName` and a `section()`, and add kindOf<Own>() to the
-// table of kinds.
+// To add a kind: derive from SpecOf<Own, Base>, and add bodyKind<Own>(), forceKind<Own>() or actionKind<Own>(rows)
+// (common_rows.h) to a table of kinds.
 #pragma once
 
 #include <algorithm>

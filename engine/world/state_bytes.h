@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <glm/vec3.hpp>
-#include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>

@@ -2,6 +2,7 @@ list(APPEND TAUT_UNIT_TESTS
   mechanics_anchor_generator_test.cpp
   mechanics_builders_block_test.cpp
   mechanics_builders_cloth_test.cpp
+  mechanics_builders_groups_test.cpp
   mechanics_builders_mesh_cloth_test.cpp
   mechanics_builders_net_test.cpp
   mechanics_builders_rope_test.cpp

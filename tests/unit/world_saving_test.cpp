@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/scene/load.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
 #include "support/timelines.h"
@@ -221,6 +222,25 @@ TEST(SavingWhole, DamagedBytesAreRefusedOrRestoredAndNeverMore) {
     }
     EXPECT_GT(refused, 100);  // every shortened one
     EXPECT_GT(restored, 20);  // numbers of the state cannot tell that they were others
+}
+
+// A ramp that has ended counts as much as one that is on its way when another changes the same island.
+TEST(SavingRamps, OneThatHasEndedHoldsWhenTheNextBegins) {
+    const SceneSpec scene = scene::loadSceneText(
+                                "schema = 1\nrun.seconds = 2\n"
+                                "at = [{ t = 0.1, do = \"ramp\", key = \"rope.a.stretch_N\", to = 2e3 },\n"
+                                "      { t = 0.5, do = \"ramp\", key = \"rope.b.stretch_N\", to = 3e3 }]\n"
+                                "joint = [{ a = \"rope.a@end\", b = \"rope.b@start\" }]\n"
+                                "[rope.a]\nends = [[0, 0, 0], [1, 0, 0]]\nhold = [\"start\"]\n"
+                                "[rope.b]\nends = [[1, 0, 0], [2, 0, 0]]\n",
+                                "s.toml", {})
+                                .spec;
+    World world(scene), again(scene);
+    support::run(world, 20);
+    again.restore(world.save());
+    support::run(world, 20);
+    support::run(again, 20);
+    EXPECT_EQ(again.stateHash(), world.stateHash());
 }
 
 }  // namespace

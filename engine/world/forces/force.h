@@ -23,7 +23,8 @@ class Force {
     // "wind.breeze": the same for the same force at all times, different for different ones.
     const std::string& name() const { return name_; }
 
-    // What it does to the points of an island, numbered as in its plan; null where it does nothing.
+    // What it does to the points of an island, numbered as in its plan; null where it does nothing. Of the plan only
+    // numbering, triangles and damage hold as long as the generator does: masses and pinned points come with Motion.
     virtual std::unique_ptr<mechanics::ForceGenerator<float>> inSingle(const IslandPlan& plan) const = 0;
     virtual std::unique_ptr<mechanics::ForceGenerator<double>> inDouble(const IslandPlan& plan) const = 0;
 

@@ -22,11 +22,14 @@ target_compile_options(taut_options INTERFACE
   $<$<NOT:$<BOOL:${PROJECT_IS_TOP_LEVEL}>>:-fno-fast-math>
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 
-# One compiler run reads the sources of up to eight files as one: most of a file's time goes into reading headers.
-# -DTAUT_UNITY=OFF compiles file by file: that every file includes what it needs is seen only then.
-option(TAUT_UNITY "Compile the files of a folder together" ON)
-set(CMAKE_UNITY_BUILD ${TAUT_UNITY})
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+# One compiler run reads this many files as one, for much of a file's time goes into reading headers: more of them make
+# a whole build cheaper, and dearer what is built after a change. -DTAUT_UNITY=1 compiles file by file: that every file
+# includes what it needs is seen only then.
+set(TAUT_UNITY 8 CACHE STRING "How many files of a folder are compiled together")
+if(TAUT_UNITY GREATER 1)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE ${TAUT_UNITY})
+endif()
 
 # The folders where a scene's time goes.
 set(TAUT_COMPUTES core ode mechanics collision world image)

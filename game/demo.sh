@@ -11,7 +11,7 @@ out=$root/out/show
 echo "Building taut in $build"
 log=$build/build.log
 mkdir -p "$build"
-if ! { cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTAUT_TESTS=OFF &&
+if ! { cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTAUT_TESTS=OFF -DTAUT_UNITY=24 &&
     cmake --build "$build" --target taut; } >"$log" 2>&1; then
     tail -n 30 "$log" >&2
     echo "taut: the build failed; all of it is in $log" >&2

@@ -1,11 +1,12 @@
 #!/bin/sh
 # Builds everything and passes every test: g++ all of them, clang the determinism tests (its hashes against those of
 # g++) in a project that has taut as a subproject, and under AddressSanitizer and UndefinedBehaviorSanitizer the unit
-# and physics tests. With --long also the tests labelled so, which take minutes and rarely break.
+# tests. With --long also the physics tests under sanitizers and those labelled long, which take minutes and rarely
+# break.
 set -eu
 case ${1-} in
-    '') without='-LE long' ;;
-    --long) without= ;;
+    '') without='-LE long' sanitized=unit ;;
+    --long) without= sanitized='unit|physics' ;;
     *) echo "usage: sh tests/run.sh [--long]" >&2 && exit 2 ;;
 esac
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -18,7 +19,7 @@ build() {
     source=$2
     targets=$3
     shift 3
-    cmake -G Ninja -S "$source" -B "$folder" "$@" >"$folder.log" 2>&1 || { tail -n 30 "$folder.log" >&2; exit 1; }
+    cmake -G Ninja -S "$source" -B "$folder" -DTAUT_UNITY=24 "$@" >"$folder.log" 2>&1 || { tail -n 30 "$folder.log" >&2; exit 1; }
     echo "Building $folder"
     # shellcheck disable=SC2086  # one word a target
     cmake --build "$folder" --target $targets >>"$folder.log" 2>&1 || { grep -A 12 -E 'error|FAILED' "$folder.log" | head -n 60 >&2; exit 1; }
@@ -29,10 +30,10 @@ jobs=$(nproc 2>/dev/null || echo 2)
 build gcc "$root" all -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release -DTAUT_BENCH=ON
 build clang "$root/tests/consumer" "taut_determinism consumer_all" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
     -DCMAKE_BUILD_TYPE=Release -DTAUT_PROGRAM=ON -DTAUT_TESTS=ON -DTAUT_WERROR=ON
-build asan "$root" "taut taut_unit taut_physics" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan
+build asan "$root" "taut taut_$(echo "$sanitized" | sed 's/|/ taut_/')" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan
 
 ctest --test-dir "$root/build-clang" --output-on-failure -j "$jobs" -L determinism
-ctest --test-dir "$root/build-asan" --output-on-failure -j "$jobs" -L 'unit|physics'
+ctest --test-dir "$root/build-asan" --output-on-failure -j "$jobs" -L "$sanitized"
 # Last, so that the closing lines are those of the whole suite.
 # shellcheck disable=SC2086  # two words or none
 ctest --test-dir "$root/build-gcc" --output-on-failure -j "$jobs" $without

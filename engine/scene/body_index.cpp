@@ -9,6 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/sections.h"
 
 namespace taut::scene {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "taut/fields/problems.h"
 #include "taut/scene/sections.h"
 
 namespace taut::scene {

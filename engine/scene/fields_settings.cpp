@@ -11,7 +11,7 @@ namespace {
 
 constexpr Range seconds{1e-3, 1e6};
 constexpr Range fieldOfView{1.0, 170.0};
-constexpr auto picture = Affects::picture;
+constexpr auto inPicture = Affects::picture;
 
 // Whether one can look from one point to another with y up.
 void checkView(const CheckInput& input, const Node& table, Place place, const dvec3& eye, const dvec3& target) {
@@ -160,20 +160,20 @@ SceneSection lightSection() {
     section.fields =
         FieldList<LightSpec>()
             .direction("direction", &LightSpec::direction, "The way the light travels; any length.")
-            .ramps(picture)
+            .ramps(inPicture)
             .colour("colour", &LightSpec::colour, "Colour of the direct light.")
-            .ramps(picture)
+            .ramps(inPicture)
             .number("intensity", &LightSpec::intensity, "", Range{0.0, 1000.0}, "Strength of the direct light.")
-            .ramps(picture)
+            .ramps(inPicture)
             .degrees("softness_deg", &LightSpec::softness, Range{0.0, 45.0},
                      "Apparent size of the light; wider makes softer shadows.")
-            .ramps(picture)
+            .ramps(inPicture)
             .colour("sky", &LightSpec::sky, "Ambient light from above.")
-            .ramps(picture)
+            .ramps(inPicture)
             .colour("ground", &LightSpec::ground, "Ambient light from below.")
-            .ramps(picture)
+            .ramps(inPicture)
             .number("ambient", &LightSpec::ambient, "", Range{0.0, 1000.0}, "Strength of the ambient light.")
-            .ramps(picture)
+            .ramps(inPicture)
             .take();
     return section;
 }
@@ -187,14 +187,14 @@ SceneSection backgroundSection() {
     section.fields =
         FieldList<BackgroundSpec>()
             .colour("top", &BackgroundSpec::top, "Colour at the top of the picture.")
-            .ramps(picture)
+            .ramps(inPicture)
             .colour("horizon", &BackgroundSpec::horizon, "Colour at the horizon.")
-            .ramps(picture)
+            .ramps(inPicture)
             .number("fade_start", &BackgroundSpec::fadeStart, "m", notNegative,
                     "Distance from the camera's target where the ground begins to fade.")
-            .ramps(picture)
+            .ramps(inPicture)
             .number("fade_end", &BackgroundSpec::fadeEnd, "m", positive, "Distance where the ground has gone.")
-            .ramps(picture)
+            .ramps(inPicture)
             .take();
     section.check = [](const CheckInput& input, void* target) {
         const auto& background = *static_cast<const BackgroundSpec*>(target);
@@ -232,13 +232,13 @@ SceneSection cameraSection() {
     };
     section.fields = FieldList<CameraSpec>()
                          .vector("eye", &CameraSpec::eye, "m", Range{-1e6, 1e6}, "Where the camera stands.")
-                         .ramps(picture)
+                         .ramps(inPicture)
                          .only({"a still camera", "an orbiting camera"})
                          .vector("target", &CameraSpec::target, "m", Range{-1e6, 1e6}, "What it looks at.")
-                         .ramps(picture)
+                         .ramps(inPicture)
                          .only({"a still camera", "an orbiting camera"})
                          .degrees("fov_deg", &CameraSpec::fieldOfView, fieldOfView, "Vertical field of view.")
-                         .ramps(picture)
+                         .ramps(inPicture)
                          .number("orbit_period_s", &CameraSpec::orbitPeriod, "s", Range{-1e6, 1e6},
                                  "Time of one turn about the vertical through the target.")
                          .only({"an orbiting camera"})

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "taut/core/error.h"
+#include "taut/scene/sections.h"
 #include "taut/scene/text_file.h"
 
 namespace taut::scene {

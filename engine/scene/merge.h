@@ -10,6 +10,8 @@
 
 namespace taut::scene {
 
+using fields::Problems;
+
 // The tree of `base` with that of `over` laid on: tables deeply, everything else replaced. Places stay those of the
 // file that says it; a table that both have begins where the base has it.
 Node merged(Node base, const Node& over);

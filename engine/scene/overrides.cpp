@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "taut/core/error.h"
+#include "taut/scene/document.h"
 
 namespace taut::scene {
 

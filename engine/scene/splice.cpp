@@ -203,14 +203,14 @@ class Written {
     std::vector<std::size_t> lines_;  // bytes at which they begin
 };
 
-struct Part {
+struct PartChange {
     KeyPath path;
     std::string value;
 };
 
 // The changes of the single elements that a change of a list comes to where it keeps its length; else itself.
 void addParts(const Written& file, const Node* before, const Written& given, const Node& after, const KeyPath& path,
-              std::vector<Part>& parts) {
+              std::vector<PartChange>& parts) {
     const bool isElementwise = before != nullptr && before->kind == NodeKind::list && after.kind == NodeKind::list &&
                                before->items.size() == after.items.size() && !file.hasHeader(*before);
     if (!isElementwise) return parts.push_back({path, given.textOf(after)});
@@ -247,7 +247,7 @@ std::string spliced(std::string_view text, std::span<const Change> changes) {
             const Node& value = given.tree().find("value")->value;
             set(expected, path, value, change);
             const Written file(result);
-            std::vector<Part> parts;
+            std::vector<PartChange> parts;
             addParts(file, nodeAt(file.tree(), path), given, value, path, parts);
             for (const auto& [place, part] : parts) result = Written(result).with(place, part);
             if (!isSame(documentTree(result, 0), expected)) fail(change, "other values would change with it");

@@ -18,7 +18,7 @@ double orEmpty(double value) {
     return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string nameOf(Damping damping) {
+std::string dampingName(Damping damping) {
     return damping == Damping::drag ? "drag" : damping == Damping::dashpot ? "dashpot" : "none";
 }
 
@@ -37,7 +37,7 @@ const Boundary& nearest(const StabilityPanel& panel, double zeta) {
         [&](const auto& a, const auto& b) { return std::abs(a.zeta - zeta) < std::abs(b.zeta - zeta); });
 }
 
-const char* nameOf(ThresholdKind kind) {
+const char* resultName(ThresholdKind kind) {
     return kind == ThresholdKind::found ? "found" : kind == ThresholdKind::aboveMost ? "above" : "below";
 }
 
@@ -82,7 +82,7 @@ report::Columns<MethodThreshold> thresholdColumns(const SceneThresholds& thresho
     };
     return {{"scene", [&thresholds](const Threshold&) { return thresholds.name; }, In::csv},
             {"method", &Threshold::method, "method"},
-            {"result", [](const Threshold& t) { return nameOf(t.kind); }, "measured [ms]", measuredText},
+            {"result", [](const Threshold& t) { return resultName(t.kind); }, "measured [ms]", measuredText},
             {"stands_s", &Threshold::stands, In::csv},
             {"stands_s", orNone(&Threshold::stands), In::json},
             {"fails_s", &Threshold::fails, In::csv},
@@ -104,7 +104,7 @@ std::string boundariesCsv(const StabilityMap& map) {
     table.columns = {"method", "damping", "zeta", "predicted_omega_h", "measured_omega_h", "gap"};
     for (const StabilityPanel& panel : map.panels)
         for (const Boundary& b : panel.boundaries)
-            table.rows.push_back({panel.method, nameOf(panel.damping), rounded(b.zeta), orEmpty(b.predicted),
+            table.rows.push_back({panel.method, dampingName(panel.damping), rounded(b.zeta), orEmpty(b.predicted),
                                   orEmpty(b.measured), orEmpty(rounded(std::abs(b.measured - b.predicted)))});
     return report::csv(table);
 }
@@ -114,7 +114,7 @@ std::string growthCsv(const StabilityMap& map) {
     table.columns = {"method", "damping", "zeta", "omega_h", "growth_per_step"};
     for (const StabilityPanel& panel : map.panels) {
         if (panel.growth.empty()) continue;
-        const std::string damping = panel.isDampingAlike ? "either" : nameOf(panel.damping);
+        const std::string damping = panel.isDampingAlike ? "either" : dampingName(panel.damping);
         for (int row = 0; row < map.rows; ++row)
             for (int column = 0; column < map.columns; ++column)
                 table.rows.push_back({panel.method, damping, rounded(map.zetaAt(column)), rounded(map.zAt(row)),
@@ -140,7 +140,7 @@ std::string stabilityJson(const StabilityMap& map, const MachineFacts& machine) 
         for (const Boundary& b : panel.boundaries)
             boundaries.push_back({{"zeta", rounded(b.zeta)}, {"predicted", b.predicted}, {"measured", b.measured}});
         json["methods"].push_back({{"method", panel.method},
-                                   {"damping", nameOf(panel.damping)},
+                                   {"damping", dampingName(panel.damping)},
                                    {"no_limit", panel.isWithoutLimit},
                                    {"largest_gap", panel.largestGap},
                                    {"largest_gap_at_zeta", panel.gapZeta},
@@ -154,7 +154,7 @@ std::string stabilitySummary(const StabilityMap& map) {
     report::Table table;
     table.columns = {"method", "damping", "ζ = 0", "ζ = 0.5", "ζ = 1", "ζ = 2", "largest gap", "at ζ"};
     for (const StabilityPanel& panel : map.panels) {
-        std::vector<report::Cell> row = {panel.method, nameOf(panel.damping)};
+        std::vector<report::Cell> row = {panel.method, dampingName(panel.damping)};
         for (const double zeta : {0.0, 0.5, 1.0, 2.0}) row.emplace_back(limitText(nearest(panel, zeta).measured));
         if (panel.isWithoutLimit)
             row.insert(row.end(), {std::string("no limit"), std::string("")});

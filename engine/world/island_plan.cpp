@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "taut/core/error.h"
+#include "taut/world/spec.h"
 #include "taut/world/targets.h"
 
 namespace taut::world {

@@ -12,11 +12,11 @@ using test::PlanarState;
 // Values a few units large: double rounding of sums of three or four of them.
 constexpr double anchorRounding = 1e-13;
 
-const std::vector<dvec3> places = {{0, 0, 0}, {1, 2, 3}, {-1, 0.5, 0}};
-const std::vector<double> masses = {1.0, 0.5, 0.25};
+const std::vector<dvec3> threePlaces = {{0, 0, 0}, {1, 2, 3}, {-1, 0.5, 0}};
+const std::vector<double> threeMasses = {1.0, 0.5, 0.25};
 
 TEST(Anchor, PullsItsPointsToThePlaceAndNoOthers) {
-    PlanarState<double> state(places, masses);
+    PlanarState<double> state(threePlaces, threeMasses);
     const Anchor<double> anchor({2, 1}, {1.0, 1.0, 1.0}, 10.0, 0.0);
     const std::vector<dvec3> f = state.forces(anchor);
     EXPECT_EQ(f[0], dvec3(0.0));
@@ -26,14 +26,14 @@ TEST(Anchor, PullsItsPointsToThePlaceAndNoOthers) {
 }
 
 TEST(Anchor, OffsetsKeepPointsApart) {
-    PlanarState<double> state(places, masses);
-    const Anchor<double> anchor({2, 1}, {0.0, 0.0, 0.0}, 10.0, 1.0, {places[2], places[1]});
+    PlanarState<double> state(threePlaces, threeMasses);
+    const Anchor<double> anchor({2, 1}, {0.0, 0.0, 0.0}, 10.0, 1.0, {threePlaces[2], threePlaces[1]});
     for (const dvec3& f : state.forces(anchor)) EXPECT_EQ(f, dvec3(0.0));
 }
 
 TEST(Anchor, DampingResistsMotionRelativeToTheMovingPlace) {
-    PlanarState<double> state(places, masses);
-    Anchor<double> anchor({1}, places[1], 0.0, 4.0);
+    PlanarState<double> state(threePlaces, threeMasses);
+    Anchor<double> anchor({1}, threePlaces[1], 0.0, 4.0);
     anchor.setPlace({0, 0, 0}, {3, 0, 0}, 1.0, 2.5);  // 2 m/s
     state.set(state.v, 1, {0.5, 1.0, 0.0});
     EXPECT_NEAR(glm::length(state.forces(anchor, 2.0)[1] - dvec3(6.0, -4.0, 0.0)), 0.0, anchorRounding);
@@ -54,7 +54,7 @@ TEST(Anchor, PlaceMovesEvenlyBetweenItsTimes) {
 }
 
 TEST(Anchor, PartsAddUpToTheWhole) {
-    PlanarState<double> state(places, masses);
+    PlanarState<double> state(threePlaces, threeMasses);
     const Anchor<double> anchor({0, 1, 2}, {0.3, 0.4, 0.5}, 7.0, 2.0);
     const std::vector<dvec3> whole = state.forces(anchor);
     std::fill(state.f.begin(), state.f.end(), 0.0);
@@ -64,7 +64,7 @@ TEST(Anchor, PartsAddUpToTheWhole) {
 }
 
 TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergy) {
-    PlanarState<double> state(places, masses);
+    PlanarState<double> state(threePlaces, threeMasses);
     const Anchor<double> anchor({0, 2}, {0.3, 0.4, 0.5}, 7.0, 0.0, {{0.1, 0, 0}, {0, 0.2, 0}});
     const std::vector<dvec3> f = state.forces(anchor);
     core::AlignedArray<double> u(state.planes()), product(state.planes());
@@ -88,7 +88,7 @@ TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergy) {
 }
 
 TEST(Anchor, SharesItsStiffnessAndDampingRate) {
-    const PlanarState<float> state(places, masses);
+    const PlanarState<float> state(threePlaces, threeMasses);
     const Anchor<float> anchor({1}, {0, 0, 0}, 10.0, 3.0);
     const StabilityShare share = state.stability(anchor);
     EXPECT_EQ(share.stiffness, (std::vector<double>{0.0, 10.0, 0.0}));

@@ -25,7 +25,7 @@ std::vector<dvec3> plateAt(double alpha) {
     const dvec3 along(-std::cos(alpha), std::sin(alpha), 0.0), across(0, 0, -1);
     return {dvec3(0.0), along, across};
 }
-const std::vector<double> masses = {0.1, 0.1, 0.1};
+const std::vector<double> sheetMasses = {0.1, 0.1, 0.1};
 const std::vector<std::array<int, 3>> one = {{0, 1, 2}};
 
 WindSettings settings(double drag, double lift) {
@@ -53,7 +53,7 @@ Model sheet() {
 }
 
 TEST(Wind, FlatPlateAcrossTheFlowHasHalfRhoACdUSquared) {
-    PlanarState<double> state(plateAt(core::pi / 2), masses);
+    PlanarState<double> state(plateAt(core::pi / 2), sheetMasses);
     const Wind<double> wind(one, {6, 0, 0}, settings(1.2, 0.6));
     const std::vector<dvec3> f = state.forces(wind);
     EXPECT_NEAR(sum(f).x, 0.5 * 1.2 * 0.5 * 1.2 * 36.0, windRounding);
@@ -63,7 +63,7 @@ TEST(Wind, FlatPlateAcrossTheFlowHasHalfRhoACdUSquared) {
 
 TEST(Wind, DragIsForTheAreaThatTheFlowSeesAndLiftTurnsTowardsTheNormal) {
     for (double alpha : {0.1, 0.5, 1.0, 1.4}) {
-        PlanarState<double> state(plateAt(alpha), masses);
+        PlanarState<double> state(plateAt(alpha), sheetMasses);
         const dvec3 drag = sum(state.forces(Wind<double>(one, {5, 0, 0}, settings(1.0, 0.0))));
         const dvec3 lift = sum(state.forces(Wind<double>(one, {5, 0, 0}, settings(0.0, 1.0))));
         const double head = 0.5 * 1.2 * 0.5 * 25.0;
@@ -74,13 +74,13 @@ TEST(Wind, DragIsForTheAreaThatTheFlowSeesAndLiftTurnsTowardsTheNormal) {
 
 TEST(Wind, EdgeOnVanishesWithoutAJump) {
     for (double alpha : {1e-6, -1e-6}) {
-        PlanarState<double> state(plateAt(alpha), masses);
+        PlanarState<double> state(plateAt(alpha), sheetMasses);
         EXPECT_LT(glm::length(sum(state.forces(Wind<double>(one, {5, 0, 0}, settings(1.0, 0.6))))), 2e-5);
     }
 }
 
 TEST(Wind, WindingDoesNotMatter) {
-    PlanarState<double> state(plateAt(0.4), masses);
+    PlanarState<double> state(plateAt(0.4), sheetMasses);
     const std::vector<std::array<int, 3>> turned = {{0, 2, 1}};
     const dvec3 f = sum(state.forces(Wind<double>(one, {5, 1, 2}, settings(1.0, 0.6))));
     const dvec3 g = sum(state.forces(Wind<double>(turned, {5, 1, 2}, settings(1.0, 0.6))));
@@ -96,7 +96,7 @@ TEST(Wind, AirThatMovesWithTheClothHasNoForce) {
 }
 
 TEST(Wind, OnlyRelativeVelocityCounts) {
-    PlanarState<double> still(plateAt(0.7), masses), moving(plateAt(0.7), masses);
+    PlanarState<double> still(plateAt(0.7), sheetMasses), moving(plateAt(0.7), sheetMasses);
     for (int i = 0; i < 3; ++i) moving.set(moving.v, i, {1, 2, 3});
     const dvec3 f = sum(still.forces(Wind<double>(one, {4, -1, 2}, {})));
     const dvec3 g = sum(moving.forces(Wind<double>(one, {5, 1, 5}, {})));
@@ -108,7 +108,7 @@ TEST(Wind, CarriesTheWeightAtTheTerminalSpeed) {
     const std::vector<dvec3> flat = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
     const double weight = 0.3 * 9.81, terminal = std::sqrt(2.0 * weight / (1.2 * 0.5 * 1.0));
     for (double factor : {0.9, 1.0, 1.1}) {
-        PlanarState<double> state(flat, masses);
+        PlanarState<double> state(flat, sheetMasses);
         for (int i = 0; i < 3; ++i) state.set(state.v, i, {0, -factor * terminal, 0});
         const double up = sum(state.forces(Wind<double>(one, dvec3(0.0), {}))).y;
         EXPECT_NEAR(up, factor * factor * weight, windRounding);
@@ -192,7 +192,7 @@ TEST(Wind, VelocityRisesEvenlyBetweenItsTimes) {
     wind.setVelocity({2, 0, 0}, {6, 0, 0}, 1.0, 3.0);
     EXPECT_EQ(wind.airVelocity({0, 0, 0}, 0.0), dvec3(2, 0, 0));
     EXPECT_EQ(wind.airVelocity({0, 0, 0}, 2.0), dvec3(4, 0, 0));
-    PlanarState<double> state(plateAt(core::pi / 2), masses);
+    PlanarState<double> state(plateAt(core::pi / 2), sheetMasses);
     EXPECT_NEAR(sum(state.forces(wind, 2.0)).x, 0.5 * 1.2 * 0.5 * 16.0, windRounding);
     EXPECT_NEAR(sum(state.forces(wind, 9.0)).x, 0.5 * 1.2 * 0.5 * 36.0, windRounding);
 }
@@ -205,7 +205,7 @@ TEST(Wind, DampingShareBoundsTheSlopeOfTheForce) {
         s.workingSpeed = working;
         double steepest = 0.0, bound = 0.0;
         for (double alpha = 0.013; alpha < 1.6; alpha += 0.05) {
-            PlanarState<double> state(plateAt(alpha), masses);
+            PlanarState<double> state(plateAt(alpha), sheetMasses);
             const Wind<double> wind(one, {working, 0, 0}, s);
             double slope[3][3];
             for (int axis = 0; axis < 3; ++axis) {
@@ -223,7 +223,7 @@ TEST(Wind, DampingShareBoundsTheSlopeOfTheForce) {
                 for (std::size_t j = 0; j < 3; ++j)
                     for (std::size_t k = 0; k < 3; ++k) squared.at(i, j) += slope[k][i] * slope[k][j];
             steepest = std::max(steepest, std::sqrt(taut::test::eigenvalues(squared).back()));
-            bound = state.stability(wind).dampingRate[0] * masses[0] * 3.0;
+            bound = state.stability(wind).dampingRate[0] * sheetMasses[0] * 3.0;
         }
         EXPECT_LE(steepest, bound * (1.0 + 1e-6)) << drag << ' ' << lift;  // differences are good to h²
         EXPECT_GE(steepest, 0.5 * bound) << drag << ' ' << lift;

@@ -19,13 +19,13 @@ using glm::dvec3;
 using glm::ivec2;
 using namespace world;
 
-world::SceneSpec fullSpec() {
+world::SceneSpec readFullScene() {
     const AssetFolder folder;
     return folder.load(fullScene).spec;
 }
 
 TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
-    const Specs<ActionSpec> actions = fullSpec().actions;
+    const Specs<ActionSpec> actions = readFullScene().actions;
     ASSERT_EQ(actions.size(), 8U);
     const auto& grab = dynamic_cast<const GrabAction&>(actions[0]);
     EXPECT_EQ(grab.t, 1.0);
@@ -61,7 +61,7 @@ TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
 }
 
 TEST(SceneTimeline, HandChecksAndGoldensLandInTheirMembers) {
-    const world::SceneSpec scene = fullSpec();
+    const world::SceneSpec scene = readFullScene();
     EXPECT_TRUE(scene.hand.anywhere);
     EXPECT_EQ(scene.hand.strength, 150.0);
     EXPECT_EQ(scene.hand.dampingRatio, 0.4);
@@ -80,7 +80,7 @@ TEST(SceneTimeline, HandChecksAndGoldensLandInTheirMembers) {
 }
 
 TEST(SceneTimeline, StrainsOfYieldAndBreakLandInTheirMembers) {
-    const world::SceneSpec scene = fullSpec();
+    const world::SceneSpec scene = readFullScene();
     EXPECT_EQ(scene.materials.at("silk").plasticity.yieldStrain, 0.05);
     EXPECT_EQ(scene.materials.at("silk").plasticity.breakStrain, 0.5);
     EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].plasticity.yieldStrain, 0.06);

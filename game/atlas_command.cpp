@@ -10,6 +10,7 @@
 #include "game/flags.h"
 #include "game/interruption.h"
 #include "game/lab.h"
+#include "game/messages.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
 #include "taut/pipeline/machine.h"
@@ -63,7 +64,7 @@ int oscillatorAtlas(const AtlasFlags& flags) {
     output.write("stability-map.json", study::stabilityJson(map, machineFacts(machine)));
     output.write("stability-growth.csv", study::growthCsv(map));
     output.write("phase-plane.csv", study::phasePlaneCsv(paths));
-    fmt::print("{}", study::stabilitySummary(map));
+    printResult("{}", study::stabilitySummary(map));
     output.draw("stability-map", study::stabilityChart(map, footOf(machine)));
     output.draw("phase-plane", study::phasePlaneChart(paths, footOf(machine)));
     return output.finish(interruption);
@@ -101,7 +102,7 @@ int sceneAtlas(const AtlasFlags& flags) {
     const pipeline::Machine machine = pipeline::machine();
     output.write(name + "-thresholds.csv", study::thresholdsCsv(thresholds));
     output.write(name + "-thresholds.json", study::thresholdsJson(thresholds, machineFacts(machine)));
-    fmt::print("{}", study::thresholdsSummary(thresholds));
+    printResult("{}", study::thresholdsSummary(thresholds));
     output.draw(name + "-thresholds", study::thresholdChart(thresholds, footOf(machine)));
     return output.finish(interruption);
 }

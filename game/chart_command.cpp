@@ -14,6 +14,7 @@
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
+#include "game/messages.h"
 #include "game/scene_file.h"
 #include "game/suggestion.h"
 #include "taut/core/error.h"
@@ -40,13 +41,13 @@ struct ChartFlags {
 };
 
 void printProblems() {
-    fmt::print("taut chart PROBLEM or taut chart SCENE draws error against cost for every method. The problems:\n\n");
+    printResult("taut chart PROBLEM or taut chart SCENE draws error against cost for every method. The problems:\n\n");
     for (const study::ProblemInfo& problem : study::problems())
-        fmt::print("  {:<14} {}\n", problem.name, problem.about);
-    fmt::print("\ntaut chart {} draws error against resolution instead: {}\n", refinementName, refinementAbout);
-    fmt::print("\nThe methods:");
-    for (const ode::MethodInfo& method : ode::methods()) fmt::print(" {}", method.name);
-    fmt::print("\nA SCENE is a file, or the name of a shipped one: {}\n", fmt::join(shippedScenes(), ", "));
+        printResult("  {:<14} {}\n", problem.name, problem.about);
+    printResult("\ntaut chart {} draws error against resolution instead: {}\n", refinementName, refinementAbout);
+    printResult("\nThe methods:");
+    for (const ode::MethodInfo& method : ode::methods()) printResult(" {}", method.name);
+    printResult("\nA SCENE is a file, or the name of a shipped one: {}\n", fmt::join(shippedScenes(), ", "));
 }
 
 // A problem by name, or a scene.
@@ -92,11 +93,11 @@ study::WorkPrecision play(const study::Subject& subject, study::StudySettings se
 }
 
 void printResults(const study::WorkPrecision& result, const std::vector<study::GrowthRow>& growth) {
-    fmt::print("{}\n\n{}", result.title, study::workPrecisionSummary(result));
+    printResult("{}\n\n{}", result.title, study::workPrecisionSummary(result));
     if (!growth.empty())
-        fmt::print("\nSteps until the error at t = 1 is below 1e-6, and what four evaluations buy\n\n{}",
+        printResult("\nSteps until the error at t = 1 is below 1e-6, and what four evaluations buy\n\n{}",
                    study::growthSummary(growth));
-    for (const std::string& remark : result.remarks) fmt::print("\n{}\n", remark);
+    for (const std::string& remark : result.remarks) printResult("\n{}\n", remark);
 }
 
 std::string machineNote(const pipeline::Machine& machine) {

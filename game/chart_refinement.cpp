@@ -4,6 +4,7 @@
 
 #include "game/interruption.h"
 #include "game/lab.h"
+#include "game/messages.h"
 #include "taut/study/refinement.h"
 #include "taut/study/refinement_chart.h"
 
@@ -22,7 +23,7 @@ int chartRefinement(const std::filesystem::path& folder, const study::MachineFac
     if (result.bodies.empty()) return output.abandon(interruption);
     output.write(std::string(refinementName) + ".csv", study::refinementCsv(result));
     output.write(std::string(refinementName) + ".json", study::refinementJson(result, machine));
-    fmt::print("Sag or stretch at rest against theory, by cells along the longest side\n\n{}",
+    printResult("Sag or stretch at rest against theory, by cells along the longest side\n\n{}",
                study::refinementSummary(result));
     for (const study::NamedChart& drawn : study::refinementCharts(result, {note}))
         output.draw(std::string(refinementName) + "-" + drawn.name, drawn.chart);

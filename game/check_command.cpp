@@ -27,7 +27,7 @@ int check(const CheckFlags& flags) {
             const world::SceneSpec spec = readScene(argument, flags.overrides);
             const world::World built(spec);
             printWarnings(built.warnings());
-            fmt::print("{}: ok\n", spec.file);
+            printResult("{}: ok\n", spec.file);
         } catch (const core::Error& error) {
             printError(error);
             if (code == ExitCode::ok) code = exitCodeOf(error.kind());

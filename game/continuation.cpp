@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
 #include "taut/core/whole_file.h"
@@ -65,7 +66,7 @@ void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, c
     std::vector<std::string> refused;
     std::optional<pipeline::Checkpoint> checkpoint =
         pipeline::CheckpointFolder(folder).latest(goal, keys.state, refused);
-    for (const std::string& line : refused) fmt::print(stderr, "note: {}\n", line);
+    for (const std::string& line : refused) printNote("note: {}\n", line);
     if (!checkpoint) {
         if (flags.resume && !flags.mayOverwrite && !output.empty() &&
             !image::FramePattern(output).framesThere().empty())
@@ -73,7 +74,7 @@ void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, c
                               fmt::format("{} has no state of this run to go on from, and there are frames already; -y "
                                           "draws all of them again",
                                           folder.string()));
-        fmt::print(stderr, "note: {} has no state to go on from; starting with frame 0\n", folder.string());
+        printNote("note: {} has no state to go on from; starting with frame 0\n", folder.string());
         return;
     }
     if (flags.resume && !output.empty() && checkpoint->frame > options.firstFrame &&
@@ -85,7 +86,7 @@ void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, c
                         "--from {}",
                         checkpoint->frame, checkpoint->frame));
     world.restore(checkpoint->world);
-    fmt::print(stderr, "note: going on with frame {}\n", checkpoint->frame);
+    printNote("note: going on with frame {}\n", checkpoint->frame);
     options.startFrame = checkpoint->frame;
     options.before = std::move(checkpoint->records);
     options.firstFrame = std::max(options.firstFrame, options.startFrame);

@@ -7,6 +7,7 @@
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/folders.h"
+#include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/core/instruction_set.h"
 #include "taut/core/whole_file.h"
@@ -20,7 +21,7 @@ namespace taut::game {
 namespace {
 
 void printFact(const std::string& name, const std::string& fact) {
-    fmt::print("{:<12}{}\n", name, fact);
+    printResult("{:<12}{}\n", name, fact);
 }
 
 void printMachine() {
@@ -104,7 +105,7 @@ int doctor(const std::string& folder) {
     const bool draws = printRenderers();
     files = printWriteTest(folder) && files;
     const ExitCode code = !files ? ExitCode::inputOutput : !draws ? ExitCode::noRenderer : ExitCode::ok;
-    fmt::print("{}\n", code == ExitCode::ok ? "Everything needed is there." : "Something is missing.");
+    printResult("{}\n", code == ExitCode::ok ? "Everything needed is there." : "Something is missing.");
     return static_cast<int>(code);
 }
 

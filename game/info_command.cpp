@@ -10,6 +10,7 @@
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "game/messages.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
@@ -106,29 +107,29 @@ void printJson(const Facts& facts) {
                        {"islands", std::move(islands)},
                        {"colliders", facts.spec.colliders.size()},
                        {"warnings", facts.warnings}};
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    printResult("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
 }
 
 void printIsland(const world::IslandInfo& i) {
-    fmt::print("\n{}\n", fmt::join(i.bodies, ", "));
-    fmt::print("  points      {} ({} held), {:.4g} kg\n", i.points, i.heldPoints, i.mass);
-    fmt::print("  springs     {} ({} runs, {} single){}\n", i.springs, i.runs, i.singles,
+    printResult("\n{}\n", fmt::join(i.bodies, ", "));
+    printResult("  points      {} ({} held), {:.4g} kg\n", i.points, i.heldPoints, i.mass);
+    printResult("  springs     {} ({} runs, {} single){}\n", i.springs, i.runs, i.singles,
                i.cells > 0 ? fmt::format(", {} volume cells", i.cells) : "");
-    fmt::print("  omega       {:.4g} /s bound of any state, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
+    printResult("  omega       {:.4g} /s bound of any state, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
                i.omegaBound, i.omegaNow, i.omegaEstimate);
     if (std::isfinite(i.stepLimit))
-        fmt::print("  step limit  {:.4g} ms by {}\n", 1e3 * i.stepLimit,
+        printResult("  step limit  {:.4g} ms by {}\n", 1e3 * i.stepLimit,
                    i.limitingSpring.empty() ? "nothing" : i.limitingSpring);
     else
-        fmt::print("  step limit  none\n");
-    fmt::print("  step        {:.4g} ms = tick / {}, {}\n", 1e3 * i.step, i.substeps, i.method);
-    fmt::print("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
+        printResult("  step limit  none\n");
+    printResult("  step        {:.4g} ms = tick / {}, {}\n", 1e3 * i.step, i.substeps, i.method);
+    printResult("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
 }
 
 void printTable(const Facts& facts) {
     const world::SceneSpec& spec = facts.spec;
-    fmt::print("{}{}\n", spec.file, spec.title.empty() ? "" : ": " + spec.title);
-    fmt::print("{} frames at {:.4g} a second, tick {:.4g} ms = frame / {}, {} precision, {}x{} pixels\n", facts.frames,
+    printResult("{}{}\n", spec.file, spec.title.empty() ? "" : ": " + spec.title);
+    printResult("{} frames at {:.4g} a second, tick {:.4g} ms = frame / {}, {} precision, {}x{} pixels\n", facts.frames,
                spec.run.fps, 1e3 * facts.tickSeconds, facts.ticksPerFrame,
                spec.solver.precision == world::Precision::double_ ? "double" : "single", spec.picture.size.x,
                spec.picture.size.y);
@@ -142,17 +143,17 @@ void printTable(const Facts& facts) {
         springs += island.springs;
         pointSteps += static_cast<double>(island.points) * island.substeps;
     }
-    fmt::print("\nin all {} points, {} springs, {} islands, {} colliders, {:.3g} MB\n", points, springs,
+    printResult("\nin all {} points, {} springs, {} islands, {} colliders, {:.3g} MB\n", points, springs,
                facts.islands.size(), spec.colliders.size(), megabytes(facts));
     if (facts.costPerTick > 0.0) {
         const double perFrame = facts.costPerTick * facts.ticksPerFrame;
-        fmt::print(
+        printResult(
             "simulation about {:.3g} ms a frame ({:.3g} ns a point and step, contacts included), {} for the "
             "whole scene, measured on its first ticks\n",
             1e3 * perFrame, pointSteps > 0.0 ? 1e9 * facts.costPerTick / pointSteps : 0.0,
             clockText(perFrame * static_cast<double>(facts.frames)));
     }
-    for (const std::string& warning : facts.warnings) fmt::print("warning: {}\n", warning);
+    for (const std::string& warning : facts.warnings) printResult("warning: {}\n", warning);
 }
 
 Json methodsJson() {
@@ -179,14 +180,14 @@ std::string undampedLimit(const ode::MethodInfo& method) {
 }
 
 void printMethods() {
-    fmt::print("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", "name", "method", "order", "evals",
+    printResult("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", "name", "method", "order", "evals",
                "arrays", "symplectic", "reversible", "y'=f", "limit", "largest stable ωh at damping ratio ζ");
     const auto yes = [](bool is) { return is ? "yes" : "-"; };
     for (const ode::MethodInfo& m : ode::methods())
-        fmt::print("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", m.name, m.title, m.order,
+        printResult("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", m.name, m.title, m.order,
                    m.evaluations, m.storedArrays, yes(m.symplectic), yes(m.reversible), yes(m.isFirstOrder()),
                    undampedLimit(m), m.limit);
-    fmt::print(
+    printResult(
         "\nevals: force evaluations a step, besides the solve of implicit Euler. arrays: kept besides positions and "
         "velocities, of their size. y'=f: takes "
         "any\nfirst-order system, not x'' = a alone. limit: of ωh without damping; 0 is unstable at every step.\n");
@@ -197,7 +198,7 @@ int info(const InfoFlags& flags) {
         throw core::Error(core::ErrorKind::usage, "--methods tells of no scene: give one or the other");
     if (flags.methods) {
         if (flags.json)
-            fmt::print("{}\n", methodsJson().dump(2));
+            printResult("{}\n", methodsJson().dump(2));
         else
             printMethods();
         return static_cast<int>(ExitCode::ok);

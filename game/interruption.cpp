@@ -1,4 +1,7 @@
 #include "game/interruption.h"
+
+#include <ctime>
+
 #include "game/exit_code.h"
 
 namespace taut::game {
@@ -7,8 +10,26 @@ namespace {
 // A signal handler reaches nothing but what is static.
 std::atomic<bool> asked{false};
 volatile std::sig_atomic_t received = 0;
+volatile std::time_t receivedAt = 0;
+constexpr std::time_t secondsTogether = 1;
 
+// Seconds of a clock that only goes on.
+std::time_t now() {
+    timespec time{};
+    ::clock_gettime(CLOCK_MONOTONIC, &time);
+    return time.tv_sec;
+}
+
+// The first ends the run in order. One that follows at once belongs to it: timeout(1) sends its signal to the process
+// and to its group, a terminal and a supervisor may both send theirs. One that comes later means it.
 extern "C" void noteSignal(int signal) {
+    if (asked) {
+        if (now() - receivedAt <= secondsTogether) return;
+        ::signal(signal, SIG_DFL);
+        ::raise(signal);
+        return;
+    }
+    receivedAt = now();
     received = signal;
     asked = true;
 }
@@ -21,7 +42,7 @@ Interruption::Interruption() {
     received = 0;
     struct sigaction action = {};
     action.sa_handler = noteSignal;
-    action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+    action.sa_flags = static_cast<int>(SA_RESTART);
     sigemptyset(&action.sa_mask);
     ::sigaction(SIGINT, &action, &beforeInterrupt_);
     ::sigaction(SIGTERM, &action, &beforeTerminate_);

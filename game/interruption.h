@@ -10,7 +10,8 @@
 
 namespace taut::game {
 
-// While it lives, the first SIGINT or SIGTERM sets the flag and the second ends the program. One at a time.
+// While it lives, the first SIGINT or SIGTERM sets the flag, and one that comes more than a second later ends the
+// program. One at a time.
 class Interruption {
   public:
     Interruption();

@@ -67,9 +67,9 @@ void LabFolder::draw(const std::string& name, const report::Chart& chart) const 
 int LabFolder::finish(const Interruption& interruption) const {
     const auto code = interruption.exitCode();
     if (code)
-        fmt::print(stderr, "interrupted: what was done until then is in {}\n", folder_.string());
+        printNote("interrupted: what was done until then is in {}\n", folder_.string());
     else if (!isQuiet_)
-        fmt::print(stderr, "in {}\n", folder_.string());
+        printNote("in {}\n", folder_.string());
     if (!draws_) throw core::Error(core::ErrorKind::inputOutput, "no pictures: " + report::gnuplotMissing());
     return static_cast<int>(code.value_or(ExitCode::ok));
 }
@@ -77,7 +77,7 @@ int LabFolder::finish(const Interruption& interruption) const {
 int LabFolder::abandon(const Interruption& interruption) const {
     std::error_code ignored;  // a folder with something in it stays
     for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, ignored);
-    fmt::print(stderr, "interrupted: nothing is written\n");
+    printNote("interrupted: nothing is written\n");
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::interrupted));
 }
 

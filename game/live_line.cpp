@@ -8,6 +8,9 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "game/messages.h"
+#include "taut/core/utf8.h"
+
 namespace taut::game {
 namespace {
 
@@ -31,7 +34,7 @@ std::string cutToTerminal(const std::string& text) {
 LiveLine::LiveLine(bool quiet) : quiet_(quiet), live_(isLiveTerminal()) {}
 
 LiveLine::~LiveLine() {
-    if (open_) fmt::print(stderr, "\n");
+    if (open_) printNote("\n");
 }
 
 bool LiveLine::isDue(bool last) {
@@ -44,11 +47,10 @@ bool LiveLine::isDue(bool last) {
 
 void LiveLine::show(const std::string& text) {
     if (live_) {
-        fmt::print(stderr, "\r{}\x1b[K", cutToTerminal(text));
-        std::fflush(stderr);
+        writeNote("\r" + core::printable(cutToTerminal(text)) + "\x1b[K");
         open_ = true;
     } else {
-        fmt::print(stderr, "{}\n", text);
+        printNote("{}\n", text);
     }
 }
 

@@ -147,7 +147,7 @@ view::Camera LivePlay::camera() const {
 void LivePlay::say(const std::string& text) {
     screen_.say(text);
     hasChanged_ = true;
-    if (!settings_.isQuiet) fmt::print(stderr, "{}\n", text);
+    if (!settings_.isQuiet) printNote("{}\n", text);
 }
 
 // What the ticks just done brought to light.
@@ -156,10 +156,10 @@ void LivePlay::report() {
     const auto& deeds = session_->deeds();
     for (; printed_ < deeds.size(); ++printed_)
         if (settings_.isVerbose)
-            fmt::print(stderr, "{}\n", live::actionText(deeds[printed_], deeds[printed_].t, world::builtInActions()));
+            printNote("{}\n", live::actionText(deeds[printed_], deeds[printed_].t, world::builtInActions()));
     if (!session_->divergence() || saidDivergence_) return;
     saidDivergence_ = true;
-    fmt::print(stderr, "{}\n", session_->divergence()->message);
+    printNote("{}\n", session_->divergence()->message);
     screen_.say(
         fmt::format("Diverged at {:.3f} s: backspace starts again, + halves the step", session_->divergence()->time),
         1e6);
@@ -167,7 +167,7 @@ void LivePlay::report() {
 
 void LivePlay::printSummary(double seconds) const {
     const double moved = static_cast<double>(ticks_) * session_->world().tickSeconds();
-    fmt::print("{} pictures in {:.1f} s: {:.1f} pictures a second, motion at {:.0f} % of real time\n", pictures_,
+    printResult("{} pictures in {:.1f} s: {:.1f} pictures a second, motion at {:.0f} % of real time\n", pictures_,
                seconds, static_cast<double>(pictures_) / seconds, 100.0 * moved / seconds);
 }
 

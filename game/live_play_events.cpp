@@ -8,6 +8,7 @@
 
 #include "game/folders.h"
 #include "game/live_play.h"
+#include "game/messages.h"
 #include "game/scene_file.h"
 #include "taut/core/whole_file.h"
 #include "taut/live/recording.h"
@@ -188,7 +189,7 @@ void LivePlay::writeRecording() {
     core::writeWholeFile(file, live::scenarioText(recording));
     const std::string what = fmt::format("{}: {} actions, state hash {:016x} at tick {}", file.string(),
                                          recording.deeds.size(), recording.hash, recording.endTick);
-    fmt::print("{}\n", what);
+    printResult("{}\n", what);
     std::fflush(stdout);
     say("wrote " + file.string());
 }

@@ -1,18 +1,61 @@
 #include "game/messages.h"
 
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <cstdio>
 
+#include "taut/core/utf8.h"
+
 namespace taut::game {
+namespace {
+
+// A failure stays with the stream.
+void write(std::FILE* stream, std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+void openIfClosed(int descriptor, int mode) {
+    if (::fcntl(descriptor, F_GETFD) != -1) return;
+    // Takes the lowest number that is free: those below are open by now.
+    [[maybe_unused]] const int opened = ::open("/dev/null", mode);
+}
+
+}  // namespace
+
+void writeResult(std::string_view text) {
+    write(stdout, text);
+}
+
+void writeNote(std::string_view text) {
+    write(stderr, text);
+}
+
+void printText(std::string_view text) {
+    writeResult(core::printable(text));
+}
+
+void printNoteText(std::string_view text) {
+    writeNote(core::printable(text));
+}
 
 void printError(const core::Error& error) {
-    fmt::print(stderr, "{}{}\n", error.kind() == core::ErrorKind::badContent ? "" : "taut: ", error.what());
+    printNote("{}{}\n", error.kind() == core::ErrorKind::badContent ? "" : "taut: ", error.what());
 }
 
 void printWarnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings)
-        fmt::print(stderr, "{}{}\n", warning.find("warning: ") == std::string::npos ? "taut: warning: " : "", warning);
+        printNote("{}{}\n", warning.find("warning: ") == std::string::npos ? "taut: warning: " : "", warning);
+}
+
+bool areResultsWritten() {
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
+void openMissingStreams() {
+    openIfClosed(STDIN_FILENO, O_RDONLY);
+    openIfClosed(STDOUT_FILENO, O_RDONLY);
+    openIfClosed(STDERR_FILENO, O_WRONLY);
 }
 
 }  // namespace taut::game

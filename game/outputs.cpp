@@ -7,6 +7,7 @@
 #include <iostream>
 #include <system_error>
 
+#include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/image/video_writer.h"
@@ -38,7 +39,7 @@ void permitOverwriting(const std::filesystem::path& output, std::int64_t first, 
     const std::filesystem::path existing = firstExisting(output, first, last);
     if (existing.empty()) return;
     if (overwrite == Overwrite::ask && ::isatty(STDIN_FILENO) == 1) {
-        fmt::print(stderr, "{} exists already. Overwrite? [y/N] ", existing.string());
+        printNote("{} exists already. Overwrite? [y/N] ", existing.string());
         if (answersYes()) return;
         throw core::Error(core::ErrorKind::inputOutput, "nothing was overwritten");
     }

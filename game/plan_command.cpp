@@ -12,6 +12,7 @@
 #include "game/interruption.h"
 #include "game/lab.h"
 #include "game/live_line.h"
+#include "game/messages.h"
 #include "game/progress.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
@@ -50,14 +51,14 @@ study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const s
 
 // The scene file with the changes, whole or not at all.
 void write(const std::filesystem::path& file, const std::string& text, const study::Plan& plan) {
-    if (plan.changes.empty()) return fmt::print("\n{}: nothing to write\n", file.string());
+    if (plan.changes.empty()) return printResult("\n{}: nothing to write\n", file.string());
     const std::string changed = scene::spliced(text, plan.changes);
     (void)scene::loadSceneText(changed, file.string(), loadOptions());  // throws for what a scene may not say
     if (plan.unseen() > 0)
-        fmt::print(stderr, "warning: what happens between {:.3g} s and {:.3g} s was not looked at; look at the film\n",
+        printNote("warning: what happens between {:.3g} s and {:.3g} s was not looked at; look at the film\n",
                    plan.seconds, plan.runSeconds);
     replaceSceneFile(file, text, changed);
-    fmt::print("\n{}: {} value{} written\n", file.string(), plan.changes.size(), plan.changes.size() == 1 ? "" : "s");
+    printResult("\n{}: {} value{} written\n", file.string(), plan.changes.size(), plan.changes.size() == 1 ? "" : "s");
 }
 
 int plan(const PlanFlags& flags) {
@@ -83,11 +84,11 @@ int plan(const PlanFlags& flags) {
         if (const auto code = interruption.exitCode()) return static_cast<int>(*code);
         throw;
     }
-    fmt::print("{}", study::planSummary(result));
+    printResult("{}", study::planSummary(result));
     if (!flags.json.empty())
         core::writeWholeFile(flags.json, study::planJson(result, machineFacts(pipeline::machine())));
     if (!result.isMet()) {
-        if (flags.write) fmt::print("\n{}: nothing is written, as the need is not met\n", file.string());
+        if (flags.write) printResult("\n{}: nothing is written, as the need is not met\n", file.string());
         return static_cast<int>(ExitCode::needNotMet);
     }
     if (flags.write) write(file, text, result);

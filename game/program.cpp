@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <csignal>
 #include <exception>
 #include <new>
 #include <string>
@@ -23,7 +23,7 @@ int codeOf(ExitCode code) {
 }
 
 void printShortHelp() {
-    fmt::print(
+    printResult(
         "taut plays scenes of ropes, cloth and soft bodies and renders them without a display.\n\n"
         "  taut render flag -o flag.mp4                 a video of a shipped scene\n"
         "  taut render my.toml -o out/frame_######.png  a picture file a frame\n"
@@ -36,34 +36,34 @@ void printShortHelp() {
         "  taut schema > taut.schema.json               the scene format, for editors\n\n"
         "taut --help lists the commands, taut COMMAND --help their flags.\n");
     const std::vector<std::string> scenes = shippedScenes();
-    if (!scenes.empty()) fmt::print("Shipped scenes: {}\n", fmt::join(scenes, ", "));
+    if (!scenes.empty()) printResult("Shipped scenes: {}\n", fmt::join(scenes, ", "));
+}
+
+// A reader that has gone and a file that may grow no more are errors of the call that wrote, and handled there.
+void leaveWriteErrorsToWrite() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int runAction(const Action& action) {
     try {
-        const int code = action();
-        // A result that did not reach its reader is a failure.
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            throw core::Error(core::ErrorKind::inputOutput, "cannot write to standard output");
-        return code;
+        return action();
     } catch (const core::Error& error) {
         printError(error);
         return codeOf(exitCodeOf(error.kind()));
     } catch (const CheckFailed& failed) {
-        fmt::print(stderr, "taut: {}\n", failed.what());
+        printNote("taut: {}\n", failed.what());
         return codeOf(ExitCode::checkFailed);
     } catch (const std::system_error& error) {  // of files and threads
-        fmt::print(stderr, "taut: {}\n", error.what());
+        printNote("taut: {}\n", error.what());
         return codeOf(ExitCode::inputOutput);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "taut: there is not enough memory for this\n");
+        printNote("taut: there is not enough memory for this\n");
         return codeOf(ExitCode::badContent);
     }
 }
 
-}  // namespace
-
-int runProgram(int argc, const char* const* argv, std::span<const Command> commands) {
+int runCommandLine(int argc, const char* const* argv, std::span<const Command> commands) {
     CommandLine line(
         {.name = "taut",
          .description = "Plays scenes of ropes, cloth and soft bodies and renders them without a display.",
@@ -75,9 +75,9 @@ int runProgram(int argc, const char* const* argv, std::span<const Command> comma
     const Request request = line.read(argc, argv);
     switch (request.kind) {
         case Request::Kind::run: return runAction(request.action);
-        case Request::Kind::text: fmt::print("{}", request.text); return codeOf(ExitCode::ok);
+        case Request::Kind::text: printText(request.text); return codeOf(ExitCode::ok);
         case Request::Kind::wrong:
-            fmt::print(stderr, "taut: {}\nTry {} --help.\n", request.text, request.command);
+            printNote("taut: {}\nTry {} --help.\n", request.text, request.command);
             return codeOf(ExitCode::usage);
         case Request::Kind::nothing: break;
     }
@@ -85,7 +85,19 @@ int runProgram(int argc, const char* const* argv, std::span<const Command> comma
     return codeOf(ExitCode::ok);
 }
 
+}  // namespace
+
+int runProgram(int argc, const char* const* argv, std::span<const Command> commands) {
+    const int code = runCommandLine(argc, argv, commands);
+    // A result that did not reach its reader is a failure.
+    if (areResultsWritten()) return code;
+    printNote("taut: cannot write to standard output\n");
+    return code == codeOf(ExitCode::ok) ? codeOf(ExitCode::inputOutput) : code;
+}
+
 int runProgram(int argc, const char* const* argv) {
+    openMissingStreams();
+    leaveWriteErrorsToWrite();
     return runProgram(argc, argv, builtInCommands());
 }
 

@@ -70,7 +70,7 @@ int record(const RecordFlags& flags) {
                       fmt::format("{:.2f} s", world.time()));
     }
     regression::writeTape(output, tape);
-    fmt::print("{}: {} ticks, {:.4g} s, last hash {:016x}\n", output.string(), tape.ticks(),
+    printResult("{}: {} ticks, {:.4g} s, last hash {:016x}\n", output.string(), tape.ticks(),
                static_cast<double>(tape.ticks()) * tape.tickSeconds, tape.chain.back());
     if (divergence) throw core::Error(core::ErrorKind::diverged, divergence->message);
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));

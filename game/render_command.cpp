@@ -147,11 +147,11 @@ pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunO
     const bool everyTick = flags.hashEvery == "tick";
     const bool everyFrame = flags.hash && !everyTick;
     listener.frameDone = [&progress, everyFrame, first = options.firstFrame](const pipeline::FrameRecord& record) {
-        if (everyFrame && record.frame >= first) fmt::print("{} {:016x}\n", record.frame, record.hash);
+        if (everyFrame && record.frame >= first) printResult("{} {:016x}\n", record.frame, record.hash);
         progress.frameDone(record);
     };
     if (everyTick)
-        listener.tickDone = [](std::int64_t tick, std::uint64_t hash) { fmt::print("{} {:016x}\n", tick, hash); };
+        listener.tickDone = [](std::int64_t tick, std::uint64_t hash) { printResult("{} {:016x}\n", tick, hash); };
     return listener;
 }
 
@@ -171,7 +171,7 @@ void printSummary(const RenderFlags& flags, const pipeline::RunResult& result, s
     if (flags.noPictures) text = fmt::format("{} frames simulated", simulated);
     if (!flags.output.empty()) text += fmt::format(", in {}", flags.output);
     if (!flags.video.empty()) text += fmt::format(" and {}", flags.video);
-    fmt::print(stderr, "{}, {:.1f} s{}\n", text, result.seconds, result.interrupted ? " (interrupted)" : "");
+    printNote("{}, {:.1f} s{}\n", text, result.seconds, result.interrupted ? " (interrupted)" : "");
 }
 
 int render(const RenderFlags& flags) {

@@ -35,12 +35,12 @@ bool hasPoints(const regression::Tape& tape) {
 
 void printFacts(const std::string& name, const regression::Tape& tape) {
     const regression::TapeOrigin& origin = tape.origin;
-    fmt::print("{}\n  {} ticks of {:.6g} s, {} a picture, hashes of {} bodies{}\n", name, tape.ticks(),
+    printResult("{}\n  {} ticks of {:.6g} s, {} a picture, hashes of {} bodies{}\n", name, tape.ticks(),
                tape.tickSeconds, tape.ticksPerFrame, tape.casts.front().names.size(),
                hasPoints(tape) ? " and of their points" : "");
-    if (!origin.scene.empty()) fmt::print("  scene {}\n", origin.scene);
-    for (const std::string& override_ : origin.overrides) fmt::print("  --set {}\n", override_);
-    fmt::print("  by {}, {}, {}\n  last hash {:016x}\n", origin.program, origin.compiler, origin.simd,
+    if (!origin.scene.empty()) printResult("  scene {}\n", origin.scene);
+    for (const std::string& override_ : origin.overrides) printResult("  --set {}\n", override_);
+    printResult("  by {}, {}, {}\n  last hash {:016x}\n", origin.program, origin.compiler, origin.simd,
                tape.chain.back());
 }
 
@@ -89,17 +89,17 @@ regression::Tape played(const ReplayFlags& flags, const regression::Tape& tape, 
 int verdict(const ReplayFlags& flags, const regression::Tape& tape, const regression::Tape& now) {
     auto difference = regression::firstDifference(tape, now);
     if (!difference) {
-        fmt::print("the same state at all {} ticks, to the last bit\n", tape.ticks());
+        printResult("the same state at all {} ticks, to the last bit\n", tape.ticks());
         return static_cast<int>(ExitCode::ok);
     }
-    fmt::print("{}\n", regression::describe(*difference));
+    printResult("{}\n", regression::describe(*difference));
     const auto by = [](const regression::TapeOrigin& origin) {
         return fmt::format("{}, {}, {}", origin.program, origin.compiler, origin.simd);
     };
-    fmt::print("  {}: by {}\n  {}: by {}\n", flags.tape, by(tape.origin),
+    printResult("  {}: by {}\n  {}: by {}\n", flags.tape, by(tape.origin),
                flags.other.empty() ? "now" : flags.other.c_str(), by(now.origin));
     if (difference->fault == regression::TapeFault::state && difference->point < 0)
-        fmt::print("  which point it is, two tapes with points can tell (taut record without --no-points)\n");
+        printResult("  which point it is, two tapes with points can tell (taut record without --no-points)\n");
     return static_cast<int>(ExitCode::checkFailed);
 }
 

@@ -4,6 +4,7 @@
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/scene/load.h"
 
@@ -14,7 +15,7 @@ Action declareSchema(Options& options) {
     const auto manual = std::make_shared<bool>(false);
     options.flag("--manual", *manual, "Print it for people: every field with its unit, range and default");
     return [manual] {
-        fmt::print("{}\n", *manual ? scene::manual() : scene::jsonSchema());
+        writeResult((*manual ? scene::manual() : scene::jsonSchema()) + "\n");
         return static_cast<int>(ExitCode::ok);
     };
 }

@@ -5,6 +5,7 @@
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/image/png.h"
 #include "taut/report/contact_sheet.h"
@@ -27,7 +28,7 @@ int sheet(const SheetFlags& flags) {
                           fmt::format("{}: let the name of the sheet end in .png", output.string()));
     const image::Image picture = report::contactSheet(pattern, flags.layout);
     image::writePng(output, picture);
-    fmt::print("{}: {}x{} pixels\n", output.string(), picture.width, picture.height);
+    printResult("{}: {}x{} pixels\n", output.string(), picture.width, picture.height);
     return static_cast<int>(ExitCode::ok);
 }
 

@@ -205,10 +205,10 @@ std::vector<std::string> orphans(const TestFlags& flags, const Run& run) {
 
 int finish(const TestFlags& flags, const report::TestReport& report, const std::filesystem::path& page) {
     // First what a full disk cannot take away.
-    fmt::print("{}{}{}", report::testTable(report), report::testFailures(report), report::calibrationTable(report));
+    printResult("{}{}{}", report::testTable(report), report::testFailures(report), report::calibrationTable(report));
     core::writeWholeFile(page, report::testPage(report));
     if (!flags.junit.empty()) core::writeWholeFile(flags.junit, report::junitXml(report));
-    fmt::print("\n{}; {}\n", report::testSummary(report), page.string());
+    printResult("\n{}; {}\n", report::testSummary(report), page.string());
     return exitCodeOf(report::verdictOf(report));
 }
 
@@ -289,8 +289,8 @@ int update(const TestFlags& flags) {
         refuseToUpdate(scenario, played);
         const std::vector<std::string> changes =
             regression::updateGoldens(scenario, played, run.suite.goldens, run.manifest, flags.why);
-        for (const std::string& change : changes) fmt::print("{}\n", change);
-        if (changes.empty()) fmt::print("{}: nothing differs from its goldens\n", scenario.name);
+        for (const std::string& change : changes) printResult("{}\n", change);
+        if (changes.empty()) printResult("{}: nothing differs from its goldens\n", scenario.name);
     }
     return static_cast<int>(ExitCode::ok);
 }

@@ -54,11 +54,15 @@ int spawn(const ChildCommand& command, int input, int output, int errors, pid_t&
 
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     posix_spawnattr_setpgroup(&attributes, 0);
     sigset_t none;
     sigemptyset(&none);
     posix_spawnattr_setsigmask(&attributes, &none);
+    sigset_t asUsual;  // but for SIGXFSZ: a file that may grow no more is to end in a message
+    sigemptyset(&asUsual);
+    sigaddset(&asUsual, SIGPIPE);
+    posix_spawnattr_setsigdefault(&attributes, &asUsual);
 
     const int error = ::posix_spawnp(&process, argv[0], &files, &attributes, argv.data(), environment.data());
     posix_spawnattr_destroy(&attributes);
@@ -67,8 +71,8 @@ int spawn(const ChildCommand& command, int input, int output, int errors, pid_t&
 }
 
 ChildEnd endOf(int status) {
-    if (WIFSIGNALED(status)) return {0, WTERMSIG(status)};
-    return {WEXITSTATUS(status), 0};
+    if (WIFSIGNALED(status)) return {.signal = WTERMSIG(status)};
+    return {.code = WEXITSTATUS(status)};
 }
 
 std::string contentOf(int descriptor) {
@@ -93,17 +97,21 @@ bool isInPath(const std::string& program) {
 }
 
 std::string ChildEnd::text() const {
+    if (hung) return "hung, and was ended";
     if (signal != 0) return "was ended by signal " + std::to_string(signal);
     return code == 0 ? "ended well" : "failed with exit code " + std::to_string(code);
 }
 
-ChildProcess::ChildProcess(const ChildCommand& command) {
+ChildProcess::ChildProcess(const ChildCommand& command) : patience_(command.patience) {
     TAUT_EXPECTS(!command.arguments.empty());
     // A socket and not a pipe: writing to one whose reader has gone can be asked to return an error instead of
     // raising SIGPIPE, whatever the rest of the process does with signals.
     int ends[2] = {-1, -1};
     int error = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 ? 0 : errno;
     input_ = ends[0];
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(patience_);
+    const timeval longest{seconds.count(), std::chrono::microseconds(patience_ - seconds).count()};
+    if (error == 0) ::setsockopt(input_, SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest);
     output_ = ::memfd_create("output", MFD_CLOEXEC);
     errors_ = ::memfd_create("errors", MFD_CLOEXEC);
     if (error == 0 && (output_ < 0 || errors_ < 0)) error = errno;
@@ -129,7 +137,10 @@ bool ChildProcess::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t done = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
         if (done < 0 && errno == EINTR) continue;
-        if (done < 0) return false;
+        if (done < 0) {
+            hangs_ = errno == EAGAIN;
+            return false;
+        }
         bytes = bytes.subspan(static_cast<std::size_t>(done));
     }
     return true;
@@ -143,17 +154,23 @@ void ChildProcess::closeInput() {
 ChildEnd ChildProcess::wait(const std::atomic<bool>* stop) {
     closeInput();
     if (process_ < 0) return end_;
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
     int status = 0;
     pid_t ended = 0;
-    while (stop != nullptr && !*stop && (ended = ::waitpid(process_, &status, WNOHANG)) == 0)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    while (!hangs_ && (stop == nullptr || !*stop) && (ended = ::waitpid(process_, &status, WNOHANG)) == 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        hangs_ = Clock::now() - start > patience_;
+    }
     if (ended == 0) {
-        if (stop != nullptr) ::kill(process_, SIGKILL);
+        ::kill(process_, SIGKILL);
         while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
         }
     }
     process_ = -1;
-    return end_ = endOf(status);
+    end_ = endOf(status);
+    end_.hung = hangs_;
+    return end_;
 }
 
 std::string ChildProcess::output() const {

@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -22,14 +23,17 @@ struct ChildCommand {
     std::vector<std::string> arguments;  // the program, a path or a name in PATH, and what it is given
     // What differs from the environment of this process: a value, or none for a variable that the child is to lack.
     std::map<std::string, std::optional<std::string>> environment{};
+    // How long it may neither take what it is given nor end: then it hangs, and is killed.
+    std::chrono::milliseconds patience = std::chrono::minutes(10);
 };
 
 // How a process ended: by an exit code of its own, or by a signal.
 struct ChildEnd {
     int code = 0;    // 0 where a signal ended it
     int signal = 0;  // 0 where none did
+    bool hung = false;  // we ended it, for our patience was at an end
     bool succeeded() const { return code == 0 && signal == 0; }
-    std::string text() const;  // "failed with exit code 3", "was ended by signal 9", "ended well"
+    std::string text() const;  // "failed with exit code 3", "was ended by signal 9", "hung", "ended well"
 };
 
 // The child belongs to a process group of its own and has no signal blocked: Ctrl-C on the terminal is ours to answer.
@@ -41,10 +45,11 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    // To its standard input; waits until the child takes it. False when the child does not read any more.
+    // To its standard input; waits until the child takes it. False when the child does not read any more, or hangs.
     bool write(std::span<const std::byte> bytes);
 
-    // Closes its standard input and waits for its end; kills it as soon as `stop` is set. Only the first call waits.
+    // Closes its standard input and waits for its end; kills it as soon as `stop` is set, or when it hangs. Only the
+    // first call waits.
     ChildEnd wait(const std::atomic<bool>* stop = nullptr);
 
     // What it said so far on standard output and on standard error, without blanks and line ends at the end.
@@ -57,6 +62,8 @@ class ChildProcess {
     pid_t process_ = -1;
     int input_ = -1;                 // our end of its standard input
     int output_ = -1, errors_ = -1;  // files in memory
+    std::chrono::milliseconds patience_;
+    bool hangs_ = false;
     ChildEnd end_;
 };
 

@@ -9,12 +9,26 @@
 #include <system_error>
 
 #include "taut/core/error.h"
+#include "taut/core/file_lock.h"
 
 namespace taut::core {
 namespace {
 
 [[noreturn]] void failOn(const std::filesystem::path& path, const char* what, int error) {
     throw Error(ErrorKind::inputOutput, path.string() + ": " + what + ": " + std::strerror(error));
+}
+
+// What a process that was killed has left under a temporary name; a link is not followed. Throws when it is being
+// written, by a process that lives.
+void removeLeftOver(const std::filesystem::path& path, const std::filesystem::path& temporary) {
+    const int left = ::open(temporary.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    const bool isFree = left < 0 || tryLock(left, FileLock::exclusive);
+    // The lock may be one on a file that another process has replaced meanwhile.
+    const bool isGone = left >= 0 && !isNamed(left, temporary);
+    const int error = isFree && !isGone && ::unlink(temporary.c_str()) != 0 && errno != ENOENT ? errno : 0;
+    if (left >= 0) ::close(left);
+    if (!isFree) throw Error(ErrorKind::inputOutput, path.string() + ": another process is writing this file");
+    if (error != 0) failOn(path, "cannot write", error);
 }
 
 }  // namespace
@@ -34,8 +48,17 @@ void prepareFolderOf(const std::filesystem::path& path) {
 
 WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)), temporary_(temporaryName(path_)) {
     if (std::error_code error; std::filesystem::is_directory(path_, error)) failOn(path_, "cannot write", EISDIR);
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) failOn(path_, "cannot write", errno);
+    // Over again when another process has made or taken away that name between two calls.
+    while (descriptor_ < 0) {
+        descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (descriptor_ < 0) {
+            if (errno != EEXIST) failOn(path_, "cannot write", errno);
+            removeLeftOver(path_, temporary_);
+        } else if (!tryLock(descriptor_, FileLock::exclusive) || !isNamed(descriptor_, temporary_)) {
+            ::close(descriptor_);
+            descriptor_ = -1;
+        }
+    }
 }
 
 WholeFile::~WholeFile() {

@@ -17,10 +17,11 @@ std::filesystem::path temporaryName(const std::filesystem::path& path);
 // keep its results fails before it begins. Throws core::Error(inputOutput); leaves no file behind.
 void prepareFolderOf(const std::filesystem::path& path);
 
-// A file being written. Without commit() nothing stays of it, and a file of that name from before is untouched.
+// A file being written, by one process at a time: the second throws. Without commit() nothing stays of it, and a file
+// of that name from before is untouched.
 class WholeFile {
   public:
-    // Opens the temporary file; throws core::Error(inputOutput).
+    // Makes the temporary file anew, also where a killed process has left one; throws core::Error(inputOutput).
     explicit WholeFile(std::filesystem::path path);
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;
@@ -29,6 +30,9 @@ class WholeFile {
     // Appends; throws core::Error(inputOutput), a full disk included.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
+
+    // Where it is until then: another program may write it.
+    const std::filesystem::path& temporary() const { return temporary_; }
 
     // Closes the file and gives it its name; throws core::Error(inputOutput).
     void commit();

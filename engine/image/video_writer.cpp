@@ -1,10 +1,7 @@
 #include "taut/image/video_writer.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -30,7 +27,7 @@ bool isVideoPath(const std::filesystem::path& path) {
 }
 
 VideoWriter::VideoWriter(std::filesystem::path path, VideoOptions options)
-    : path_(std::move(path)), temporary_(core::temporaryName(path_)), options_(std::move(options)) {
+    : path_(std::move(path)), options_(std::move(options)) {
     TAUT_EXPECTS(isVideoPath(path_));
     TAUT_EXPECTS(options_.fps > 0.0);
     if (!core::isInPath(options_.program))
@@ -39,13 +36,10 @@ VideoWriter::VideoWriter(std::filesystem::path path, VideoOptions options)
                                       "instead: -o {}/frame_######.png",
                                       path_.string(), options_.program, (path_.parent_path() / path_.stem()).string()));
     core::prepareFolderOf(path_);
+    file_ = std::make_unique<core::WholeFile>(path_);
 }
 
-VideoWriter::~VideoWriter() {
-    if (!encoder_) return;
-    encoder_.reset();
-    ::unlink(temporary_.c_str());
-}
+VideoWriter::~VideoWriter() = default;
 
 void VideoWriter::start(int width, int height) {
     width_ = width;
@@ -86,7 +80,7 @@ void VideoWriter::start(int width, int height) {
                                           "iec61966-2-1"};
     const std::string container = containerOf(path_);
     if (container != "matroska") arguments.insert(arguments.end(), {"-movflags", "+faststart"});
-    arguments.insert(arguments.end(), {"-f", container, "file:" + temporary_.string()});
+    arguments.insert(arguments.end(), {"-f", container, "file:" + file_->temporary().string()});
 
     try {
         encoder_ = std::make_unique<core::ChildProcess>(core::ChildCommand{std::move(arguments)});
@@ -109,16 +103,16 @@ void VideoWriter::finish() {
     if (!end.succeeded()) fail(end.text());
     // ffmpeg ends well after some failures to write the end of the file; raw pictures give it nothing else to report.
     if (!encoder_->errors().empty()) fail("reported");
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(fmt::format("wrote no file: {}", std::strerror(errno)));
+    file_->commit();
     encoder_.reset();
 }
 
 void VideoWriter::fail(const std::string& what) {
-    encoder_->wait();
+    const core::ChildEnd end = encoder_->wait();
     const std::string text = encoder_->errors();
     encoder_.reset();
-    ::unlink(temporary_.c_str());
-    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {} {}{}{}", path_.string(), options_.program, what,
+    file_.reset();
+    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {} {}{}{}", path_.string(), options_.program, end.hung ? end.text() : what,
                                                                 text.empty() ? "" : ":\n", text));
 }
 

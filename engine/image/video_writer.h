@@ -10,6 +10,7 @@
 
 namespace taut::core {
 class ChildProcess;
+class WholeFile;
 }
 
 namespace taut::image {
@@ -27,8 +28,8 @@ bool isVideoPath(const std::filesystem::path& path);
 // it is removed. An odd width or height is padded by one black column or row, because yuv420p needs even numbers.
 class VideoWriter : public FrameSink {
   public:
-    // Looks for the program, makes the folder and tries that a file can be made there; throws core::Error(inputOutput),
-    // with the name of the package when the program is missing. It starts with the first picture, because the size is
+    // Looks for the program, makes the folder and, under its temporary name, the file; throws core::Error(inputOutput),
+    // with the name of the package when the program is missing. The program starts with the first picture, because the size is
     // known only then.
     VideoWriter(std::filesystem::path path, VideoOptions options);
     ~VideoWriter() override;
@@ -45,9 +46,9 @@ class VideoWriter : public FrameSink {
     [[noreturn]] void fail(const std::string& what);
 
     std::filesystem::path path_;
-    std::filesystem::path temporary_;
     VideoOptions options_;
     int width_ = 0, height_ = 0;
+    std::unique_ptr<core::WholeFile> file_;        // that it writes
     std::unique_ptr<core::ChildProcess> encoder_;  // ffmpeg, from the first picture on
 };
 

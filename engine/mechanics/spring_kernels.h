@@ -62,5 +62,9 @@ struct SpringKernels {
 // For the instruction set in use.
 template <class Real>
 SpringKernels<Real> springKernels();
+template <>
+SpringKernels<float> springKernels();
+template <>
+SpringKernels<double> springKernels();
 
 }  // namespace taut::mechanics

@@ -18,5 +18,9 @@ struct UpdateKernels {
 // For the instruction set in use.
 template <class Real>
 UpdateKernels<Real> updateKernels();
+template <>
+UpdateKernels<float> updateKernels();
+template <>
+UpdateKernels<double> updateKernels();
 
 }  // namespace taut::ode

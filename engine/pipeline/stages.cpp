@@ -43,27 +43,27 @@ struct Line {
 
 void runStages(const Stages& stages) {
     Line line;
-    std::jthread simulating([&] {
-        line.run([&] {
-            while (std::optional<view::FrameView> view = stages.simulate())
-                if (!line.views.push(std::move(*view))) return;
-            line.views.close();
-        });
-    });
-    std::jthread encoding([&] {
-        line.run([&] {
-            while (const std::optional<Drawn> drawn = line.pictures.pop()) stages.encode(drawn->view, drawn->picture);
-        });
-    });
+    const auto simulate = [&] {
+        while (std::optional<view::FrameView> view = stages.simulate())
+            if (!line.views.push(std::move(*view))) return;
+        line.views.close();
+    };
+    const auto encode = [&] {
+        while (const std::optional<Drawn> drawn = line.pictures.pop()) stages.encode(drawn->view, drawn->picture);
+    };
+    std::jthread simulating, encoding;
     line.run([&] {
+        // Within, for a thread that cannot be started ends the other.
+        simulating = std::jthread([&] { line.run(simulate); });
+        encoding = std::jthread([&] { line.run(encode); });
         while (std::optional<view::FrameView> view = line.views.pop()) {
             image::Image picture = stages.draw(*view);
             if (!line.pictures.push({std::move(*view), std::move(picture)})) return;
         }
         line.pictures.close();
     });
-    simulating.join();
-    encoding.join();
+    if (simulating.joinable()) simulating.join();
+    if (encoding.joinable()) encoding.join();
     if (line.failure) std::rethrow_exception(line.failure);
 }
 

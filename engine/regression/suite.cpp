@@ -5,6 +5,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include "taut/core/error.h"
@@ -32,7 +33,10 @@ class Suite {
     void run() {
         const int count = std::clamp(options_.sideBySide, 1, std::max(1, static_cast<int>(scenarios_.size())));
         std::vector<std::jthread> workers;
-        for (int i = 1; i < count; ++i) workers.emplace_back([this] { work(); });
+        try {
+            for (int i = 1; i < count; ++i) workers.emplace_back([this] { work(); });
+        } catch (const std::system_error&) {  // no more threads here: those that there are do it
+        }
         work();
         workers.clear();  // joins
         if (failure_) std::rethrow_exception(failure_);

@@ -15,25 +15,21 @@ const char* const gnuplotProgram = "gnuplot";
 
 void draw(const Chart& chart, Format format, const std::filesystem::path& path) {
     core::prepareFolderOf(path);
-    const std::filesystem::path temporary = core::temporaryName(path);
+    core::WholeFile file(path);
     const auto fail = [&](const std::string& what) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
         throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", path.string(), what));
     };
     if (!core::isInPath(gnuplotProgram)) fail(gnuplotMissing());
     // "-d": no settings of the user's own.
     const core::ChildResult result =
-        core::runChild({{gnuplotProgram, "-d", "-"}}, gnuplotScript(chart, format, temporary));
+        core::runChild({{gnuplotProgram, "-d", "-"}}, gnuplotScript(chart, format, file.temporary()));
     std::error_code error;
-    if (!result.end.succeeded() || !std::filesystem::exists(temporary, error) ||
-        std::filesystem::file_size(temporary, error) == 0) {
+    if (!result.end.succeeded() || std::filesystem::file_size(file.temporary(), error) == 0) {
         const std::string said = result.output + result.errors;
         fail(fmt::format("gnuplot {}{}{}", result.end.succeeded() ? "drew nothing" : result.end.text(),
                          said.empty() ? "" : ":\n", said));
     }
-    std::filesystem::rename(temporary, path, error);
-    if (error) fail("cannot rename the finished file: " + error.message());
+    file.commit();
 }
 
 }  // namespace

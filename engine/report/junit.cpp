@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
+#include <string_view>
 #include <vector>
 
+#include "taut/core/utf8.h"
 #include "taut/report/test_page.h"
 
 namespace taut::report {
@@ -18,24 +19,11 @@ struct Case {
     double seconds = 0;
 };
 
-// How many bytes the UTF-8 character that begins there has; 0: it is none, or one that XML does not allow.
+// Of the character that begins there; 0: it is none, or one that XML does not allow.
 std::size_t characterLength(const std::string& text, std::size_t at) {
-    const auto byte = [&](std::size_t i) {
-        return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0U;
-    };
-    const unsigned first = byte(at);
-    if (first < 0x80) return first >= 0x20 || first == '\n' || first == '\r' || first == '\t' ? 1 : 0;
-    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4) return 0;
-    std::uint32_t code = first & (0xFFU >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(at + i) & 0xC0U) != 0x80U) return 0;
-        code = (code << 6U) | (byte(at + i) & 0x3FU);
-    }
-    const bool isTooLong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-    const bool isNoCharacter =
-        (code >= 0xD800 && code <= 0xDFFF) || code == 0xFFFE || code == 0xFFFF || code > 0x10FFFF;
-    return isTooLong || isNoCharacter ? 0 : length;
+    const core::Letter letter = core::firstLetter(std::string_view(text).substr(at));
+    const bool isControl = letter.code < 0x20 && letter.code != '\n' && letter.code != '\r' && letter.code != '\t';
+    return isControl || letter.code == 0xFFFE || letter.code == 0xFFFF ? 0 : letter.size;
 }
 
 // For text and attributes; what XML does not allow becomes a question mark.

@@ -35,14 +35,13 @@ TEST(WholeFile, AbandonedLeavesTheOldFileUntouchedAndNothingElse) {
     EXPECT_EQ(folder.entryCount(), 1);
 }
 
-// Every write to /dev/full fails with ENOSPC; the temporary name leads there.
 TEST(WholeFile, FullDiskIsReportedAndLeavesNothing) {
     const TemporaryFolder folder;
     const auto path = folder / "a.txt";
     test::writeText(path, "old");
-    std::filesystem::create_symlink("/dev/full", temporaryName(path));
+    const test::FileSizeLimit limit(2);
     const std::string message = messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(path, "new"); });
-    EXPECT_NE(message.find("a.txt: cannot write: No space left on device"), std::string::npos) << message;
+    EXPECT_NE(message.find("a.txt: cannot write: File too large"), std::string::npos) << message;
     EXPECT_EQ(contentOf(path), "old");
     EXPECT_EQ(folder.entryCount(), 1);
 }
@@ -73,6 +72,30 @@ TEST(WholeFile, PreparingMakesTheFolderAndNothingInIt) {
     prepareFolderOf(folder / "a/b/c.txt");
     EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
     EXPECT_TRUE(std::filesystem::is_empty(folder / "a/b"));
+}
+
+// A link under the temporary name, laid there by somebody else, leads nowhere.
+TEST(WholeFile, FollowsNoLinkAndReplacesWhatAKilledProcessLeft) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "other", "untouched");
+    std::filesystem::create_symlink(folder / "other", temporaryName(folder / "a"));
+    writeWholeFile(folder / "a", "new");
+    EXPECT_EQ(contentOf(folder / "other"), "untouched");
+    EXPECT_FALSE(std::filesystem::is_symlink(folder / "a"));
+    test::writeText(temporaryName(folder / "a"), "half a file that was written when");
+    writeWholeFile(folder / "a", "newer");
+    EXPECT_EQ(contentOf(folder / "a"), "newer");
+    EXPECT_EQ(folder.entryCount(), 2);
+}
+
+TEST(WholeFile, IsWrittenByOneAtATime) {
+    const TemporaryFolder folder;
+    WholeFile first(folder / "a");
+    const std::string message = messageOf(ErrorKind::inputOutput, [&] { WholeFile second(folder / "a"); });
+    EXPECT_NE(message.find("a: another process is writing this file"), std::string::npos) << message;
+    first.write("whole");
+    first.commit();
+    EXPECT_EQ(contentOf(folder / "a"), "whole");
 }
 
 TEST(WholeFile, ReadingReportsWhatIsMissingOrAFolder) {

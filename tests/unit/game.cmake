@@ -5,5 +5,6 @@ list(APPEND TAUT_UNIT_TESTS
   game_outputs_test.cpp
   game_own_command_test.cpp
   game_play_test.cpp
-  game_program_test.cpp)
+  game_program_test.cpp
+  game_streams_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::game)

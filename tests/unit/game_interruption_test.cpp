@@ -93,6 +93,8 @@ TEST(Interrupted, ProgramLeavesAWholeVideoWhenTerminated) {
     // The first hashes come out once pictures are on their way to the encoder.
     EXPECT_TRUE(comesTrue([&] { return !test::contentOf(folder / "messages").empty(); }));
     ::kill(process, SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ::kill(process, SIGTERM);  // as timeout(1) does: to the process, then to its group
     EXPECT_EQ(exitCodeOf(process), 143) << test::contentOf(folder / "messages");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.mp4.part"));
     EXPECT_NE(test::contentOf(folder / "a.mp4").find("moov"), std::string::npos);

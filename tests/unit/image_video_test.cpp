@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "taut/core/child_process.h"
 #include "taut/image/video_writer.h"
 #include "image_support.h"
 
@@ -108,16 +109,26 @@ TEST(VideoWriter, EncoderThatEndsEarlyIsAnErrorAndNoSignal) {
     std::signal(SIGPIPE, before);
 }
 
-// The temporary file lies on a full device: ffmpeg's own message comes through and nothing stays.
+TEST(ChildProcess, ThatHangsIsEndedAfterAWhile) {
+    using std::chrono::milliseconds;
+    core::ChildProcess deaf({.arguments = {"sleep", "1000"}, .patience = milliseconds(50)});
+    const std::vector<std::byte> much(1 << 20);
+    EXPECT_FALSE(deaf.write(much));
+    EXPECT_TRUE(deaf.wait().hung);
+    core::ChildProcess endless({.arguments = {"sleep", "1000"}, .patience = milliseconds(50)});
+    EXPECT_EQ(endless.wait().text(), "hung, and was ended");
+}
+
+// ffmpeg's own message comes through and nothing stays.
 TEST(VideoWriter, FullDiskIsReported) {
     const TemporaryFolder folder;
     VideoWriter video(folder / "a.mkv", {});
-    std::filesystem::create_symlink("/dev/full", folder / "a.mkv.part");
+    const test::FileSizeLimit limit(1000);
     const std::string message = messageOf(ErrorKind::inputOutput, [&] {
         for (int frame = 0; frame < 30; ++frame) video.write(frame, test::testPicture(64, 48));
         video.finish();
     });
-    EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
+    EXPECT_NE(message.find("File too large"), std::string::npos) << message;
     EXPECT_EQ(folder.entryCount(), 0);
 }
 

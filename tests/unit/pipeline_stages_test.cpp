@@ -1,14 +1,20 @@
 #include "taut/pipeline/stages.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -144,6 +150,30 @@ TEST(Stages, FailureOfAnyStageEndsTheOthersAndIsRethrown) {
         }
         EXPECT_LT(lastEncoded, 3);
     }
+}
+
+// Memory for the stack of one more thread, and no more: the stage that there is may not wait for the other for ever.
+TEST(Stages, ThreadThatCannotBeStartedEndsTheRun) {
+    const auto run = [] {
+        ::alarm(20);
+        constexpr std::size_t stack = std::size_t{1} << 30U;
+        pthread_attr_t attributes;
+        pthread_attr_init(&attributes);
+        pthread_attr_setstacksize(&attributes, stack);
+        pthread_setattr_default_np(&attributes);
+        std::size_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlimit limit{pages * 4096 + stack + stack / 2, RLIM_INFINITY};
+        ::setrlimit(RLIMIT_AS, &limit);
+        try {
+            runStages({[] { return std::optional(view::FrameView{}); }, [](const auto&) { return image::Image{}; },
+                       [](const auto&, const auto&) {}});
+        } catch (const std::system_error&) {
+            std::_Exit(0);
+        }
+        std::_Exit(1);
+    };
+    EXPECT_EXIT(run(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -1,0 +1,18 @@
+// Locks of the kernel on files: they go with the process that holds them, however it ends, and hold between threads
+// too. It knows nothing of what is in the files.
+#pragma once
+
+#include <filesystem>
+
+namespace taut::core {
+
+enum class FileLock { shared, exclusive };
+
+// Locks the whole of an open file, or changes the lock that this descriptor holds into the other, at once and without
+// waiting. False when another holds one that excludes it. A file system that knows no locks counts as having none.
+bool tryLock(int descriptor, FileLock lock);
+
+// Whether the file that is open is still the one of that name; a symbolic link is not followed.
+bool isNamed(int descriptor, const std::filesystem::path& path);
+
+}  // namespace taut::core

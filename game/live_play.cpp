@@ -48,8 +48,10 @@ LivePlay::LivePlay(PlaySettings settings) : settings_(std::move(settings)) {
 void LivePlay::rebuild(std::vector<std::string> changes, const std::string& said) {
     std::vector<std::string> overrides = settings_.overrides;
     overrides.insert(overrides.end(), changes.begin(), changes.end());
+    std::string kept;  // of the recording so far, which is not to be lost
     try {
         auto session = std::make_unique<live::Session>(readScene(settings_.scene, overrides), settings_.threads);
+        if (session_ && isRecording_ && session_->tick() > 0) kept = savedRecording(true) + "; ";
         session_ = std::move(session);
     } catch (const core::Error& error) {
         if (!session_) throw;
@@ -69,7 +71,7 @@ void LivePlay::rebuild(std::vector<std::string> changes, const std::string& said
     printed_ = 0;
     steps_ = 0;
     hasChanged_ = true;
-    if (!said.empty()) say(said + (isRecording_ ? "; the recording starts anew" : ""));
+    if (!said.empty()) say(kept + said + (isRecording_ ? "; the recording starts anew" : ""));
 }
 
 void LivePlay::run(const std::atomic<bool>& stop) {

@@ -54,6 +54,7 @@ class LivePlay {
     void changeStep(double factor);
     void toggleRecording();
     void writeRecording();
+    std::string savedRecording(bool goesOn);
     void say(const std::string& text);
     void report();
     int ticksDue(double wall);

@@ -12,6 +12,7 @@
 #include "game/scene_file.h"
 #include "taut/core/whole_file.h"
 #include "taut/live/recording.h"
+#include "taut/scene/merge.h"
 #include "taut/world/common_rows.h"
 
 namespace taut::game {
@@ -32,10 +33,10 @@ double diagonalOf(const live::BodyPoints& body) {
     return body.positions.empty() ? 0.0 : glm::length(high - low);
 }
 
-// The first of NAME.toml, NAME-1.toml, … that is not there yet.
-std::filesystem::path freeName(const std::filesystem::path& wish) {
+// The first of NAME.toml, NAME-1.toml, … that is not there yet; of NAME-1.toml, … where NAME.toml is kept for later.
+std::filesystem::path freeName(const std::filesystem::path& wish, bool isKept) {
     std::filesystem::path name = wish;
-    for (int i = 1; std::filesystem::exists(name); ++i)
+    for (int i = 1; core::isThere(name) || (isKept && name == wish); ++i)
         name = wish.parent_path() / fmt::format("{}-{}.toml", wish.stem().string(), i);
     return name;
 }
@@ -43,11 +44,12 @@ std::filesystem::path freeName(const std::filesystem::path& wish) {
 // The scene that a scenario builds on, found as the loader finds it; the file itself when `base` is empty.
 std::filesystem::path baseOf(const std::filesystem::path& scene, const std::string& base) {
     if (base.empty()) return scene;
-    const std::string name = base.ends_with(".toml") ? base : base + ".toml";
+    const auto [plain, isShipped] = scene::nameOfBase(base);
+    const std::string name = plain.ends_with(".toml") ? plain : plain + ".toml";
     const std::filesystem::path beside = scene.parent_path() / name;
     std::error_code ignored;
     const bool isBeside =
-        std::filesystem::is_regular_file(beside, ignored) && !std::filesystem::equivalent(beside, scene, ignored);
+        !isShipped && std::filesystem::is_regular_file(beside, ignored) && !std::filesystem::equivalent(beside, scene, ignored);
     return isBeside ? beside : assetFolder() / "scenes" / name;
 }
 
@@ -58,8 +60,7 @@ std::string referenceTo(const std::filesystem::path& scene, const std::filesyste
         return std::filesystem::weakly_canonical(path, ignored);
     };
     const std::filesystem::path real = whole(scene), from = whole(folder.empty() ? "." : folder);
-    if (real.parent_path() == whole(assetFolder() / "scenes"))
-        return std::filesystem::exists(from / real.filename()) ? real.string() : real.filename().string();
+    if (real.parent_path() == whole(assetFolder() / "scenes")) return "shipped:" + real.stem().string();
     return std::filesystem::relative(real, from, ignored).string();
 }
 
@@ -174,14 +175,20 @@ void LivePlay::toggleRecording() {
 
 void LivePlay::writeRecording() {
     isRecording_ = false;
-    if (session_->divergence()) return say("a run that diverged is not recorded");
+    say(savedRecording(false));
+}
+
+std::string LivePlay::savedRecording(bool goesOn) {
+    const std::string refusal = "a run that diverged is not recorded";
+    if (session_->divergence()) return refusal;
     dragging_ = Dragging::nothing;
     live::Recording recording = session_->record();
     report();
-    if (session_->divergence()) return say("a run that diverged is not recorded");
+    if (session_->divergence()) return refusal;
     const std::filesystem::path scene = sceneFile(settings_.scene);
     const std::filesystem::path file = freeName(
-        settings_.record.empty() ? std::filesystem::path(scene.stem().string() + "-played.toml") : settings_.record);
+        settings_.record.empty() ? std::filesystem::path(scene.stem().string() + "-played.toml") : settings_.record,
+        goesOn);
     const live::ScenarioParts parts = live::partsOf(core::fileContent(scene));
     recording.scene = referenceTo(baseOf(scene, parts.scene), file.parent_path());
     for (const auto& changes : {parts.changes, settings_.overrides, changes_})
@@ -191,7 +198,7 @@ void LivePlay::writeRecording() {
                                          recording.deeds.size(), recording.hash, recording.endTick);
     printResult("{}\n", what);
     std::fflush(stdout);
-    say("wrote " + file.string());
+    return "wrote " + file.string();
 }
 
 }  // namespace taut::game

@@ -57,7 +57,8 @@ SceneSection fileSection() {
     base.range = anyNumber;
     base.required = false;
     base.help =
-        "A scene that this file builds on, beside it or a shipped one: tables are merged, all else is replaced.";
+        "A scene that this file builds on, beside it or a shipped one, with \"shipped:NAME\" always the latter: tables "
+        "are merged, all else is replaced.";
     section.fields.push_back(base);
     return section;
 }

@@ -36,6 +36,12 @@ void addScenesIn(const path& folder, const path& but, std::vector<std::string>& 
 
 }  // namespace
 
+BaseName nameOfBase(std::string_view value) {
+    constexpr std::string_view shipped = "shipped:";
+    if (!value.starts_with(shipped)) return {std::string(value), false};
+    return {std::string(value.substr(shipped.size())), true};
+}
+
 Node merged(Node base, const Node& over) {
     if (base.kind != NodeKind::table || over.kind != NodeKind::table) return over;
     for (const Member& member : over.members) {
@@ -62,10 +68,12 @@ BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<p
         problems.addError(value.place, "scene must be the name of a scene or of a file");
         return {};
     }
-    std::vector<path> folders{sceneFile.parent_path()};
+    const auto [name, isShipped] = nameOfBase(value.text);
+    std::vector<path> folders;
+    if (!isShipped) folders.push_back(sceneFile.parent_path());
     for (const path& folder : assetFolders) folders.push_back(folder / "scenes");
 
-    const std::string fileName = value.text.ends_with(".toml") ? value.text : value.text + ".toml";
+    const std::string fileName = name.ends_with(".toml") ? name : name + ".toml";
     bool namesItself = false;
     std::vector<std::string> searched, known;
     for (const path& folder : folders) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "taut/fields/problems.h"
@@ -16,13 +17,21 @@ using fields::Problems;
 // file that says it; a table that both have begins where the base has it.
 Node merged(Node base, const Node& over);
 
+// What `scene = "…"` says: the name, and whether it is one of the shipped scenes whatever lies beside the file, as
+// "shipped:NAME" says.
+struct BaseName {
+    std::string name;
+    bool isShipped = false;
+};
+BaseName nameOfBase(std::string_view value);
+
 struct BaseFile {
     std::filesystem::path path;  // empty: the scene names none, or there was a fault
     std::string text;
 };
 
 // The file that `scene = "…"` in a document names: beside the scene, or a shipped one in the `scenes` of an asset
-// folder, with or without ".toml"; never the scene file itself. Reports what is wrong with the name or the file.
+// folder, of these alone with "shipped:" before it, with or without ".toml"; never the scene file itself. Reports what is wrong with the name or the file.
 BaseFile baseFileOf(const Node& root, const std::filesystem::path& sceneFile,
                     const std::vector<std::filesystem::path>& assetFolders, std::uint64_t maxBytes, Problems& problems);
 

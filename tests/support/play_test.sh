@@ -97,6 +97,9 @@ until_true said_times '^from the start with h' 1
 press r
 until_true said_times '^recording' 2
 pull 2
+# What begins anew keeps first what was recorded.
+press BackSpace
+until_true said_times '^wrote sheet-played-1.toml; from the start' 1
 press q 2>/dev/null || :  # the window may be gone before the key is let go
 wait $player || fail "exit $? of the window"
 grep -q 'pictures a second' heard || fail "it does not tell the pictures a second"

@@ -53,6 +53,17 @@ TEST(SceneMerge, OverridesComeOnTop) {
     EXPECT_EQ(scene.run.seconds, 4.0);
 }
 
+TEST(SceneMerge, AShippedSceneIsTakenThoughOneOfItsNameLiesBeside) {
+    const AssetFolder folder, assets;
+    std::filesystem::create_directory(assets / "scenes");
+    assets.write("scenes/yard.toml", mergedYard);
+    folder.write("yard.toml", "schema = 1\nrun = { fps = 10 }\n");
+    LoadOptions options;
+    options.assetFolders = {assets / ""};
+    EXPECT_EQ(folder.load("schema = 1\nscene = \"yard\"\n", options).spec.run.fps, 10.0);
+    EXPECT_EQ(folder.load("schema = 1\nscene = \"shipped:yard\"\n", options).spec.run.fps, 30.0);
+}
+
 TEST(SceneMerge, AShippedSceneIsFoundAlsoByAFileOfItsName) {
     const AssetFolder folder, assets;
     std::filesystem::create_directory(assets / "scenes");

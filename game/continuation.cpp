@@ -59,47 +59,54 @@ RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const w
     return {state, picture.value()};
 }
 
-void goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
-          const std::string& output, pipeline::RunOptions& options, world::World& world) {
-    if (!flags.resume && !flags.from) return;
+pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
+                         const std::string& output, pipeline::RunOptions& options, world::World& world) {
+    const pipeline::CheckpointFolder checkpoints(folder);
+    const auto fromStart = [&] {
+        return flags.every > 0 ? pipeline::RecordLog(checkpoints.records()) : pipeline::RecordLog();
+    };
+    if (!flags.resume && !flags.from) return fromStart();
     const std::int64_t goal = flags.from ? *flags.from : std::min(firstMissing(output, options), options.lastFrame);
     std::vector<std::string> refused;
-    std::optional<pipeline::Checkpoint> checkpoint =
-        pipeline::CheckpointFolder(folder).latest(goal, keys.state, refused);
+    const std::optional<pipeline::Checkpoint> checkpoint = checkpoints.latest(goal, keys.state, refused);
     for (const std::string& line : refused) printNote("note: {}\n", line);
+    const bool goesOnWithPictures =
+        flags.resume && !output.empty() && !image::FramePattern(output).framesThere().empty();
     if (!checkpoint) {
-        if (flags.resume && !flags.mayOverwrite && !output.empty() &&
-            !image::FramePattern(output).framesThere().empty())
+        if (goesOnWithPictures && !flags.mayOverwrite)
             throw core::Error(core::ErrorKind::inputOutput,
                               fmt::format("{} has no state of this run to go on from, and there are frames already; -y "
                                           "draws all of them again",
                                           folder.string()));
         printNote("note: {} has no state to go on from; starting with frame 0\n", folder.string());
-        return;
+        return fromStart();
     }
-    if (flags.resume && !output.empty() && checkpoint->frame > options.firstFrame &&
-        checkpoint->picture != keys.picture)
+    const bool keepsPictures = checkpoint->frame > options.firstFrame || !flags.mayOverwrite;
+    if (goesOnWithPictures && keepsPictures && checkpoint->picture != keys.picture)
         throw core::Error(
             core::ErrorKind::badContent,
             fmt::format("the pictures before frame {} were drawn with other settings of size, camera, light "
                         "or look; draw all of them again with -y and without --resume, or the rest with "
                         "--from {}",
-                        checkpoint->frame, checkpoint->frame));
+                        goal, goal));
     world.restore(checkpoint->world);
     printNote("note: going on with frame {}\n", checkpoint->frame);
     options.startFrame = checkpoint->frame;
-    options.before = std::move(checkpoint->records);
     options.firstFrame = std::max(options.firstFrame, options.startFrame);
+    const auto before = static_cast<std::size_t>(checkpoint->frame);
+    return flags.every > 0 ? pipeline::RecordLog::continuing(checkpoints.records(), before)
+                           : pipeline::RecordLog::copyOf(checkpoints.records(), before);
 }
 
-void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, pipeline::RunListener& listener) {
-    core::prepareFolderOf(pipeline::CheckpointFolder(folder).pathOf(0));
-    listener.checkpoint = [folder, keys](std::int64_t frame, std::vector<std::byte> state,
-                                         const std::vector<pipeline::FrameRecord>& before) {
-        const pipeline::CheckpointFolder checkpoints(folder);
-        pipeline::writeCheckpoint(checkpoints.pathOf(frame),
-                                  {frame, keys.state(frame), keys.picture, std::move(state), before});
+void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, const world::World& world,
+                     pipeline::RunListener& listener) {
+    const auto keep = [folder, keys](std::int64_t frame, std::vector<std::byte> state,
+                                     const pipeline::RecordLog& before) {
+        pipeline::writeCheckpoint(pipeline::CheckpointFolder(folder).pathOf(frame),
+                                  {frame, keys.state(frame), keys.picture, std::move(state), before.digest()});
     };
+    if (world.tick() == 0) keep(0, world.save(), pipeline::RecordLog());
+    listener.checkpoint = keep;
 }
 
 }  // namespace taut::game

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,12 +23,15 @@
 #include "game/renderers.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
+#include "taut/core/hash.h"
 #include "taut/core/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/several_sinks.h"
 #include "taut/image/video_writer.h"
+#include "taut/image/frame_sequence.h"
 #include "taut/pipeline/overlay.h"
 #include "taut/pipeline/run.h"
+#include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/run_record.h"
 
 namespace taut::game {
@@ -127,6 +132,22 @@ std::filesystem::path checkpointFolder(const RenderFlags& flags, const image::Fr
     return sink != nullptr ? sink->companion("checkpoints") : std::filesystem::path();
 }
 
+// Parts of one run may draw into one folder at the same time; states and their records are one run's alone.
+std::vector<pipeline::RunLock> locksOf(const std::string& output, const std::filesystem::path& states,
+                                       const RunKeys& keys, const pipeline::RunOptions& options,
+                                       const std::string& scene) {
+    const std::string name = fmt::format("taut render {}, process {}", scene, ::getpid());
+    std::vector<pipeline::RunLock> locks;
+    if (!output.empty() && !image::isVideoPath(output)) {
+        core::Hash run;
+        run.add(keys.state(options.lastFrame));
+        run.add(keys.picture);
+        locks.emplace_back(image::FramePattern(output).folder(), pipeline::RunParty{run.value(), name});
+    }
+    if (options.checkpointEvery > 0) locks.emplace_back(states, pipeline::RunParty{std::nullopt, name});
+    return locks;
+}
+
 ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps) {
     ProgressFacts facts{options.lastFrame + 1, fps, world.tickSeconds(), world.tickSeconds()};
     for (const world::IslandInfo& island : world.islands()) {
@@ -155,17 +176,24 @@ pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunO
     return listener;
 }
 
-void writeRecords(const image::FrameSink& sink, const RenderFlags& flags, const std::string& json,
-                  const pipeline::RunResult& result) {
-    core::writeWholeFile(sink.companion("run.json"), json);
-    if (flags.metrics) core::writeWholeFile(sink.companion("metrics.csv"), pipeline::metricsCsv(result));
+void writeWith(const std::filesystem::path& path, const std::function<void(const pipeline::Write&)>& writeAll) {
+    core::WholeFile file(path);
+    writeAll([&](std::string_view text) { file.write(text); });
+    file.commit();
+}
+
+void writeRecords(const image::FrameSink& sink, const RenderFlags& flags,
+                  const std::function<void(const pipeline::Write&)>& writeJson, const pipeline::RunResult& result) {
+    writeWith(sink.companion("run.json"), writeJson);
+    if (flags.metrics)
+        writeWith(sink.companion("metrics.csv"),
+                  [&](const pipeline::Write& write) { pipeline::writeMetricsCsv(write, result); });
 }
 
 // What came out, in a line; the first `before` frames are those of an earlier run.
 void printSummary(const RenderFlags& flags, const pipeline::RunResult& result, std::size_t before) {
-    const auto first = result.frames.begin() + static_cast<std::ptrdiff_t>(before);
-    const auto pictures =
-        std::count_if(first, result.frames.end(), [](const pipeline::FrameRecord& frame) { return frame.pictured; });
+    std::size_t pictures = 0;
+    for (std::size_t i = before; i < result.frames.size(); ++i) pictures += result.frames[i].pictured ? 1 : 0;
     const std::size_t simulated = result.frames.size() - before;
     std::string text = fmt::format("{} of {} simulated frames drawn", pictures, simulated);
     if (flags.noPictures) text = fmt::format("{} frames simulated", simulated);
@@ -191,7 +219,10 @@ int render(const RenderFlags& flags) {
     const RunKeys keys = runKeys(scene.keys, flags.debug, flags.overlay, world);
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.yes;
-    goOn(continuation, states, keys, flags.noPictures ? "" : flags.output, options, world);
+    const std::string output = flags.noPictures ? "" : flags.output;
+    const std::vector<pipeline::RunLock> locks = locksOf(output, states, keys, options, flags.scene);
+    pipeline::RecordLog records = goOn(continuation, states, keys, output, options, world);
+    const std::size_t before = records.size();
 
     pipeline::Draw draw;
     std::unique_ptr<render::Renderer> renderer;
@@ -202,8 +233,9 @@ int render(const RenderFlags& flags) {
     std::unique_ptr<pipeline::Overlay> overlay;
     if (flags.overlay && draw) {
         overlay = std::make_unique<pipeline::Overlay>(fontFile(), pipeline::smallestStep(world));
-        for (const pipeline::FrameRecord& record : options.before)
-            if (record.metrics) overlay->add({*record.metrics, record.frame * world.ticksPerFrame()});
+        for (std::size_t i = 0; i < before; ++i)
+            if (const pipeline::FrameRecord record = records[i]; record.metrics)
+                overlay->add({*record.metrics, record.frame * world.ticksPerFrame()});
         draw = [&](const view::FrameView& view) {
             image::Image picture = renderer->draw(view);
             overlay->paint(picture, view.time);
@@ -215,19 +247,22 @@ int render(const RenderFlags& flags) {
     {
         Progress progress(progressFacts(world, options, spec.run.fps), flags.quiet);
         pipeline::RunListener listener = listenerFor(flags, options, progress, overlay.get(), world.ticksPerFrame());
-        if (options.checkpointEvery > 0) keepCheckpoints(states, keys, listener);
+        if (options.checkpointEvery > 0) keepCheckpoints(states, keys, world, listener);
         result = pipeline::play(world, options, draw, flags.noPictures ? nullptr : sink.get(), listener,
-                                interruption.flag());
+                                interruption.flag(), std::move(records));
     }
     if (sink) {
         const pipeline::RunRequest request{flags.output, allOverrides(flags), flags.threads, options};
         const auto info = renderer ? std::optional(renderer->info()) : std::nullopt;
-        writeRecords(*sink, flags, pipeline::runJson(spec, world, request, pipeline::machine(), info, result), result);
+        const auto writeJson = [&](const pipeline::Write& write) {
+            pipeline::writeRunJson(write, spec, world, request, pipeline::machine(), info, result);
+        };
+        writeRecords(*sink, flags, writeJson, result);
     }
     std::vector<std::string> met = world.warnings();  // such as a block squashed flat on the way
     std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
     printWarnings(met);
-    if (!flags.quiet) printSummary(flags, result, options.before.size());
+    if (!flags.quiet) printSummary(flags, result, before);
     if (result.divergence) throw core::Error(core::ErrorKind::diverged, result.divergence->message);
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
 }

@@ -12,54 +12,8 @@
 namespace taut::pipeline {
 namespace {
 
-const SealedKind checkpointKind{"tautstat", 1, "checkpoint"};
+const SealedKind checkpointKind{"tautstat", 2, "checkpoint"};
 constexpr std::string_view before = "checkpoint_", after = ".taut";
-
-// Every number of a frame's metrics, in a fixed order.
-template <class Metrics, class Visit>
-void eachNumber(Metrics& m, const Visit& visit) {
-    visit(m.time);
-    visit(m.kinetic);
-    visit(m.elastic);
-    visit(m.gravitational);
-    for (int i = 0; i < 3; ++i) visit(m.momentum[i]);
-    for (int i = 0; i < 3; ++i) visit(m.angularMomentum[i]);
-    visit(m.maxStrain);
-    visit(m.contacts);
-    visit(m.invertedCells);
-    visit(m.brokenSprings);
-    visit(m.volume);
-    visit(m.restVolume);
-    visit(m.penetration);
-    visit(m.minVolumeRatio);
-    visit(m.work.evaluations);
-    visit(m.work.iterations);
-    visit(m.work.unconverged);
-}
-
-void add(core::ByteWriter& writer, const FrameRecord& record) {
-    writer.add(record.time);
-    writer.add(record.hash);
-    writer.add(record.pictured);
-    for (double seconds : {record.simulating, record.drawing, record.encoding}) writer.add(seconds);
-    writer.add(record.metrics.has_value());
-    if (record.metrics) eachNumber(*record.metrics, [&](const auto& number) { writer.add(number); });
-}
-
-FrameRecord nextRecord(core::ByteReader& reader, std::int64_t frame) {
-    FrameRecord record;
-    record.frame = frame;
-    record.time = reader.number<double>();
-    record.hash = reader.number<std::uint64_t>();
-    record.pictured = reader.number<bool>();
-    for (double* seconds : {&record.simulating, &record.drawing, &record.encoding}) *seconds = reader.number<double>();
-    if (reader.number<bool>()) {
-        record.metrics.emplace();
-        eachNumber(*record.metrics,
-                   [&](auto& number) { number = reader.number<std::remove_reference_t<decltype(number)>>(); });
-    }
-    return record;
-}
 
 }  // namespace
 
@@ -69,8 +23,7 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
     writer.add(checkpoint.state);
     writer.add(checkpoint.picture);
     writer.addList(std::span<const std::byte>(checkpoint.world));
-    writer.add(static_cast<std::uint64_t>(checkpoint.records.size()));
-    for (const FrameRecord& record : checkpoint.records) add(writer, record);
+    writer.add(checkpoint.records);
     writeSealed(path, checkpointKind, writer.take());
 }
 
@@ -83,10 +36,8 @@ Checkpoint readCheckpoint(const std::filesystem::path& path) {
         checkpoint.state = reader.number<std::uint64_t>();
         checkpoint.picture = reader.number<std::uint64_t>();
         checkpoint.world = reader.list<std::byte>();
-        const auto count = reader.number<std::uint64_t>();
-        for (std::uint64_t i = 0; i < count; ++i)
-            checkpoint.records.push_back(nextRecord(reader, static_cast<std::int64_t>(i)));
-        if (!reader.isAtEnd() || static_cast<std::int64_t>(count) != checkpoint.frame) core::ByteReader::fail();
+        checkpoint.records = reader.number<std::uint64_t>();
+        if (!reader.isAtEnd() || checkpoint.frame < 0) core::ByteReader::fail();
         return checkpoint;
     } catch (const core::Error& error) {
         throw core::Error(core::ErrorKind::badContent, fmt::format("{}: {}", path.string(), error.what()));
@@ -95,6 +46,10 @@ Checkpoint readCheckpoint(const std::filesystem::path& path) {
 
 std::filesystem::path CheckpointFolder::pathOf(std::int64_t frame) const {
     return folder_ / fmt::format("{}{:06}{}", before, frame, after);
+}
+
+std::filesystem::path CheckpointFolder::records() const {
+    return folder_ / "records.taut";
 }
 
 std::vector<std::int64_t> CheckpointFolder::framesThere() const {
@@ -122,11 +77,16 @@ std::optional<Checkpoint> CheckpointFolder::latest(std::int64_t frame,
         const std::filesystem::path path = pathOf(there.back());
         try {
             Checkpoint checkpoint = readCheckpoint(path);
-            if (checkpoint.frame == there.back() && checkpoint.state == keyOf(there.back())) return checkpoint;
-            refused.push_back(
-                fmt::format("{}: this checkpoint is of another scene, or of something else that happens "
-                            "before frame {}",
-                            path.string(), there.back()));
+            if (checkpoint.frame != there.back() || checkpoint.state != keyOf(there.back()))
+                refused.push_back(
+                    fmt::format("{}: this checkpoint is of another scene, or of something else that happens "
+                                "before frame {}",
+                                path.string(), there.back()));
+            else if (RecordLog::digestOf(records(), static_cast<std::size_t>(there.back())) != checkpoint.records)
+                refused.push_back(
+                    fmt::format("{}: {} is of another run", path.string(), records().filename().string()));
+            else
+                return checkpoint;
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
             refused.push_back(error.what());

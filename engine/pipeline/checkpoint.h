@@ -16,8 +16,8 @@ struct Checkpoint {
     std::int64_t frame = 0;            // that comes next; the world is at its time
     std::uint64_t state = 0;           // key of all that has made this state: scene, timeline so far, steps
     std::uint64_t picture = 0;         // key of all that has made the pictures before
-    std::vector<std::byte> world;      // World::save()
-    std::vector<FrameRecord> records;  // of the frames before
+    std::vector<std::byte> world;  // World::save()
+    std::uint64_t records = 0;     // digest of the records of the frames before
 };
 
 // Whole or not at all; throws core::Error(inputOutput).
@@ -26,17 +26,19 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
 // Throws core::Error: inputOutput, or badContent for a file that is foreign, damaged or of another version.
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 
-// The checkpoints of one run, in a folder: checkpoint_000120.taut goes on with frame 120.
+// The checkpoints of one run, in a folder: checkpoint_000120.taut goes on with frame 120. Beside them lie the records of
+// all frames, once.
 class CheckpointFolder {
   public:
     explicit CheckpointFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     const std::filesystem::path& path() const { return folder_; }
     std::filesystem::path pathOf(std::int64_t frame) const;
+    std::filesystem::path records() const;
     std::vector<std::int64_t> framesThere() const;  // ascending
 
-    // The last one at or before a frame whose state key is as `keyOf` says for its frame. Those that cannot be used are
-    // passed over, each with a line in `refused`.
+    // The last one at or before a frame whose state key is as `keyOf` says for its frame, and whose records are there.
+    // Those that cannot be used are passed over, each with a line in `refused`.
     std::optional<Checkpoint> latest(std::int64_t frame, const std::function<std::uint64_t(std::int64_t)>& keyOf,
                                      std::vector<std::string>& refused) const;
 

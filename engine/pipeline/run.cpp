@@ -22,10 +22,12 @@ double secondsSince(Clock::time_point start) {
 // The simulating side of a run. Its records wait in `pending_` until the picture of their frame is on disk.
 class Player {
   public:
-    Player(world::World& world, const RunOptions& options, const RunListener& listener, const std::atomic<bool>& stop)
+    Player(world::World& world, const RunOptions& options, const RunListener& listener, const std::atomic<bool>& stop,
+           RecordLog records)
         : world_(world), options_(options), listener_(listener), stop_(stop), next_(options.startFrame) {
         TAUT_EXPECTS(world.tick() == next_ * world.ticksPerFrame());
-        result_.frames = options.before;
+        TAUT_EXPECTS(static_cast<std::int64_t>(records.size()) == next_);
+        result_.frames = std::move(records);
     }
 
     // Simulates up to the next frame; false at the end, on divergence and when stopped.
@@ -106,7 +108,7 @@ class Player {
         }
         if (!state.empty() && listener_.checkpoint)
             listener_.checkpoint(record.frame, std::move(state), result_.frames);
-        result_.frames.push_back(record);
+        result_.frames.add(record);
         if (listener_.frameDone) listener_.frameDone(record);
     }
 
@@ -129,11 +131,11 @@ std::int64_t frameCount(const world::RunSpec& run) {
 }
 
 RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
-               const RunListener& listener, const std::atomic<bool>& stop) {
+               const RunListener& listener, const std::atomic<bool>& stop, RecordLog records) {
     TAUT_EXPECTS(options.firstFrame >= 0 && options.firstFrame <= options.lastFrame);
     TAUT_EXPECTS(!draw == (sink == nullptr));
     const auto start = Clock::now();
-    Player player(world, options, listener, stop);
+    Player player(world, options, listener, stop, std::move(records));
     if (!draw) {
         while (player.advance()) player.keep();
     } else {

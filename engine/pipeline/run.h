@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "taut/image/frame_sink.h"
+#include "taut/pipeline/record_log.h"
 #include "taut/view/frame_view.h"
 #include "taut/world/world.h"
 
@@ -18,26 +19,13 @@ namespace taut::pipeline {
 // How many pictures a scene has: frame 0 is its start, frame k shows k / fps; at least 1.
 std::int64_t frameCount(const world::RunSpec& run);
 
-struct FrameRecord {
-    std::int64_t frame = 0;
-    double time = 0.0;       // [s] of the scene
-    std::uint64_t hash = 0;  // of the state, chained over ticks
-    std::optional<world::Metrics> metrics{};
-    bool pictured = false;    // false: simulated on the way to the first wanted frame, or without pictures
-    double simulating = 0.0;  // [s] of wall time
-    double drawing = 0.0;
-    double encoding = 0.0;
-};
-
 struct RunOptions {
     std::int64_t firstFrame = 0;  // frames before it are simulated and not drawn
     std::int64_t lastFrame = 0;   // included
     bool debugView = false;
     bool metrics = false;
 
-    // Where to go on: the world is at the time of this frame already, with these records of the frames before.
-    std::int64_t startFrame = 0;
-    std::vector<FrameRecord> before{};
+    std::int64_t startFrame = 0;       // where to go on: the world is at the time of this frame already
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
 };
 
@@ -47,13 +35,12 @@ struct RunListener {
     std::function<void(const FrameRecord&)> frameSimulated{};  // before its picture is drawn
     std::function<void(const FrameRecord&)> frameDone{};
     std::function<void(std::int64_t tick, std::uint64_t hash)> tickDone{};
-    // The state that goes on with `frame`, and the records of the frames before: they are on disk.
-    std::function<void(std::int64_t frame, std::vector<std::byte> state, const std::vector<FrameRecord>& before)>
-        checkpoint{};
+    // The state that goes on with `frame`, and the records of the frames before, whose pictures are on disk.
+    std::function<void(std::int64_t frame, std::vector<std::byte> state, const RecordLog& before)> checkpoint{};
 };
 
 struct RunResult {
-    std::vector<FrameRecord> frames;  // every simulated one, those before the start among them, ascending
+    RecordLog frames;  // every simulated one, those before the start among them
     std::optional<world::Divergence> divergence;
     bool interrupted = false;
     double seconds = 0.0;  // [s] of wall time, the whole run
@@ -65,8 +52,8 @@ using Draw = std::function<image::Image(const view::FrameView&)>;
 // Plays frames startFrame … lastFrame. With `draw` and `sink` the frames from firstFrame on are drawn and written while
 // the next ones are simulated; without them nothing is drawn. Ends early, with everything that was begun finished, when
 // the state diverges or `stop` becomes true; the sink is finished in any case but an exception. Rethrows what a stage
-// throws.
+// throws. `records` are those of the frames before startFrame.
 RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
-               const RunListener& listener, const std::atomic<bool>& stop);
+               const RunListener& listener, const std::atomic<bool>& stop, RecordLog records = {});
 
 }  // namespace taut::pipeline

@@ -79,7 +79,8 @@ Json workJson(const ode::Work& work) {
 
 Json timesJson(const RunResult& result) {
     double simulating = 0.0, drawing = 0.0, encoding = 0.0;
-    for (const FrameRecord& frame : result.frames) {
+    for (std::size_t i = 0; i < result.frames.size(); ++i) {
+        const FrameRecord frame = result.frames[i];
         simulating += frame.simulating;
         drawing += frame.drawing;
         encoding += frame.encoding;
@@ -89,9 +90,9 @@ Json timesJson(const RunResult& result) {
 
 }  // namespace
 
-std::string runJson(const world::SceneSpec& spec, const world::World& world, const RunRequest& request,
-                    const Machine& machine, const std::optional<render::RendererInfo>& renderer,
-                    const RunResult& result) {
+void writeRunJson(const Write& write, const world::SceneSpec& spec, const world::World& world,
+                  const RunRequest& request, const Machine& machine,
+                  const std::optional<render::RendererInfo>& renderer, const RunResult& result) {
     Json json;
     json["program"] = machine.program;
     json["scene"] = spec.file;
@@ -114,16 +115,19 @@ std::string runJson(const world::SceneSpec& spec, const world::World& world, con
     json["warnings"] = world.warnings();
     json["work"] = workJson(world.work());
     json["seconds"] = timesJson(result);
-    Json hashes = Json::array();
-    for (const FrameRecord& frame : result.frames) hashes.push_back(hex(frame.hash));
-    json["state_hash"] = std::move(hashes);  // of frames 0, 1, …
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::string head = json.dump(2, ' ', false, Json::error_handler_t::replace);
+    head.resize(head.size() - 2);  // without the end of the object: one more member follows, by itself as it may be long
+    write(head + ",\n  \"state_hash\": [");
+    for (std::size_t i = 0; i < result.frames.size(); ++i)  // of frames 0, 1, …
+        write(fmt::format("{}\n    \"{}\"", i > 0 ? "," : "", hex(result.frames[i].hash)));
+    write(result.frames.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
-std::string metricsCsv(const RunResult& result) {
+void writeMetricsCsv(const Write& write, const RunResult& result) {
     std::string text = "frame,time_s";
     for (const world::Metric& metric : world::metricTable()) text += fmt::format(",{}", metric.columns);
-    for (const FrameRecord& frame : result.frames) {
+    for (std::size_t i = 0; i < result.frames.size(); ++i) {
+        const FrameRecord frame = result.frames[i];
         if (!frame.metrics) continue;
         text += fmt::format("\n{},{}", frame.frame, frame.time);
         for (const world::Metric& metric : world::metricTable()) {
@@ -132,8 +136,10 @@ std::string metricsCsv(const RunResult& result) {
             if (const auto* number = std::get_if<double>(&value)) text += fmt::format(",{}", *number);
             if (const auto* count = std::get_if<std::int64_t>(&value)) text += fmt::format(",{}", *count);
         }
+        write(text);
+        text.clear();
     }
-    return text + "\n";
+    write(text + "\n");
 }
 
 }  // namespace taut::pipeline

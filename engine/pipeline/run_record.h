@@ -1,7 +1,10 @@
 // The record of a run as text: run.json and metrics.csv. It knows neither where they go nor how the run was started.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "taut/pipeline/machine.h"
@@ -20,12 +23,15 @@ struct RunRequest {
     RunOptions options;
 };
 
+// Takes the text piece by piece.
+using Write = std::function<void(std::string_view)>;
+
 // Everything that is needed to tell what was computed, how, and on what; state hashes as 16 hexadecimal digits.
-std::string runJson(const world::SceneSpec& spec, const world::World& world, const RunRequest& request,
-                    const Machine& machine, const std::optional<render::RendererInfo>& renderer,
-                    const RunResult& result);
+void writeRunJson(const Write& write, const world::SceneSpec& spec, const world::World& world,
+                  const RunRequest& request,                  const Machine& machine, const std::optional<render::RendererInfo>& renderer,
+                  const RunResult& result);
 
 // A line a frame that has metrics, with a heading that names the units.
-std::string metricsCsv(const RunResult& result);
+void writeMetricsCsv(const Write& write, const RunResult& result);
 
 }  // namespace taut::pipeline

@@ -68,7 +68,7 @@ while [ "$round" -lt "$kills" ]; do
     sleep "$((moment / 1000)).$(printf %03d $((moment % 1000)))"
     if kill -9 "$run" 2>/dev/null; then killed=$((killed + 1)); fi
     wait "$run" 2>/dev/null || true
-    render "$folder" --checkpoint-every 5 --resume -y
+    render "$folder" --checkpoint-every 5 --resume
     for picture in "$work"/whole/*.png; do
         cmp "$picture" "$folder/$(basename "$picture")" || { echo "after a kill at $moment ms"; exit 1; }
     done

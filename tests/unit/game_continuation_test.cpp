@@ -89,7 +89,7 @@ TEST_F(Continuation, DoesNotGoOnFromAnotherScene) {
         const Outcome rest = play({"--from", "29", "--set", change});
         EXPECT_EQ(rest.code, 0) << rest.err;
         EXPECT_TRUE(has(rest.err, "checkpoint_000020.taut: this checkpoint is of another scene")) << change << rest.err;
-        EXPECT_TRUE(has(rest.err, "starting with frame 0")) << change;
+        EXPECT_TRUE(has(rest.err, "with frame 0")) << change;
     }
 }
 
@@ -106,7 +106,7 @@ TEST_F(Continuation, PassesOverADamagedState) {
     file.put(9);  // the version
     file.close();
     const Outcome again = play({"--from", "20"});
-    EXPECT_TRUE(has(again.err, "format 9, and this taut reads format 1: it was written by a newer one")) << again.err;
+    EXPECT_TRUE(has(again.err, "format 9, and this taut reads format 2: it was written by a newer one")) << again.err;
     EXPECT_EQ(again.out, from(whole_.out, 20));
 }
 
@@ -123,6 +123,25 @@ TEST_F(Continuation, ResumingKeepsThePicturesOfAnotherScene) {
     std::vector<std::string> never = command;
     never.emplace_back("-n");
     EXPECT_EQ(test::run(never).code, 2);
+}
+
+// As a supervisor repeats it: whatever was killed, also before the first state but that of the start.
+TEST_F(Continuation, ResumesWhatWasKilledBeforeItsFirstState) {
+    const std::filesystem::path frames = folder_ / "frames";
+    const std::vector<std::string> command = {
+        "render", (folder_ / "scene.toml").string(), "-o", frames.string(), "--quiet", "--checkpoint-every", "20",
+        "--set", "picture.size=[16,16]", "--set", "picture.samples=1", "--set", "picture.shadow_size=128", "--resume"};
+    EXPECT_EQ(test::run(command).code, 0);
+    for (const char* number : {"000020", "000029"})
+        for (const auto& lost : {frames / "checkpoints" / (std::string("checkpoint_") + number + ".taut"),
+                                 frames / (std::string("frame_") + number + ".png")})
+            std::filesystem::remove(lost);
+    const Outcome again = test::run(command);
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_TRUE(has(again.err, "going on with frame 0")) << again.err;
+    std::vector<std::string> other = command;
+    other.insert(other.end(), {"--set", "cloth.sheet.cells=[5,6]"});
+    EXPECT_EQ(test::run(other).code, 6) << "other pictures are not drawn over";
 }
 
 TEST_F(Continuation, SaysWhatCannotBe) {

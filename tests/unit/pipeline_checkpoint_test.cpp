@@ -8,6 +8,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
+#include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/sealed_file.h"
 
 namespace taut::pipeline {
@@ -71,30 +72,70 @@ TEST(SealedFile, WithOneBitChangedOrCutShortIsRefused) {
     }
 }
 
-Checkpoint example(std::int64_t frame, std::uint64_t state) {
-    Checkpoint checkpoint;
-    checkpoint.frame = frame;
-    checkpoint.state = state;
-    checkpoint.picture = 5;
-    checkpoint.world = content(64);
-    for (std::int64_t i = 0; i < frame; ++i) {
-        FrameRecord record{
-            .frame = i, .time = 0.1 * static_cast<double>(i), .hash = 77U + static_cast<std::uint64_t>(i)};
-        record.pictured = i % 2 == 1;
-        record.drawing = 0.25;
-        if (i > 0) {
-            record.metrics.emplace();
-            record.metrics->kinetic = 3.5;
-            record.metrics->angularMomentum = {1, 2, 3};
-            record.metrics->brokenSprings = 4;
-            record.metrics->work.iterations = 12;
-        }
-        checkpoint.records.push_back(record);
+FrameRecord recordOf(std::int64_t i) {
+    FrameRecord record{
+        .frame = i, .time = 0.1 * static_cast<double>(i), .hash = 77U + static_cast<std::uint64_t>(i)};
+    record.pictured = i % 2 == 1;
+    record.drawing = 0.25;
+    if (i > 0) {
+        record.metrics.emplace();
+        record.metrics->kinetic = 3.5;
+        record.metrics->angularMomentum = {1, 2, 3};
+        record.metrics->brokenSprings = 4;
+        record.metrics->work.iterations = 12;
     }
-    return checkpoint;
+    return record;
 }
 
-TEST(Checkpoint, GivesBackEveryRecord) {
+void expectSame(const FrameRecord& back, const FrameRecord& record) {
+    EXPECT_EQ(back.frame, record.frame);
+    EXPECT_EQ(back.time, record.time);
+    EXPECT_EQ(back.hash, record.hash);
+    EXPECT_EQ(back.pictured, record.pictured);
+    EXPECT_EQ(back.drawing, record.drawing);
+    ASSERT_EQ(back.metrics.has_value(), record.metrics.has_value());
+    if (!back.metrics) return;
+    EXPECT_EQ(back.metrics->kinetic, record.metrics->kinetic);
+    EXPECT_EQ(back.metrics->angularMomentum, record.metrics->angularMomentum);
+    EXPECT_EQ(back.metrics->brokenSprings, record.metrics->brokenSprings);
+    EXPECT_EQ(back.metrics->work.iterations, record.metrics->work.iterations);
+}
+
+void addUpTo(RecordLog& log, std::int64_t end) {
+    for (auto i = static_cast<std::int64_t>(log.size()); i < end; ++i) log.add(recordOf(i));
+}
+
+TEST(RecordLog, GivesBackEveryRecordAndGoesOnWhereItIsTold) {
+    const std::filesystem::path path = emptyFolder("log") / "records.taut";
+    std::uint64_t atThree = 0;
+    {
+        RecordLog log(path);
+        addUpTo(log, 3);
+        atThree = log.digest();
+        addUpTo(log, 5);
+        for (std::size_t i = 0; i < 5; ++i) expectSame(log[i], recordOf(static_cast<std::int64_t>(i)));
+    }
+    const RecordLog copy = RecordLog::copyOf(path, 4);
+    expectSame(copy.back(), recordOf(3));
+    EXPECT_EQ(RecordLog::digestOf(path, 3), atThree);
+    RecordLog log = RecordLog::continuing(path, 3);
+    EXPECT_EQ(log.digest(), atThree);
+    FrameRecord other = recordOf(3);
+    other.time = 7.0;
+    log.add(other);
+    expectSame(log[3], other);
+    EXPECT_THROW(RecordLog::copyOf(path, 5), core::Error) << "the fourth of before is forgotten";
+    std::ofstream(path) << "nothing of the sort";
+    EXPECT_THROW(RecordLog::copyOf(path, 0), core::Error);
+}
+
+Checkpoint example(std::int64_t frame, std::uint64_t state) {
+    RecordLog log;
+    addUpTo(log, frame);
+    return {frame, state, 5, content(64), log.digest()};
+}
+
+TEST(Checkpoint, GivesBackWhatItWasGiven) {
     const std::filesystem::path folder = emptyFolder("records");
     writeCheckpoint(folder / "c.taut", example(3, 9));
     const Checkpoint back = readCheckpoint(folder / "c.taut");
@@ -102,23 +143,22 @@ TEST(Checkpoint, GivesBackEveryRecord) {
     EXPECT_EQ(back.state, 9U);
     EXPECT_EQ(back.picture, 5U);
     EXPECT_EQ(back.world, content(64));
-    ASSERT_EQ(back.records.size(), 3U);
-    EXPECT_EQ(back.records[2].frame, 2);
-    EXPECT_EQ(back.records[2].time, 0.2);
-    EXPECT_EQ(back.records[2].hash, 79U);
-    EXPECT_FALSE(back.records[2].pictured);
-    EXPECT_TRUE(back.records[1].pictured);
-    EXPECT_EQ(back.records[1].drawing, 0.25);
-    EXPECT_FALSE(back.records[0].metrics);
-    ASSERT_TRUE(back.records[1].metrics);
-    EXPECT_EQ(back.records[1].metrics->kinetic, 3.5);
-    EXPECT_EQ(back.records[1].metrics->angularMomentum, glm::dvec3(1, 2, 3));
-    EXPECT_EQ(back.records[1].metrics->brokenSprings, 4);
-    EXPECT_EQ(back.records[1].metrics->work.iterations, 12);
+    EXPECT_EQ(back.records, example(3, 9).records);
+}
+
+// What a checkpoint takes does not grow with the frames before it: a run's stay linear in its length.
+TEST(Checkpoint, TakesNoMoreLaterInTheRun) {
+    const std::filesystem::path folder = emptyFolder("linear");
+    writeCheckpoint(folder / "early.taut", example(1, 9));
+    writeCheckpoint(folder / "late.taut", example(300, 9));
+    EXPECT_NEAR(static_cast<double>(std::filesystem::file_size(folder / "late.taut")),
+                static_cast<double>(std::filesystem::file_size(folder / "early.taut")), 16.0);
 }
 
 TEST(CheckpointFolder, FindsTheLastThatFits) {
     const CheckpointFolder folder(emptyFolder("latest"));
+    RecordLog log(folder.records());
+    addUpTo(log, 40);
     for (std::int64_t frame : {10, 20, 30, 40})
         writeCheckpoint(folder.pathOf(frame), example(frame, frame < 30 ? 1 : 2));
     std::ofstream(folder.pathOf(15)) << "nothing of the sort";
@@ -137,7 +177,37 @@ TEST(CheckpointFolder, FindsTheLastThatFits) {
     ASSERT_EQ(refused.size(), 1U);
     EXPECT_NE(refused[0].find("checkpoint_000015.taut: this is no checkpoint of taut"), std::string::npos);
     EXPECT_FALSE(folder.latest(9, always(1), refused));
+    refused.clear();
+    RecordLog::continuing(folder.records(), 25);
+    EXPECT_EQ(folder.latest(30, always(2), refused), std::nullopt) << "the records end before";
+    EXPECT_NE(refused.at(0).find("records.taut: the records end with frame 25"), std::string::npos) << refused[0];
     EXPECT_FALSE(CheckpointFolder(folder.path() / "missing").latest(9, always(1), refused));
+}
+
+TEST(RunLock, LetsPartsOfOneRunInAndNobodyElse) {
+    const std::filesystem::path folder = emptyFolder("lock");
+    std::ofstream(folder / ".taut-lock") << "left by a process that was killed";
+    const auto refusal = [&](const RunParty& party) -> std::string {
+        try {
+            const RunLock lock(folder, party);
+        } catch (const core::Error& error) {
+            EXPECT_EQ(error.kind(), core::ErrorKind::inputOutput);
+            return error.what();
+        }
+        return "";
+    };
+    {
+        const RunLock first(folder, {1, "the first"});
+        EXPECT_NE(refusal({2, "other"}).find("another run is writing here (the first)"), std::string::npos);
+        EXPECT_NE(refusal({std::nullopt, "alone"}), "");
+        const RunLock part(folder, {1, "its part"});
+        EXPECT_EQ(refusal({1, "another part"}), "");
+        EXPECT_NE(refusal({2, "other"}), "");
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+    const RunLock alone(folder, {std::nullopt, "alone"});
+    EXPECT_NE(refusal({std::nullopt, "alone too"}).find("(alone)"), std::string::npos);
+    EXPECT_NE(refusal({1, "the first"}), "");
 }
 
 // A file under another's name would put the pictures out of step.

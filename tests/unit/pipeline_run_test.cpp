@@ -154,7 +154,8 @@ TEST(Play, FailureOfTheFilesIsRethrown) {
 
 TEST(RunRecord, MetricsHaveALineAFrameWithTheColumnsOfTheHeading) {
     const RunResult result = playWithoutPictures(pendulum(), {.lastFrame = 6, .metrics = true});
-    std::istringstream lines(metricsCsv(result));
+    std::stringstream lines;
+    writeMetricsCsv([&](std::string_view text) { lines << text; }, result);
     std::string heading, line;
     std::getline(lines, heading);
     EXPECT_TRUE(heading.starts_with("frame,time_s,kinetic_J,elastic_J,gravitational_J,total_J,"));
@@ -179,7 +180,9 @@ TEST(RunRecord, JsonTellsWhatWasComputedAndOnWhat) {
     const RunResult result = playWithoutPictures(spec, {.lastFrame = 3});
     const RunRequest request{.output = "out", .overrides = {"run.fps=30"}, .threads = 2, .options = {.lastFrame = 3}};
     const render::RendererInfo gl{"osmesa", "a vendor", "a renderer", "3.3"};
-    const auto json = nlohmann::json::parse(runJson(spec, world, request, machine(), gl, result));
+    std::string text;
+    writeRunJson([&](std::string_view part) { text += part; }, spec, world, request, machine(), gl, result);
+    const auto json = nlohmann::json::parse(text);
     EXPECT_EQ(json["ended"], "complete");
     EXPECT_EQ(json["scene"], "pendulum.toml");
     EXPECT_EQ(json["threads"], 2);

@@ -1,0 +1,232 @@
+#include "taut/pipeline/record_log.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "taut/core/error.h"
+
+namespace taut::pipeline {
+namespace {
+
+// A file of words of 8 bytes: mark, version, words in a record, then the records.
+using Word = std::uint64_t;
+static_assert(std::endian::native == std::endian::little, "words are copied as they lie in memory");
+constexpr Word mark = 0x7363657274756174;  // "tautrecs"
+constexpr Word version = 1;
+
+// Every number of a frame's metrics, in a fixed order.
+template <class Metrics, class Visit>
+void eachNumber(Metrics& m, const Visit& visit) {
+    visit(m.time);
+    visit(m.kinetic);
+    visit(m.elastic);
+    visit(m.gravitational);
+    for (int i = 0; i < 3; ++i) visit(m.momentum[i]);
+    for (int i = 0; i < 3; ++i) visit(m.angularMomentum[i]);
+    visit(m.maxStrain);
+    visit(m.contacts);
+    visit(m.invertedCells);
+    visit(m.brokenSprings);
+    visit(m.volume);
+    visit(m.restVolume);
+    visit(m.penetration);
+    visit(m.minVolumeRatio);
+    visit(m.work.evaluations);
+    visit(m.work.iterations);
+    visit(m.work.unconverged);
+}
+
+template <class Number>
+Word wordOf(Number number) {
+    if constexpr (std::is_same_v<Number, double>)
+        return std::bit_cast<Word>(number);
+    else
+        return static_cast<Word>(static_cast<std::int64_t>(number));
+}
+
+template <class Number>
+void take(std::span<const Word>& words, Number& number) {
+    if constexpr (std::is_same_v<Number, double>)
+        number = std::bit_cast<double>(words.front());
+    else
+        number = static_cast<Number>(static_cast<std::int64_t>(words.front()));
+    words = words.subspan(1);
+}
+
+std::vector<Word> wordsOf(const FrameRecord& record) {
+    std::vector<Word> words = {wordOf(record.time),       record.hash,
+                               wordOf(record.pictured),   wordOf(record.simulating),
+                               wordOf(record.drawing),    wordOf(record.encoding),
+                               wordOf(record.metrics.has_value())};
+    const world::Metrics metrics = record.metrics.value_or(world::Metrics{});
+    eachNumber(metrics, [&](const auto& number) { words.push_back(wordOf(number)); });
+    return words;
+}
+
+FrameRecord recordIn(std::span<const Word> words, std::size_t frame) {
+    FrameRecord record;
+    record.frame = static_cast<std::int64_t>(frame);
+    bool hasMetrics = false;
+    take(words, record.time);
+    record.hash = words.front();
+    words = words.subspan(1);
+    take(words, record.pictured);
+    for (double* seconds : {&record.simulating, &record.drawing, &record.encoding}) take(words, *seconds);
+    take(words, hasMetrics);
+    world::Metrics metrics;
+    eachNumber(metrics, [&](auto& number) { take(words, number); });
+    if (hasMetrics) record.metrics = metrics;
+    return record;
+}
+
+std::size_t recordWords() {
+    static const std::size_t words = wordsOf({}).size();
+    return words;
+}
+
+constexpr std::size_t headWords = 3;
+
+off_t placeOf(std::size_t frame) {
+    return static_cast<off_t>((headWords + frame * recordWords()) * sizeof(Word));
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error) {
+    throw core::Error(core::ErrorKind::inputOutput,
+                      fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error)));
+}
+
+void writeWords(int descriptor, off_t at, std::span<const Word> words, const std::filesystem::path& path) {
+    std::span<const std::byte> bytes = std::as_bytes(words);
+    while (!bytes.empty()) {
+        const ssize_t done = ::pwrite(descriptor, bytes.data(), bytes.size(), at);
+        if (done < 0 && errno == EINTR) continue;
+        if (done < 0) fail(path, "write", errno);
+        at += done;
+        bytes = bytes.subspan(static_cast<std::size_t>(done));
+    }
+}
+
+// False when the file ends before.
+bool readWords(int descriptor, off_t at, std::span<Word> words, const std::filesystem::path& path) {
+    std::span<std::byte> bytes = std::as_writable_bytes(words);
+    while (!bytes.empty()) {
+        const ssize_t got = ::pread(descriptor, bytes.data(), bytes.size(), at);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(path, "read", errno);
+        if (got == 0) return false;
+        at += got;
+        bytes = bytes.subspan(static_cast<std::size_t>(got));
+    }
+    return true;
+}
+
+// Goes with its last descriptor. In memory only where no folder takes files.
+int namelessFile() {
+    std::error_code ignored;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(ignored);
+    const int file = ::open(folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0600);
+    return file >= 0 ? file : ::memfd_create("records", MFD_CLOEXEC);
+}
+
+}  // namespace
+
+RecordLog::RecordLog(int descriptor, std::filesystem::path path) : descriptor_(descriptor), path_(std::move(path)) {
+    if (descriptor_ < 0) fail(path_, "open the records of frames", errno);
+}
+
+RecordLog::RecordLog() : RecordLog(namelessFile(), "records of frames") {
+    begin();
+}
+
+RecordLog::RecordLog(const std::filesystem::path& path)
+    : RecordLog(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666), path) {
+    begin();
+}
+
+void RecordLog::begin() {
+    const Word head[headWords] = {mark, version, recordWords()};
+    writeWords(descriptor_, 0, head, path_);
+}
+
+RecordLog RecordLog::opened(const std::filesystem::path& path, int mode, std::size_t count) {
+    const int descriptor = ::open(path.c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0 && errno == ENOENT)
+        throw core::Error(core::ErrorKind::badContent, fmt::format("{}: the records are missing", path.string()));
+    RecordLog log(descriptor, path);
+    Word head[headWords] = {};
+    if (!readWords(log.descriptor_, 0, head, path) || head[0] != mark || head[1] != version ||
+        head[2] != recordWords())
+        throw core::Error(core::ErrorKind::badContent,
+                          fmt::format("{}: these are no records of frames that this taut reads", path.string()));
+    log.readDigest(count);
+    return log;
+}
+
+RecordLog RecordLog::continuing(const std::filesystem::path& path, std::size_t count) {
+    RecordLog log = opened(path, O_RDWR, count);
+    if (::ftruncate(log.descriptor_, placeOf(count)) != 0) fail(path, "write", errno);
+    return log;
+}
+
+RecordLog RecordLog::copyOf(const std::filesystem::path& path, std::size_t count) {
+    const RecordLog original = opened(path, O_RDONLY, count);
+    RecordLog copy;
+    for (std::size_t frame = 0; frame < count; ++frame) copy.add(original[frame]);
+    return copy;
+}
+
+std::uint64_t RecordLog::digestOf(const std::filesystem::path& path, std::size_t count) {
+    return opened(path, O_RDONLY, count).digest();
+}
+
+void RecordLog::readDigest(std::size_t count) {
+    std::vector<Word> words(recordWords());
+    for (; size_ < count; ++size_) {
+        if (!readWords(descriptor_, placeOf(size_), words, path_))
+            throw core::Error(core::ErrorKind::badContent,
+                              fmt::format("{}: the records end with frame {}", path_.string(), size_));
+        for (const Word word : words) digest_.add(word);
+    }
+}
+
+RecordLog::RecordLog(RecordLog&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), size_(other.size_),
+      digest_(other.digest_) {}
+
+RecordLog& RecordLog::operator=(RecordLog&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    std::swap(path_, other.path_);
+    std::swap(size_, other.size_);
+    std::swap(digest_, other.digest_);
+    return *this;
+}
+
+RecordLog::~RecordLog() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void RecordLog::add(const FrameRecord& record) {
+    TAUT_EXPECTS(record.frame == static_cast<std::int64_t>(size_));
+    const std::vector<Word> words = wordsOf(record);
+    writeWords(descriptor_, placeOf(size_), words, path_);
+    for (const Word word : words) digest_.add(word);
+    ++size_;
+}
+
+FrameRecord RecordLog::operator[](std::size_t frame) const {
+    TAUT_EXPECTS(frame < size_);
+    std::vector<Word> words(recordWords());
+    if (!readWords(descriptor_, placeOf(frame), words, path_)) fail(path_, "read", EIO);
+    return recordIn(words, frame);
+}
+
+}  // namespace taut::pipeline

@@ -1,0 +1,65 @@
+// The records of a run's frames in a file and not in memory, however many there are. It knows nothing of the run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "taut/core/hash.h"
+#include "taut/world/world.h"
+
+namespace taut::pipeline {
+
+struct FrameRecord {
+    std::int64_t frame = 0;
+    double time = 0.0;       // [s] of the scene
+    std::uint64_t hash = 0;  // of the state, chained over ticks
+    std::optional<world::Metrics> metrics{};
+    bool pictured = false;    // false: simulated on the way to the first wanted frame, or without pictures
+    double simulating = 0.0;  // [s] of wall time
+    double drawing = 0.0;
+    double encoding = 0.0;
+};
+
+// The records of frames 0, 1, …; all of them have the same size in the file. Calls throw core::Error: inputOutput when
+// it cannot be written or read, badContent for a file that is foreign, of another version, or holds too few records.
+class RecordLog {
+  public:
+    RecordLog();                                          // empty, without a name; goes with the object
+    explicit RecordLog(const std::filesystem::path& path);  // empty, under that name
+
+    // The first `count` of an earlier run: as a copy without a name, or going on in the same file, which forgets the
+    // rest.
+    static RecordLog copyOf(const std::filesystem::path& path, std::size_t count);
+    static RecordLog continuing(const std::filesystem::path& path, std::size_t count);
+
+    // digest() of the first `count`.
+    static std::uint64_t digestOf(const std::filesystem::path& path, std::size_t count);
+
+    RecordLog(RecordLog&& other) noexcept;
+    RecordLog& operator=(RecordLog&& other) noexcept;
+    ~RecordLog();
+
+    void add(const FrameRecord& record);  // expects that its frame is the next
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    FrameRecord operator[](std::size_t frame) const;  // expects frame < size()
+    FrameRecord back() const { return (*this)[size_ - 1]; }
+
+    // Of all that was added: tells whether a file holds the same records.
+    std::uint64_t digest() const { return digest_.value(); }
+
+  private:
+    RecordLog(int descriptor, std::filesystem::path path);
+    static RecordLog opened(const std::filesystem::path& path, int mode, std::size_t count);
+    void begin();
+    void readDigest(std::size_t count);
+
+    int descriptor_ = -1;
+    std::filesystem::path path_;  // for messages
+    std::size_t size_ = 0;
+    core::Hash digest_;
+};
+
+}  // namespace taut::pipeline

@@ -1,0 +1,105 @@
+#include "taut/pipeline/run_lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "taut/core/error.h"
+#include "taut/core/file_lock.h"
+#include "taut/core/whole_file.h"
+
+namespace taut::pipeline {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& folder, const std::string& what) {
+    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", folder.string(), what));
+}
+
+// The key and the name of the run that holds the folder; what is longer is cut.
+std::string contentOf(int descriptor) {
+    char text[512];
+    const ssize_t got = ::pread(descriptor, text, sizeof text, 0);
+    return {text, got > 0 ? static_cast<std::size_t>(got) : 0};
+}
+
+bool write(int descriptor, std::string_view text) {
+    return ::ftruncate(descriptor, 0) == 0 &&
+           ::pwrite(descriptor, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
+}
+
+// The first of a run locks for itself, says who it is, and then shares where it may. A part finds its key there, and
+// shares too.
+enum class Turn { taken, again, refused };
+Turn takeTurn(int descriptor, const std::filesystem::path& path, const RunParty& party) {
+    const std::string key = fmt::format("{:016x} ", party.key.value_or(0));
+    const bool isFirst = core::tryLock(descriptor, core::FileLock::exclusive);
+    if (!isFirst && !party.key) return Turn::refused;
+    if (!isFirst && !core::tryLock(descriptor, core::FileLock::shared)) return Turn::refused;
+    if (!core::isNamed(descriptor, path)) return Turn::again;  // the last holder has taken the file away
+    if (!isFirst) return contentOf(descriptor).starts_with(key) ? Turn::taken : Turn::refused;
+    if (!write(descriptor, key + party.name))
+        fail(path.parent_path(), fmt::format("cannot write: {}", std::strerror(errno)));
+    if (party.key) core::tryLock(descriptor, core::FileLock::shared);
+    return Turn::taken;
+}
+
+std::string nameIn(const std::string& content) {
+    const std::size_t blank = content.find(' ');
+    return blank == std::string::npos ? "unknown" : content.substr(blank + 1);
+}
+
+}  // namespace
+
+RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party) : path_(folder / ".taut-lock") {
+    core::prepareFolderOf(path_);
+    std::string other;
+    // A part is refused for a moment while the first is saying who it is.
+    for (int refusals = 0; refusals < 20;) {
+        const int descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+        if (descriptor < 0) fail(folder, fmt::format("cannot make {}: {}", path_.string(), std::strerror(errno)));
+        Turn turn = Turn::refused;
+        try {
+            turn = takeTurn(descriptor, path_, party);
+        } catch (...) {
+            ::close(descriptor);
+            throw;
+        }
+        if (turn == Turn::taken) {
+            descriptor_ = descriptor;
+            return;
+        }
+        other = contentOf(descriptor);
+        ::close(descriptor);
+        if (turn == Turn::again) continue;
+        ++refusals;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    fail(folder, fmt::format("another run is writing here ({}); wait for its end, or give this one a folder of its own",
+                             nameIn(other)));
+}
+
+RunLock::RunLock(RunLock&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+RunLock& RunLock::operator=(RunLock&& other) noexcept {
+    std::swap(path_, other.path_);
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+}
+
+RunLock::~RunLock() {
+    if (descriptor_ < 0) return;
+    // The last one takes the file away: who has opened it meanwhile sees that it is no longer the one of that name.
+    if (core::tryLock(descriptor_, core::FileLock::exclusive) && core::isNamed(descriptor_, path_))
+        ::unlink(path_.c_str());
+    ::close(descriptor_);
+}
+
+}  // namespace taut::pipeline

@@ -1,0 +1,34 @@
+// Keeps two runs from writing into one folder at the same time. It knows nothing of what they write.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace taut::pipeline {
+
+struct RunParty {
+    std::optional<std::uint64_t> key;  // parts of one run, which have the same, may share a folder; none: it does not
+    std::string name;                  // for the message to another run: "taut render flag, process 4711"
+};
+
+// Holds a folder until it is destroyed, or its process ends in whatever way. A file `.taut-lock` lies in the folder
+// meanwhile; one that a killed process has left locks nothing.
+class RunLock {
+  public:
+    RunLock() = default;  // holds nothing
+
+    // Makes the folder. Throws core::Error(inputOutput): another run writes there, or the folder cannot be written.
+    RunLock(const std::filesystem::path& folder, const RunParty& party);
+
+    RunLock(RunLock&& other) noexcept;
+    RunLock& operator=(RunLock&& other) noexcept;
+    ~RunLock();
+
+  private:
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+};
+
+}  // namespace taut::pipeline

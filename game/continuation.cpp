@@ -25,6 +25,11 @@ std::int64_t firstMissing(const std::string& output, const pipeline::RunOptions&
     return frame;
 }
 
+// What a state of this world may take, with room for what comes and tears on the way.
+std::uint64_t mostBytes(const world::World& world) {
+    return 8 * world.save().size() + (std::uint64_t{64} << 20U);
+}
+
 }  // namespace
 
 void addContinuationFlags(Options& options, ContinuationFlags& flags) {
@@ -68,7 +73,7 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
     if (!flags.resume && !flags.from) return fromStart();
     const std::int64_t goal = flags.from ? *flags.from : std::min(firstMissing(output, options), options.lastFrame);
     std::vector<std::string> refused;
-    const std::optional<pipeline::Checkpoint> checkpoint = checkpoints.latest(goal, keys.state, refused);
+    const std::optional<pipeline::Checkpoint> checkpoint = checkpoints.latest(goal, keys.state, mostBytes(world), refused);
     for (const std::string& line : refused) printNote("note: {}\n", line);
     const bool goesOnWithPictures =
         flags.resume && !output.empty() && !image::FramePattern(output).framesThere().empty();

@@ -1,6 +1,7 @@
 #include "taut/core/whole_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -114,22 +115,74 @@ bool isThere(const std::filesystem::path& path) {
     return std::filesystem::exists(path, ignored);
 }
 
-std::string fileContent(const std::filesystem::path& path) {
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) failOn(path, "cannot read", errno);
+namespace {
+
+// A file that is read to its end, once, and closed then.
+class OpenFile {
+  public:
+    OpenFile(const std::filesystem::path& path, std::chrono::milliseconds patience)
+        : path_(path), patience_(static_cast<int>(patience.count())), descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
+        if (descriptor_ < 0) failOn(path_, "cannot read", errno);
+    }
+    ~OpenFile() { ::close(descriptor_); }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    struct stat facts() const {
+        struct stat facts = {};
+        if (::fstat(descriptor_, &facts) != 0) failOn(path_, "cannot read", errno);
+        return facts;
+    }
+
+    // Of a pipe, also for the first to write.
+    void waitForMore() const {
+        pollfd more{descriptor_, POLLIN, 0};
+        if (::poll(&more, 1, patience_) == 0) failOn(path_, "cannot read", ETIMEDOUT);
+    }
+
+    // How many bytes came; 0: there are no more.
+    std::size_t read(std::span<char> buffer) const {
+        for (;;) {
+            const ssize_t got = ::read(descriptor_, buffer.data(), buffer.size());
+            if (got >= 0) return static_cast<std::size_t>(got);
+            if (errno == EAGAIN)
+                waitForMore();
+            else if (errno != EINTR)
+                failOn(path_, "cannot read", errno);
+        }
+    }
+
+  private:
+    const std::filesystem::path& path_;
+    int patience_;  // [ms]
+    int descriptor_;
+};
+
+}  // namespace
+
+std::string fileContent(const std::filesystem::path& path, std::uint64_t maxBytes,
+                        std::chrono::milliseconds patience) {
+    const OpenFile file(path, patience);
+    const struct stat facts = file.facts();
+    if (S_ISDIR(facts.st_mode)) failOn(path, "cannot read", EISDIR);
+    if (S_ISFIFO(facts.st_mode)) file.waitForMore();
+    if (!S_ISREG(facts.st_mode) && !S_ISFIFO(facts.st_mode))
+        throw Error(ErrorKind::inputOutput, path.string() + ": cannot read: this is a device, not a file");
+    const auto tooLarge = [&] {
+        const std::uint64_t mebibytes = maxBytes >> 20U;
+        throw Error(ErrorKind::badContent, path.string() + ": the file is larger than " +
+                                               (mebibytes > 0 ? std::to_string(mebibytes) + " MiB"
+                                                              : std::to_string(maxBytes) + " bytes"));
+    };
+    if (facts.st_size > 0 && static_cast<std::uint64_t>(facts.st_size) > maxBytes) tooLarge();
     std::string content;
     char buffer[1 << 16];
-    for (;;) {
-        const ssize_t got = ::read(descriptor, buffer, sizeof buffer);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) {
-            const int error = errno;
-            ::close(descriptor);
-            if (got < 0) failOn(path, "cannot read", error);
-            return content;
-        }
-        content.append(buffer, static_cast<std::size_t>(got));
+    // Counted all the same: the size of a pipe, and of files of the kernel, is said to be 0.
+    while (const std::size_t got = file.read(buffer)) {
+        content.append(buffer, got);
+        if (content.size() > maxBytes) tooLarge();
     }
+    return content;
 }
 
 }  // namespace taut::core

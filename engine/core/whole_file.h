@@ -2,7 +2,9 @@
 // It knows nothing of what is in them.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -51,7 +53,10 @@ void writeWholeFile(const std::filesystem::path& path, std::string_view content)
 // Whether there is anything of that name; false where that cannot be known.
 bool isThere(const std::filesystem::path& path);
 
-// What a file holds; throws core::Error(inputOutput) when it is missing, unreadable or a folder.
-std::string fileContent(const std::filesystem::path& path);
+// What a file or a pipe holds. Throws core::Error: inputOutput when it is missing, unreadable, a folder or a device, or
+// when nothing comes for as long as `patience`; badContent when there is more than maxBytes, before more is taken.
+inline constexpr std::uint64_t mostText = std::uint64_t{16} << 20U;  // [bytes] more is no text that people wrote
+std::string fileContent(const std::filesystem::path& path, std::uint64_t maxBytes = mostText,
+                        std::chrono::milliseconds patience = std::chrono::seconds(10));
 
 }  // namespace taut::core

@@ -10,7 +10,6 @@
 #include <stb/stb_image.h>
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -20,14 +19,7 @@
 namespace taut::image {
 namespace {
 
-// stb_image takes a JPEG that breaks off for a whole one. Inside the coded data FF is always followed by 00, so an
-// end marker behind the last start of a scan is a real one.
-bool jpegBreaksOff(const std::string& content) {
-    if (!content.starts_with("\xFF\xD8")) return false;
-    const std::size_t lastScan = content.rfind("\xFF\xDA");
-    const std::size_t end = content.rfind("\xFF\xD9");
-    return lastScan == std::string::npos || end == std::string::npos || end < lastScan;
-}
+constexpr std::uint64_t maxBytes = std::uint64_t{1} << 30U;  // of a file; stb_image counts them in an int
 
 std::uint32_t bigEndian(const std::string& content, std::size_t at) {
     std::uint32_t value = 0;
@@ -50,28 +42,80 @@ bool pngIsDamaged(const std::string& content) {
     return true;
 }
 
+std::size_t byteAt(const std::string& content, std::size_t at) {
+    return static_cast<unsigned char>(content[at]);
+}
+
+// A Huffman table holds a symbol for each of 256 values at most (ITU-T T.81, B.2.4.2); stb_image believes more.
+bool huffmanTablesFit(const std::string& content, std::size_t at, std::size_t end) {
+    while (at < end) {
+        if (end - at < 17) return false;
+        std::size_t symbols = 0;
+        for (std::size_t i = 1; i <= 16; ++i) symbols += byteAt(content, at + i);
+        if (symbols > 256 || end - at - 17 < symbols) return false;
+        at += 17 + symbols;
+    }
+    return true;
+}
+
+// Whether the segments of a JPEG file (T.81, annex B) follow each other to the marker of its end and its tables are as
+// large as they may be; stb_image looks at neither.
+bool jpegIsDamaged(const std::string& content) {
+    if (!content.starts_with("\xFF\xD8")) return false;
+    bool hasScan = false;
+    for (std::size_t at = 2; at + 1 < content.size();) {
+        if (byteAt(content, at) != 0xFF) return true;
+        const std::size_t marker = byteAt(content, at + 1);
+        if (marker == 0xFF) {  // fills up
+            ++at;
+            continue;
+        }
+        if (marker == 0xD9) return !hasScan;
+        if (at + 4 > content.size()) return true;
+        const std::size_t length = byteAt(content, at + 2) << 8U | byteAt(content, at + 3);
+        const std::size_t end = at + 2 + length;
+        if (length < 2 || end > content.size()) return true;
+        if (marker == 0xC4 && !huffmanTablesFit(content, at + 4, end)) return true;
+        at = end;
+        if (marker != 0xDA) continue;
+        hasScan = true;
+        // Coded data: FF stands before 00, or before the number of a restart; before anything else it begins a segment.
+        for (; at + 1 < content.size(); ++at) {
+            const std::size_t next = byteAt(content, at + 1);
+            if (byteAt(content, at) == 0xFF && next != 0 && (next < 0xD0 || next > 0xD7)) break;
+        }
+    }
+    return true;
+}
+
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
     throw core::Error(core::ErrorKind::badContent, path.string() + ": not a whole PNG or JPEG picture: " + reason);
 }
 
 }  // namespace
 
-Image readImage(const std::filesystem::path& path) {
-    const std::string content = core::fileContent(path);
+Image readImage(const std::filesystem::path& path, std::int64_t maxPixels) {
+    const std::string content = core::fileContent(path, maxBytes);
     if (content.empty()) fail(path, "the file is empty");
-    if (content.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) fail(path, "the file is too large");
     if (pngIsDamaged(content)) fail(path, "the file breaks off or is damaged");
-    if (jpegBreaksOff(content)) fail(path, "the file breaks off");
+    if (jpegIsDamaged(content)) fail(path, "the file breaks off or is damaged");
 
     Image image;
     int channelsInFile = 0;
+    const auto* bytes = reinterpret_cast<const stbi_uc*>(content.data());
+    const int size = static_cast<int>(content.size());
+    if (stbi_info_from_memory(bytes, size, &image.width, &image.height, &channelsInFile) == 0)
+        fail(path, stbi_failure_reason());
+    if (std::int64_t{image.width} * image.height > maxPixels)
+        throw core::Error(core::ErrorKind::badContent,
+                          path.string() + ": this picture has " + std::to_string(image.width) + " x " +
+                              std::to_string(image.height) + " pixels; up to " +
+                              std::to_string(maxPixels / 1000000) + " million are read");
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(content.data()), static_cast<int>(content.size()),
-                              &image.width, &image.height, &channelsInFile, 3),
-        &stbi_image_free);
+        stbi_load_from_memory(bytes, size, &image.width, &image.height, &channelsInFile, 3), &stbi_image_free);
     if (!pixels) fail(path, stbi_failure_reason());
-    const std::size_t size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3;
-    image.rgb.assign(pixels.get(), pixels.get() + size);
+    const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3;
+    image.rgb.assign(pixels.get(), pixels.get() + count);
     return image;
 }
 

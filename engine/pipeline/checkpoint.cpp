@@ -27,8 +27,10 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
     writeSealed(path, checkpointKind, writer.take());
 }
 
-Checkpoint readCheckpoint(const std::filesystem::path& path) {
-    const std::vector<std::byte> content = readSealed(path, checkpointKind);
+Checkpoint readCheckpoint(const std::filesystem::path& path, std::uint64_t maxBytes) {
+    SealedKind kind = checkpointKind;
+    kind.maxContent = maxBytes;
+    const std::vector<std::byte> content = readSealed(path, kind);
     core::ByteReader reader(content);
     try {
         Checkpoint checkpoint;
@@ -70,13 +72,13 @@ std::vector<std::int64_t> CheckpointFolder::framesThere() const {
 
 std::optional<Checkpoint> CheckpointFolder::latest(std::int64_t frame,
                                                    const std::function<std::uint64_t(std::int64_t)>& keyOf,
-                                                   std::vector<std::string>& refused) const {
+                                                   std::uint64_t maxBytes, std::vector<std::string>& refused) const {
     std::vector<std::int64_t> there = framesThere();
     while (!there.empty() && there.back() > frame) there.pop_back();
     for (; !there.empty(); there.pop_back()) {
         const std::filesystem::path path = pathOf(there.back());
         try {
-            Checkpoint checkpoint = readCheckpoint(path);
+            Checkpoint checkpoint = readCheckpoint(path, maxBytes);
             if (checkpoint.frame != there.back() || checkpoint.state != keyOf(there.back()))
                 refused.push_back(
                     fmt::format("{}: this checkpoint is of another scene, or of something else that happens "

@@ -23,8 +23,9 @@ struct Checkpoint {
 // Whole or not at all; throws core::Error(inputOutput).
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-// Throws core::Error: inputOutput, or badContent for a file that is foreign, damaged or of another version.
-Checkpoint readCheckpoint(const std::filesystem::path& path);
+// Throws core::Error: inputOutput, or badContent for a file that is foreign, damaged, of another version, or that would
+// take more memory than maxBytes.
+Checkpoint readCheckpoint(const std::filesystem::path& path, std::uint64_t maxBytes);
 
 // The checkpoints of one run, in a folder: checkpoint_000120.taut goes on with frame 120. Beside them lie the records of
 // all frames, once.
@@ -40,7 +41,7 @@ class CheckpointFolder {
     // The last one at or before a frame whose state key is as `keyOf` says for its frame, and whose records are there.
     // Those that cannot be used are passed over, each with a line in `refused`.
     std::optional<Checkpoint> latest(std::int64_t frame, const std::function<std::uint64_t(std::int64_t)>& keyOf,
-                                     std::vector<std::string>& refused) const;
+                                     std::uint64_t maxBytes, std::vector<std::string>& refused) const;
 
   private:
     std::filesystem::path folder_;

@@ -17,7 +17,6 @@ namespace {
 constexpr std::size_t markSize = 8, versionSize = 4, checksumSize = 8;
 constexpr std::size_t headSize = markSize + versionSize + checksumSize;
 constexpr int level = 1;                            // of compression: the fastest
-constexpr std::uint64_t maxContent = 64ULL << 30U;  // [bytes]
 constexpr std::uint64_t mostCompressed = 1100;      // deflate makes nothing smaller than 1/1032
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
@@ -76,8 +75,11 @@ std::vector<std::byte> unsealed(const SealedKind& kind, std::span<const std::byt
     core::ByteReader reader(body);
     const auto size = reader.number<std::uint64_t>();
     const std::vector<std::byte> packed = reader.list<std::byte>();
-    if (size > maxContent || size / mostCompressed > packed.size())
+    if (size / mostCompressed > packed.size())
         refuse(name, fmt::format("this {} is damaged: its length cannot be", kind.title));
+    if (size > kind.maxContent)
+        refuse(name, fmt::format("unpacked, this {} would take {:.4g} MB; up to {:.4g} MB are taken", kind.title,
+                                 1e-6 * static_cast<double>(size), 1e-6 * static_cast<double>(kind.maxContent)));
     std::vector<std::byte> content(static_cast<std::size_t>(size));
     const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
         libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
@@ -94,7 +96,7 @@ void writeSealed(const std::filesystem::path& path, const SealedKind& kind, std:
 }
 
 std::vector<std::byte> readSealed(const std::filesystem::path& path, const SealedKind& kind) {
-    return unsealed(kind, bytesOf(core::fileContent(path)), path.string());
+    return unsealed(kind, bytesOf(core::fileContent(path, kind.maxContent + (std::uint64_t{1} << 20U))), path.string());
 }
 
 }  // namespace taut::pipeline

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
+#include <utility>
 
 #include "taut/core/error.h"
+#include "taut/core/file_batch.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"
@@ -18,12 +19,6 @@ namespace {
 
 const pipeline::SealedKind storedKind{"tautgold", 1, "stored state of a golden picture"};
 
-void removeFile(const std::filesystem::path& path) {
-    std::error_code error;
-    std::filesystem::remove(path, error);
-    if (error) throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", path.string(), error.message()));
-}
-
 bool hasSameChain(const std::filesystem::path& file, const Tape& tape) {
     try {
         return core::isThere(file) && !firstDifference(readTape(file), tape);
@@ -35,7 +30,7 @@ bool hasSameChain(const std::filesystem::path& file, const Tape& tape) {
 
 bool hasSamePicture(const std::filesystem::path& file, const image::Image& picture, const image::Tolerance& tolerance) {
     try {
-        return core::isThere(file) && image::compare(image::readImage(file), picture, tolerance).within;
+        return core::isThere(file) && image::compare(image::readImage(file, std::max(image::mostPixels, std::int64_t{picture.width} * picture.height)), picture, tolerance).within;
     } catch (const core::Error& error) {
         if (error.kind() == core::ErrorKind::inputOutput) throw;
         return false;
@@ -44,11 +39,11 @@ bool hasSamePicture(const std::filesystem::path& file, const image::Image& pictu
 
 // True when the golden had to change.
 bool updateState(const Scenario& scenario, const Played& played, const GoldenFolder& folder, GoldenScenario& goldens,
-                 const std::string& why) {
+                 const std::string& why, core::FileBatch& files) {
     const std::filesystem::path file = folder.tape(scenario.name);
     const std::string last = hexadecimal(played.tape.chain.back());
     if (goldens.state && goldens.state->lastHash == last && hasSameChain(file, played.tape)) return false;
-    writeTape(file, played.tape);
+    writeTape(files.replace(file), played.tape);
     const TapeOrigin& origin = played.tape.origin;
     goldens.state = {why, last, played.tape.ticks(), origin.program, origin.compiler, origin.simd};
     return true;
@@ -56,7 +51,7 @@ bool updateState(const Scenario& scenario, const Played& played, const GoldenFol
 
 bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const GoldenFolder& folder,
                    const Manifest& manifest, GoldenScenario& goldens, const std::string& why,
-                   const std::string& renderer) {
+                   const std::string& renderer, core::FileBatch& files) {
     const std::string key = played.request.key();
     const std::filesystem::path file = folder.picture(scenario.name, key), stored = folder.stored(scenario.name, key);
     const auto known = goldens.pictures.find(key);
@@ -70,9 +65,9 @@ bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const 
     }
     if (played.request.restart) {
         TAUT_EXPECTS(!played.savedState.empty());
-        pipeline::writeSealed(stored, storedKind, played.savedState);
+        pipeline::writeSealed(files.replace(stored), storedKind, played.savedState);
     }
-    image::writePng(file, played.picture);
+    image::writePng(files.replace(file), played.picture);
     goldens.pictures[key] = {why, hash, renderer};
     return true;
 }
@@ -83,22 +78,25 @@ std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& p
                                        Manifest& manifest, const std::string& why) {
     TAUT_EXPECTS(!played.divergence && !played.interrupted);
     std::vector<std::string> changes;
-    core::prepareFolderOf(folder.tape(scenario.name));
+    core::FileBatch files(folder.path);
+    Manifest updated = manifest;
     const std::vector<std::string> dropped = leftOver(scenario, manifest);
-    GoldenScenario& goldens = manifest.scenarios[scenario.name];
-    if (updateState(scenario, played, folder, goldens, why))
+    GoldenScenario& goldens = updated.scenarios[scenario.name];
+    if (updateState(scenario, played, folder, goldens, why, files))
         changes.push_back(fmt::format("{}: state, {} ticks", folder.tape(scenario.name).string(), played.tape.ticks()));
     for (const PlayedPicture& picture : played.pictures)
-        if (updatePicture(scenario, picture, folder, manifest, goldens, why, played.renderer))
+        if (updatePicture(scenario, picture, folder, manifest, goldens, why, played.renderer, files))
             changes.push_back(
                 fmt::format("{}: picture", folder.picture(scenario.name, picture.request.key()).string()));
     for (const std::string& key : dropped) {
         goldens.pictures.erase(key);
-        removeFile(folder.picture(scenario.name, key));
-        removeFile(folder.stored(scenario.name, key));
+        files.remove(folder.picture(scenario.name, key));
+        files.remove(folder.stored(scenario.name, key));
         changes.push_back(fmt::format("{}: dropped", folder.picture(scenario.name, key).string()));
     }
-    writeManifest(folder, manifest);
+    writeManifest(files.replace(folder.manifest()), updated);
+    files.commit();
+    manifest = std::move(updated);
     return changes;
 }
 

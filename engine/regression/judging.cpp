@@ -26,8 +26,13 @@ const GoldenScenario& goldensOf(const Scenario& scenario, const Manifest& manife
     return found == manifest.scenarios.end() ? none : found->second;
 }
 
+// As large as the picture that it is compared with, or what anybody may read.
+std::int64_t mostPixels(const image::Image& picture) {
+    return std::max(image::mostPixels, std::int64_t{picture.width} * picture.height);
+}
+
 std::vector<std::byte> bytesOf(const std::filesystem::path& path) {
-    const std::string content = core::fileContent(path);
+    const std::string content = core::fileContent(path, std::uint64_t{1} << 30U);
     const auto bytes = std::as_bytes(std::span<const char>(content.data(), content.size()));
     return {bytes.begin(), bytes.end()};
 }
@@ -75,7 +80,7 @@ void compare(const PlayedPicture& played, const GoldenPicture& golden, const std
     image::Image expected;
     try {
         picture.golden = bytesOf(file);
-        expected = image::readImage(file);
+        expected = image::readImage(file, mostPixels(played.picture));
     } catch (const core::Error& error) {
         picture.golden.clear();
         picture.verdict = Verdict::failed;

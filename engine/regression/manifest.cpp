@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "taut/core/error.h"
+#include "taut/core/file_batch.h"
 #include "taut/core/whole_file.h"
 
 namespace taut::regression {
@@ -120,11 +121,12 @@ std::filesystem::path GoldenFolder::tape(const std::string& scenario) const {
 }
 
 Manifest readManifest(const GoldenFolder& folder) {
+    core::FileBatch::recover(folder.path);
     const std::string file = folder.manifest().string();
     Manifest manifest;
     std::error_code ignored;
     if (!std::filesystem::exists(folder.manifest(), ignored) && !ignored) return manifest;
-    const std::string content = core::fileContent(folder.manifest());
+    const std::string content = core::fileContent(folder.manifest(), std::uint64_t{64} << 20U);
     Json json;
     try {
         json = Json::parse(content);
@@ -152,7 +154,7 @@ Manifest readManifest(const GoldenFolder& folder) {
     return manifest;
 }
 
-void writeManifest(const GoldenFolder& folder, const Manifest& manifest) {
+void writeManifest(const std::filesystem::path& file, const Manifest& manifest) {
     Json json;
     json["schema"] = schema;
     json["tolerance"] = {{"channel", manifest.tolerance.channel},
@@ -161,8 +163,8 @@ void writeManifest(const GoldenFolder& folder, const Manifest& manifest) {
                          {"tile_share", manifest.tolerance.tileShare}};
     json["scenarios"] = Json::object();
     for (const auto& [name, scenario] : manifest.scenarios) json["scenarios"][name] = jsonOf(scenario);
-    core::prepareFolderOf(folder.manifest());
-    core::writeWholeFile(folder.manifest(), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    core::prepareFolderOf(file);
+    core::writeWholeFile(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace taut::regression

@@ -46,11 +46,11 @@ struct GoldenFolder {
     std::filesystem::path tape(const std::string& scenario) const;                             // NAME/state.tape
 };
 
-// Without a file an empty manifest. Throws core::Error: inputOutput when it cannot be read, badContent when it is no
+// Without a file an empty manifest; an update of goldens that was broken off is brought to its end first. Throws core::Error: inputOutput when it cannot be read, badContent when it is no
 // manifest, with what is wrong in it.
 Manifest readManifest(const GoldenFolder& folder);
 
 // Throws core::Error(inputOutput).
-void writeManifest(const GoldenFolder& folder, const Manifest& manifest);
+void writeManifest(const std::filesystem::path& file, const Manifest& manifest);
 
 }  // namespace taut::regression

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <fstream>
 #include <system_error>
 
 #include "taut/core/error.h"
+#include "taut/core/whole_file.h"
 
 namespace taut::scene {
 
@@ -25,21 +24,7 @@ std::string textFile(const std::filesystem::path& path, std::uint64_t maxBytes) 
     if (code) failReading(path, code.message());
     if (std::filesystem::is_directory(status)) failReading(path, "this is a folder, not a file");
 
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) failReading(path, "the file cannot be read");
-
-    // The size is counted, not asked for: a device or a pipe has none.
-    std::string text;
-    std::array<char, 65536> buffer{};
-    while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0) {
-        text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
-        if (text.size() > maxBytes) {
-            throw core::Error(core::ErrorKind::badContent, fmt::format("{}: error: the file is larger than {} MiB",
-                                                                       path.string(), maxBytes / (1024 * 1024)));
-        }
-    }
-    if (stream.bad()) failReading(path, "the file cannot be read to its end");
-    return text;
+    return core::fileContent(path, maxBytes);
 }
 
 }  // namespace taut::scene

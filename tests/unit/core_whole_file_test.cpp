@@ -1,8 +1,12 @@
 #include "taut/core/whole_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <thread>
 
 #include "image_support.h"
+#include "taut/core/file_batch.h"
 
 namespace taut::core {
 namespace {
@@ -98,12 +102,57 @@ TEST(WholeFile, IsWrittenByOneAtATime) {
     EXPECT_EQ(contentOf(folder / "a"), "whole");
 }
 
+TEST(WholeFile, ReadingEndsWhateverIsRead) {
+    const TemporaryFolder folder;
+    messageOf(ErrorKind::inputOutput, [&] { fileContent("/dev/zero"); });
+    test::writeText(folder / "sparse", "");
+    std::filesystem::resize_file(folder / "sparse", std::uintmax_t{1} << 40U);
+    messageOf(ErrorKind::badContent, [&] { fileContent(folder / "sparse"); });
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    const std::string silent = messageOf(
+        ErrorKind::inputOutput, [&] { fileContent(folder / "pipe", mostText, std::chrono::milliseconds(20)); });
+    EXPECT_NE(silent.find("timed out"), std::string::npos) << silent;
+    std::jthread writer([&] { test::writeText(folder / "pipe", std::string(100000, 'a')); });
+    EXPECT_EQ(fileContent(folder / "pipe").size(), 100000U);
+}
+
 TEST(WholeFile, ReadingReportsWhatIsMissingOrAFolder) {
     const TemporaryFolder folder;
     messageOf(ErrorKind::inputOutput, [&] { fileContent(folder / "none"); });
     messageOf(ErrorKind::inputOutput, [&] { fileContent(folder.path()); });
     test::writeText(folder / "a", std::string("x\0y", 3));
+    messageOf(ErrorKind::badContent, [&] { fileContent(folder / "a", 2); });
     EXPECT_EQ(fileContent(folder / "a"), std::string("x\0y", 3));
+}
+
+TEST(FileBatch, ChangesAllFilesOrNone) {
+    const TemporaryFolder folder;
+    const auto text = [&](const char* name) { return contentOf(folder / name); };
+    for (const char* name : {"a", "b", "c"}) test::writeText(folder / name, "old");
+    {
+        FileBatch batch(folder.path());
+        writeWholeFile(batch.replace(folder / "a"), "new");
+        batch.remove(folder / "b");
+    }
+    EXPECT_EQ(text("a") + text("b"), "oldold") << "not committed";
+    EXPECT_EQ(folder.entryCount(), 3);
+    // A folder in the way of the second file stands for a process that ends after the first.
+    {
+        FileBatch batch(folder.path());
+        writeWholeFile(batch.replace(folder / "a"), "new");
+        writeWholeFile(batch.replace(folder / "d"), "new");
+        std::filesystem::create_directories(folder / "d/full");
+        batch.remove(folder / "b");
+        messageOf(ErrorKind::inputOutput, [&] { batch.commit(); });
+    }
+    std::filesystem::remove_all(folder / "d");
+    FileBatch::recover(folder.path());
+    EXPECT_EQ(text("a") + text("c") + text("d"), "newoldnew");
+    EXPECT_FALSE(isThere(folder / "b"));
+    EXPECT_EQ(folder.entryCount(), 3);
+    FileBatch::recover(folder.path());
+    test::writeText(folder / ".changes", "remove ../elsewhere\n");
+    messageOf(ErrorKind::badContent, [&] { FileBatch::recover(folder.path()); });
 }
 
 }  // namespace

@@ -91,6 +91,23 @@ std::string smallestJpeg() {
     return jpeg;
 }
 
+TEST(Png, OfMorePixelsThanMayBeIsRefusedBeforeItIsDecoded) {
+    const TemporaryFolder folder;
+    writePng(folder / "a.png", testPicture(5, 4));
+    EXPECT_EQ(readImage(folder / "a.png", 20).width, 5);
+    const std::string message = messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.png", 19); });
+    EXPECT_NE(message.find("this picture has 5 x 4 pixels"), std::string::npos) << message;
+}
+
+// Sixteen counts of 17 are 272 symbols, where 256 are possible: stb_image 2.27 writes behind its table.
+TEST(Jpeg, WithAHuffmanTableThatCannotBeIsRefused) {
+    const TemporaryFolder folder;
+    const std::string table = std::string("\xFF\xC4\x01\x23\x00", 5) + std::string(16, '\x11') + std::string(272, '\0');
+    test::writeText(folder / "a.jpg", smallestJpeg().insert(2, table));
+    EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.jpg"); }).find("damaged"),
+              std::string::npos);
+}
+
 TEST(Jpeg, IsReadAndBrokenOffIsAnError) {
     const TemporaryFolder folder;
     test::writeText(folder / "a.jpg", smallestJpeg());

@@ -14,6 +14,8 @@
 namespace taut::pipeline {
 namespace {
 
+constexpr std::uint64_t mostBytes = 1000000;  // [bytes]
+
 const SealedKind kind{"tauttest", 3, "test file"};
 
 std::filesystem::path emptyFolder(const char* name) {
@@ -58,6 +60,18 @@ TEST(SealedFile, OfAnotherVersionIsRefused) {
               "a.taut: this test file has format 4, and this taut reads format 3: it was written by a newer one");
     EXPECT_EQ(refusal(sealed({"tauttest", 2, "test file"}, content(9))),
               "a.taut: this test file has format 2, and this taut reads format 3: it was written by an older one");
+}
+
+// A million zeros pack into a thousandth: nothing is taken on their word.
+TEST(SealedFile, ThatWouldTakeTooMuchUnpackedIsRefused) {
+    SealedKind small = kind;
+    small.maxContent = 999999;
+    try {
+        unsealed(small, sealed(kind, std::vector<std::byte>(1000000)), "a.taut");
+        FAIL();
+    } catch (const core::Error& error) {
+        EXPECT_STREQ(error.what(), "a.taut: unpacked, this test file would take 1 MB; up to 1 MB are taken");
+    }
 }
 
 TEST(SealedFile, WithOneBitChangedOrCutShortIsRefused) {
@@ -138,7 +152,7 @@ Checkpoint example(std::int64_t frame, std::uint64_t state) {
 TEST(Checkpoint, GivesBackWhatItWasGiven) {
     const std::filesystem::path folder = emptyFolder("records");
     writeCheckpoint(folder / "c.taut", example(3, 9));
-    const Checkpoint back = readCheckpoint(folder / "c.taut");
+    const Checkpoint back = readCheckpoint(folder / "c.taut", mostBytes);
     EXPECT_EQ(back.frame, 3);
     EXPECT_EQ(back.state, 9U);
     EXPECT_EQ(back.picture, 5U);
@@ -167,21 +181,21 @@ TEST(CheckpointFolder, FindsTheLastThatFits) {
 
     const auto always = [](std::uint64_t key) { return [key](std::int64_t) { return key; }; };
     std::vector<std::string> refused;
-    EXPECT_EQ(folder.latest(40, always(2), refused)->frame, 40);
-    EXPECT_EQ(folder.latest(39, always(2), refused)->frame, 30);
+    EXPECT_EQ(folder.latest(40, always(2), mostBytes, refused)->frame, 40);
+    EXPECT_EQ(folder.latest(39, always(2), mostBytes, refused)->frame, 30);
     EXPECT_TRUE(refused.empty());
-    EXPECT_EQ(folder.latest(40, always(1), refused)->frame, 20) << "what happens from frame 30 on is new";
+    EXPECT_EQ(folder.latest(40, always(1), mostBytes, refused)->frame, 20) << "what happens from frame 30 on is new";
     EXPECT_EQ(refused.size(), 2U);
     refused.clear();
-    EXPECT_EQ(folder.latest(19, always(1), refused)->frame, 10);
+    EXPECT_EQ(folder.latest(19, always(1), mostBytes, refused)->frame, 10);
     ASSERT_EQ(refused.size(), 1U);
     EXPECT_NE(refused[0].find("checkpoint_000015.taut: this is no checkpoint of taut"), std::string::npos);
-    EXPECT_FALSE(folder.latest(9, always(1), refused));
+    EXPECT_FALSE(folder.latest(9, always(1), mostBytes, refused));
     refused.clear();
     RecordLog::continuing(folder.records(), 25);
-    EXPECT_EQ(folder.latest(30, always(2), refused), std::nullopt) << "the records end before";
+    EXPECT_EQ(folder.latest(30, always(2), mostBytes, refused), std::nullopt) << "the records end before";
     EXPECT_NE(refused.at(0).find("records.taut: the records end with frame 25"), std::string::npos) << refused[0];
-    EXPECT_FALSE(CheckpointFolder(folder.path() / "missing").latest(9, always(1), refused));
+    EXPECT_FALSE(CheckpointFolder(folder.path() / "missing").latest(9, always(1), mostBytes, refused));
 }
 
 TEST(RunLock, LetsPartsOfOneRunInAndNobodyElse) {
@@ -216,7 +230,7 @@ TEST(CheckpointFolder, DoesNotTrustNames) {
     writeCheckpoint(folder.pathOf(10), example(11, 1));
     std::vector<std::string> refused;
     EXPECT_FALSE(folder.latest(
-        20, [](std::int64_t) { return 1; }, refused));
+        20, [](std::int64_t) { return 1; }, mostBytes, refused));
     EXPECT_EQ(refused.size(), 1U);
 }
 

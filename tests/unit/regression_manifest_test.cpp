@@ -21,7 +21,7 @@ TEST(Manifest, ComesBackAsItWas) {
     manifest.tolerance = {3, 0.0002, 2, 0.5};
     manifest.scenarios["flag"].state = {"Because.", "0123456789abcdef", 479, "taut 1", "g++", "avx2"};
     manifest.scenarios["flag"].pictures["000120"] = {"For \"beauty\", é", "00000000000000ff", "llvmpipe"};
-    writeManifest({folder / "new/golden"}, manifest);
+    writeManifest(folder / "new/golden/manifest.json", manifest);
     const Manifest back = readManifest({folder / "new/golden"});
     ASSERT_EQ(back.scenarios.size(), 1U);
     const GoldenScenario& flag = back.scenarios.at("flag");
@@ -31,7 +31,7 @@ TEST(Manifest, ComesBackAsItWas) {
     EXPECT_EQ(flag.pictures.at("000120").why, "For \"beauty\", é");
     EXPECT_EQ(flag.pictures.at("000120").stateHash, "00000000000000ff");
     EXPECT_EQ(back.tolerance, manifest.tolerance);
-    writeManifest({folder / "again"}, back);
+    writeManifest(folder / "again/manifest.json", back);
     EXPECT_EQ(test::contentOf(folder / "again/manifest.json"), test::contentOf(folder / "new/golden/manifest.json"));
 }
 

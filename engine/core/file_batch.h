@@ -1,0 +1,40 @@
+// Several files of a folder changed together: all of them or none, also when the process is killed or the disk is full
+// on the way. It knows nothing of what is in them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace taut::core {
+
+// New files are written beside the old ones; then a list of what is to be renamed and removed appears under its name,
+// and from there on the batch is done: what is left of it, recover() does at any later time.
+class FileBatch {
+  public:
+    explicit FileBatch(std::filesystem::path folder);
+    ~FileBatch();  // without commit() nothing has changed
+    FileBatch(const FileBatch&) = delete;
+    FileBatch& operator=(const FileBatch&) = delete;
+
+    // Where to write the new content of a file of the folder or of one below it; makes the folder that it lies in.
+    // Throws core::Error(inputOutput).
+    std::filesystem::path replace(const std::filesystem::path& file);
+
+    // A file that is to go; it may be missing.
+    void remove(const std::filesystem::path& file);
+
+    // Throws core::Error(inputOutput); whether the batch is done then, recover() finds out.
+    void commit();
+
+    // Finishes what a process that was killed had begun to commit. Throws core::Error: inputOutput, badContent for a list
+    // that names files elsewhere.
+    static void recover(const std::filesystem::path& folder);
+
+  private:
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> replaced_, removed_;  // below the folder
+    bool isListed_ = false;
+};
+
+}  // namespace taut::core

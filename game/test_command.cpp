@@ -26,6 +26,7 @@
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/regression/goldens.h"
+#include "taut/regression/judging.h"
 #include "taut/regression/suite.h"
 #include "taut/report/junit.h"
 #include "taut/report/test_page.h"
@@ -37,7 +38,7 @@ struct TestFlags {
     std::vector<std::string> paths, filters, updates;
     std::string output = "out/test", goldens, junit, why, gl;
     int threads = 0;
-    bool quiet = false, calibrate = false;
+    bool quiet = false, calibrate = false, requireGoldens = false;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -58,21 +59,22 @@ regression::GoldenFolder goldenFolder(const TestFlags& flags, const std::vector<
     return {(std::filesystem::is_directory(first, ignored) ? first : first.parent_path()) / "golden"};
 }
 
-std::vector<std::string> namesOf(const std::vector<regression::Scenario>& scenarios) {
+std::vector<std::string> namesOf(const regression::ReadScenarios& read) {
     std::vector<std::string> names;
-    for (const regression::Scenario& scenario : scenarios) names.push_back(scenario.name);
+    for (const regression::Scenario& scenario : read.scenarios) names.push_back(scenario.name);
+    for (const regression::UnreadScenario& scenario : read.unread) names.push_back(scenario.name);
     return names;
 }
 
 // Keeps what --filter or --update names; throws core::Error(usage) for a name that fits nothing.
-void choose(const TestFlags& flags, std::vector<regression::Scenario>& scenarios) {
+void choose(const TestFlags& flags, regression::ReadScenarios& read) {
     const bool updates = !flags.updates.empty();
     const std::vector<std::string>& wanted = updates ? flags.updates : flags.filters;
     if (wanted.empty()) return;
     const auto fits = [&](const std::string& word, const std::string& name) {
         return updates ? word == name : core::matches(word, name);
     };
-    const std::vector<std::string> names = namesOf(scenarios);
+    const std::vector<std::string> names = namesOf(read);
     for (const std::string& word : wanted)
         if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return fits(word, name); })) {
             const std::string hint = didYouMean(word, names);
@@ -81,10 +83,12 @@ void choose(const TestFlags& flags, std::vector<regression::Scenario>& scenarios
                 fmt::format("{}: there is no scenario '{}'{}", updates ? "--update" : "--filter", word,
                             hint.empty() ? "; there are " + fmt::format("{}", fmt::join(names, ", ")) : hint));
         }
-    std::erase_if(scenarios, [&](const regression::Scenario& scenario) {
+    const auto isUnwanted = [&](const auto& scenario) {
         return std::none_of(wanted.begin(), wanted.end(),
                             [&](const std::string& word) { return fits(word, scenario.name); });
-    });
+    };
+    std::erase_if(read.scenarios, isUnwanted);
+    std::erase_if(read.unread, isUnwanted);
 }
 
 void checkFlags(const TestFlags& flags) {
@@ -109,7 +113,7 @@ regression::DrawingOptions drawingOptions(const TestFlags& flags, int threads) {
 
 struct Run {
     std::vector<std::filesystem::path> paths;
-    std::vector<regression::Scenario> scenarios;
+    regression::ReadScenarios read;
     regression::SuiteOptions suite;
     regression::Manifest manifest;
 };
@@ -118,14 +122,15 @@ Run prepare(const TestFlags& flags) {
     checkFlags(flags);
     Run run;
     for (const std::string& path : flags.paths) run.paths.push_back(scenarioPath(path));
-    run.scenarios = regression::readScenarios(regression::scenarioFiles(run.paths), loadOptions());
-    choose(flags, run.scenarios);
+    run.read = regression::readScenarios(regression::scenarioFiles(run.paths), loadOptions());
+    choose(flags, run.read);
+    run.suite.requiresGoldens = flags.requireGoldens;
     run.suite.goldens = goldenFolder(flags, run.paths);
     run.manifest = regression::readManifest(run.suite.goldens);
 
     const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     const int threads = flags.threads > 0 ? flags.threads : machine;
-    run.suite.sideBySide = std::clamp(static_cast<int>(run.scenarios.size()), 1, threads);
+    run.suite.sideBySide = std::clamp(static_cast<int>(run.read.scenarios.size()), 1, threads);
     run.suite.threadsEach = std::max(1, threads / run.suite.sideBySide);
     run.suite.drawing = drawingOptions(flags, run.suite.threadsEach);
     return run;
@@ -145,6 +150,7 @@ bool isAcceptable(const report::TestScenario& scenario) {
     const auto differs = [](const auto& item) {
         return item.verdict == report::Verdict::failed || item.verdict == report::Verdict::missing;
     };
+    if (!scenario.state.word.empty()) return false;  // there is nothing to accept
     return differs(scenario.state) || std::any_of(scenario.pictures.begin(), scenario.pictures.end(), differs);
 }
 
@@ -195,7 +201,7 @@ std::vector<std::string> orphans(const TestFlags& flags, const Run& run) {
     std::error_code ignored;
     for (const std::filesystem::path& path : run.paths)
         if (!flags.filters.empty() || !std::filesystem::is_directory(path, ignored)) return notes;
-    const std::vector<std::string> names = namesOf(run.scenarios);
+    const std::vector<std::string> names = namesOf(run.read);
     for (const auto& [name, goldens] : run.manifest.scenarios)
         if (std::find(names.begin(), names.end(), name) == names.end())
             notes.push_back(fmt::format("{}: there are goldens of '{}', and no such scenario",
@@ -222,8 +228,9 @@ void addUnplayed(const std::vector<regression::Scenario>& scenarios, report::Tes
         unplayed.name = scenario.name;
         unplayed.title = scenario.spec.title;
         unplayed.file = scenario.file.string();
-        unplayed.verdict = report::Verdict::failed;
-        unplayed.faults.push_back("interrupted before its end");
+        unplayed.verdict = unplayed.state.verdict = report::Verdict::failed;
+        unplayed.state.word = "not begun !";
+        unplayed.faults.push_back("interrupted before its start");
         report.scenarios.push_back(std::move(unplayed));
     }
 }
@@ -242,24 +249,29 @@ int test(const TestFlags& flags) {
     printWarnings(report.notes);
     {
         LiveLine line(flags.quiet);
-        const int count = static_cast<int>(run.scenarios.size());
+        const int count = static_cast<int>(run.read.scenarios.size());
         run.suite.scenarioDone = [&](int done, const report::TestScenario& scenario) {
             if (line.isDue(done == count))
                 line.show(fmt::format("{} of {}  {}: {}", done, count, scenario.name, nameOf(scenario.verdict)));
         };
         report.scenarios =
-            regression::runSuite(run.scenarios, run.suite, run.manifest, report.renderer, interruption.flag());
+            regression::runSuite(run.read.scenarios, run.suite, run.manifest, report.renderer, interruption.flag());
     }
     if (flags.calibrate && !interruption.flag())
         report.calibration = runCalibration(
-            {run.scenarios, run.suite.drawing, run.manifest.tolerance, flags.gl, flags.quiet}, interruption.flag());
+            {run.read.scenarios, run.suite.drawing, run.manifest.tolerance, flags.gl, flags.quiet}, interruption.flag());
+    for (const regression::UnreadScenario& scenario : run.read.unread) {
+        report.scenarios.push_back(regression::unreadScenario(scenario));
+        printNote("{}\n", scenario.fault);
+    }
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     for (report::TestScenario& scenario : report.scenarios) {
         if (isAcceptable(scenario)) scenario.accept = acceptCommand(flags, scenario.name);
         writePictures(flags.output, scenario);
     }
-    if (interruption.exitCode()) addUnplayed(run.scenarios, report);
-    const int code = finish(flags, report, page);
+    if (interruption.exitCode()) addUnplayed(run.read.scenarios, report);
+    int code = finish(flags, report, page);
+    if (!run.read.unread.empty()) code = static_cast<int>(ExitCode::badContent);
     return interruption.exitCode() ? static_cast<int>(*interruption.exitCode()) : code;
 }
 
@@ -278,10 +290,12 @@ void refuseToUpdate(const regression::Scenario& scenario, const regression::Play
 
 int update(const TestFlags& flags) {
     Run run = prepare(flags);
+    if (!run.read.unread.empty())
+        throw core::Error(core::ErrorKind::badContent, run.read.unread.front().fault);
     const Interruption interruption;
     const core::ThreadLimit limit(flags.threads);
     regression::Drawer drawer(run.suite.drawing);
-    for (const regression::Scenario& scenario : run.scenarios) {
+    for (const regression::Scenario& scenario : run.read.scenarios) {
         printWarnings(scenario.warnings);
         const regression::Played played = regression::playScenario(
             scenario, drawer, {.threads = flags.threads, .savesStates = true}, interruption.flag());
@@ -313,12 +327,15 @@ Action declareTest(Options& options) {
     options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
     options.flag("--calibrate", flags->calibrate,
                  "Measure what the thresholds of pictures let through: noise, and mistakes made on purpose");
+    options.flag("--require-goldens", flags->requireGoldens,
+                 "A scenario with checks alone, never recorded, is a missing golden: for CI");
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"
         "  taut test assets/scenarios --goldens tests/golden --junit out/test/junit.xml\n"
         "  taut test my --update flag --why \"the wind blows from the left now\"\n"
-        "Exit codes: 0 all right, 1 a check or golden failed, 4 a scenario diverged, 8 a golden is missing.");
+        "Exit codes: 0 all right, 1 a check or golden failed, 3 a scenario cannot be read, 4 a scenario diverged,\n"
+        "8 a golden is missing.");
     return [flags] { return flags->updates.empty() && flags->why.empty() ? test(*flags) : update(*flags); };
 }
 

@@ -70,6 +70,11 @@ TestState judgedState(const Scenario& scenario, const Played& played, const Gold
     return state;
 }
 
+bool isOfChecksOnly(const Scenario& scenario, const GoldenFolder& folder, const GoldenScenario& goldens) {
+    return !scenario.spec.checks.empty() && scenario.goldens.empty() && !goldens.state && goldens.pictures.empty() &&
+           !core::isThere(folder.tape(scenario.name));
+}
+
 // Whether the state at a picture's frame is the one that its golden was drawn from.
 bool showsSameState(const PlayedPicture& played, const GoldenPicture& golden) {
     return played.request.restart || hexadecimal(played.stateHash) == golden.stateHash;
@@ -161,7 +166,7 @@ std::vector<std::string> leftOver(const Scenario& scenario, const Manifest& mani
 }
 
 TestScenario judged(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
-                    const Manifest& manifest) {
+                    const Manifest& manifest, bool requiresGoldens) {
     const GoldenScenario& goldens = goldensOf(scenario, manifest);
     TestScenario result = blank(scenario);
     result.seconds = played.seconds;
@@ -174,6 +179,10 @@ TestScenario judged(const Scenario& scenario, const Played& played, const Golden
         result.state.ticks = played.tape.ticks();
         result.state.lastHash = hexadecimal(played.tape.chain.back());
         result.faults.push_back(played.divergence->message);
+    } else if (!requiresGoldens && isOfChecksOnly(scenario, folder, goldens)) {
+        result.state.word = "checks only";
+        result.state.ticks = played.tape.ticks();
+        result.state.lastHash = hexadecimal(played.tape.chain.back());
     } else {
         result.state = judgedState(scenario, played, folder, goldens);
     }
@@ -183,6 +192,28 @@ TestScenario judged(const Scenario& scenario, const Played& played, const Golden
     result.verdict = result.state.verdict;
     for (const report::TestCheck& check : result.checks) result.verdict = std::max(result.verdict, check.verdict);
     for (const TestPicture& picture : result.pictures) result.verdict = std::max(result.verdict, picture.verdict);
+    return result;
+}
+
+TestScenario unfinished(const Scenario& scenario, const Played& played) {
+    TestScenario result = blank(scenario);
+    result.verdict = result.state.verdict = Verdict::failed;
+    result.seconds = played.seconds;
+    result.state.word = "not finished !";
+    result.state.ticks = played.tape.chain.empty() ? 0 : played.tape.ticks();
+    result.faults.push_back(fmt::format("not finished: interrupted at tick {}, {:.4g} s of {:.4g} s", result.state.ticks,
+                                        static_cast<double>(result.state.ticks) * played.tape.tickSeconds,
+                                        result.sceneSeconds));
+    return result;
+}
+
+TestScenario unreadScenario(const UnreadScenario& scenario) {
+    TestScenario result;
+    result.name = scenario.name;
+    result.file = scenario.file.string();
+    result.verdict = result.state.verdict = Verdict::failed;
+    result.state.word = "not read !";
+    result.faults.push_back(scenario.fault);
     return result;
 }
 

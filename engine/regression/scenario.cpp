@@ -93,23 +93,20 @@ std::vector<GoldenRequest> goldenRequests(const world::SceneSpec& spec) {
     return requests;
 }
 
-std::vector<Scenario> readScenarios(const std::vector<std::filesystem::path>& files,
-                                    const scene::LoadOptions& options) {
-    std::vector<Scenario> scenarios;
-    std::string faults;
+ReadScenarios readScenarios(const std::vector<std::filesystem::path>& files, const scene::LoadOptions& options) {
+    ReadScenarios read;
     for (const std::filesystem::path& file : files) {
         try {
             scene::Loaded loaded = scene::loadScene(file, options);
             std::vector<GoldenRequest> goldens = goldenRequests(loaded.spec);
-            scenarios.push_back(
+            read.scenarios.push_back(
                 {file.stem().string(), file, std::move(loaded.spec), std::move(goldens), std::move(loaded.warnings)});
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
-            faults += (faults.empty() ? "" : "\n") + std::string(error.what());
+            read.unread.push_back({file.stem().string(), file, error.what()});
         }
     }
-    if (!faults.empty()) throw core::Error(core::ErrorKind::badContent, faults);
-    return scenarios;
+    return read;
 }
 
 }  // namespace taut::regression

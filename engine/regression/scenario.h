@@ -35,8 +35,20 @@ struct Scenario {
 // there or a folder without any, usage when two have the same name.
 std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesystem::path>& named);
 
-// Reads all of them; throws one core::Error(badContent) with the faults of all.
-std::vector<Scenario> readScenarios(const std::vector<std::filesystem::path>& files, const scene::LoadOptions& options);
+// A file that is no scenario, or one with faults.
+struct UnreadScenario {
+    std::string name;
+    std::filesystem::path file;
+    std::string fault;  // a line or more, "FILE:LINE:COLUMN: error: …"
+};
+
+struct ReadScenarios {
+    std::vector<Scenario> scenarios;
+    std::vector<UnreadScenario> unread;
+};
+
+// Reads all of them, whatever is wrong with some.
+ReadScenarios readScenarios(const std::vector<std::filesystem::path>& files, const scene::LoadOptions& options);
 
 // The goldens that a scene asks for, by frame; throws core::Error(badContent) when two have the same name, or one names
 // a frame or camera that is not there.

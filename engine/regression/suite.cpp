@@ -72,8 +72,9 @@ class Suite {
         report::TestScenario result;
         try {
             const Played played = playScenario(scenario, drawer, options, stop_);
-            if (played.interrupted) return;
-            result = judged(scenario, played, options_.goldens, manifest_);
+            result = played.interrupted
+                         ? unfinished(scenario, played)
+                         : judged(scenario, played, options_.goldens, manifest_, options_.requiresGoldens);
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
             result = brokenScenario(scenario, error.what());

@@ -18,12 +18,13 @@ struct SuiteOptions {
     int threadsEach = 0;  // of a world; 0: as many as the machine has
     DrawingOptions drawing;
     GoldenFolder goldens;
+    bool requiresGoldens = false;  // checks alone do not pass
     // Called as scenarios end, one at a time.
     std::function<void(int done, const report::TestScenario& scenario)> scenarioDone{};
 };
 
 // In the order of the scenarios; `renderer` becomes what drew. A scenario that cannot be built fails alone; throws
-// core::Error(noRenderer) when pictures are asked for and nothing can draw. After `stop` those not finished are left
+// core::Error(noRenderer) when pictures are asked for and nothing can draw. After `stop` those not begun are left
 // out.
 std::vector<report::TestScenario> runSuite(const std::vector<Scenario>& scenarios, const SuiteOptions& options,
                                            const Manifest& manifest, std::string& renderer,

@@ -21,6 +21,7 @@ std::string countPassed(const Items& items) {
 
 std::string stateWord(const TestScenario& scenario) {
     const Verdict verdict = scenario.state.verdict;
+    if (!scenario.state.word.empty()) return scenario.state.word;
     if (verdict == Verdict::passed) return fmt::format("same, {} ticks", scenario.state.ticks);
     if (verdict == Verdict::skipped) return "-";
     return (verdict == Verdict::failed ? "differs" : nameOf(verdict)) + " !";

@@ -31,6 +31,7 @@ struct TestState {
     std::string reason;    // empty when it passed
     std::string why;       // the manifest's reason for the golden
     std::string madeBy;    // the program that recorded the golden
+    std::string word{};    // what became of it, in the table; empty: as the verdict says
 };
 
 // PNG files as bytes; empty where there is none.

@@ -100,6 +100,18 @@ TEST(Interrupted, ProgramLeavesAWholeVideoWhenTerminated) {
     EXPECT_NE(test::contentOf(folder / "a.mp4").find("moov"), std::string::npos);
 }
 
+TEST(Interrupted, TestSaysHowFarItCame) {
+    const TemporaryFolder folder;
+    const pid_t process =
+        started({"test", endlessScene(folder).string(), "-o", (folder / "out").string()}, folder / "messages");
+    EXPECT_TRUE(comesTrue([&] { return std::filesystem::exists(folder / "out"); }));
+    ::kill(process, SIGINT);
+    EXPECT_EQ(exitCodeOf(process), 130);
+    const std::string said = test::contentOf(folder / "messages");
+    EXPECT_NE(said.find("not finished: interrupted at tick "), std::string::npos) << said;
+    EXPECT_EQ(said.find("same, "), std::string::npos) << said;
+}
+
 // Half an atlas says nothing: neither files nor folders are left, and it does not look finished.
 TEST(Interrupted, AtlasSaysSoAndLeavesNothing) {
     const TemporaryFolder folder;

@@ -38,7 +38,7 @@ target = [0.0, 1.0, 0.0]
 frames = [4]
 size = [160, 90]
 )");
-    return readScenarios({folder / "spring.toml"}, {}).front();
+    return readScenarios({folder / "spring.toml"}, {}).scenarios.front();
 }
 
 CalibrationOptions options() {

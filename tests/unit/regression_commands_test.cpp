@@ -36,6 +36,32 @@ TEST(TestCommand, AMissingGoldenHasItsOwnCodeAndTheCommandThatMakesIt) {
     EXPECT_TRUE(has(test::contentOf(folder / "junit.xml"), "failures=\"0\""));
 }
 
+TEST(TestCommand, ChecksAloneAreEnoughUntilSomethingIsRecorded) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "spring.toml",
+                    springText("100.0", "[[check]]\nthat = \"position(net.spring@#1).y > 0.5\"\n"));
+    const Outcome passed = testRun(folder);
+    EXPECT_EQ(passed.code, 0) << passed.out;
+    EXPECT_TRUE(has(passed.out, "checks only")) << passed.out;
+    EXPECT_EQ(testRun(folder, {"--require-goldens"}).code, 8);
+    EXPECT_EQ(acceptRun(folder, "spring", "The first of its kind.").code, 0);
+    EXPECT_TRUE(has(testRun(folder).out, "same, "));
+    std::filesystem::remove(folder / "golden/spring/state.tape");
+    EXPECT_EQ(testRun(folder).code, 8) << "the manifest names it";
+}
+
+TEST(TestCommand, AScenarioThatCannotBeReadKeepsNoneOfTheOthersFromBeingTested) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.toml", "schema = 1\n[run]\nfps = -3\n");
+    test::writeText(folder / "spring.toml",
+                    springText("100.0", "[[check]]\nthat = \"position(net.spring@#1).y > 0.5\"\n"));
+    const Outcome both = testRun(folder);
+    EXPECT_EQ(both.code, 3);
+    EXPECT_TRUE(has(both.out, "2 scenarios: 1 failed, 1 passed")) << both.out;
+    EXPECT_TRUE(has(both.err, "a.toml:3:")) << both.err;
+    EXPECT_EQ(testRun(folder, {"--filter", "spring"}).code, 0);
+}
+
 TEST(TestCommand, AChangedStateFailsWithTickAndBody) {
     const TemporaryFolder folder;
     test::writeText(folder / "spring.toml", springText());

@@ -36,15 +36,17 @@ TEST(ScenarioFiles, WhatIsNotThereOrNotToldApartIsRefused) {
     EXPECT_TRUE(has(twice, "two scenarios are called same")) << twice;
 }
 
-TEST(Scenarios, AllFaultsAreSaidAtOnce) {
+TEST(Scenarios, FaultsAreSaidOfEachAndKeepNoneOfTheOthersOut) {
     const TemporaryFolder folder;
     test::writeText(folder / "a.toml", "schema = 1\n[run]\nfps = -3\n");
     test::writeText(folder / "b.toml", "schema = 1\n[run]\nsecond = 3\n");
-    const std::string said = test::messageOf(core::ErrorKind::badContent, [&] {
-        readScenarios({folder / "a.toml", folder / "b.toml"}, {});
-    });
-    EXPECT_TRUE(has(said, "a.toml:3:")) << said;
-    EXPECT_TRUE(has(said, "b.toml:3:")) << said;
+    test::writeText(folder / "c.toml", test::springText());
+    const ReadScenarios read = readScenarios({folder / "a.toml", folder / "b.toml", folder / "c.toml"}, {});
+    ASSERT_EQ(read.unread.size(), 2U);
+    EXPECT_TRUE(has(read.unread[0].fault, "a.toml:3:")) << read.unread[0].fault;
+    EXPECT_TRUE(has(read.unread[1].fault, "b.toml:3:")) << read.unread[1].fault;
+    ASSERT_EQ(read.scenarios.size(), 1U);
+    EXPECT_EQ(read.scenarios[0].name, "c");
 }
 
 TEST(GoldenRequests, AreByFrameWithANameForEach) {

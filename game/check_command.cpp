@@ -7,8 +7,10 @@
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/messages.h"
+#include "game/outputs.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
+#include "taut/pipeline/run.h"
 #include "taut/world/world.h"
 
 namespace taut::game {
@@ -28,6 +30,9 @@ int check(const CheckFlags& flags) {
             const world::World built(spec);
             printWarnings(built.warnings());
             printResult("{}: ok\n", spec.file);
+            const std::string large =
+                largeRunText(pipeline::frameCount(spec.run), spec.picture.size.x, spec.picture.size.y);
+            if (!large.empty()) printResult("{}: {}\n", spec.file, large);
         } catch (const core::Error& error) {
             printError(error);
             if (code == ExitCode::ok) code = exitCodeOf(error.kind());

@@ -16,6 +16,7 @@
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
+#include "taut/scene/body_size.h"
 #include "taut/world/world.h"
 
 namespace taut::game {
@@ -65,12 +66,6 @@ Facts gatherFacts(const InfoFlags& flags) {
     facts.frames = pipeline::frameCount(facts.spec.run);
     facts.costPerTick = measuredSecondsPerTick(world);
     return facts;
-}
-
-double megabytes(const Facts& facts) {
-    double bytes = 0.0;
-    for (const world::IslandInfo& island : facts.islands) bytes += static_cast<double>(island.bytes);
-    return bytes / 1e6;
 }
 
 Json islandJson(const world::IslandInfo& i) {
@@ -143,8 +138,10 @@ void printTable(const Facts& facts) {
         springs += island.springs;
         pointSteps += static_cast<double>(island.points) * island.substeps;
     }
-    printResult("\nin all {} points, {} springs, {} islands, {} colliders, {:.3g} MB\n", points, springs,
-               facts.islands.size(), spec.colliders.size(), megabytes(facts));
+    const scene::SceneSize size = scene::wholeSizeOf(spec);
+    printResult(
+        "\nin all {} points, {} springs, {} islands, {} colliders, about {:.3g} MB, {:.3g} MB of it for pictures\n",
+        points, springs, facts.islands.size(), spec.colliders.size(), size.bytes() / 1e6, size.pictures / 1e6);
     if (facts.costPerTick > 0.0) {
         const double perFrame = facts.costPerTick * facts.ticksPerFrame;
         printResult(

@@ -16,6 +16,9 @@ enum class Overwrite { ask, yes, no };
 // overwritten (no; or ask, and nobody is there to be asked or the answer is not y), throws core::Error(inputOutput).
 void permitOverwriting(const std::filesystem::path& output, std::int64_t first, std::int64_t last, Overwrite overwrite);
 
+// What a run of very many pictures will take on disk and of time, roughly; empty for others.
+std::string largeRunText(std::int64_t pictures, int width, int height);
+
 // A video for a name that ends like one, else a frame sequence. Throws core::Error: usage, inputOutput.
 std::unique_ptr<image::FrameSink> makeSink(const std::filesystem::path& output, double fps);
 

@@ -210,6 +210,9 @@ int render(const RenderFlags& flags) {
     const Interruption interruption;
 
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, options, spec.run.fps);
+    const std::string large =
+        largeRunText(options.lastFrame - options.firstFrame + 1, spec.picture.size.x, spec.picture.size.y);
+    if (!large.empty() && !flags.noPictures && !flags.quiet) printNote("note: {}\n", large);
     const core::ThreadLimit threads(flags.threads);
     world::World world(spec, {.threads = flags.threads});
     const std::vector<std::string> foreseen = world.warnings();

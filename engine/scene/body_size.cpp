@@ -27,6 +27,34 @@ BodySize sizeOf(const world::SceneSpec& scene) {
     return sum;
 }
 
+namespace {
+
+constexpr double bytesOfTriangle = 500.0, bytesOfKey = 200.0, bytesOfAction = 2000.0;
+constexpr double bytesOfCollider = 4e3, bytesOfDrawnCollider = 9e4;
+constexpr double bytesOfShadowTexel = 4.5, bytesOfPixel = 15.0, bytesOfSample = 12.0;  // further samples
+
+double sizeOf(const world::ColliderSpec& collider) {
+    double bytes = (collider.visible ? bytesOfDrawnCollider : bytesOfCollider) +
+                   bytesOfKey * static_cast<double>(collider.keys.size());
+    if (collider.meshData) bytes += bytesOfTriangle * static_cast<double>(collider.meshData->triangles.size());
+    for (const world::ColliderSpec& part : collider.parts) bytes += sizeOf(part);
+    return bytes;
+}
+
+}  // namespace
+
+SceneSize wholeSizeOf(const world::SceneSpec& scene) {
+    SceneSize size;
+    size.bodies = sizeOf(scene).bytes();
+    for (const world::ColliderSpec& collider : scene.colliders) size.colliders += sizeOf(collider);
+    const world::PictureSpec& picture = scene.picture;
+    size.pictures = static_cast<double>(picture.size.x) * picture.size.y *
+                        (bytesOfPixel + bytesOfSample * (picture.samples - 1)) +
+                    bytesOfShadowTexel * picture.shadowSize * picture.shadowSize;
+    size.timeline = bytesOfAction * static_cast<double>(scene.actions.size() + scene.checks.size());
+    return size;
+}
+
 double memoryLimit() {
     const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
     const double pageSize = static_cast<double>(sysconf(_SC_PAGE_SIZE));

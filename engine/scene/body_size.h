@@ -1,4 +1,4 @@
-// How much a scene will hold once it is built, so that too much is refused before anything is allocated.
+// How much a scene will hold once it is built and drawn, so that too much is refused before anything is allocated.
 #pragma once
 
 #include "taut/world/spec.h"
@@ -13,6 +13,16 @@ struct BodySize {
 
 BodySize sizeOf(const world::BodySpec& body, const world::SceneSpec& scene);
 BodySize sizeOf(const world::SceneSpec& scene);  // of all bodies together
+
+// Everything that a run with pictures takes [bytes], by rules measured with a software renderer and rounded up.
+struct SceneSize {
+    double bodies = 0;
+    double colliders = 0;  // with what is drawn of them, and the triangles of their meshes
+    double pictures = 0;   // what is drawn into, and the pictures on their way to a file
+    double timeline = 0;   // actions, checks, keyframes
+    double bytes() const { return bodies + colliders + pictures + timeline; }
+};
+SceneSize wholeSizeOf(const world::SceneSpec& scene);
 
 // Half of the machine's memory [bytes].
 double memoryLimit();

@@ -30,10 +30,29 @@ void throwIfAny(const Problems& problems) {
 }
 
 // Refuses a scene that asks for too much, at the body that asks for most.
+// Of a scene that takes too much, and less than half of it for its bodies.
+void addTooLarge(const ReadScene& scene, const SceneSize& size, double limit, Problems& problems) {
+    constexpr double gigabyte = 1e9;
+    const bool isPicture = size.pictures > size.colliders;
+    const Place place = isPicture || scene.spec.colliders.empty()
+                            ? Place{.line = 1, .column = 1}
+                            : scene.owners.at("collider." + scene.spec.colliders.front().name);
+    problems.addError(place,
+                      fmt::format("the scene is too large: {:.4g} GB for colliders, {:.4g} GB for pictures of {} x {} "
+                                  "pixels, {:.4g} GB for the rest; the limit is {:.4g} GB",
+                                  size.colliders / gigabyte, size.pictures / gigabyte, scene.spec.picture.size.x,
+                                  scene.spec.picture.size.y, (size.bodies + size.timeline) / gigabyte,
+                                  limit / gigabyte),
+                      isPicture ? "give picture a smaller size, fewer samples or a smaller shadow_size"
+                                : "give it fewer colliders, or visible = false where they need not be seen");
+}
+
 void checkSize(const ReadScene& scene, double limit, Problems& problems) {
+    const SceneSize whole = wholeSizeOf(scene.spec);
     const BodySize total = sizeOf(scene.spec);
-    const double bytes = total.bytes();
+    const double bytes = whole.bytes();
     if (bytes <= limit && total.points <= maxPoints) return;
+    if (whole.bodies < 0.5 * bytes) return addTooLarge(scene, whole, limit, problems);
     double largest = 0;
     std::string largestTitle;
     for (const world::BodySpec& body : scene.spec.bodies) {

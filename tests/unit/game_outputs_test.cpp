@@ -42,6 +42,17 @@ TEST(Outputs, ExistingFrameInTheRangeIsNotOverwrittenUnasked) {
     EXPECT_NO_THROW(permitOverwriting(folder / "new", 0, 9, Overwrite::no));
 }
 
+// The folder is listed once: a lookup for each of these would take days.
+TEST(Outputs, VeryManyPicturesAreSaidAndLookedForAtOnce) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "frame_000007.png", "");
+    permitOverwriting(folder.path(), 8, std::int64_t{1} << 40U, Overwrite::no);
+    messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(folder.path(), 7, std::int64_t{1} << 40U, Overwrite::no); });
+    EXPECT_EQ(largeRunText(1000, 640, 360), "");
+    EXPECT_EQ(largeRunText(360000, 1000, 1000),
+              "360000 pictures of 1000 x 1000 pixels: about 180 GB of PNG files, and 1 hours at 100 pictures a second");
+}
+
 TEST(Outputs, ExistingVideoIsNotOverwrittenUnasked) {
     const WithoutTerminal noTerminal;
     const TemporaryFolder folder;

@@ -175,6 +175,21 @@ TEST(SceneFiles, BodiesAreSortedByNameAndTiesKeepTheirOrder) {
     EXPECT_EQ(scene.masses[1].target, "rope.a@end");
 }
 
+TEST(SceneFiles, AllThatASceneMakesCountsAgainstTheLimit) {
+    const AssetFolder folder;
+    LoadOptions options;
+    options.memoryLimit = 150e6;
+    std::string colliders;
+    for (int i = 0; i < 2000; ++i) colliders += "[collider.c" + std::to_string(i) + "]\nshape = \"sphere\"\n";
+    const std::string many = folder.messageOf(std::string(minimal) + colliders, options);
+    EXPECT_NE(many.find("0.18 GB for colliders"), std::string::npos) << many;
+    EXPECT_NE(many.find("visible = false"), std::string::npos) << many;
+    const std::string large =
+        folder.messageOf(std::string(minimal) + "[picture]\nsize = [4000, 4000]\nsamples = 1\n", options);
+    EXPECT_NE(large.find("GB for pictures of 4000 x 4000 pixels"), std::string::npos) << large;
+    EXPECT_NE(large.find("smaller size"), std::string::npos) << large;
+}
+
 TEST(SceneFiles, TheShippedScenesAndScenariosLoad) {
     const std::filesystem::path assets = std::filesystem::path(TAUT_SOURCE_DIR) / "assets";
     LoadOptions options;

@@ -19,6 +19,7 @@ namespace {
 struct CheckFlags {
     std::vector<std::string> scenes;
     std::vector<std::string> overrides;
+    bool isConfined = false;
 };
 
 // Reads and builds each scene; goes on after one that is wrong, and returns the code of the first failure.
@@ -26,7 +27,7 @@ int check(const CheckFlags& flags) {
     ExitCode code = ExitCode::ok;
     for (const std::string& argument : flags.scenes) {
         try {
-            const world::SceneSpec spec = readScene(argument, flags.overrides);
+            const world::SceneSpec spec = readScene(argument, flags.overrides, flags.isConfined);
             const world::World built(spec);
             printWarnings(built.warnings());
             printResult("{}: ok\n", spec.file);
@@ -47,6 +48,7 @@ Action declareCheck(Options& options) {
     options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]")
         .typeName("KEY=VALUE")
         .oneValue();
+    addConfinedFlag(options, flags->isConfined);
     return [flags] { return check(*flags); };
 }
 

@@ -46,7 +46,7 @@ struct RenderFlags {
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
-    bool overlay = false;
+    bool overlay = false, isConfined = false;
 };
 
 // What --fps, --seconds, --size and --camera ask for, in the words of the scene format.
@@ -204,7 +204,7 @@ void printSummary(const RenderFlags& flags, const pipeline::RunResult& result, s
 
 int render(const RenderFlags& flags) {
     checkFlags(flags);
-    const scene::Loaded scene = readSceneWithKeys(flags.scene, allOverrides(flags));
+    const scene::Loaded scene = readSceneWithKeys(flags.scene, allOverrides(flags), flags.isConfined);
     const world::SceneSpec& spec = scene.spec;
     pipeline::RunOptions options = runOptions(flags, spec);
     const Interruption interruption;
@@ -305,6 +305,7 @@ Action declareRender(Options& options) {
     options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
         .typeName("KEY=VALUE")
         .oneValue();
+    addConfinedFlag(options, flags->isConfined);
     options.footer(
         "Examples:\n"
         "  taut render flag -o flag.mp4\n"

@@ -39,19 +39,25 @@ std::filesystem::path sceneFile(const std::string& argument) {
                                       : fmt::format("; the shipped ones are {}", fmt::join(scenes, ", "))));
 }
 
-world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides) {
-    return readSceneWithKeys(argument, overrides).spec;
+world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides, bool isConfined) {
+    return readSceneWithKeys(argument, overrides, isConfined).spec;
 }
 
-scene::LoadOptions loadOptions(const std::vector<std::string>& overrides) {
+void addConfinedFlag(Options& options, bool& isConfined) {
+    options.flag("--confined", isConfined, "Read files below the scene's folder and the shipped assets only");
+}
+
+scene::LoadOptions loadOptions(const std::vector<std::string>& overrides, bool isConfined) {
     scene::LoadOptions options;
+    options.isConfined = isConfined;
     options.overrides = overrides;
     if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
     return options;
 }
 
-scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides) {
-    scene::Loaded loaded = scene::loadScene(sceneFile(argument), loadOptions(overrides));
+scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides,
+                                bool isConfined) {
+    scene::Loaded loaded = scene::loadScene(sceneFile(argument), loadOptions(overrides, isConfined));
     printWarnings(loaded.warnings);
     return loaded;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "game/command_line.h"
 #include "taut/scene/load.h"
 #include "taut/world/spec.h"
 
@@ -14,15 +15,18 @@ namespace taut::game {
 // core::Error(inputOutput), with the nearest shipped scene when it was a bare name.
 std::filesystem::path sceneFile(const std::string& argument);
 
-// With the asset folder.
-scene::LoadOptions loadOptions(const std::vector<std::string>& overrides = {});
+// With the asset folder. A confined scene reads files below its own folder and the shipped assets only.
+scene::LoadOptions loadOptions(const std::vector<std::string>& overrides = {}, bool isConfined = false);
+void addConfinedFlag(Options& options, bool& isConfined);
 
 // Reads the scene with overrides ("key=value") and prints its warnings to standard error. Throws core::Error, also for
 // a scene that needs more memory than the machine can give.
-world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides);
+world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides,
+                           bool isConfined = false);
 
 // The same with the keys of its states.
-scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides);
+scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides,
+                                bool isConfined = false);
 
 // Puts `content` in the place of a scene file that still holds `expected`; a link stays one, permissions stay. Throws
 // core::Error(inputOutput), also when someone else has changed the file meanwhile.

@@ -38,7 +38,7 @@ struct TestFlags {
     std::vector<std::string> paths, filters, updates;
     std::string output = "out/test", goldens, junit, why, gl;
     int threads = 0;
-    bool quiet = false, calibrate = false, requireGoldens = false;
+    bool quiet = false, calibrate = false, requireGoldens = false, isConfined = false;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -122,7 +122,7 @@ Run prepare(const TestFlags& flags) {
     checkFlags(flags);
     Run run;
     for (const std::string& path : flags.paths) run.paths.push_back(scenarioPath(path));
-    run.read = regression::readScenarios(regression::scenarioFiles(run.paths), loadOptions());
+    run.read = regression::readScenarios(regression::scenarioFiles(run.paths), loadOptions({}, flags.isConfined));
     choose(flags, run.read);
     run.suite.requiresGoldens = flags.requireGoldens;
     run.suite.goldens = goldenFolder(flags, run.paths);
@@ -329,9 +329,11 @@ Action declareTest(Options& options) {
                  "Measure what the thresholds of pictures let through: noise, and mistakes made on purpose");
     options.flag("--require-goldens", flags->requireGoldens,
                  "A scenario with checks alone, never recorded, is a missing golden: for CI");
+    addConfinedFlag(options, flags->isConfined);
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
         "Examples:\n"
+        "  taut test my --require-goldens --confined             in CI, where others propose scenarios\n"
         "  taut test assets/scenarios --goldens tests/golden --junit out/test/junit.xml\n"
         "  taut test my --update flag --why \"the wind blows from the left now\"\n"
         "Exit codes: 0 all right, 1 a check or golden failed, 3 a scenario cannot be read, 4 a scenario diverged,\n"

@@ -48,7 +48,7 @@ void setMesh(world::MeshSource& spec, const Assets& meshes) {
 }  // namespace
 
 void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vector<path>& assetFolders,
-                ReadScene& scene, Problems& problems) {
+                const Confinement& confinement, ReadScene& scene, Problems& problems) {
     Assets meshes, textures;
     for (const Reference& reference : scene.references) {
         const bool isMesh = reference.role == Role::mesh;
@@ -70,6 +70,11 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vect
         if (asset.found.empty()) {
             problems.addError(reference.place, fmt::format("there is no file \"{}\"", reference.text),
                               fmt::format("looked for {}", joined(searched)));
+            scene.faulty.insert(reference.owner);
+            continue;
+        }
+        if (!confinement.allows(asset.found)) {
+            problems.addError(reference.place, outsideMessage(asset.found));
             scene.faulty.insert(reference.owner);
             continue;
         }

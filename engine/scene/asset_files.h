@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "taut/scene/scene_reader.h"
+#include "taut/scene/text_file.h"
 
 namespace taut::scene {
 
 // Replaces paths in the spec by those found and fills in the meshes. A relative path is looked for in the folder of
 // the file that names it, then in that of the other one (see Place),  then in each asset folder, its `models` and its
-// `textures`. Reports what is missing or unusable.
+// `textures`. Reports what is missing, not allowed or unusable.
 void loadAssets(const std::filesystem::path& sceneFolder, const std::filesystem::path& baseFolder,
-                const std::vector<std::filesystem::path>& assetFolders, ReadScene& scene, Problems& problems);
+                const std::vector<std::filesystem::path>& assetFolders, const Confinement& confinement,
+                ReadScene& scene, Problems& problems);
 
 }  // namespace taut::scene

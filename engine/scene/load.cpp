@@ -102,10 +102,18 @@ Node treeOf(std::string_view text, int origin, Problems& problems) {
     }
 }
 
+Confinement confinementOf(const std::string& fileName, const LoadOptions& options) {
+    if (!options.isConfined) return {};
+    Confinement confinement{options.assetFolders};
+    confinement.folders.push_back(std::filesystem::path(fileName).parent_path());
+    return confinement;
+}
+
 // Lays the document over the scene that it names, if it names one, and says which.
 std::filesystem::path layOnBase(Node& root, const std::string& fileName, const LoadOptions& options,
                                 Problems& problems) {
-    BaseFile base = baseFileOf(root, fileName, options.assetFolders, maxSceneSize, problems);
+    BaseFile base =
+        baseFileOf(root, fileName, options.assetFolders, confinementOf(fileName, options), maxSceneSize, problems);
     throwIfAny(problems);
     if (base.path.empty()) return {};
     problems.setBase(base.text, base.path.string());
@@ -140,8 +148,8 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
         problems.addError(member->value.place, "the scene that a file builds on cannot be set");
     ReadScene scene = readScene(root, sections, fileName, problems);
     scene.spec.base = base.string();
-    loadAssets(std::filesystem::path(fileName).parent_path(), base.parent_path(), options.assetFolders, scene,
-               problems);
+    loadAssets(std::filesystem::path(fileName).parent_path(), base.parent_path(), options.assetFolders,
+               confinementOf(fileName, options), scene, problems);
     const BodyIndex bodies(scene.spec, kinds, scene.faulty);
     checkReferences(scene, bodies, problems);
     checkTimeline(root, sections, bodies, scene, problems);

@@ -19,6 +19,8 @@ struct LoadOptions {
     // Where models and textures are looked for when they do not lie beside the scene file: in each folder, in its
     // `models` and in its `textures`.
     std::vector<std::filesystem::path> assetFolders{};
+    // Whether every file that the scene names must lie below its own folder or an asset folder, links resolved.
+    bool isConfined = false;
     // What a scene may be made of; null: what the engine has.
     std::shared_ptr<const world::Kinds> kinds{};
     // What a scene may take [bytes]; 0: half of the machine's memory.

@@ -58,7 +58,7 @@ Node merged(Node base, const Node& over) {
 }
 
 BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<path>& assetFolders,
-                    std::uint64_t maxBytes, Problems& problems) {
+                    const Confinement& confinement, std::uint64_t maxBytes, Problems& problems) {
     const Member* member = root.find("scene");
     if (member == nullptr || member->value.kind != NodeKind::text) return {};  // a wrong type is reported by the reader
     const Node& value = member->value;
@@ -81,6 +81,9 @@ BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<p
         searched.push_back(file.string());
         if (isFile(file) && isSame(file, sceneFile)) {
             namesItself = true;
+        } else if (isFile(file) && !confinement.allows(file)) {
+            problems.addError(value.place, outsideMessage(file));
+            return {};
         } else if (isFile(file)) {
             try {
                 return {file, textFile(file, maxBytes)};

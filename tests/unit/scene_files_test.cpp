@@ -175,6 +175,29 @@ TEST(SceneFiles, BodiesAreSortedByNameAndTiesKeepTheirOrder) {
     EXPECT_EQ(scene.masses[1].target, "rope.a@end");
 }
 
+// Also by a link that lies where it may: what counts is where the file is.
+TEST(SceneFiles, AConfinedSceneReadsNothingElsewhere) {
+    const AssetFolder folder, elsewhere;
+    elsewhere.write("secret.toml", "the secret of somebody else\n");
+    elsewhere.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("own.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    std::filesystem::create_symlink(elsewhere / "box.obj", folder / "link.obj");
+    const auto hull = [](const std::string& file) {
+        return std::string(minimal) + "[collider.a]\nshape = \"mesh\"\nmesh = \"" + file + "\"\n";
+    };
+    LoadOptions options;
+    folder.load(hull("link.obj"), options);
+    options.isConfined = true;
+    folder.load(hull("own.obj"), options);
+    for (const std::string& text :
+         {hull("link.obj"), hull((elsewhere / "box.obj").string()),
+          "schema = 1\nscene = \"" + (elsewhere / "secret.toml").string() + "\"\n"}) {
+        const std::string message = folder.messageOf(text, options);
+        EXPECT_NE(message.find("lies outside the scene's folder"), std::string::npos) << message;
+        EXPECT_EQ(message.find("somebody"), std::string::npos) << message;
+    }
+}
+
 TEST(SceneFiles, AllThatASceneMakesCountsAgainstTheLimit) {
     const AssetFolder folder;
     LoadOptions options;

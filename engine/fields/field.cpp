@@ -50,7 +50,9 @@ std::string description(const Field& field) {
     const std::string unit = field.unit.empty() ? "" : fmt::format(" [{}]", field.unit);
     switch (field.kind) {
         case FieldKind::number: return "a number" + unit;
-        case FieldKind::whole: return "a whole number" + unit;
+        case FieldKind::whole:
+            if (!field.values.empty()) return fmt::format("{}{}", fmt::join(field.values, " or "), unit);
+            return (field.multipleOf > 1 ? fmt::format("a multiple of {}", field.multipleOf) : "a whole number") + unit;
         case FieldKind::flag: return "true or false";
         case FieldKind::text: return "a text";
         case FieldKind::choice: return "one of " + joined(field.choices);

@@ -77,6 +77,8 @@ struct Field {
     std::string unit;    // "m", "N/m"; empty: a plain number
     Range range;
     std::vector<std::string> choices;
+    std::vector<int> values;  // of a whole number: the only ones; empty: all in range
+    int multipleOf = 1;       // of a whole number
     bool required = false;
     std::vector<std::string> only;  // variants of the section that have this field; empty: all
     Role role = Role::none;
@@ -138,7 +140,7 @@ bool isName(const std::string& name);
 // "above 0 m", "between 0 and 1".
 std::string description(const Range& range, const std::string& unit);
 
-// "a list of 3 numbers [m]".
+// "a list of 3 numbers [m]", "1 or 4", "a multiple of 128 [px]".
 std::string description(const Field& field);
 
 // The default as it would be written in a file, or an empty text if there is none.

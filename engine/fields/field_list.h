@@ -1,6 +1,7 @@
 // Builds the rows of the field table: one call a field, from a member pointer to functions that write and read it.
 #pragma once
 
+#include <algorithm>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -295,6 +296,17 @@ class FieldList {
     }
     FieldList& only(std::vector<std::string> variants) {
         last().only = std::move(variants);
+        return *this;
+    }
+    // The only values of a whole number; its range is theirs.
+    FieldList& oneOf(std::vector<int> values) {
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        last().range = {static_cast<double>(*low), static_cast<double>(*high)};
+        last().values = std::move(values);
+        return *this;
+    }
+    FieldList& multipleOf(int divisor) {
+        last().multipleOf = divisor;
         return *this;
     }
     FieldList& role(Role role) {

@@ -75,7 +75,12 @@ class ValueReader {
     }
 
     std::optional<Value> whole(const Node& node) const {
+        const std::vector<int>& values = field_.values;
+        if (node.kind == NodeKind::whole && !values.empty() &&
+            std::find(values.begin(), values.end(), node.whole) == values.end())
+            return failKind(node);
         if (!number(node, field_.key)) return std::nullopt;
+        if (node.whole % field_.multipleOf != 0) return failKind(node);
         return Value(node.whole);
     }
 

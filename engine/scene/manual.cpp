@@ -16,7 +16,8 @@ void writeFields(const Section& section, void* target, const std::string& indent
     for (const Field& field : section.fields) {
         std::string facts = description(field);
         const std::string range = description(field.range, "");
-        const bool hasRange = field.kind == FieldKind::number || field.kind == FieldKind::whole ||
+        const bool hasRange = field.kind == FieldKind::number ||
+                              (field.kind == FieldKind::whole && field.values.empty()) ||
                               field.kind == FieldKind::vector || field.kind == FieldKind::wholeVector ||
                               field.kind == FieldKind::stepLength;
         if (hasRange && !range.empty()) facts += ", " + range;

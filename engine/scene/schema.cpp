@@ -25,6 +25,13 @@ Json numberSchema(const Field& field, bool isWhole) {
     return schema;
 }
 
+Json wholeSchema(const Field& field) {
+    if (!field.values.empty()) return {{"enum", field.values}};
+    Json schema = numberSchema(field, true);
+    if (field.multipleOf > 1) schema["multipleOf"] = field.multipleOf;
+    return schema;
+}
+
 Json listSchema(const Json& items, int count) {
     return {{"type", "array"}, {"items", items}, {"minItems", count}, {"maxItems", count}};
 }
@@ -32,7 +39,7 @@ Json listSchema(const Json& items, int count) {
 Json valueSchema(const Field& field) {
     switch (field.kind) {
         case FieldKind::number: return numberSchema(field, false);
-        case FieldKind::whole: return numberSchema(field, true);
+        case FieldKind::whole: return wholeSchema(field);
         case FieldKind::flag: return {{"type", "boolean"}};
         case FieldKind::text: return {{"type", "string"}};
         case FieldKind::choice: return {{"enum", field.choices}};

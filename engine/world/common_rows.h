@@ -6,6 +6,7 @@
 
 #include "taut/core/error.h"
 #include "taut/fields/field_list.h"
+#include "taut/mechanics/mass_spring_system.h"
 #include "taut/world/action_spec.h"
 #include "taut/world/body_spec.h"
 #include "taut/world/force_spec.h"
@@ -14,9 +15,10 @@
 namespace taut::world {
 
 // Limits that many fields share.
-inline constexpr fields::Range placeRange{-1e6, 1e6};       // [m]
-inline constexpr fields::Range lengthRange{1e-6, 1e6};      // [m]
-inline constexpr fields::Range momentRange{0.0, 1e6};       // [s]
+inline constexpr fields::Range placeRange{-1e6, 1e6};                                      // [m]
+inline constexpr fields::Range speedRange{-mechanics::speedLimit, mechanics::speedLimit};  // [m/s]
+inline constexpr fields::Range lengthRange{1e-6, 1e6};                                     // [m]
+inline constexpr fields::Range momentRange{0.0, 1e6};                                      // [s]
 inline constexpr fields::Range countRange{1.0, 1e9};        // of cells; what is too much is said once all is read
 inline constexpr fields::Range dampingTimeRange{0.0, 1e3};  // [s]
 inline constexpr fields::Range dragRange{0.0, 1e6};         // [1/s]
@@ -57,7 +59,8 @@ std::vector<fields::Field> bodyRows() {
     fields::FieldList<Spec> list;
     list.texts("hold", &Spec::hold, fields::Role::selector,
                "Points that never move: a group, \"#12\", \"(u,v)\", \"50%\".")
-        .vector("velocity", &Spec::velocity, "m/s", placeRange, "At the start.")
+        .vector("velocity", &Spec::velocity, "m/s", speedRange,
+                "At the start. Whatever moves faster than 3000 m/s counts as diverged.")
         .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange, "At the start, about the centre of mass.")
         .number("jitter_m", &Spec::jitter, "m", Range{0.0, 1.0},
                 "Random offset of the free points at the start, to break symmetry.")

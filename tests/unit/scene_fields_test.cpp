@@ -62,7 +62,7 @@ TEST(SceneFields, SettingsLandInTheirMembers) {
     EXPECT_EQ(scene.run.seconds, 4.5);
     EXPECT_EQ(scene.picture.size, ivec2(640, 360));
     EXPECT_EQ(scene.picture.camera, "main");
-    EXPECT_EQ(scene.picture.samples, 8);
+    EXPECT_EQ(scene.picture.samples, 1);
     EXPECT_EQ(scene.picture.shadowSize, 1024);
 }
 

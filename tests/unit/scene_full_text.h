@@ -30,7 +30,7 @@ seconds = 4.5
 [picture]
 size = [640, 360]
 camera = "main"
-samples = 8
+samples = 1
 shadow_size = 1024
 [light]
 direction = [1, -2, 3]

@@ -230,6 +230,31 @@ TEST(SceneErrors, ValuesOutOfRangeAreReported) {
          "s.toml:4:12: error: segments must be between 1 and 1e+09, not 9223372036854775807\n"
          "  segments = 9223372036854775807\n"
          "             ^"},
+        {"samples that no picture has",
+         "[picture]\n"
+         "samples = 16\n",
+         "s.toml:3:11: error: samples must be 1 or 4, not 16\n"
+         "  samples = 16\n"
+         "            ^"},
+        {"a shadow map that cannot be drawn",
+         "[picture]\n"
+         "shadow_size = 64\n",
+         "s.toml:3:15: error: shadow_size must be between 128 and 16384 px, not 64\n"
+         "  shadow_size = 64\n"
+         "                ^"},
+        {"a shadow map in no whole blocks",
+         "[picture]\n"
+         "shadow_size = 200\n",
+         "s.toml:3:15: error: shadow_size must be a multiple of 128 [px], not 200\n"
+         "  shadow_size = 200\n"
+         "                ^"},
+        {"a speed that counts as diverged",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "velocity = [0, 5000, 0]\n",
+         "s.toml:4:16: error: velocity[1] must be between -3000 and 3000 m/s, not 5000\n"
+         "  velocity = [0, 5000, 0]\n"
+         "                 ^"},
         {"a size of nothing",
          "[material.m]\n"
          "[cloth.c]\n"

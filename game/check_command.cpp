@@ -11,7 +11,7 @@
 #include "game/scene_file.h"
 #include "taut/core/error.h"
 #include "taut/pipeline/run.h"
-#include "taut/world/world.h"
+#include "taut/world/rehearsal.h"
 
 namespace taut::game {
 namespace {
@@ -22,14 +22,16 @@ struct CheckFlags {
     bool isConfined = false;
 };
 
-// Reads and builds each scene; goes on after one that is wrong, and returns the code of the first failure.
+// Reads, builds and rehearses each scene; goes on after one that is wrong, and returns the code of the first failure.
 int check(const CheckFlags& flags) {
     ExitCode code = ExitCode::ok;
     for (const std::string& argument : flags.scenes) {
         try {
             const world::SceneSpec spec = readScene(argument, flags.overrides, flags.isConfined);
-            const world::World built(spec);
-            printWarnings(built.warnings());
+            const world::Rehearsal rehearsal = world::rehearse(spec);
+            printWarnings(rehearsal.warnings);
+            if (!rehearsal.faults.empty())
+                throw core::Error(core::ErrorKind::badContent, fmt::format("{}", fmt::join(rehearsal.faults, "\n")));
             printResult("{}: ok\n", spec.file);
             const std::string large =
                 largeRunText(pipeline::frameCount(spec.run), spec.picture.size.x, spec.picture.size.y);

@@ -139,8 +139,15 @@ void addSpringStiffness(std::span<const Spring> springs, std::span<const glm::dv
     }
 }
 
+namespace {
+
+// The largest Ritz value and its residual [1/s²].
+struct Ritz {
+    double value = 0, residual = 0;
+};
+
 // The tridiagonal matrix of m Lanczos steps; its largest eigenvalue by bisection on Sturm sequences.
-double estimateFrequency(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products) {
+Ritz largestRitz(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products) {
     const std::size_t n = inverseMasses.size();
     std::vector<glm::dvec3> q(n), before(n, glm::dvec3(0.0)), scaled(n), r(n);
     double norm = 0;
@@ -151,7 +158,7 @@ double estimateFrequency(std::span<const double> inverseMasses, const StiffnessP
             q[i][p] = inverseMasses[i] > 0 ? phase - std::floor(phase) - 0.5 : 0.0;
             norm += q[i][p] * q[i][p];
         }
-    if (norm == 0) return 0;
+    if (norm == 0) return {};
     for (auto& x : q) x /= std::sqrt(norm);
     std::vector<double> alpha, beta;
     double scale = 0;
@@ -198,7 +205,18 @@ double estimateFrequency(std::span<const double> inverseMasses, const StiffnessP
         const double middle = 0.5 * (low + high);
         (above(middle) ? low : high) = middle;
     }
-    return std::sqrt(low + beta.back() * std::abs(lastComponent(alpha, beta, low)));
+    return {low, beta.back() * std::abs(lastComponent(alpha, beta, low))};
+}
+
+}  // namespace
+
+double estimateFrequency(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products) {
+    const Ritz ritz = largestRitz(inverseMasses, multiply, products);
+    return std::sqrt(ritz.value + ritz.residual);
+}
+
+double leastFrequency(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products) {
+    return std::sqrt(largestRitz(inverseMasses, multiply, products).value);
 }
 
 }  // namespace taut::mechanics

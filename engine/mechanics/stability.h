@@ -38,5 +38,7 @@ void addSpringStiffness(std::span<const Spring> springs, std::span<const glm::dv
 // products. `multiply(u, out)` adds K u, both (points). [1/s]; 0 when nothing is free or stiff.
 using StiffnessProduct = std::function<void(std::span<const glm::dvec3>, std::span<glm::dvec3>)>;
 double estimateFrequency(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products = 20);
+// The Ritz value alone, which no ω_max is below (Rayleigh): mostly within a few per cent of it.
+double leastFrequency(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products = 20);
 
 }  // namespace taut::mechanics

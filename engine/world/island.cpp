@@ -14,7 +14,9 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
     choice_ = chooseStep(envelope,
                          envelope.isStatic ? dynamics_->stabilityShare(t)
                                            : makeDynamics(envelope.plan, envelope.forces)->stabilityShare(t),
-                         1.0 / ticksPerSecond);
+                         1.0 / ticksPerSecond, [&] {
+                             return mechanics::leastFrequency(inverseMassesOf(plan_), stiffnessAt(plan_.positions));
+                         });
     dynamics_->start(t, choice_.step);
     dynamics_->keep();
     watchPlasticity();

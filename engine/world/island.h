@@ -106,7 +106,9 @@ class Island {
     void addMetrics(const TickTime& time, const std::function<bool(const Body&)>& wanted, Metrics& metrics);
     // Since the start.
     ode::Work work() const;
-    IslandInfo info() const;
+    IslandInfo info(const TickTime& time) const;
+    // Why its step will end the run, with file, line and remedy; empty where it will not.
+    const std::string& fault() const { return choice_.fault; }
     // What to say before the first tick, and what has changed since (a working stretch left).
     std::vector<std::string> warnings() const;
     Divergence diagnose(const Fault& fault, const TickTime& time) const;
@@ -125,6 +127,8 @@ class Island {
     void addSprings(const std::vector<bool>& only, Metrics& metrics);
     void addCells(const Body& body, Metrics& metrics) const;
     double penetration(const std::vector<bool>& wanted) const;
+    // The product with its stiffness at these places of its points, which have to stay.
+    mechanics::StiffnessProduct stiffnessAt(std::span<const dvec3> x) const;
     const ode::MethodInfo& method() const { return *methodsOf(plan_.solver).find(plan_.solver.integrator); }
     void visitPlan(StateBytes& bytes);
 

@@ -102,7 +102,7 @@ std::vector<std::string> Island::warnings() const {
     return all;
 }
 
-IslandInfo Island::info() const {
+IslandInfo Island::info(const TickTime& time) const {
     IslandInfo info;
     info.name = plan_.bodies.front()->fullName();
     for (const Body* body : plan_.bodies) {
@@ -118,19 +118,27 @@ IslandInfo Island::info() const {
     dynamics_->describe(info);
     info.method = plan_.solver.integrator;
     info.omegaBound = choice_.anywhere.omega;
-    info.omegaNow = choice_.here.omega;
     info.fastest = choice_.mode;
     info.stepLimit = choice_.limit;
     info.step = choice_.step;
     info.substeps = choice_.substeps;
     info.work = work();
     info.limitingSpring = choice_.limitingSpring;
-    const mechanics::StiffnessProduct multiply = [&](std::span<const dvec3> in, std::span<dvec3> sum) {
-        mechanics::addSpringStiffness(plan_.springs, plan_.positions, in, sum);
+    std::vector<dvec3> x;
+    dynamics_->positions(x);
+    const std::vector<double> inverseMasses = inverseMassesOf(plan_);
+    info.omegaNow =
+        mechanics::boundHere({plan_.springs, inverseMasses}, dynamics_->stabilityShare(time.start()).stiffness, x)
+            .omega;
+    info.omegaEstimate = mechanics::estimateFrequency(inverseMasses, stiffnessAt(x));
+    return info;
+}
+
+mechanics::StiffnessProduct Island::stiffnessAt(std::span<const dvec3> x) const {
+    return [this, x](std::span<const dvec3> in, std::span<dvec3> sum) {
+        mechanics::addSpringStiffness(plan_.springs, x, in, sum);
         dynamics_->addStiffnessProduct(in, sum);
     };
-    info.omegaEstimate = mechanics::estimateFrequency(inverseMassesOf(plan_), multiply);
-    return info;
 }
 
 Divergence Island::diagnose(const Fault& fault, const TickTime& time) const {

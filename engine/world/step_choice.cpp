@@ -30,21 +30,42 @@ double automaticStep(const ode::MethodInfo& method, const Envelope& envelope, od
     return std::min(most, method.automaticStep(mode));
 }
 
-void warnOverLimit(const IslandPlan& plan, const ode::MethodInfo& method, StepChoice& choice, double limitHere) {
-    const std::string name = plan.bodies.front()->fullName();
+// The longest step [s] of which it is not sure that the mode grows beyond all bounds, whatever damps it. Methods with a
+// caution are given steps at which undamped motion grows slowly; at four times those, by 64 times as much or more.
+double longestBearable(const ode::MethodInfo& method, ode::FastestMode mode) {
+    const double damped = method.automaticStep(mode);
+    mode.tau = mode.rate = mode.drag = mode.largestDrag = 0;
+    return (method.caution.empty() ? 1 : 4) * std::max(damped, method.automaticStep(mode));
+}
+
+void warnOverLimit(const Envelope& envelope, const ode::MethodInfo& method, StepChoice& choice, double limitHere,
+                   const std::function<double()>& leastOmega) {
+    const Body& body = *envelope.plan.bodies.front();
+    const std::string title(method.title), name = body.fullName(),
+                                           step = name + ": the step of " + inSeconds(choice.step);
     const std::string by = choice.limitingSpring.empty() ? "" : "; set by the " + choice.limitingSpring;
     if (choice.limit == 0) {
-        choice.warnings.push_back(name + ": " + std::string(method.title) +
+        choice.warnings.push_back(name + ": " + title +
                                   " is unstable for every step here: nothing damps its fastest motion" + by);
-    } else if (choice.step > limitHere * (1 + 1e-9)) {
-        choice.warnings.push_back(name + ": the step of " + inSeconds(choice.step) +
-                                  " is over the stability limit of " + std::string(method.title) + ", " +
-                                  inSeconds(limitHere) + " as the scene starts: it will diverge" + by);
-    } else if (choice.step > choice.limit * (1 + 1e-9)) {
-        choice.warnings.push_back(name + ": the step of " + inSeconds(choice.step) +
-                                  " is within the stability limit as the scene starts, " + inSeconds(limitHere) +
-                                  ", but over the one that holds in any shape, " + inSeconds(choice.limit) + by);
+        return;
     }
+    if (choice.step <= choice.limit * (1 + 1e-9)) return;
+    if (choice.step <= limitHere * (1 + 1e-9)) {
+        choice.warnings.push_back(step + " is within the stability limit as the scene starts, " + inSeconds(limitHere) +
+                                  ", but over the one that holds in any shape, " + inSeconds(choice.limit) + by);
+        return;
+    }
+    ode::FastestMode mode = choice.mode;
+    mode.omega = leastOmega();
+    const double bearable = longestBearable(method, mode);
+    const bool isSure = choice.step > bearable * (1 + 1e-9);
+    const std::string text = step + " is over the stability limit of " + title + ", " +
+                             inSeconds(isSure ? bearable : limitHere) + " as the scene starts: it " +
+                             (isSure ? "will" : "may") + " diverge" + by;
+    choice.warnings.push_back(text);
+    if (isSure && envelope.plan.solver.onDivergence == OnDivergence::stop)
+        choice.fault = at(body.spec->source) + text + "; give dt = \"auto\", or " + inSeconds(choice.limit) +
+                       " or less, which holds in any shape";
 }
 
 }  // namespace
@@ -67,7 +88,8 @@ std::string inSeconds(double t) {
     return text;
 }
 
-StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds) {
+StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds,
+                      const std::function<double()>& leastOmega) {
     const IslandPlan& plan = envelope.plan;
     for (std::size_t i = 0; i < envelope.handStiffness.size(); ++i) {
         share.stiffness[i] += envelope.handStiffness[i];
@@ -105,14 +127,16 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
     if (substeps > mostSubsteps)
         throw Error(ErrorKind::badContent,
                     at(body.spec->source) + body.fullName() + ": a step of " + inSeconds(wanted) +
-                        " would need more than a million steps a tick; set by the " + choice.limitingSpring +
-                        "; soften it, give its points more mass, or use fewer cells");
+                        " would need more than a million steps a tick; " +
+                        (plan.solver.dt ? "give a longer dt, or dt = \"auto\""
+                                        : "set by the " + choice.limitingSpring +
+                                              "; soften it, give its points more mass, or use fewer cells"));
     choice.substeps = std::max(1, static_cast<int>(substeps));
     choice.step = tickSeconds / choice.substeps;
     if (!method->caution.empty())
         choice.warnings.push_back(body.fullName() + ": " + std::string(method->title) + ": " +
                                   std::string(method->caution));
-    warnOverLimit(plan, *method, choice, limitHere);
+    warnOverLimit(envelope, *method, choice, limitHere, leastOmega);
     return choice;
 }
 

@@ -1,6 +1,7 @@
 // The step of an island: found from the stability bound or checked against it, fixed before tick 0.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,14 @@ struct StepChoice {
     mechanics::FrequencyBound anywhere, here;
     std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
     std::vector<std::string> warnings;
+    std::string fault;  // file, line and remedy where the step is so long that the run will end by it; else empty
 };
 
 // The step that holds for all that the envelope allows. share: what generators other than the springs and hands add.
-// Throws core::Error(badContent) when "auto" has no answer or would need more than a million steps a tick.
-StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds);
+// leastOmega: what the fastest motion at the start is not below [1/s], asked only of a step that is over a limit.
+// Throws core::Error(badContent) when "auto" has no answer or a tick would need more than a million steps.
+StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds,
+                      const std::function<double()>& leastOmega);
 
 // The largest stable step [s] of the island as it is now, in any configuration.
 double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share);

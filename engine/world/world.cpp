@@ -272,7 +272,7 @@ std::uint64_t World::stateHash() const {
 
 std::vector<IslandInfo> World::islands() const {
     std::vector<IslandInfo> all;
-    for (const auto& island : impl_->islands) all.push_back(island->info());
+    for (const auto& island : impl_->islands) all.push_back(island->info(impl_->now()));
     return all;
 }
 

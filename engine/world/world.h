@@ -92,8 +92,8 @@ struct IslandInfo {
     double mass = 0;  // [kg] of the points
     std::string method;
     double omegaBound = 0;       // B1 [1/s]
-    double omegaNow = 0;         // B2 at the start [1/s]
-    double omegaEstimate = 0;    // Lanczos [1/s]
+    double omegaNow = 0;         // B2 as it is now [1/s]
+    double omegaEstimate = 0;    // Lanczos, as it is now [1/s]
     ode::FastestMode fastest{};  // what stepLimit is computed from, omegaBound among it
     double stepLimit = 0;        // [s] largest stable step by B1 with damping
     double step = 0;             // [s] chosen

@@ -117,6 +117,26 @@ TEST(Program, CheckReportsEveryFaultAndTheRightFilesToo) {
     EXPECT_TRUE(has(outcome.out, "spring.toml: ok")) << outcome.out;
 }
 
+TEST(Program, CheckRefusesWhatTheRunWouldRefuseLater) {
+    const TemporaryFolder folder;
+    const std::filesystem::path spring = springScene(folder);
+    test::writeText(folder / "grab.toml",
+                    "schema = 1\nscene = \"spring.toml\"\nat = [\n"
+                    "  { t = 0.3, do = \"grab\", id = \"hand\", target = \"net.spring@nail\" },\n]\n");
+    const Outcome grab = run({"check", (folder / "grab.toml").string()});
+    EXPECT_EQ(grab.code, 3);
+    EXPECT_TRUE(has(grab.err, "grab.toml:4:3: error: every point of \"net.spring@nail\" is held already; free them"))
+        << grab.err;
+    // ω = 10 /s, of which leap-frog stands 0.2 s; a tick has 1/60 s. With a thousand times the stiffness it diverges.
+    EXPECT_EQ(run({"check", spring.string(), "--set", "solver.dt=0.1"}).code, 0);
+    const std::string springs = "[ { a = \"nail\", b = \"bob\", stiffness_N_per_m = 1e6 } ]";
+    const Outcome step =
+        run({"check", spring.string(), "--set", "solver.dt=0.1", "--set", "net.spring.springs=" + springs});
+    EXPECT_EQ(step.code, 3);
+    EXPECT_TRUE(has(step.err, "it will diverge")) << step.err;
+    EXPECT_FALSE(has(step.out, "ok")) << step.out;
+}
+
 TEST(Program, InfoTellsWhatTheSceneBuilds) {
     const TemporaryFolder folder;
     const std::string scene = springScene(folder).string();

@@ -16,6 +16,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_own_shape_test.cpp
   world_publish_test.cpp
   world_ramps_test.cpp
+  world_rehearsal_test.cpp
   world_saving_test.cpp
   world_step_choice_test.cpp
   world_targets_test.cpp)

@@ -39,7 +39,7 @@ void CutAction::perform(World& world) const {
         any = true;
         if (island->frozen() == nullptr) sever(crossing, island->change(w.now(), Change::shape));
     }
-    if (!any) failAction(*this, "there is nothing of \"" + target + "\" where this cuts");
+    if (!any) failAction(*this, "there is nothing of \"" + target + "\" where this cuts; put it where the body is");
     w.redrawDamage();
 }
 

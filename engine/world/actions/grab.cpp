@@ -52,7 +52,7 @@ void GrabAction::perform(World& world) const {
         }
     }
     std::erase_if(points, [](const Picked& p) { return !isFree(p.island->plan(), p.point); });
-    if (points.empty()) failAction(*this, "every point of \"" + target + "\" is held already");
+    if (points.empty()) failAction(*this, "every point of \"" + target + "\" is held already; free them first");
 
     double mass = 0;
     for (const Picked& p : points) mass += massOf(p);

@@ -21,7 +21,7 @@ void PushAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     std::vector<Picked> points = w.pick(*this);
     std::erase_if(points, [](const Picked& p) { return !isFree(p.island->plan(), p.point); });
-    if (points.empty()) failAction(*this, "every point of \"" + target + "\" is held");
+    if (points.empty()) failAction(*this, "every point of \"" + target + "\" is held; free them first");
     double mass = 0;
     for (const Picked& p : points) mass += massOf(p);
     for (const auto& [island, numbers] : byIsland(points)) island->push(w.now(), numbers, impulse / mass);

@@ -1,0 +1,113 @@
+// What is said before the first tick of a timeline that its run will refuse, and of steps that will diverge.
+#include "taut/world/rehearsal.h"
+
+#include <gtest/gtest.h>
+
+#include "support/timelines.h"
+#include "taut/world/bodies/net.h"
+
+namespace taut::world {
+namespace {
+
+using support::action;
+
+// A rope along x at a height of 3 m, held where it starts.
+SceneSpec heldRope() {
+    SceneSpec scene;
+    scene.run.seconds = 1;
+    scene.bodies.add(support::rope("line", {0, 3, 0}, {1, 3, 0}, 4));
+    scene.bodies[0].hold = {"start"};
+    return scene;
+}
+
+std::string onlyFault(const SceneSpec& scene) {
+    const Rehearsal rehearsal = rehearse(scene);
+    EXPECT_TRUE(rehearsal.warnings.empty()) << rehearsal.warnings.front();
+    EXPECT_LE(rehearsal.faults.size(), 1U);
+    return rehearsal.faults.empty() ? "" : rehearsal.faults.front();
+}
+
+TEST(Rehearsal, HasNothingToSayOfASceneInWhichEverythingHappens) {
+    const Rehearsal rehearsal = rehearse(support::everythingHappens());
+    EXPECT_TRUE(rehearsal.faults.empty()) << rehearsal.faults.front();
+    EXPECT_TRUE(rehearsal.warnings.empty()) << rehearsal.warnings.front();
+}
+
+TEST(Rehearsal, FindsAGrabOfPointsThatAreHeldOnceAndNotWhatFollowsFromIt) {
+    SceneSpec scene = heldRope();
+    scene.actions = {support::grab(0.5, "rope.line@start"), support::moveHand(0.6, {0, 4, 0}, 0.1),
+                     support::release(0.8)};
+    EXPECT_EQ(onlyFault(scene),
+              "timeline.toml:7:3: error: every point of \"rope.line@start\" is held already; free them first");
+    scene.actions = {action<FreeAction>(0.4, "rope.line@start"), support::grab(0.5, "rope.line@start")};
+    EXPECT_EQ(onlyFault(scene), "");
+    scene.actions = {action<HoldAction>(0.4, "rope.line"), support::push(0.5, "rope.line@end", {1, 0, 0})};
+    EXPECT_EQ(onlyFault(scene), "timeline.toml:7:3: error: every point of \"rope.line@end\" is held; free them first");
+}
+
+TEST(Rehearsal, FindsAnActionOnABodyThatIsNotThereYet) {
+    SceneSpec scene = heldRope();
+    scene.actions = {support::push(0.2, "rope.line@end", {1, 0, 0}), action<SpawnAction>(0.5, "rope.line")};
+    EXPECT_EQ(onlyFault(scene), "timeline.toml:7:3: error: target = \"rope.line@end\" names no point");
+}
+
+TEST(Rehearsal, FindsACutThatMeetsNothing) {
+    SceneSpec scene = heldRope();
+    scene.actions = {support::cutPlane(0.0, "rope.line", {2, 0, 0}, {1, 0, 0})};
+    EXPECT_EQ(onlyFault(scene),
+              "timeline.toml:7:3: error: there is nothing of \"rope.line\" where this cuts; put it where the body is");
+    // Nor half a second later, which only playing it tells.
+    scene.actions = {support::cutPlane(0.5, "rope.line", {2, 0, 0}, {1, 0, 0})};
+    EXPECT_NE(onlyFault(scene), "");
+    // The rope has fallen onto this plane by then: g t²/2 = 1.2 m.
+    scene.actions = {support::cutPlane(0.5, "rope.line", {0, 2.5, 0}, {0, 1, 0})};
+    EXPECT_EQ(onlyFault(scene), "");
+}
+
+TEST(Rehearsal, WarnsOfACutWhosePlayingWouldBeDear) {
+    SceneSpec scene = heldRope();
+    scene.run.seconds = 1e5;
+    scene.actions = {support::cutPlane(9e4, "rope.line", {0, 2.5, 0}, {0, 1, 0})};
+    const Rehearsal rehearsal = rehearse(scene);
+    EXPECT_TRUE(rehearsal.faults.empty());
+    ASSERT_EQ(rehearsal.warnings.size(), 1U);
+    EXPECT_TRUE(rehearsal.warnings[0].starts_with("timeline.toml:7:3: warning: there is nothing of \"rope.line\""))
+        << rehearsal.warnings[0];
+}
+
+// A mass of 1 kg that hangs by a spring of 1e6 N/m: ω = 1000 /s, of which leap-frog stands steps of 2 ms.
+SceneSpec stiffPair() {
+    SceneSpec scene;
+    scene.solver.dt = 1.0 / 60;
+    NetSpec net;
+    net.name = "pair";
+    net.source = {"net.toml", 4, 2};
+    net.drag = 0;
+    net.points = {{"nail", {0, 0, 0}, 1.0, true, {}}, {"bob", {0, -1, 0}, 1.0, false, {}}};
+    net.springs = {{"nail", "bob", 1e6, std::nullopt, std::nullopt, {}}};
+    scene.bodies.add(net);
+    return scene;
+}
+
+TEST(Rehearsal, RefusesAStepThatIsBoundToDiverge) {
+    SceneSpec scene = stiffPair();
+    const std::string fault = onlyFault(scene);
+    EXPECT_TRUE(
+        fault.starts_with("net.toml:4:2: error: net.pair: the step of 0.0167 s is over the stability limit of "
+                          "leap-frog, 0.002 s as the scene starts: it will diverge"))
+        << fault;
+    EXPECT_NE(fault.find("; give dt = \"auto\", or 0.002 s or less"), std::string::npos) << fault;
+    World world(scene);
+    bool diverges = false;
+    for (int i = 0; i < 60 && !diverges; ++i) diverges = world.advance().has_value();
+    EXPECT_TRUE(diverges);
+    // Where what diverges is kept as it was the run goes on.
+    scene.solver.onDivergence = OnDivergence::freeze;
+    const Rehearsal kept = rehearse(scene);
+    EXPECT_TRUE(kept.faults.empty());
+    ASSERT_EQ(kept.warnings.size(), 1U);
+    EXPECT_NE(kept.warnings[0].find("it will diverge"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace taut::world

@@ -65,4 +65,14 @@ double Colliders::distance(const glm::dvec3& position) const {
     return least;
 }
 
+Colliders::Inside Colliders::inside(const glm::dvec3& position) const {
+    Inside deepest;
+    for (const Solid& solid : impl_->solids) {
+        if (solid.bounded && !solid.bounds.contains(position)) continue;
+        const double depth = -solid.form->nearest(solid.to.toLocal(position)).distance;
+        if (depth > deepest.depth) deepest = {solid.collider, depth};
+    }
+    return deepest;
+}
+
 }  // namespace taut::collision

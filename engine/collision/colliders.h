@@ -101,6 +101,13 @@ class Colliders {
     // a closed mesh. Infinite without colliders.
     double distance(const glm::dvec3& position) const;
 
+    // The collider that a position is deepest inside of, at its end-of-step pose, and how deep [m]; -1 and 0 outside.
+    struct Inside {
+        int collider = -1;
+        double depth = 0;
+    };
+    Inside inside(const glm::dvec3& position) const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -67,7 +67,7 @@ std::vector<fields::Field> bodyRows() {
         .whole("seed", &Spec::seed, "", Range{0.0, 1e12}, "Seed of the offsets.")
         .number("friction", &Spec::friction, "", Range{0.0, 100.0}, "Factor on the collider's friction.")
         .number("thickness", &Spec::thickness, "m", Range{0.0, 10.0}, "Distance kept from colliders.")
-        .flag("collide", &Spec::collide, "Whether colliders stop it.")
+        .flag("collide", &Spec::collide, "Whether colliders stop it. Points that start inside one come out at 1 m/s.")
         .table("finish", &Spec::finish, finishSection(), "How it looks.")
         .table("solver", &Spec::solver, overrideSection(), "Its own way to be computed.")
         .table("array", &Spec::array, arraySection(), "Copies, called NAME.0, NAME.1 and so on.");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -91,6 +92,21 @@ class DynamicsOf final : public Dynamics {
         }
         touched_.clear();
         for (const collision::Contact& contact : contacts) touched_.push_back(contact.point);
+        if (!touched_.empty()) method_->touch(state_, touched_);
+    }
+    void emerge(const collision::Colliders& colliders, std::vector<int>& inside) override {
+        const double most = emergingSpeed * step_;
+        touched_.clear();
+        std::erase_if(inside, [&](int i) {
+            if (system_.inverseMasses()[i] == Real(0)) return false;
+            const dvec3 before = at(before_, i), way = at(state_.x, i) - before;
+            const double length = std::sqrt(glm::dot(way, way));
+            if (!(length > most)) return colliders.inside(before + way).depth <= most;
+            set(state_.x, i, before + way * (most / length));
+            set(state_.v, i, way * (emergingSpeed / length));
+            touched_.push_back(i);
+            return false;
+        });
         if (!touched_.empty()) method_->touch(state_, touched_);
     }
     void keep() override {

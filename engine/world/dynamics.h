@@ -37,6 +37,9 @@ class Changes : public std::bitset<static_cast<std::size_t>(Change::count)> {
     }
 };
 
+// Of points on their way out of a collider that they began in. [m/s]
+inline constexpr double emergingSpeed = 1.0;
+
 class Dynamics {
   public:
     virtual ~Dynamics() = default;
@@ -56,6 +59,9 @@ class Dynamics {
     // Brings the points that collide out of the colliders; where they were before the step has been remembered.
     virtual void rememberPositions() = 0;
     virtual void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) = 0;
+    // After that: points that began inside a collider go on their way out no faster than emergingSpeed; those that are
+    // out leave the list.
+    virtual void emerge(const collision::Colliders& colliders, std::vector<int>& inside) = 0;
     // The state as it is, to come back to.
     virtual void keep() = 0;
     virtual void goBack() = 0;

@@ -7,6 +7,18 @@
 #include "taut/world/motion.h"
 
 namespace taut::world {
+namespace {
+
+std::string insideWarning(const Body& body, const std::string& collider, int points, double depth) {
+    char text[200];
+    std::snprintf(text, sizeof text, ": %d of its points start inside ", points);
+    std::string warning = body.fullName() + text + collider;
+    std::snprintf(text, sizeof text, ", up to %.3g m deep; they come out at %g m/s: move the body or the collider",
+                  depth, emergingSpeed);
+    return warning + text;
+}
+
+}  // namespace
 
 Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t)
     : plan_(std::move(plan)), forces_(forces) {
@@ -25,11 +37,33 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
                             [](const Body* body) { return !body->model.cells.empty(); });
 }
 
-void Island::setColliders(collision::Colliders colliders) {
+void Island::setColliders(collision::Colliders colliders, std::span<const std::string> names) {
     colliders_ = std::move(colliders);
     mayCollide_ = colliders_.size() > 0 &&
                   std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* b) { return b->spec->collide; });
     if (!mayCollide_) contacts_.clear();
+    if (!hasLooked_ && mayCollide_) findInside(names);
+    hasLooked_ = true;
+}
+
+// Points that come out within a step at that speed anyway do not count.
+void Island::findInside(std::span<const std::string> names) {
+    for (const Body* body : plan_.bodies) {
+        if (!body->spec->collide) continue;
+        std::vector<int> count(names.size(), 0);
+        std::vector<double> depth(names.size(), 0.0);
+        for (int i = body->firstPoint; i < body->lastPoint; ++i) {
+            const collision::Colliders::Inside at = colliders_.inside(position(i));
+            if (at.depth <= emergingSpeed * choice_.step) continue;
+            inside_.push_back(i);
+            if (!isFree(plan_, i)) continue;
+            const auto c = static_cast<std::size_t>(at.collider);
+            ++count[c];
+            depth[c] = std::max(depth[c], at.depth);
+        }
+        for (std::size_t c = 0; c < names.size(); ++c)
+            if (count[c] > 0) insideWarnings_.push_back(insideWarning(*body, names[c], count[c], depth[c]));
+    }
 }
 
 std::optional<Fault> Island::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
@@ -47,6 +81,7 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
             contacts_.clear();
             moveColliders(moving, s);
             dynamics_->collide(colliders_, contacts_);
+            if (!inside_.empty()) dynamics_->emerge(colliders_, inside_);
             if (!contacts_.empty() && !dynamics_->isBounded()) return giveUp(end());
         }
         if (!mayFreeze_) continue;

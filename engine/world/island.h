@@ -55,8 +55,9 @@ class Island {
     Island(const Island&) = delete;
     Island& operator=(const Island&) = delete;
 
-    // Each island has colliders of its own: with other substeps they are elsewhere.
-    void setColliders(collision::Colliders colliders);
+    // Each island has colliders of its own: with other substeps they are elsewhere. The first time it looks which of
+    // its points stand inside; names (colliders): "collider.ground", …
+    void setColliders(collision::Colliders colliders, std::span<const std::string> names);
 
     // substeps steps of leap-frog or whichever method; contacts of the last step are kept. Ends early on a fault.
     // Expects that the island is not open.
@@ -119,6 +120,7 @@ class Island {
   private:
     std::optional<Fault> overstrained(double t);
     Fault giveUp(double t) const;
+    void findInside(std::span<const std::string> names);
     void moveColliders(std::span<const ColliderMotion> moving, int substep);
     void watchVolumes(double t);
     void watchLimit(double t);
@@ -131,6 +133,7 @@ class Island {
     mechanics::StiffnessProduct stiffnessAt(std::span<const dvec3> x) const;
     const ode::MethodInfo& method() const { return *methodsOf(plan_.solver).find(plan_.solver.integrator); }
     void visitPlan(StateBytes& bytes);
+    void visitInside(StateBytes& bytes);
 
     // What every tick looks at stands close together.
     std::unique_ptr<Dynamics> dynamics_;
@@ -140,6 +143,7 @@ class Island {
     bool mayFreeze_ = false;   // after a fault
     bool hasCells_ = false;    // to watch
     bool hasMoved_ = false;    // any tick yet
+    bool hasLooked_ = false;   // which points stand inside colliders
     bool isChanged_ = false;   // the plan is not as it was built
     Changes changes_;          // of the plan, that the dynamics know nothing of yet
     StepChoice choice_;
@@ -149,6 +153,8 @@ class Island {
     std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
     std::vector<collision::Contact> contacts_;  // of the last step
+    std::vector<int> inside_;                   // points that began inside a collider and have not been out yet
+    std::vector<std::string> insideWarnings_;
     std::string stretchWarning_, collapseWarning_, limitWarning_;
     std::optional<FrozenIsland> frozen_;
 };

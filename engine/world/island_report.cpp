@@ -95,6 +95,7 @@ ode::Work Island::work() const {
 
 std::vector<std::string> Island::warnings() const {
     std::vector<std::string> all = choice_.warnings;
+    all.insert(all.end(), insideWarnings_.begin(), insideWarnings_.end());
     for (const std::string& warning : {stretchWarning_, collapseWarning_, limitWarning_})
         if (!warning.empty()) all.push_back(warning);
     if (work().unconverged > 0) all.push_back(unconvergedWarning(work(), plan_));

@@ -71,6 +71,10 @@ void visitPart(StateBytes& bytes, Divergence& d) {
     bytes(d.message);
 }
 
+// Before the bytes of an island with points that began inside a collider; no length of a name, with which all others
+// begin.
+constexpr std::uint64_t insideMark = 0xfff8'7461'7574'0002ULL;
+
 }  // namespace
 
 void Island::visitPlan(StateBytes& bytes) {
@@ -100,8 +104,21 @@ void Island::visitPlan(StateBytes& bytes) {
     }
 }
 
+void Island::visitInside(StateBytes& bytes) {
+    const bool has = bytes.mark(insideMark, !insideWarnings_.empty() || !inside_.empty());
+    if (bytes.isReading()) {
+        inside_.clear();
+        insideWarnings_.clear();
+    }
+    if (!has) return;
+    bytes.list(inside_);
+    for (int i : inside_) bytes.require(i >= 0 && i < static_cast<int>(plan_.points.size()));
+    bytes.each(insideWarnings_, [&](std::string& warning) { bytes(warning); });
+}
+
 void Island::visit(StateBytes& bytes) {
     const std::string name = plan_.bodies.front()->fullName();
+    visitInside(bytes);
     bytes.expect(name, "the bodies are others");
     bytes.expect(plan_.solver.integrator, "the methods of its bodies are others");
     int substeps = choice_.substeps;

@@ -111,10 +111,12 @@ ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
 
 void World::Impl::rebuildColliders() {
     collision::Colliders colliders;
+    std::vector<std::string> names;
     registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        names.push_back("collider." + part.spec.name);
         colliders.add(part.model->shape, {part.spec.friction, part.spec.restitution}, placement.to);
     });
-    for (const auto& island : islands) island->setColliders(colliders.clone());
+    for (const auto& island : islands) island->setColliders(colliders.clone(), names);
 }
 
 ecs::Entity World::Impl::spawn(Body body) {

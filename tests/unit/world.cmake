@@ -8,6 +8,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_forces_test.cpp
   world_freeze_test.cpp
   world_hands_test.cpp
+  world_inside_test.cpp
   world_islands_test.cpp
   world_motion_test.cpp
   world_own_action_test.cpp

@@ -48,6 +48,7 @@ double measuredSecondsPerTick(world::World& world) {
 struct Facts {
     world::SceneSpec spec;
     std::vector<world::IslandInfo> islands;
+    std::vector<world::JointInfo> joints;
     std::vector<std::string> warnings;
     double tickSeconds = 0.0;
     int ticksPerFrame = 1;
@@ -60,6 +61,7 @@ Facts gatherFacts(const InfoFlags& flags) {
     facts.spec = readScene(flags.scene, flags.overrides);
     world::World world(facts.spec);
     facts.islands = world.islands();
+    facts.joints = world.joints();
     facts.warnings = world.warnings();
     facts.tickSeconds = world.tickSeconds();
     facts.ticksPerFrame = world.ticksPerFrame();
@@ -89,9 +91,20 @@ Json islandJson(const world::IslandInfo& i) {
             {"bytes", i.bytes}};
 }
 
+Json jointJson(const world::JointInfo& joint) {
+    Json pairs = Json::array();
+    for (const auto& pair : joint.pairs) pairs.push_back({{"a", pair.a}, {"b", pair.b}, {"points", pair.points}});
+    return {{"a", joint.a},
+            {"b", joint.b},
+            {"kind", joint.isWeld ? "weld" : "spring"},
+            {"pairs", std::move(pairs)},
+            {"loose", joint.loose}};
+}
+
 void printJson(const Facts& facts) {
-    Json islands = Json::array();
+    Json islands = Json::array(), joints = Json::array();
     for (const world::IslandInfo& island : facts.islands) islands.push_back(islandJson(island));
+    for (const world::JointInfo& joint : facts.joints) joints.push_back(jointJson(joint));
     const Json json = {{"scene", facts.spec.file},
                        {"title", facts.spec.title},
                        {"fps", facts.spec.run.fps},
@@ -100,6 +113,7 @@ void printJson(const Facts& facts) {
                        {"ticks_per_frame", facts.ticksPerFrame},
                        {"simulation_s_per_frame", facts.costPerTick * facts.ticksPerFrame},
                        {"islands", std::move(islands)},
+                       {"joints", std::move(joints)},
                        {"colliders", facts.spec.colliders.size()},
                        {"warnings", facts.warnings}};
     printResult("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
@@ -121,6 +135,14 @@ void printIsland(const world::IslandInfo& i) {
     printResult("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
 }
 
+void printJoint(const world::JointInfo& joint) {
+    int points = 0;
+    for (const auto& pair : joint.pairs) points += pair.points;
+    fmt::print("\n{} {} – {}: {} point{}\n", joint.isWeld ? "weld" : "spring joint", joint.a, joint.b, points,
+               points == 1 ? "" : "s");
+    for (const auto& pair : joint.pairs) fmt::print("  {} – {}  {}\n", pair.a, pair.b, pair.points);
+}
+
 void printTable(const Facts& facts) {
     const world::SceneSpec& spec = facts.spec;
     printResult("{}{}\n", spec.file, spec.title.empty() ? "" : ": " + spec.title);
@@ -129,6 +151,7 @@ void printTable(const Facts& facts) {
                spec.solver.precision == world::Precision::double_ ? "double" : "single", spec.picture.size.x,
                spec.picture.size.y);
     for (const world::IslandInfo& island : facts.islands) printIsland(island);
+    for (const world::JointInfo& joint : facts.joints) printJoint(joint);
 
     int points = 0;
     int springs = 0;

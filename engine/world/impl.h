@@ -1,5 +1,6 @@
 // What a world is made of, shared by its sources only.
 //
+//   joints.cpp         what the joints of the scene tie
 //   world.cpp          building, the tick, what is asked of a world
 //   timeline.cpp       actions when they are due, and the points that they name
 //   actions/           what each kind of action does
@@ -58,6 +59,8 @@ struct World::Impl {
     std::unique_ptr<const SceneSpec> start;      // the scene as it began: what envelopes are made from
     std::vector<std::unique_ptr<Body>> waiting;  // bodies that an action will spawn
     std::vector<std::string> spawned;            // targets of the spawn actions so far
+    std::vector<JointInfo> joints;               // of the scene, as they tied bodies at the start
+    std::vector<std::string> jointWarnings;
     std::vector<Hand> hands;                     // in the order of grabbing
     std::vector<Ramp> ramps;                     // one for each key, in the order in which they began
 
@@ -70,6 +73,7 @@ struct World::Impl {
     void addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints);
     ForceList forces() const;
     void checkUntied(Body& body) const;
+    void takeJoints(const std::vector<JointReport>& reports);
     void checkForces() const;
     void rebuildColliders();
     ecs::Entity addCollider(const ColliderSpec& collider);

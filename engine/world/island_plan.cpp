@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -73,6 +74,8 @@ class Planner {
         return plans;
     }
 
+    const std::vector<JointReport>& reports() const { return reports_; }
+
   private:
     static std::vector<int> firsts(std::span<Body* const> bodies) {
         std::vector<int> first;
@@ -101,22 +104,33 @@ class Planner {
         const std::vector<PointRef> as = points(joint.a, joint.source);
         std::vector<PointRef> bs = points(joint.b, joint.source);
         const bool weld = joint.kind == JointSpec::Kind::weld;
+        JointReport& report = reports_.emplace_back();
+        report.spec = &joint;
+        std::map<std::pair<int, int>, int> pairs;  // bodies: points joined
+        std::map<int, double> reached;             // bodies on either side: how near they come to the other [m]
+        for (const PointRef& b : bs) reached.emplace(b.body, HUGE_VAL);
         int made = 0;
         double nearest = HUGE_VAL;
         for (const PointRef& a : as) {
             std::size_t best = bs.size();
             double bestDistance = HUGE_VAL;
+            double& ownReach = reached.emplace(a.body, HUGE_VAL).first->second;
             for (std::size_t i = 0; i < bs.size(); ++i) {
                 const dvec3 d = position(bs[i]) - position(a);
                 const double distance = std::sqrt(glm::dot(d, d));
-                if (bs[i].body != a.body && distance < bestDistance) {
+                if (bs[i].body == a.body) continue;
+                double& otherReach = reached.at(bs[i].body);
+                otherReach = std::min(otherReach, distance);
+                if (distance < bestDistance) {
                     best = i;
                     bestDistance = distance;
                 }
             }
             nearest = std::min(nearest, bestDistance);
+            ownReach = std::min(ownReach, bestDistance);
             if (best == bs.size() || (weld && bestDistance > joint.reach)) continue;
             islands_.unite(a.body, bs[best].body);
+            ++pairs[{a.body, bs[best].body}];
             ++made;
             if (weld) {
                 welds_.unite(global(a), global(bs[best]));
@@ -133,6 +147,14 @@ class Planner {
                                         : "both sides are the same body";
             throw Error(ErrorKind::badContent,
                         at(joint.source) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" joins nothing: " + why);
+        }
+        for (const auto& [numbers, points] : pairs)
+            report.pairs.push_back({&body(numbers.first), &body(numbers.second), points});
+        for (const auto& [number, distance] : reached) {
+            const Body* named = &body(number);
+            if (std::none_of(report.pairs.begin(), report.pairs.end(),
+                             [&](const auto& pair) { return pair.a == named || pair.b == named; }))
+                report.loose.emplace_back(named, distance);
         }
     }
 
@@ -266,13 +288,17 @@ class Planner {
     std::vector<int> firstGlobal_;  // (bodies)
     Sets welds_;                    // (points of all bodies)
     std::vector<JointSpring> joints_;
+    std::vector<JointReport> reports_;  // (joints of the scene)
 };
 
 }  // namespace
 
-std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec) {
+std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec,
+                                    std::vector<JointReport>* joints) {
     if (bodies.empty()) return {};
-    return Planner(bodies, spec).plans();
+    Planner planner(bodies, spec);
+    if (joints != nullptr) *joints = planner.reports();
+    return planner.plans();
 }
 
 void takeSpringsFromModels(IslandPlan& plan) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "taut/mechanics/linear_path.h"
@@ -10,6 +11,8 @@
 #include "taut/world/body.h"
 
 namespace taut::world {
+
+struct JointSpec;
 
 // Where a spring of an island comes from.
 struct SpringOrigin {
@@ -40,9 +43,22 @@ struct IslandPlan {
     std::vector<Grip> grips;                    // in the order of grabbing
 };
 
-// The smallest sets of bodies that springs or welds couple. Fills pointOf, firstPoint and lastPoint of every body.
-// Throws core::Error(badContent) where joints name nothing or bodies tied together disagree on their solver.
-std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec);
+// What a joint of the scene has become.
+struct JointReport {
+    const JointSpec* spec = nullptr;
+    struct Pair {
+        const Body *a, *b;  // of its two sides
+        int points;         // of a that are joined to b
+    };
+    std::vector<Pair> pairs;                            // in the order of the bodies
+    std::vector<std::pair<const Body*, double>> loose;  // bodies that it names and does not join, and how far off [m]
+};
+
+// The smallest sets of bodies that springs or welds couple. Fills pointOf, firstPoint and lastPoint of every body, and,
+// if wanted, what became of each joint. Throws core::Error(badContent) where joints name nothing or bodies tied
+// together disagree on their solver.
+std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec,
+                                    std::vector<JointReport>* joints = nullptr);
 
 // Takes stiffness, damping and drag over from the models of the bodies, for instance when those have changed.
 void takeSpringsFromModels(IslandPlan& plan);

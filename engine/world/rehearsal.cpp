@@ -52,12 +52,6 @@ std::vector<Refusal> refusals(World& world) {
     return all;
 }
 
-std::string asWarning(std::string message) {
-    static constexpr std::string_view error = "error: ";
-    const std::size_t at = message.find(error);
-    return at == std::string::npos ? message : message.replace(at, error.size(), "warning: ");
-}
-
 enum class Outcome { refused, fine, unknown };
 
 // Plays up to the end of that tick; why it was refused into `why`.

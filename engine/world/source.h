@@ -16,6 +16,8 @@ using glm::ivec3;
 
 // "file:line:column: error: " of a source, or less when it has none.
 std::string at(const Source& source);
+// The same text, or a message that begins with it, as a warning.
+std::string asWarning(std::string message);
 
 // Ways from one key to the next, as animators name them.
 enum class Ease { linear, smooth, in, out, hold };

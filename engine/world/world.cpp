@@ -44,7 +44,9 @@ void World::Impl::addBodies() {
     checkForces();
     const Envelopes envelopes(*start);
     const ForceList current = forces();
-    for (IslandPlan& plan : planIslands(pointers, spec)) addIsland(std::move(plan), current, envelopes, true);
+    std::vector<JointReport> reports;
+    for (IslandPlan& plan : planIslands(pointers, spec, &reports)) addIsland(std::move(plan), current, envelopes, true);
+    takeJoints(reports);
 }
 
 // A body that comes later cannot be tied to others: islands are made once.
@@ -292,7 +294,7 @@ std::vector<FrozenIsland> World::frozen() const {
 }
 
 std::vector<std::string> World::warnings() const {
-    std::vector<std::string> all;
+    std::vector<std::string> all = impl_->jointWarnings;
     for (const auto& island : impl_->islands)
         for (const std::string& warning : island->warnings()) all.push_back(warning);
     return all;

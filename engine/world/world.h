@@ -103,6 +103,18 @@ struct IslandInfo {
     ode::Work work{};  // of its method since the start
 };
 
+// What a joint of the scene ties together.
+struct JointInfo {
+    std::string a, b;  // as the scene names the points
+    bool isWeld = true;
+    struct Pair {
+        std::string a, b;  // "block.plank0"
+        int points = 0;    // of the first that are tied to the second
+    };
+    std::vector<Pair> pairs;
+    std::vector<std::string> loose;  // bodies that it names and does not tie
+};
+
 struct Options {
     int threads = 0;                                     // 0: as many as the machine has
     std::vector<std::shared_ptr<const Force>> forces{};  // besides those of the scene; steps allow for them
@@ -159,6 +171,7 @@ class World {
     void restore(std::span<const std::byte> bytes);
 
     std::vector<IslandInfo> islands() const;
+    std::vector<JointInfo> joints() const;      // in the order of the scene
     ode::Work work() const;                     // of all methods since the start
     std::vector<FrozenIsland> frozen() const;   // in the order of islands()
     std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, frozen, …

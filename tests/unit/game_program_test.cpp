@@ -137,6 +137,18 @@ TEST(Program, CheckRefusesWhatTheRunWouldRefuseLater) {
     EXPECT_FALSE(has(step.out, "ok")) << step.out;
 }
 
+TEST(Program, InfoListsWhatJointsTie) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "tied.toml",
+                    "schema = 1\n[rope.a]\nends = [[0, 1, 0], [1, 1, 0]]\nhold = [\"start\"]\n"
+                    "[rope.b]\nends = [[1, 1, 0], [2, 1, 0]]\n"
+                    "[[joint]]\na = \"rope.a@end\"\nb = \"rope.b@start\"\n");
+    const std::string scene = (folder / "tied.toml").string();
+    EXPECT_TRUE(has(run({"info", scene}).out, "weld rope.a@end – rope.b@start: 1 point\n  rope.a – rope.b  1\n"));
+    const auto json = nlohmann::json::parse(run({"info", scene, "--json"}).out);
+    EXPECT_EQ(json["joints"][0]["pairs"][0]["b"], "rope.b");
+}
+
 TEST(Program, InfoTellsWhatTheSceneBuilds) {
     const TemporaryFolder folder;
     const std::string scene = springScene(folder).string();

@@ -33,6 +33,26 @@ TEST(Islands, AWeldMakesOnePointOfTwo) {
     EXPECT_NEAR(islands[0].mass, 2.0, 1e-14);
 }
 
+TEST(Islands, AJointSaysWhatItTiesAndWarnsOfBodiesThatItNamesAndDoesNot) {
+    SceneSpec scene = twoRopes();
+    scene.bodies.add(support::rope("c", {1, 0, 0.3}, {2, 0, 0.3}), support::rope("d", {5, 0, 0}, {6, 0, 0}));
+    scene.joints = {{"rope.a@end", "rope.*@start", JointSpec::Kind::weld, 0, 0, 0.01, {"s.toml", 3, 1}}};
+    const World world(scene);
+    const std::vector<JointInfo> joints = world.joints();
+    ASSERT_EQ(joints.size(), 1U);
+    ASSERT_EQ(joints[0].pairs.size(), 1U);
+    EXPECT_EQ(joints[0].pairs[0].a, "rope.a");
+    EXPECT_EQ(joints[0].pairs[0].b, "rope.b");
+    EXPECT_EQ(joints[0].pairs[0].points, 1);
+    EXPECT_EQ(joints[0].loose, (std::vector<std::string>{"rope.c", "rope.d"}));
+    ASSERT_EQ(world.warnings().size(), 1U);
+    EXPECT_EQ(world.warnings()[0],
+              "s.toml:3:1: warning: the joint \"rope.a@end\" – \"rope.*@start\" does not tie rope.c (0.3 m off), "
+              "rope.d (4 m off); it reaches 0.01 m: move them together, raise reach_m, or use kind = \"spring\"");
+    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {}}};
+    EXPECT_TRUE(World(scene).warnings().empty());
+}
+
 TEST(Islands, AWeldAddsMassesAndKeepsMomentum) {
     SceneSpec scene = twoRopes();
     scene.bodies.of<RopeSpec>()[1].velocity = {0, 0, 2};

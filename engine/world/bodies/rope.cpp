@@ -93,7 +93,7 @@ Section RopeSpec::section() {
         .required()
         .whole("segments", &RopeSpec::segments, "", countRange, "Number of segments.")
         .number("length_m", &RopeSpec::length, "m", Range{0.0, 1e6},
-                "Natural length; 0 means the distance of the ends, more hangs slack.")
+                "Natural length; 0 means the distance of the ends. A longer rope starts hanging on its catenary.")
         .number("mass_kg", &RopeSpec::mass, "kg", positive, "Mass of the whole rope.")
         .number("stretch_N", &RopeSpec::stretch, "N", positive, "Stiffness EA: force that doubles its length.")
         .ramps(Affects::springs)

@@ -1,0 +1,52 @@
+// What the joints of a scene tie, and what they name and do not tie.
+#include <algorithm>
+#include <cstdio>
+
+#include "taut/world/impl.h"
+
+namespace taut::world {
+namespace {
+
+constexpr std::size_t mostNamed = 12;
+
+std::string metres(double length) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g m", length);
+    return text;
+}
+
+JointInfo infoOf(const JointReport& report) {
+    JointInfo info{report.spec->a, report.spec->b, report.spec->kind == JointSpec::Kind::weld, {}, {}};
+    for (const auto& [a, b, points] : report.pairs) info.pairs.push_back({a->fullName(), b->fullName(), points});
+    for (const auto& [body, distance] : report.loose) info.loose.push_back(body->fullName());
+    return info;
+}
+
+std::string warningOf(const JointReport& report) {
+    const JointSpec& joint = *report.spec;
+    const bool isWeld = joint.kind == JointSpec::Kind::weld;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(mostNamed, report.loose.size()); ++i) {
+        const auto& [body, distance] = report.loose[i];
+        names += (i > 0 ? ", " : "") + body->fullName() + (isWeld ? " (" + metres(distance) + " off)" : "");
+    }
+    if (report.loose.size() > mostNamed) names += " and " + std::to_string(report.loose.size() - mostNamed) + " more";
+    return asWarning(at(joint.source)) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" does not tie " + names +
+           (isWeld ? "; it reaches " + metres(joint.reach) + ": move them together, raise reach_m, or use kind = \"spring\""
+                   : ": other bodies are nearer");
+}
+
+}  // namespace
+
+void World::Impl::takeJoints(const std::vector<JointReport>& reports) {
+    for (const JointReport& report : reports) {
+        joints.push_back(infoOf(report));
+        if (!report.loose.empty()) jointWarnings.push_back(warningOf(report));
+    }
+}
+
+std::vector<JointInfo> World::joints() const {
+    return impl_->joints;
+}
+
+}  // namespace taut::world

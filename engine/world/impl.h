@@ -75,6 +75,7 @@ struct World::Impl {
     void checkUntied(Body& body) const;
     void takeJoints(const std::vector<JointReport>& reports);
     void checkForces() const;
+    collision::Colliders colliders() const;  // where they are now
     void rebuildColliders();
     ecs::Entity addCollider(const ColliderSpec& collider);
     Member addBody(std::unique_ptr<Body> body);

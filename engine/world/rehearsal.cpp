@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "taut/core/error.h"
+#include "taut/world/encounters.h"
 #include "taut/world/impl.h"
 #include "taut/world/kinds.h"
 #include "taut/world/ticks.h"
@@ -54,6 +55,17 @@ std::vector<Refusal> refusals(World& world) {
 
 enum class Outcome { refused, fine, unknown };
 
+void warnOfEncounters(World& world, std::vector<std::string>& warnings) {
+    constexpr std::size_t most = 8;
+    const auto pairs = encounters(world);
+    for (std::size_t i = 0; i < std::min(most, pairs.size()); ++i)
+        warnings.push_back(pairs[i].first + " and " + pairs[i].second +
+                           " come into each other's way: bodies do not collide with each other yet, they pass "
+                           "through; keep them apart, or tie them by a joint");
+    if (pairs.size() > most)
+        warnings.push_back(std::to_string(pairs.size() - most) + " more pairs of bodies come into each other's way");
+}
+
 // Plays up to the end of that tick; why it was refused into `why`.
 Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why) {
     World world(scene);
@@ -77,6 +89,7 @@ Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why) {
 Rehearsal rehearse(const SceneSpec& scene) {
     Rehearsal rehearsal;
     World world(scene);
+    warnOfEncounters(world, rehearsal.warnings);
     for (const auto& island : WorldAccess::of(world).islands)
         if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
     for (const std::string& warning : world.warnings())

@@ -111,14 +111,21 @@ ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
     return entity;
 }
 
-void World::Impl::rebuildColliders() {
-    collision::Colliders colliders;
-    std::vector<std::string> names;
+collision::Colliders World::Impl::colliders() const {
+    collision::Colliders all;
     registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
-        names.push_back("collider." + part.spec.name);
-        colliders.add(part.model->shape, {part.spec.friction, part.spec.restitution}, placement.to);
+        all.add(part.model->shape, {part.spec.friction, part.spec.restitution}, placement.to);
     });
-    for (const auto& island : islands) island->setColliders(colliders.clone(), names);
+    return all;
+}
+
+void World::Impl::rebuildColliders() {
+    const collision::Colliders all = colliders();
+    std::vector<std::string> names;
+    registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement&) {
+        names.push_back("collider." + part.spec.name);
+    });
+    for (const auto& island : islands) island->setColliders(all.clone(), names);
 }
 
 ecs::Entity World::Impl::spawn(Body body) {

@@ -4,6 +4,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_components_test.cpp
   world_cutting_test.cpp
   world_divergence_test.cpp
+  world_encounters_test.cpp
   world_envelope_test.cpp
   world_forces_test.cpp
   world_freeze_test.cpp

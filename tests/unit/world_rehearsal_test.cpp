@@ -75,6 +75,20 @@ TEST(Rehearsal, WarnsOfACutWhosePlayingWouldBeDear) {
         << rehearsal.warnings[0];
 }
 
+TEST(Rehearsal, WarnsOfAFewBodiesThatComeIntoEachOthersWay) {
+    SceneSpec scene;
+    scene.run.seconds = 1;
+    for (int i = 0; i < 5; ++i)
+        scene.bodies.add(support::rope("r" + std::to_string(i), {0, 3, -0.1}, {1, 3, 0.1 * i}, 4));
+    const Rehearsal rehearsal = rehearse(scene);
+    EXPECT_TRUE(rehearsal.faults.empty());
+    ASSERT_EQ(rehearsal.warnings.size(), 9U);
+    EXPECT_EQ(rehearsal.warnings[0],
+              "rope.r0 and rope.r1 come into each other's way: bodies do not collide with each other yet, they pass "
+              "through; keep them apart, or tie them by a joint");
+    EXPECT_EQ(rehearsal.warnings[8], "2 more pairs of bodies come into each other's way");  // of ten
+}
+
 // A mass of 1 kg that hangs by a spring of 1e6 N/m: ω = 1000 /s, of which leap-frog stands steps of 2 ms.
 SceneSpec stiffPair() {
     SceneSpec scene;

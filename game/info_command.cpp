@@ -1,17 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
 #include "game/messages.h"
-#include "game/progress.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
@@ -31,18 +31,39 @@ struct InfoFlags {
     bool methods = false;
 };
 
-// Plays the first ticks and looks at the clock; 0 when the state diverges at once.
-double measuredSecondsPerTick(world::World& world) {
-    using Clock = std::chrono::steady_clock;
+// Of processor time, all threads together [s].
+struct TickCost {
+    double least = 0.0, mean = 0.0, most = 0.0;  // between the outer two eight of ten ticks lie
+    int ticks = 0;                               // measured; 0 when the state diverges at once
+};
+
+double processorSeconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+// Plays the first ticks and looks at the clock.
+TickCost measuredCost(world::World& world) {
     constexpr double enough = 0.25;  // [s]
-    constexpr int mostTicks = 60;
-    const auto start = Clock::now();
-    for (int ticks = 1; ticks <= mostTicks; ++ticks) {
-        if (world.advance()) return 0.0;
-        const double spent = std::chrono::duration<double>(Clock::now() - start).count();
-        if (spent > enough || ticks == mostTicks) return spent / ticks;
+    constexpr std::size_t mostTicks = 60;
+    std::vector<double> costs;
+    double before = processorSeconds();
+    const double end = before + enough;
+    while (costs.size() < mostTicks && (costs.empty() || before < end)) {
+        if (world.advance()) return {};
+        const double now = processorSeconds();
+        costs.push_back(now - before);
+        before = now;
     }
-    return 0.0;
+    std::sort(costs.begin(), costs.end());
+    const std::size_t tenth = costs.size() / 10;
+    return {costs[tenth], std::accumulate(costs.begin(), costs.end(), 0.0) / static_cast<double>(costs.size()),
+            costs[costs.size() - 1 - tenth], static_cast<int>(costs.size())};
+}
+
+bool mayHaveContacts(const world::SceneSpec& spec) {
+    return !spec.colliders.empty() &&
+           std::any_of(
+               spec.bodies.begin(), spec.bodies.end(), [](const world::BodySpec& body) { return body.collide; });
 }
 
 struct Facts {
@@ -53,7 +74,7 @@ struct Facts {
     double tickSeconds = 0.0;
     int ticksPerFrame = 1;
     std::int64_t frames = 0;
-    double costPerTick = 0.0;  // [s] of wall time
+    TickCost cost;
 };
 
 Facts gatherFacts(const InfoFlags& flags) {
@@ -66,7 +87,7 @@ Facts gatherFacts(const InfoFlags& flags) {
     facts.tickSeconds = world.tickSeconds();
     facts.ticksPerFrame = world.ticksPerFrame();
     facts.frames = pipeline::frameCount(facts.spec.run);
-    facts.costPerTick = measuredSecondsPerTick(world);
+    facts.cost = measuredCost(world);
     return facts;
 }
 
@@ -105,13 +126,15 @@ void printJson(const Facts& facts) {
     Json islands = Json::array(), joints = Json::array();
     for (const world::IslandInfo& island : facts.islands) islands.push_back(islandJson(island));
     for (const world::JointInfo& joint : facts.joints) joints.push_back(jointJson(joint));
+    const int perFrame = facts.ticksPerFrame;
     const Json json = {{"scene", facts.spec.file},
                        {"title", facts.spec.title},
                        {"fps", facts.spec.run.fps},
                        {"frames", facts.frames},
                        {"tick_s", facts.tickSeconds},
                        {"ticks_per_frame", facts.ticksPerFrame},
-                       {"simulation_s_per_frame", facts.costPerTick * facts.ticksPerFrame},
+                       {"processor_s_per_frame", {facts.cost.least * perFrame, facts.cost.most * perFrame}},
+                       {"contacts_may_come", mayHaveContacts(facts.spec)},
                        {"islands", std::move(islands)},
                        {"joints", std::move(joints)},
                        {"colliders", facts.spec.colliders.size()},
@@ -138,9 +161,32 @@ void printIsland(const world::IslandInfo& i) {
 void printJoint(const world::JointInfo& joint) {
     int points = 0;
     for (const auto& pair : joint.pairs) points += pair.points;
-    fmt::print("\n{} {} – {}: {} point{}\n", joint.isWeld ? "weld" : "spring joint", joint.a, joint.b, points,
+    printResult("\n{} {} – {}: {} point{}\n", joint.isWeld ? "weld" : "spring joint", joint.a, joint.b, points,
                points == 1 ? "" : "s");
-    for (const auto& pair : joint.pairs) fmt::print("  {} – {}  {}\n", pair.a, pair.b, pair.points);
+    for (const auto& pair : joint.pairs) printResult("  {} – {}  {}\n", pair.a, pair.b, pair.points);
+}
+
+// "9.1 to 9.9 ms".
+std::string rangeText(double least, double most, double scale, std::string_view unit) {
+    const std::string low = fmt::format("{:.2g}", least * scale), high = fmt::format("{:.2g}", most * scale);
+    return low == high ? fmt::format("{} {}", low, unit) : fmt::format("{} to {} {}", low, high, unit);
+}
+
+// How long the whole takes, in the unit of its longer end.
+std::string durationText(double least, double most) {
+    return most < 90 ? rangeText(least, most, 1, "s") : rangeText(least, most, 1.0 / 60, "minutes");
+}
+
+void printCost(const Facts& facts, double pointSteps) {
+    const TickCost& cost = facts.cost;
+    const int perFrame = facts.ticksPerFrame;
+    const double ticks = static_cast<double>(facts.frames) * perFrame;
+    printResult(
+        "simulation about {} of processor time a frame ({:.3g} ns a point and step), {} for the whole scene, "
+        "as its first {} ticks go{}\n",
+        rangeText(cost.least * perFrame, cost.most * perFrame, 1e3, "ms"),
+        pointSteps > 0.0 ? 1e9 * cost.mean / pointSteps : 0.0, durationText(cost.least * ticks, cost.most * ticks),
+        cost.ticks, mayHaveContacts(facts.spec) ? "; contacts to come cost more" : "");
 }
 
 void printTable(const Facts& facts) {
@@ -165,14 +211,7 @@ void printTable(const Facts& facts) {
     printResult(
         "\nin all {} points, {} springs, {} islands, {} colliders, about {:.3g} MB, {:.3g} MB of it for pictures\n",
         points, springs, facts.islands.size(), spec.colliders.size(), size.bytes() / 1e6, size.pictures / 1e6);
-    if (facts.costPerTick > 0.0) {
-        const double perFrame = facts.costPerTick * facts.ticksPerFrame;
-        printResult(
-            "simulation about {:.3g} ms a frame ({:.3g} ns a point and step, contacts included), {} for the "
-            "whole scene, measured on its first ticks\n",
-            1e3 * perFrame, pointSteps > 0.0 ? 1e9 * facts.costPerTick / pointSteps : 0.0,
-            clockText(perFrame * static_cast<double>(facts.frames)));
-    }
+    if (facts.cost.ticks > 0) printCost(facts, pointSteps);
     for (const std::string& warning : facts.warnings) printResult("warning: {}\n", warning);
 }
 

@@ -137,6 +137,21 @@ TEST(Program, CheckRefusesWhatTheRunWouldRefuseLater) {
     EXPECT_FALSE(has(step.out, "ok")) << step.out;
 }
 
+TEST(Program, InfoGivesProcessorTimeAsARangeAndSaysThatContactsCostMore) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    const auto json = nlohmann::json::parse(run({"info", scene, "--json"}).out);
+    EXPECT_LE(json["processor_s_per_frame"][0].get<double>(), json["processor_s_per_frame"][1].get<double>());
+    EXPECT_FALSE(json["contacts_may_come"].get<bool>());
+    const std::string alone = run({"info", scene}).out;
+    EXPECT_TRUE(has(alone, "of processor time a frame")) << alone;
+    EXPECT_FALSE(has(alone, "contacts")) << alone;
+    test::writeText(folder / "ground.toml",
+                    "schema = 1\nscene = \"spring.toml\"\n[collider.ground]\nshape = \"plane\"\n");
+    const std::string ground = run({"info", (folder / "ground.toml").string()}).out;
+    EXPECT_TRUE(has(ground, "; contacts to come cost more")) << ground;
+}
+
 TEST(Program, InfoListsWhatJointsTie) {
     const TemporaryFolder folder;
     test::writeText(folder / "tied.toml",

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "support/timelines.h"
 #include "taut/core/error.h"
 #include "taut/world/bodies/rope.h"
-#include "support/small_scenes.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -36,6 +36,20 @@ TEST(StepChoice, TheBoundOfARopeIsTwiceTheRootOfKOverM) {
     EXPECT_NEAR(island.omegaBound, 2.0 * std::sqrt(1e5 / 0.1), 1e-9);
     EXPECT_NE(island.limitingSpring.find("structural spring"), std::string::npos);
     EXPECT_NE(island.limitingSpring.find("of rope.a"), std::string::npos);
+}
+
+// With inner masses of 0.1 kg a straight chain has the bound 2√(k/m) for the k of now, whatever a ramp will make of it.
+TEST(StepChoice, TheBoundOfNowIsThatOfTheStateAsItIs) {
+    SceneSpec scene = oneRope();
+    scene.world.gravity = dvec3(0.0);
+    scene.actions = {support::ramp(0.05, "rope.a.stretch", fields::Affects::springs, 4e4, 0.1, Ease::linear,
+                                   [](SceneSpec& s) -> double& { return s.bodies.of<RopeSpec>()[0].stretch; })};
+    World world(scene);
+    const double now = world.islands()[0].omegaNow;
+    EXPECT_NEAR(now, 2.0 * std::sqrt(1e5 / 0.1), 1.0);  // single precision
+    support::run(world, 12);
+    EXPECT_NEAR(world.islands()[0].omegaNow, 2.0 * now, 1.0);
+    EXPECT_NEAR(world.islands()[0].omegaEstimate, 2.0 * now, 20.0);  // of a free chain the same
 }
 
 TEST(StepChoice, AStepByHandIsAMaximum) {

@@ -210,7 +210,7 @@ PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const 
         advance(world, model, resolution, grid, limits, run);
         run.work = world.work();
         run.springEvaluations = springEvaluations(world) - atStart;
-        run.hasContacts = world.metrics().contacts > 0;
+        run.hasContacts = world.hasTouched();
     } catch (const core::Error& error) {
         if (error.kind() != core::ErrorKind::badContent) throw;
         run.failure = "no step: unstable for all, or more than a million a tick";

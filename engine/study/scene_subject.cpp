@@ -51,7 +51,7 @@ class SceneTrial final : public Trial {
         const world::Metrics metrics = world_.metrics();
         seen.kinetic = metrics.kinetic;
         seen.energy = metrics.energy();
-        seen.contacts = metrics.contacts;
+        seen.hasTouched = world_.hasTouched();
         return seen;
     }
 
@@ -100,6 +100,8 @@ class SceneSubject final : public Subject {
         for (const world::IslandInfo& island : world.islands()) limit = std::min(limit, island.stepLimit);
         return limit;
     }
+
+    double frame() const override { return 1.0 / spec_.run.fps; }
 
     std::string caution() const override {
         return spec_.colliders.empty() ? "" : "Contacts are of order 1 in the step, whatever the method.";

@@ -41,7 +41,7 @@ struct Observation {
     std::vector<double> values;  // (points × dimensions) positions of the free points [m], or y
     double energy = std::numeric_limits<double>::quiet_NaN();   // [J], velocities synchronised
     double kinetic = std::numeric_limits<double>::quiet_NaN();  // [J]
-    int contacts = 0;
+    bool hasTouched = false;                                    // anything, at any moment so far
 };
 
 // A run in progress. The time that advance() takes is the method's own: nothing is looked at there.
@@ -84,6 +84,9 @@ class Subject {
 
     // What theory says at a time; none: a reference has to be computed.
     virtual std::optional<Observation> exact(double t) const;
+
+    // [s] between two pictures: what the time of a run is held against.
+    virtual double frame() const { return 1.0 / 60; }
 
     // What lowers the order that can be measured, in words; empty when nothing does.
     virtual std::string caution() const { return ""; }

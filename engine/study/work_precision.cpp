@@ -117,7 +117,6 @@ RunPoint Sweep::run(const RunPlan& plan, double& seconds) {
         work.unconverged += after.unconverged - before.unconverged;
         if (!goesOn) break;
         const Observation seen = trial->observe();
-        study_.hasContacts |= seen.contacts > 0;
         gathering.add(sample, seen);
     }
     point.evaluations = work.evaluations;
@@ -264,6 +263,9 @@ WorkPrecision studyWorkPrecision(const Subject& subject, const StudySettings& se
         std::clamp(static_cast<int>(study.horizon.seconds / study.grid.spacing + 1e-6), 1, study.grid.samples);
     tell("reference", 0.02);
     study.reference = makeReference(subject, study.grid, study.window, 0.1 * settings.budget);
+    study.hasContacts = std::any_of(study.reference.at.begin(), study.reference.at.end(),
+                                    [](const Observation& seen) { return seen.hasTouched; });
+    study.frame = subject.frame();
 
     const double before = 0.12;  // of the budget
     const auto curves = static_cast<double>(study.methods.size() * settings.precisions.size());

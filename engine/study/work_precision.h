@@ -60,7 +60,8 @@ struct WorkPrecision {
     Horizon horizon;
     int window = 0;  // samples within the horizon
     Reference reference;
-    bool hasContacts = false;
+    double frame = 1.0 / 60;           // [s] between two pictures
+    bool hasContacts = false;          // in the reference: what diverges may touch anything
     std::vector<MethodFacts> methods;  // in the order of the table
     std::vector<RunPoint> points;      // by method, precision, falling step
     std::vector<std::string> remarks;  // what a reader must know

@@ -15,12 +15,15 @@ using report::Chart;
 using report::Panel;
 using report::Scale;
 
-constexpr double frame = 1.0 / 60;  // [s]
-
 std::string number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", value);
     return text;
+}
+
+// "1/60 s".
+std::string frameText(double frame) {
+    return "1/" + number(1 / frame) + " s";
 }
 
 // What a chart puts on its axes.
@@ -158,7 +161,7 @@ class Drawing {
         panel.regions.push_back(slow);
         report::Guide guide;
         guide.x = 1;
-        guide.label = "real time: 16.7 ms a frame";
+        guide.label = "real time: " + number(1e3 * study_.frame) + " ms a frame";
         panel.guides.push_back(guide);
     }
 
@@ -180,10 +183,10 @@ class Drawing {
             guide.label = "limit of " + method.title;
             panel.guides.push_back(guide);
         }
-        if (frame <= x_.most && frame >= x_.least) {
+        if (study_.frame <= x_.most && study_.frame >= x_.least) {
             report::Guide guide;
-            guide.x = frame;
-            guide.label = "a frame, 1/60 s";
+            guide.x = study_.frame;
+            guide.label = "a frame, " + frameText(study_.frame);
             guide.style.dash = report::Dash::dotted;
             panel.guides.push_back(guide);
         }

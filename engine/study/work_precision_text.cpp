@@ -106,6 +106,7 @@ std::string workPrecisionJson(const WorkPrecision& study, const std::vector<Grow
                          {"extent", study.reference.extent},
                          {"largest_kinetic_energy_J", study.reference.kinetic}};
     json["methods"] = report::jsonOf<Json>(methodColumns(study), study.methods);
+    json["frame_s"] = study.frame;
     json["contacts"] = study.hasContacts;
     json["remarks"] = study.remarks;
     if (!growth.empty()) json["growth_table"] = report::jsonOf<Json>(growthColumns(), growth);

@@ -81,6 +81,7 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
             contacts_.clear();
             moveColliders(moving, s);
             dynamics_->collide(colliders_, contacts_);
+            hasTouched_ = hasTouched_ || !contacts_.empty();
             if (!inside_.empty()) dynamics_->emerge(colliders_, inside_);
             if (!contacts_.empty() && !dynamics_->isBounded()) return giveUp(end());
         }

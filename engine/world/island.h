@@ -95,6 +95,7 @@ class Island {
     double step() const { return choice_.step; }  // [s]
     dvec3 position(int point) const { return dynamics_->position(point); }
     std::span<const collision::Contact> contacts() const { return contacts_; }
+    bool hasTouched() const { return hasTouched_; }  // anything, at any step so far
     // (points) [m/s] at the time of the tick; zero when frozen. May cost an evaluation.
     std::vector<dvec3> velocities(const TickTime& time);
 
@@ -143,6 +144,7 @@ class Island {
     bool mayFreeze_ = false;   // after a fault
     bool hasCells_ = false;    // to watch
     bool hasMoved_ = false;    // any tick yet
+    bool hasTouched_ = false;  // a contact yet
     bool hasLooked_ = false;   // which points stand inside colliders
     bool isChanged_ = false;   // the plan is not as it was built
     Changes changes_;          // of the plan, that the dynamics know nothing of yet

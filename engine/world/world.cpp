@@ -293,6 +293,11 @@ ode::Work World::work() const {
     return work;
 }
 
+bool World::hasTouched() const {
+    return std::any_of(
+        impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
+}
+
 std::vector<FrozenIsland> World::frozen() const {
     std::vector<FrozenIsland> all;
     for (const auto& island : impl_->islands)

@@ -173,6 +173,7 @@ class World {
     std::vector<IslandInfo> islands() const;
     std::vector<JointInfo> joints() const;      // in the order of the scene
     ode::Work work() const;                     // of all methods since the start
+    bool hasTouched() const;                    // any contact, at any step since it was made or restored
     std::vector<FrozenIsland> frozen() const;   // in the order of islands()
     std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, frozen, …
 

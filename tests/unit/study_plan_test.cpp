@@ -141,6 +141,24 @@ TEST(PlanRuns, ClothsOfOtherCellsAreSeenAtTheSamePlaces) {
     EXPECT_LT(difference(play(a, resolution, grid), play(b, resolution, grid)), 1e-12);
 }
 
+// A cloth that is thrown at a plane, off which it bounces.
+TEST(PlanRuns, KnowOfContactsThatAreOverAtTheEnd) {
+    world::SceneSpec scene = sceneWithNeed();
+    world::ClothSpec& cloth = scene.bodies.of<world::ClothSpec>().back();
+    cloth.hold = {};
+    cloth.origin = {0, 4, 0};
+    cloth.velocity = {0, -12, 0};
+    world::ColliderSpec plane;
+    plane.name = "plane";
+    plane.shape = "plane";
+    plane.position = {0, 2, 0};
+    plane.restitution = 1.0;
+    scene.colliders = {plane};
+    PlanGrid grid;
+    grid.samples = 30;
+    EXPECT_TRUE(play(scene, resolutionOf(scene), grid).hasContacts);
+}
+
 TEST(PlanRuns, CountSpringsTimesEvaluations) {
     const world::SceneSpec scene = sceneWithNeed();
     const Resolution resolution = resolutionOf(scene);

@@ -10,8 +10,10 @@
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/problems.h"
+#include "taut/study/scene_subject.h"
 #include "taut/study/work_precision_chart.h"
 #include "taut/study/work_precision_text.h"
+#include "taut/world/bodies/net.h"
 
 namespace taut::study {
 namespace {
@@ -26,6 +28,67 @@ StudySettings fixed(int halvings, std::vector<Precision> precisions = {Precision
 const WorkPrecision& oscillatorStudy() {
     static const WorkPrecision study = studyWorkPrecision(*makeUndamped(), fixed(5));
     return study;
+}
+
+// A mass of 1 kg on a spring of 1e5 N/m (ω = 316 /s, of which leap-frog stands steps of 6.3 ms) that hangs over a
+// plane.
+world::SceneSpec hangingOver(double plane) {
+    world::SceneSpec scene;
+    scene.run = {30.0, 0.5};
+    world::NetSpec net;
+    net.name = "spring";
+    net.drag = 0.0;
+    net.points = {{"nail", {0, 2, 0}, 1.0, true, {}}, {"bob", {0, 1, 0}, 1.0, false, {}}};
+    net.springs = {{"nail", "bob", 1e5, 1.0, std::nullopt, {}}};
+    scene.bodies.add(net);
+    world::ColliderSpec ground;
+    ground.name = "ground";
+    ground.shape = "plane";
+    ground.position = {0, plane, 0};
+    ground.restitution = 1.0;
+    scene.colliders = {ground};
+    return scene;
+}
+
+TEST(StudyWorkPrecision, RunsThatDivergeIntoAColliderMakeNoContacts) {
+    StudySettings settings = fixed(4);
+    settings.methods = {"leapfrog", "rk4"};
+    const WorkPrecision study = studyWorkPrecision(*makeSceneSubject(hangingOver(0.95), "s"), settings);
+    EXPECT_TRUE(std::any_of(study.points.begin(), study.points.end(),
+                            [](const RunPoint& point) { return point.status != RunStatus::ok; }));
+    EXPECT_FALSE(study.hasContacts);
+    for (const std::string& remark : study.remarks) EXPECT_EQ(remark.find("contacts"), std::string::npos) << remark;
+}
+
+TEST(StudyWorkPrecision, ContactsBetweenTheMomentsThatAreLookedAtCount) {
+    world::SceneSpec scene = hangingOver(0.95);
+    auto& net = scene.bodies.of<world::NetSpec>()[0];
+    net.springs[0].stiffness = 0.1;  // it falls 0.05 m in 0.1 s, and is back 0.1 s later
+    net.thickness = 0.0;
+    const auto subject = makeSceneSubject(scene, "s");
+    RunPlan plan{"leapfrog", Precision::double_, {0.2, 1}, 0, 0};
+    plan.stepsPerSample = stepsPerSample(*subject, plan.grid, 1e-3);
+    const auto trial = subject->begin(plan);
+    ASSERT_TRUE(trial->advance());
+    const Observation seen = trial->observe();
+    EXPECT_GT(seen.values[1], 0.99);  // in the air again
+    EXPECT_TRUE(seen.hasTouched);
+}
+
+TEST(StudyWorkPrecision, AFrameIsThatOfTheScene) {
+    const WorkPrecision study = studyWorkPrecision(*makeSceneSubject(hangingOver(0.0), "s"), fixed(2));
+    EXPECT_EQ(study.frame, 1.0 / 30);
+    EXPECT_EQ(oscillatorStudy().frame, 1.0 / 60);
+    WorkPrecision slow = oscillatorStudy();
+    slow.frame = 0.1;
+    std::string labels;
+    for (const NamedChart& chart : workPrecisionCharts(slow, {}))
+        for (const report::Panel& panel : chart.chart.panels) {
+            for (const report::Guide& guide : panel.guides) labels += guide.label + "|";
+            for (const report::Label& label : panel.labels) labels += label.text + "|";
+        }
+    EXPECT_EQ(labels.find("1/60 s"), std::string::npos) << labels;
+    EXPECT_NE(labels.find("a frame, 1/10 s"), std::string::npos) << labels;
 }
 
 TEST(StudyWorkPrecision, EveryMethodOfTheTableAppears) {

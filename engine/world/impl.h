@@ -9,6 +9,8 @@
 //   queries.cpp        metrics, points, hashes
 //   saving.cpp         all of it as bytes
 //   publish.cpp        the view for a picture
+//   rehearsal.cpp      what a run would refuse later
+//   encounters.cpp     which bodies come into each other's way
 #pragma once
 
 #include <optional>

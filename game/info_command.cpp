@@ -162,7 +162,7 @@ void printJoint(const world::JointInfo& joint) {
     int points = 0;
     for (const auto& pair : joint.pairs) points += pair.points;
     printResult("\n{} {} – {}: {} point{}\n", joint.isWeld ? "weld" : "spring joint", joint.a, joint.b, points,
-               points == 1 ? "" : "s");
+                points == 1 ? "" : "s");
     for (const auto& pair : joint.pairs) printResult("  {} – {}  {}\n", pair.a, pair.b, pair.points);
 }
 

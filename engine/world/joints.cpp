@@ -32,7 +32,8 @@ std::string warningOf(const JointReport& report) {
     }
     if (report.loose.size() > mostNamed) names += " and " + std::to_string(report.loose.size() - mostNamed) + " more";
     return asWarning(at(joint.source)) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" does not tie " + names +
-           (isWeld ? "; it reaches " + metres(joint.reach) + ": move them together, raise reach_m, or use kind = \"spring\""
+           (isWeld ? "; it reaches " + metres(joint.reach) +
+                         ": move them together, raise reach_m, or use kind = \"spring\""
                    : ": other bodies are nearer");
 }
 

@@ -1,6 +1,6 @@
 // Scene files on disk, and the files that they name.
-#include "unit/scene_support.h"
 #include "taut/world/bodies/rope.h"
+#include "unit/scene_support.h"
 
 namespace taut::scene {
 namespace {
@@ -55,7 +55,8 @@ TEST(SceneFiles, ByteOrderMarksAndWindowsLineEndsAreRead) {
     folder.write("windows.toml", text);
     EXPECT_EQ(loadScene(folder / "windows.toml", {}).spec.bodies.of<world::RopeSpec>().size(), 1U);
     folder.write("bad.toml", text + "x = 1\r\n");
-    EXPECT_EQ(failureOf(folder, "bad.toml").first, "bad.toml:4:1: error: [rope.r] has no key \"x\"\n  x = 1\n  ^");
+    EXPECT_TRUE(failureOf(folder, "bad.toml")
+                    .first.starts_with("bad.toml:4:1: error: [rope.r] has no key \"x\"\n  x = 1\n  ^ it has ends, "));
 }
 
 TEST(SceneFiles, WhatIsNoTextIsReported) {
@@ -144,19 +145,18 @@ TEST(SceneFiles, SuspiciousButLegalContentWarns) {
     const Loaded loaded = folder.load(
         "schema = 1\n"
         "[run]\n"
-        "seconds = 0.51\n"
+        "seconds = 0.525\n"
         "[material.m]\n"
         "[collider.c]\n"
         "shape = \"sphere\"\n"
         "keys = [{ t = 0.5 }, { t = 1.00001 }, { t = 1.008 }]\n");
-    ASSERT_EQ(loaded.warnings.size(), 4U);
+    ASSERT_EQ(loaded.warnings.size(), 3U);
     EXPECT_EQ(folder.withoutFolder(loaded.warnings[1]),
-              "s.toml:3:11: warning: 0.51 s is not on a tick of 1/60 s: 0.516666667 s is taken\n"
-              "  seconds = 0.51\n"
+              "s.toml:3:11: warning: 0.525 s is midway between frames of 1/60 s: 0.533333333 s is taken\n"
+              "  seconds = 0.525\n"
               "            ^");
     EXPECT_TRUE(folder.withoutFolder(loaded.warnings[0]).starts_with("s.toml:1:1: warning: there is nothing to move"));
     EXPECT_TRUE(folder.withoutFolder(loaded.warnings[2]).starts_with("s.toml:4:11: warning: no cloth is made of m"));
-    EXPECT_TRUE(folder.withoutFolder(loaded.warnings[3]).starts_with("s.toml:7:45: warning: 1.008 s is not on a tick"));
 }
 
 TEST(SceneFiles, BodiesAreSortedByNameAndTiesKeepTheirOrder) {
@@ -218,9 +218,8 @@ TEST(SceneFiles, TheShippedScenesAndScenariosLoad) {
     LoadOptions options;
     options.assetFolders = {assets};
     std::vector<std::filesystem::path> files;
-    for (const char* folder : {"scenes", "scenarios"}) {
+    for (const char* folder : {"scenes", "scenarios"})
         for (const auto& entry : std::filesystem::directory_iterator(assets / folder)) files.push_back(entry.path());
-    }
     for (const std::filesystem::path& file : files) {
         if (file.extension() != ".toml") continue;
         SCOPED_TRACE(file.string());

@@ -193,11 +193,25 @@ TEST(SceneTimeline, MomentsOffTheTicksAreWarnedOf) {
                   "[[check]]\nthat = \"time >= 0\"\nat = " + t + "\n")
             .warnings;
     };
-    EXPECT_EQ(warningsOf("0.51666"), std::vector<std::string>());  // 31 ticks but for 0.04 % of one
-    const std::vector<std::string> warnings = warningsOf("0.515");
-    ASSERT_EQ(warnings.size(), 2U);
-    for (const std::string& warning : warnings)
-        EXPECT_NE(warning.find("0.515 s is not on a tick of 1/60 s: 0.516666667 s is taken"), std::string::npos);
+    EXPECT_EQ(warningsOf("0.51666"), std::vector<std::string>());   // 31 ticks but for 0.04 % of one
+    EXPECT_EQ(warningsOf("0.515"), std::vector<std::string>());     // 30.9 ticks
+    const std::vector<std::string> warnings = warningsOf("0.525");  // 31.5 ticks, each a frame
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("0.525 s is midway between frames of 1/60 s: 0.533333333 s is taken; so is 1 more"),
+              std::string::npos)
+        << warnings[0];
+}
+
+// A tick is then a third of a frame, and no moment further than half of that from one.
+TEST(SceneTimeline, MomentsBetweenTicksOfFilmAndTelevisionDoNotWarn) {
+    const AssetFolder folder;
+    for (const char* fps : {"24", "25", "30"}) {
+        const Loaded loaded = folder.load("schema = 1\nrun = { fps = " + std::string(fps) +
+                                          " }\nat = [{ t = 0.7, do = \"hold\", target = \"rope.r\" },\n"
+                                          "{ t = 1.31, do = \"free\", target = \"rope.r\" }]\n"
+                                          "[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\n");
+        EXPECT_EQ(loaded.warnings, std::vector<std::string>()) << fps;
+    }
 }
 
 TEST(SceneTimeline, TheManualNamesWhatARampMayChange) {

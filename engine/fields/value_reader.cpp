@@ -139,8 +139,20 @@ class ValueReader {
         return Value(*values);
     }
 
+    // Three numbers as a painting program has them, from 0 to 255.
+    static bool isInBytes(const Node& list) {
+        const auto isByte = [](const Node& n) { return n.kind == NodeKind::whole && n.whole >= 0 && n.whole <= 255; };
+        return list.items.size() == 3 && std::all_of(list.items.begin(), list.items.end(), isByte) &&
+               std::any_of(list.items.begin(), list.items.end(), [](const Node& n) { return n.whole > 1; });
+    }
+    std::nullopt_t failInBytes(const Node& list) const {
+        const std::int64_t r = list.items[0].whole, g = list.items[1].whole, b = list.items[2].whole;
+        return fail(list, field_.key, description(field_), fmt::format("[{}, {}, {}]", r, g, b),
+                    fmt::format("write \"#{:02x}{:02x}{:02x}\"", r, g, b));
+    }
+
     std::optional<std::vector<double>> colour(const Node& node) const {
-        if (node.kind == NodeKind::list) return numbers(node, field_.key);
+        if (node.kind == NodeKind::list) return isInBytes(node) ? failInBytes(node) : numbers(node, field_.key);
         if (node.kind != NodeKind::text) return fail(node, field_.key, description(field_), description(node));
         std::vector<double> digits;
         for (const char c : node.text) {
@@ -192,6 +204,9 @@ class ValueReader {
     }
 
     std::optional<Value> texts(const Node& node) const {
+        if (node.kind == NodeKind::text)
+            return fail(node, field_.key, description(field_), description(node),
+                        node.text.size() > 40 ? "" : fmt::format("write {} = [\"{}\"]", field_.key, node.text));
         if (node.kind != NodeKind::list) return failKind(node);
         std::vector<std::string> values;
         for (std::size_t i = 0; i < node.items.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,13 @@ Node nodeOf(const toml::node& source, int origin) {
     return node;
 }
 
+// A table in braces that goes on in the next line, which TOML has no place for.
+struct BrokenTable {
+    Place place;  // of the brace
+    int lastLine = 0;
+    std::string remedy;
+};
+
 // Walks over a text as far as is needed to tell strings and comments from the rest.
 class Scanner {
   public:
@@ -93,12 +101,49 @@ class Scanner {
                 if (static_cast<unsigned char>(c) >= 0x80) fail("a letter beyond ASCII stands outside of quotes");
                 if (c == '.' && ++dots > maxDots) fail("this key has too many parts");
                 if (std::string_view(",[]{}=\n").find(c) != std::string_view::npos) dots = 0;
+                follow(c);
                 ++at_;
             }
         }
     }
 
+    // The first table in braces that does not end in its line.
+    const std::optional<BrokenTable>& brokenTable() const { return broken_; }
+
   private:
+    // Keeps which header and key a brace belongs to.
+    void follow(char c) {
+        const std::string_view line = text_.substr(lineStart_, at_ - lineStart_);
+        if (c == '[' || c == '{') {
+            if (open_.empty()) isHeader_ = c == '[' && line.find_first_not_of(" \t") == std::string_view::npos;
+            if (open_.empty()) opening_ = c;
+            open_.push_back({c, at_});
+        } else if ((c == ']' || c == '}') && !open_.empty()) {
+            open_.pop_back();
+            if (open_.empty() && isHeader_) header_ = trimmed(line, "[] \t");
+        } else if (c == '=' && open_.empty()) {
+            key_ = trimmed(line, " \t");
+        } else if (c == '\n') {
+            if (!broken_ && !open_.empty() && open_.back().bracket == '{') enterBroken();
+            lineStart_ = at_ + 1;
+            if (isHeader_) open_.clear();  // a header that is not closed ends all the same
+        }
+    }
+
+    void enterBroken() {
+        const std::string title = header_.empty() ? key_ : header_ + "." + key_;
+        const bool isInList = opening_ == '[';
+        broken_ = BrokenTable{
+            placeAt(open_.back().at), placeAt(at_).line,
+            fmt::format("write it on one line, or as {}{}{}", isInList ? "[[" : "[", title, isInList ? "]]" : "]")};
+    }
+
+    static std::string trimmed(std::string_view text, const char* blanks) {
+        const std::size_t first = text.find_first_not_of(blanks);
+        if (first == std::string_view::npos) return {};
+        return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
+    }
+
     void skipString(char quote) {
         const std::string fence(3, quote);
         const bool isLong = text_.substr(at_, 3) == fence;
@@ -123,16 +168,27 @@ class Scanner {
         fail("a letter beyond ASCII follows a backslash");
     }
 
-    [[noreturn]] void fail(const std::string& message) const {
-        const std::string_view before = text_.substr(0, at_);
+    Place placeAt(std::size_t byte) const {
+        const std::string_view before = text_.substr(0, byte);
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t start = before.rfind('\n') + 1;  // 0 when there is none
-        throw SyntaxError({origin_, static_cast<int>(line), static_cast<int>(at_ - start) + 1}, message);
+        return {origin_, static_cast<int>(line), static_cast<int>(byte - start) + 1};
     }
+    [[noreturn]] void fail(const std::string& message) const { throw SyntaxError(placeAt(at_), message); }
+
+    struct Bracket {
+        char bracket;
+        std::size_t at;
+    };
 
     std::string_view text_;
     int origin_;
-    std::size_t at_ = 0;
+    std::size_t at_ = 0, lineStart_ = 0;
+    std::vector<Bracket> open_;
+    char opening_ = 0;  // the outermost of them
+    bool isHeader_ = false;
+    std::string header_, key_;
+    std::optional<BrokenTable> broken_;
 };
 
 // The line at which toml++ stumbles: the first lines up to it are the fewest that make it stumble.
@@ -158,10 +214,14 @@ int stumbleLine(std::string_view text) {
 }  // namespace
 
 Node documentTree(std::string_view text, int origin) {
-    Scanner(text, origin).check();
+    Scanner scanner(text, origin);
+    scanner.check();
     try {
         return nodeOf(toml::parse(text), origin);
     } catch (const toml::parse_error& error) {
+        const std::optional<BrokenTable>& table = scanner.brokenTable();
+        if (table && static_cast<int>(error.source().begin.line) >= table->lastLine)
+            throw SyntaxError(table->place, "a table in braces must end on the line where it begins", table->remedy);
         std::string_view message = error.description();
         constexpr std::string_view opening = "Error while parsing ";
         if (message.starts_with(opening)) message.remove_prefix(opening.size());

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "taut/fields/node.h"
 
@@ -16,8 +17,10 @@ using fields::Place;
 
 // The first thing in a text that is not TOML.
 struct SyntaxError : std::runtime_error {
-    SyntaxError(Place where, const std::string& message) : std::runtime_error(message), place(where) {}
+    SyntaxError(Place where, const std::string& message, std::string better = {})
+        : std::runtime_error(message), place(where), remedy(std::move(better)) {}
     Place place;
+    std::string remedy;
 };
 
 // The tree of a text. Throws SyntaxError, also for zero bytes, invalid UTF-8, UTF-16, a key given twice,

@@ -97,7 +97,7 @@ Node treeOf(std::string_view text, int origin, Problems& problems) {
     try {
         return documentTree(text, origin);
     } catch (const SyntaxError& error) {
-        problems.addError(error.place, error.what());
+        problems.addError(error.place, error.what(), error.remedy);
         throw core::Error(core::ErrorKind::badContent, problems.errors());
     }
 }

@@ -134,7 +134,7 @@ class SceneReader {
         for (const Member& member : table.members) {
             const Field* field = section.find(member.key);
             if (field == nullptr) {
-                reportUnknownKey(section, member, where);
+                reportUnknownKey(section, member, where, fits);
             } else if (!fits(*field) && isKnownVariant(section, variant)) {
                 const std::string form =
                     section.variantKey.empty() ? variant : fmt::format("{} \"{}\"", section.variantKey, variant);
@@ -167,10 +167,26 @@ class SceneReader {
         return fmt::format("{} is {}: {}", field.key, description(field), help);
     }
 
-    void reportUnknownKey(const Section& section, const Member& member, const std::string& where) {
+    // What belongs to the file itself and was written below the header of a table.
+    std::string remedyForFileKey(const Member& member) const {
+        for (const SceneSection& section : sections_) {
+            if (section.name.empty() && section.find(member.key) != nullptr && member.value.kind == NodeKind::text)
+                return "write it above the first table";
+            if (section.name != member.key) continue;
+            const NodeKind kind = member.value.kind;
+            if (section.layout == Layout::list && kind == NodeKind::list)
+                return fmt::format("write it above the first table, or as [[{}]]", member.key);
+            if (section.layout == Layout::table && kind == NodeKind::table)
+                return fmt::format("write it above the first table, or as [{}]", member.key);
+        }
+        return {};
+    }
+
+    template <class Fits>
+    void reportUnknownKey(const Section& section, const Member& member, const std::string& where, const Fits& fits) {
         const std::vector<std::string> keys = section.keys();
         // A key of a table inside that was written one level too high, or mistyped here, or both.
-        std::string remedy;
+        std::string remedy = remedyForFileKey(member);
         const auto lookInside = [&](bool mayBeMistyped) {
             for (const Field& field : section.fields) {
                 if (field.kind != FieldKind::table || !remedy.empty()) continue;
@@ -183,7 +199,12 @@ class SceneReader {
         lookInside(false);
         if (remedy.empty()) remedy = suggestion(member.key, keys);
         lookInside(true);
-        if (remedy.empty() && keys.size() <= 12) remedy = fmt::format("it has {}", joined(keys));
+        if (remedy.empty()) {
+            std::vector<std::string> possible;
+            for (const Field& field : section.fields)
+                if (fits(field)) possible.push_back(field.key);
+            remedy = fmt::format("it has {}", joined(possible));
+        }
         problems_.addError(member.place, fmt::format("{} has no key \"{}\"", where, member.key), remedy);
     }
 

@@ -66,6 +66,31 @@ TEST(SceneErrors, SyntaxIsReportedWhereTheTextStopsToBeToml) {
          "s.toml:2:1: error: this line is not TOML\n"
          "  [[=]]\n"
          "  ^"},
+        {"a table in braces over two lines",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "finish = { colour = [1, 0, 0],\n"
+         "           pattern = \"plain\" }\n",
+         "s.toml:4:10: error: a table in braces must end on the line where it begins\n"
+         "  finish = { colour = [1, 0, 0],\n"
+         "           ^ write it on one line, or as [rope.r.finish]"},
+        {"an action over two lines",
+         "at = [\n"
+         "  { t = 1, do = \"free\",  # } a comment\n"
+         "    target = \"rope.r@all\" },\n"
+         "]\n",
+         "s.toml:3:3: error: a table in braces must end on the line where it begins\n"
+         "    { t = 1, do = \"free\",  # } a comment\n"
+         "    ^ write it on one line, or as [[at]]"},
+        {"a mistake before a table over two lines",
+         "[run]\n"
+         "fps = 6O\n"
+         "[rope.r]\n"
+         "finish = {\n"
+         "}\n",
+         "s.toml:3:8: error: decimal integer: expected digit, saw 'O'\n"
+         "  fps = 6O\n"
+         "         ^"},
         {"a letter beyond ASCII outside of quotes", "größe = 3\n",
          "s.toml:2:3: error: a letter beyond ASCII stands outside of quotes\n"
          "  größe = 3\n"
@@ -109,6 +134,37 @@ TEST(SceneErrors, KeysAndTablesOutOfPlaceAreReportedWithARemedy) {
          "s.toml:3:1: error: [run] has no key \"whatever\"\n"
          "  whatever = 1\n"
          "  ^ it has fps, seconds"},
+        {"an unknown key of a table with many",
+         "[material.m]\n"
+         "[cloth.c]\n"
+         "material = \"m\"\n"
+         "zzzzzz = 1\n",
+         "s.toml:5:1: error: [cloth.c] has no key \"zzzzzz\"\n"
+         "  zzzzzz = 1\n"
+         "  ^ it has material, size, cells, origin, across, down, hold, velocity, spin_rad_per_s, jitter_m, seed, "
+         "friction, "
+         "thickness, collide, finish, solver, array"},
+        {"a timeline below a table",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "at = [{ t = 0.1, do = \"free\", target = \"rope.r@all\" }]\n",
+         "s.toml:4:1: error: [rope.r] has no key \"at\"\n"
+         "  at = [{ t = 0.1, do = \"free\", target = \"rope.r@all\" }]\n"
+         "  ^ write it above the first table, or as [[at]]"},
+        {"a setting below a table",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "run = { fps = 30 }\n",
+         "s.toml:4:1: error: [rope.r] has no key \"run\"\n"
+         "  run = { fps = 30 }\n"
+         "  ^ write it above the first table, or as [run]"},
+        {"a title below a table",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "title = \"a rope\"\n",
+         "s.toml:4:1: error: [rope.r] has no key \"title\"\n"
+         "  title = \"a rope\"\n"
+         "  ^ write it above the first table"},
         {"a key without its unit",
          "[material.m]\n"
          "density = 0.2\n",

@@ -94,7 +94,7 @@ TEST(SceneErrors, ValuesOfTheWrongTypeAreReported) {
          "hold = \"ends\"\n",
          "s.toml:4:8: error: hold must be a list of texts, not \"ends\"\n"
          "  hold = \"ends\"\n"
-         "         ^"},
+         "         ^ write hold = [\"ends\"]"},
         {"a number in a list of texts",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"
@@ -145,8 +145,15 @@ TEST(SceneErrors, ValuesOfTheWrongTypeAreReported) {
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"
          "finish = { colour = [255, 0, 0] }\n",
-         "s.toml:4:22: error: colour[0] must be between 0 and 1, not 255\n"
+         "s.toml:4:21: error: colour must be a list of 3 numbers from 0 to 1, or \"#rrggbb\", not [255, 0, 0]\n"
          "  finish = { colour = [255, 0, 0] }\n"
+         "                      ^ write \"#ff0000\""},
+        {"a colour a little too bright",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "finish = { colour = [1.5, 0, 0] }\n",
+         "s.toml:4:22: error: colour[0] must be between 0 and 1, not 1.5\n"
+         "  finish = { colour = [1.5, 0, 0] }\n"
          "                       ^"},
         {"a title of two lines", "title = \"a\\nb\"\n",
          "s.toml:2:9: error: title must be a text of one line, not one with control characters\n"

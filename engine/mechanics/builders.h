@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "taut/core/error.h"
 #include "taut/mechanics/model.h"
 
 namespace taut::mechanics {
@@ -56,15 +58,23 @@ Model buildCloth(const ClothShape& shape);
 std::vector<std::string> clothGroups();
 
 struct MeshClothShape {
-    std::vector<glm::dvec3> positions;          // (vertices) [m] welded, each used by a triangle
-    std::vector<glm::dvec2> uv;                 // (vertices) [m], or empty: then made from the longest two axes
-    std::vector<std::array<int, 3>> triangles;  // (triangles) vertices; consistently oriented, edge-manifold
-    ClothMaterial material;                     // shear is not used: triangles carry it
+    std::vector<glm::dvec3> positions;               // (vertices) [m] welded, each used by a triangle
+    std::vector<glm::dvec2> uv;                      // (vertices) [m], or empty: then made from the longest two axes
+    std::vector<std::array<int, 3>> triangles;       // (triangles) vertices; consistently oriented, edge-manifold
+    ClothMaterial material;                          // shear is not used: triangles carry it
+    std::map<std::string, std::vector<int>> groups;  // more of them, vertices ascending
+    std::vector<int> numbers;                        // (vertices) what messages call them; empty: from 1
+};
+// What is wrong with a mesh, and of which triangle, from 0; -1: of none in particular.
+struct MeshFault : core::Error {
+    MeshFault(const std::string& what, int of) : Error(core::ErrorKind::badContent, what), triangle(of) {}
+    int triangle;
 };
 // Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch; bend springs across inner edges.
 // Groups: boundary, all, and top, bottom, left, right: the points within 1 % of the size of that extreme; top-left,
-// top-right, bottom-left, bottom-right: the one point furthest into that corner, width and height counted alike.
-// Throws core::Error(badContent) naming what is wrong: no triangle, an edge of three triangles, a zero area.
+// top-right, bottom-left, bottom-right: the one point furthest into that corner, width and height counted alike; and
+// those of the shape that have other names.
+// Throws MeshFault naming what is wrong and what helps: no triangle, an edge of three triangles, a zero area.
 Model buildMeshCloth(const MeshClothShape& shape);
 std::vector<std::string> meshClothGroups();
 

@@ -20,12 +20,19 @@ struct EdgeUse {
     double area = 0.0;  // [m²] of both triangles
 };
 
+[[noreturn]] void reject(const std::string& what, std::size_t triangle) {
+    throw MeshFault(what, static_cast<int>(triangle));
+}
 [[noreturn]] void reject(const std::string& what) {
-    throw core::Error(core::ErrorKind::badContent, "mesh: " + what);
+    throw MeshFault(what, -1);
 }
 
-std::string nameOf(const Edge& edge) {
-    return "the edge between vertices " + std::to_string(edge.first) + " and " + std::to_string(edge.second);
+std::string numberOf(const MeshClothShape& shape, int vertex) {
+    return std::to_string(shape.numbers.empty() ? vertex + 1 : shape.numbers[static_cast<std::size_t>(vertex)]);
+}
+
+std::string nameOf(const MeshClothShape& shape, const Edge& edge) {
+    return "the edge between vertices " + numberOf(shape, edge.first) + " and " + numberOf(shape, edge.second);
 }
 
 const dvec3& position(const MeshClothShape& shape, int i) {
@@ -33,22 +40,23 @@ const dvec3& position(const MeshClothShape& shape, int i) {
 }
 
 void checkIndices(const MeshClothShape& shape) {
-    if (shape.triangles.empty()) reject("no triangle");
+    if (shape.triangles.empty()) reject("there are no faces");
     const int count = static_cast<int>(shape.positions.size());
-    if (!shape.uv.empty() && shape.uv.size() != shape.positions.size()) reject("uv for some of the vertices only");
-    for (std::size_t v = 0; v < shape.positions.size(); ++v)
+    if (!shape.uv.empty() && shape.uv.size() != shape.positions.size())
+        reject("some of the vertices only have texture coordinates");
+    for (int v = 0; v < count; ++v)
         for (int axis = 0; axis < 3; ++axis)
-            if (!std::isfinite(shape.positions[v][axis])) reject("vertex " + std::to_string(v) + " is not finite");
+            if (!std::isfinite(position(shape, v)[axis])) reject("vertex " + numberOf(shape, v) + " is not finite");
     std::vector<bool> isUsed(shape.positions.size(), false);
     for (std::size_t t = 0; t < shape.triangles.size(); ++t)
         for (int i : shape.triangles[t]) {
             if (i < 0 || i >= count)
-                reject("triangle " + std::to_string(t) + " uses vertex " + std::to_string(i) + " of " +
-                       std::to_string(count));
+                reject("there is no vertex " + std::to_string(i + 1) + " of " + std::to_string(count), t);
             isUsed[static_cast<std::size_t>(i)] = true;
         }
     const auto unused = std::find(isUsed.begin(), isUsed.end(), false);
-    if (unused != isUsed.end()) reject("vertex " + std::to_string(unused - isUsed.begin()) + " belongs to no triangle");
+    if (unused != isUsed.end())
+        reject("vertex " + numberOf(shape, static_cast<int>(unused - isUsed.begin())) + " belongs to no face");
 }
 
 // Areas [m²]. Zero counts relative to the longest side: height below a millionth of it.
@@ -58,7 +66,10 @@ std::vector<double> areasOf(const MeshClothShape& shape) {
         const dvec3 e1 = position(shape, b) - position(shape, a), e2 = position(shape, c) - position(shape, a);
         const double longest = std::max({glm::dot(e1, e1), glm::dot(e2, e2), glm::dot(e2 - e1, e2 - e1)});
         const double area = 0.5 * glm::length(glm::cross(e1, e2));
-        if (!(area > 0.5e-6 * longest)) reject("triangle " + std::to_string(areas.size()) + " has no area");
+        if (!(area > 0.5e-6 * longest))
+            reject("vertices " + numberOf(shape, a) + ", " + numberOf(shape, b) + " and " + numberOf(shape, c) +
+                       " of this face lie on a line: merge by distance, or triangulate it",
+                   areas.size());
         areas.push_back(area);
     }
     return areas;
@@ -72,11 +83,16 @@ std::map<Edge, EdgeUse> edgesOf(const MeshClothShape& shape, const std::vector<d
             const int from = corners[side], to = corners[(side + 1) % 3];
             const Edge edge = std::minmax(from, to);
             EdgeUse& use = edges[edge];
-            if (use.uses == 2) reject(nameOf(edge) + " has more than two triangles");
+            if (use.uses == 2)
+                reject("this face is the third at " + nameOf(shape, edge) +
+                           ", which takes two: delete faces that lie double or inside",
+                       t);
             use.opposite[use.uses++] = corners[(side + 2) % 3];
             use.area += areas[t];
             if (from < to) ++use.forward;
-            if (use.uses == 2 && use.forward != 1) reject("the triangles at " + nameOf(edge) + " face opposite ways");
+            if (use.uses < 2 || use.forward == 1) continue;
+            if (use.opposite[0] == use.opposite[1]) reject("this face is there twice: delete one", t);
+            reject("this face and the other at " + nameOf(shape, edge) + " face opposite ways: recalculate normals", t);
         }
     }
     return edges;
@@ -176,6 +192,7 @@ Model buildMeshCloth(const MeshClothShape& shape) {
 
     addSprings(model, edges, shape.material);
     addGroups(model, edges, low, high);
+    for (const auto& group : shape.groups) model.groups.insert(group);
     return model;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -37,6 +39,10 @@ class ObjReader {
         if (faceCount_ == 0) fail("there are no faces");
         if (mesh_.triangles.empty()) fail("no face has an area");
         if (!hasUv_) mesh_.uv.clear();
+        for (auto& [name, vertices] : mesh_.groups) {
+            std::sort(vertices.begin(), vertices.end());
+            vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        }
         return std::move(mesh_);
     }
 
@@ -84,6 +90,10 @@ class ObjReader {
             uvs_.emplace_back(number(words[1]), words.size() > 2 ? number(words[2]) : 0.0);
         } else if (words[0] == "f") {
             readFace(words);
+        } else if (words[0] == "g") {
+            groups_.assign(words.begin() + 1, words.end());
+        } else if (words[0] == "o") {  // a name may have blanks
+            object_ = words.size() < 2 ? "" : std::string(words[1].data(), words.back().data() + words.back().size());
         }
     }
 
@@ -146,7 +156,15 @@ class ObjReader {
             std::array<int, 3> vertices{};
             for (std::size_t i = 0; i < 3; ++i) vertices[i] = vertex(corners[static_cast<std::size_t>(triangle[i])]);
             mesh_.triangles.push_back(vertices);
+            mesh_.lines.push_back(line_);
+            for (const std::string& name : groups_) addTo(name, vertices);
+            if (!object_.empty()) addTo(object_, vertices);
         }
+    }
+
+    void addTo(const std::string& name, const std::array<int, 3>& vertices) {
+        std::vector<int>& group = mesh_.groups[name];
+        group.insert(group.end(), vertices.begin(), vertices.end());
     }
 
     // The one vertex at the corner's position, new if this is its first use.
@@ -155,6 +173,7 @@ class ObjReader {
         const auto [found, isNew] = vertices_.try_emplace({p.x, p.y, p.z}, static_cast<int>(mesh_.positions.size()));
         if (isNew) {
             mesh_.positions.push_back(p);
+            mesh_.numbers.push_back(corner.position + 1);
             mesh_.uv.push_back(corner.uv < 0 ? dvec2(0.0) : uvs_[static_cast<std::size_t>(corner.uv)]);
             hasUv_ = hasUv_ && corner.uv >= 0;
         }
@@ -168,6 +187,8 @@ class ObjReader {
     bool hasUv_ = true;
     std::vector<dvec3> positions_;
     std::vector<dvec2> uvs_;
+    std::vector<std::string> groups_;  // of the faces that follow
+    std::string object_;
     std::map<std::tuple<double, double, double>, int> vertices_;
     world::MeshData mesh_;
 };
@@ -175,6 +196,11 @@ class ObjReader {
 }  // namespace
 
 world::MeshData objMesh(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension != ".obj")
+        throw core::Error(core::ErrorKind::badContent,
+                          path.string() + ": error: only OBJ is read: export it as Wavefront OBJ");
     return objMeshText(textFile(path, maxObjSize), path.string());
 }
 

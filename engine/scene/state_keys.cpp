@@ -57,6 +57,10 @@ void add(const world::MeshData* mesh, core::Hash& hash) {
         for (int i = 0; i < 2; ++i) hash.add(uv[i]);
     for (const auto& triangle : mesh->triangles)
         for (int i : triangle) hash.add(static_cast<std::uint64_t>(i));
+    for (const auto& [name, vertices] : mesh->groups) {
+        hash.add(name);
+        for (int i : vertices) hash.add(static_cast<std::uint64_t>(i));
+    }
 }
 
 // A named body or collider: its looks to the picture, the rest to the state.

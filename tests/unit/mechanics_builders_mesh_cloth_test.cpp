@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "mechanics_lattice_facts.h"
 #include "taut/core/error.h"
 #include "taut/mechanics/builders.h"
-#include "mechanics_lattice_facts.h"
 
 namespace taut::mechanics {
 namespace {
@@ -137,36 +137,40 @@ TEST(MeshClothBuilder, NamesWhatIsWrong) {
 
     MeshClothShape empty = shape;
     empty.triangles.clear();
-    EXPECT_EQ(messageFor(empty), "mesh: no triangle");
+    EXPECT_EQ(messageFor(empty), "there are no faces");
 
     MeshClothShape fan = shape;
     fan.positions.emplace_back(0.5, 1.0, 0.0);
     fan.triangles.push_back({1, 2, 4});
-    EXPECT_EQ(messageFor(fan), "mesh: the edge between vertices 1 and 2 has more than two triangles");
+    EXPECT_EQ(
+        messageFor(fan),
+        "this face is the third at the edge between vertices 2 and 3, which takes two: delete faces that lie double or "
+        "inside");
 
     MeshClothShape turned = shape;
     std::swap(turned.triangles[1][0], turned.triangles[1][1]);
-    EXPECT_EQ(messageFor(turned), "mesh: the triangles at the edge between vertices 1 and 2 face opposite ways");
+    EXPECT_EQ(messageFor(turned),
+              "this face and the other at the edge between vertices 2 and 3 face opposite ways: recalculate normals");
 
     MeshClothShape flat = shape;
     flat.positions[3] = 0.5 * (flat.positions[1] + flat.positions[2]);
-    EXPECT_EQ(messageFor(flat), "mesh: triangle 1 has no area");
+    EXPECT_EQ(messageFor(flat), "vertices 2, 4 and 3 of this face lie on a line: merge by distance, or triangulate it");
 
     MeshClothShape beyond = shape;
     beyond.triangles[0][1] = 9;
-    EXPECT_EQ(messageFor(beyond), "mesh: triangle 0 uses vertex 9 of 4");
+    EXPECT_EQ(messageFor(beyond), "there is no vertex 10 of 4");
 
     MeshClothShape spare = shape;
     spare.positions.emplace_back(5.0, 5.0, 5.0);
-    EXPECT_EQ(messageFor(spare), "mesh: vertex 4 belongs to no triangle");
+    EXPECT_EQ(messageFor(spare), "vertex 5 belongs to no face");
 
     MeshClothShape infinite = shape;
     infinite.positions[2].y = std::nan("");
-    EXPECT_EQ(messageFor(infinite), "mesh: vertex 2 is not finite");
+    EXPECT_EQ(messageFor(infinite), "vertex 3 is not finite");
 
     MeshClothShape partly = shape;
     partly.uv.resize(2);
-    EXPECT_EQ(messageFor(partly), "mesh: uv for some of the vertices only");
+    EXPECT_EQ(messageFor(partly), "some of the vertices only have texture coordinates");
 }
 
 }  // namespace

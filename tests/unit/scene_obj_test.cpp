@@ -3,6 +3,7 @@
 
 #include "taut/scene/obj_file.h"
 #include "taut/scene/polygon.h"
+#include "taut/world/world.h"
 #include "unit/scene_support.h"
 
 namespace taut::scene {
@@ -66,6 +67,62 @@ TEST(SceneObj, ReadsWindowsLineEndsCommentsJoinedLinesAndNoLastLineEnd) {
         "\xEF\xBB\xBF# a model\r\no thing\r\nv 0 0 0\r\nv 1 0 0 # right\r\n\r\nv 1 1 0\r\nusemtl red\r\nf 1 \\\r\n2 3",
         "m.obj");
     EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+}
+
+TEST(SceneObj, GroupsAndObjectsNameTheVerticesOfTheirFaces) {
+    const world::MeshData mesh =
+        objMeshText("o the shirt\nv 9 9 9\n" + corners + "g collar seam\nf 2 3 4\ng\nf 2 4 5\no\nf 2 3 5\n", "m.obj");
+    using Groups = std::map<std::string, std::vector<int>>;
+    EXPECT_EQ(mesh.groups, (Groups{{"the shirt", {0, 1, 2, 3}}, {"collar", {0, 1, 2}}, {"seam", {0, 1, 2}}}));
+    EXPECT_EQ(mesh.numbers, (std::vector<int>{2, 3, 4, 5}));
+    EXPECT_EQ(mesh.lines, (std::vector<int>{8, 10, 12}));
+}
+
+TEST(SceneObj, AGroupIsASelectionOfPoints) {
+    const AssetFolder folder;
+    folder.write("shirt.obj", corners + "v 2 0 0\ng collar\nf 1 2 3\ng left\nf 1 3 4\ng hem\nf 2 5 3\n");
+    const std::string text =
+        "schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"shirt.obj\"\nhold = [\"collar\"]\n"
+        "[[at]]\nt = 0.5\ndo = \"grab\"\nid = \"h\"\ntarget = \"cloth.c@hem\"\n";
+    world::World world(folder.load(text).spec);
+    EXPECT_EQ(world.points("cloth.c@collar").x.size(), 3U);
+    EXPECT_EQ(world.points("cloth.c@hem").x.size(), 3U);
+    EXPECT_EQ(world.points("cloth.c@left").x.size(), 2U);  // taut's own names stay what they are
+    EXPECT_EQ(world.islands().front().heldPoints, 3);
+    EXPECT_NE(folder.messageOf(text + "[[mass]]\ntarget = \"cloth.c@colar\"\nmass_kg = 1\n").find("\"collar\"?"),
+              std::string::npos);
+}
+
+TEST(SceneObj, WhatMakesNoClothIsNamedByTheLineOfItsFace) {
+    const AssetFolder folder;
+    const std::string cloth = "schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"shirt.obj\"\n";
+    const auto faultOf = [&](const std::string& faces) -> std::string {
+        folder.write("shirt.obj", "v 9 9 9\n" + corners + faces);
+        try {
+            const world::World world(folder.load(cloth).spec);
+        } catch (const core::Error& error) {
+            return folder.withoutFolder(error.what());
+        }
+        return "";
+    };
+    const std::string intro = "s.toml:3:8: error: cannot use this mesh: shirt.obj:";
+    EXPECT_EQ(faultOf("f 2 3 4\nf 2 4 5\n"), "");
+    EXPECT_EQ(faultOf("f 2 3 4\nf 2 5 4\n"), intro +
+                                                 "7: error: this face and the other at the edge between vertices 2 "
+                                                 "and 4 face opposite ways: recalculate normals");
+    EXPECT_EQ(faultOf("f 2 3 4\n# twice\nf 2 3 4\n"), intro + "8: error: this face is there twice: delete one");
+    EXPECT_EQ(faultOf("v 0.5 0.5 0\nf 2 3 6\nf 2 6 4\n"),
+              intro + "8: error: vertices 2, 6 and 4 of this face lie on a line: merge by distance, or triangulate it");
+}
+
+TEST(SceneObj, OtherFormatsAreRefusedByName) {
+    const AssetFolder folder;
+    folder.write("shirt.glb", "glTF");
+    EXPECT_EQ(
+        folder.messageOf("schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"shirt.glb\"\n"),
+        "s.toml:5:8: error: cannot use this mesh: shirt.glb: error: only OBJ is read: export it as Wavefront OBJ\n"
+        "  mesh = \"shirt.glb\"\n"
+        "         ^");
 }
 
 TEST(SceneObj, FaultsAreNamedWithTheirLine) {

@@ -42,6 +42,8 @@ mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {
         shape.positions.push_back(spec.position + rotated(turn, spec.scale * x));
     shape.uv = spec.meshData->uv;
     shape.triangles = spec.meshData->triangles;
+    shape.groups = spec.meshData->groups;
+    shape.numbers = spec.meshData->numbers;
     return shape;
 }
 
@@ -54,28 +56,29 @@ Section ClothSpec::section() {
         return table.find("mesh") != nullptr ? "a cloth from a mesh" : "a cloth grid";
     };
     const std::vector<std::string> grid{"a cloth grid"}, mesh{"a cloth from a mesh"};
-    section.fields = FieldList<ClothSpec>()
-                         .text("material", &ClothSpec::material, Role::material, "Name of its material.")
-                         .required()
-                         .vector("size", &ClothSpec::size, "m", lengthRange, "Across and down.")
-                         .only(grid)
-                         .vector("cells", &ClothSpec::cells, "", countRange, "Number of cells across and down.")
-                         .only(grid)
-                         .vector("origin", &ClothSpec::origin, "m", placeRange, "Top left corner.")
-                         .only(grid)
-                         .direction("across", &ClothSpec::across, "Direction from left to right; any length.")
-                         .only(grid)
-                         .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
-                         .only(grid)
-                         .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file.")
-                         .only(mesh)
-                         .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
-                         .only(mesh)
-                         .rotation("rotation_deg", &ClothSpec::rotation, "About x, then y, then z.")
-                         .only(mesh)
-                         .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
-                         .only(mesh)
-                         .take();
+    section.fields =
+        FieldList<ClothSpec>()
+            .text("material", &ClothSpec::material, Role::material, "Name of its material.")
+            .required()
+            .vector("size", &ClothSpec::size, "m", lengthRange, "Across and down.")
+            .only(grid)
+            .vector("cells", &ClothSpec::cells, "", countRange, "Number of cells across and down.")
+            .only(grid)
+            .vector("origin", &ClothSpec::origin, "m", placeRange, "Top left corner.")
+            .only(grid)
+            .direction("across", &ClothSpec::across, "Direction from left to right; any length.")
+            .only(grid)
+            .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
+            .only(grid)
+            .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file; its groups and objects (g, o) are names of points.")
+            .only(mesh)
+            .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
+            .only(mesh)
+            .rotation("rotation_deg", &ClothSpec::rotation, "About x, then y, then z.")
+            .only(mesh)
+            .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+            .only(mesh)
+            .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& cloth = *static_cast<ClothSpec*>(target);
         if (input.table.find("across") == nullptr && input.table.find("down") == nullptr) return;
@@ -105,8 +108,12 @@ mechanics::Model ClothSpec::build(const SceneSpec& scene) const {
     shape.material = made;
     try {
         return mechanics::buildMeshCloth(shape);
-    } catch (const core::Error& error) {
-        throw core::Error(error.kind(), at(source) + mesh + ": " + error.what());
+    } catch (const mechanics::MeshFault& fault) {
+        const auto triangle = static_cast<std::size_t>(fault.triangle);  // of none: larger than any
+        const std::string line =
+            triangle < meshData->lines.size() ? ":" + std::to_string(meshData->lines[triangle]) : "";
+        throw core::Error(fault.kind(),
+                          at(source) + "cannot use this mesh: " + mesh + line + ": error: " + fault.what());
     }
 }
 
@@ -128,6 +135,8 @@ BodyOutline ClothSpec::outline(const SceneSpec&) const {
         outline.springs = 6.0 * x * y + x + y;
     }
     outline.groups = outline.isGrid ? mechanics::clothGroups() : mechanics::meshClothGroups();
+    if (meshData)
+        for (const auto& group : meshData->groups) outline.groups.push_back(group.first);
     return outline;
 }
 

@@ -22,6 +22,15 @@ struct CheckFlags {
     bool isConfined = false;
 };
 
+// Copies of a body would say the same again and again.
+void printAdvice(const std::vector<std::string>& all) {
+    constexpr int most = 5;
+    int count = 0;
+    for (const std::string& advice : all)
+        if (++count <= most) printNote("taut: note: {}\n", advice);
+    if (count > most) printNote("taut: note: … and {} more; taut info lists them\n", count - most);
+}
+
 // Reads, builds and rehearses each scene; goes on after one that is wrong, and returns the code of the first failure.
 int check(const CheckFlags& flags) {
     ExitCode code = ExitCode::ok;
@@ -30,6 +39,7 @@ int check(const CheckFlags& flags) {
             const world::SceneSpec spec = readScene(argument, flags.overrides, flags.isConfined);
             const world::Rehearsal rehearsal = world::rehearse(spec);
             printWarnings(rehearsal.warnings);
+            printAdvice(rehearsal.advice);
             if (!rehearsal.faults.empty())
                 throw core::Error(core::ErrorKind::badContent, fmt::format("{}", fmt::join(rehearsal.faults, "\n")));
             printResult("{}: ok\n", spec.file);

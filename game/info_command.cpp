@@ -109,6 +109,7 @@ Json islandJson(const world::IslandInfo& i) {
             {"step_s", i.step},
             {"substeps", i.substeps},
             {"limited_by", i.limitingSpring},
+            {"advice", i.advice},
             {"bytes", i.bytes}};
 }
 
@@ -154,6 +155,7 @@ void printIsland(const world::IslandInfo& i) {
                    i.limitingSpring.empty() ? "nothing" : i.limitingSpring);
     else
         printResult("  step limit  none\n");
+    for (const std::string& advice : i.advice) printResult("              {}\n", advice);
     printResult("  step        {:.4g} ms = tick / {}, {}\n", 1e3 * i.step, i.substeps, i.method);
     printResult("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
 }

@@ -44,7 +44,12 @@ std::string explainDivergence(const Divergence& d, const Fault& fault, const Ste
             "winds, anchors, and working_stretch of blocks\n";
     for (const ode::MethodInfo& other : methodsOf(plan.solver).all()) {
         const double limit = other.automaticStep(choice.mode);
-        if (other.name == plan.solver.integrator || !(limit > 0) || !std::isfinite(limit)) continue;
+        if (other.name == plan.solver.integrator || !(limit > 0)) continue;
+        if (!std::isfinite(limit)) {
+            text += format("  %s stands every step as long as forces are linear: integrator = \"%s\"\n",
+                           std::string(other.title).c_str(), std::string(other.name).c_str());
+            continue;
+        }
         const double steps = std::ceil(choice.step * choice.substeps / (plan.solver.safety * limit));
         text += format("  %s would need %.0f force evaluations a tick; this run makes %d\n",
                        std::string(other.title).c_str(), steps * other.evaluations, choice.substeps);

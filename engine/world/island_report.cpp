@@ -125,6 +125,7 @@ IslandInfo Island::info(const TickTime& time) const {
     info.substeps = choice_.substeps;
     info.work = work();
     info.limitingSpring = choice_.limitingSpring;
+    info.advice = choice_.advice;
     std::vector<dvec3> x;
     dynamics_->positions(x);
     const std::vector<double> inverseMasses = inverseMassesOf(plan_);

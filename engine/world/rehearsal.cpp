@@ -92,6 +92,8 @@ Rehearsal rehearse(const SceneSpec& scene) {
     warnOfEncounters(world, rehearsal.warnings);
     for (const auto& island : WorldAccess::of(world).islands)
         if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
+    for (const IslandInfo& island : world.islands())
+        rehearsal.advice.insert(rehearsal.advice.end(), island.advice.begin(), island.advice.end());
     for (const std::string& warning : world.warnings())
         if (std::none_of(rehearsal.faults.begin(), rehearsal.faults.end(),
                          [&](const std::string& fault) { return fault.find(warning) != std::string::npos; }))

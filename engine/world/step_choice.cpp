@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "taut/core/error.h"
 
@@ -66,6 +67,74 @@ void warnOverLimit(const Envelope& envelope, const ode::MethodInfo& method, Step
     if (isSure && envelope.plan.solver.onDivergence == OnDivergence::stop)
         choice.fault = at(body.spec->source) + text + "; give dt = \"auto\", or " + inSeconds(choice.limit) +
                        " or less, which holds in any shape";
+}
+
+std::string plain(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", value);
+    return text;
+}
+
+// "0.9 mm", "1.2 m"
+std::string lengthText(double length) {
+    return length < 0.1 ? plain(1e3 * length) + " mm" : plain(length) + " m";
+}
+
+// The edge of a mesh that is far shorter than the others, by which the limiting spring or a neighbour is stiff.
+void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
+    constexpr double shortEdge = 0.2;  // of the median: a step grows with the square of an edge
+    if (!choice.anywhere.bySprings || choice.anywhere.spring < 0) return;
+    const mechanics::Spring& limiting = plan.springs[static_cast<std::size_t>(choice.anywhere.spring)];
+    const int number = plan.origins[static_cast<std::size_t>(choice.anywhere.spring)].body;
+    if (number < 0) return;
+    const Body& body = *plan.bodies[static_cast<std::size_t>(number)];
+    const MeshSource* source = std::as_const(*body.spec).meshSource();
+    if (source == nullptr || source->meshData == nullptr) return;
+
+    const mechanics::Spring* shortest = nullptr;
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < plan.springs.size(); ++i) {
+        const mechanics::Spring& s = plan.springs[i];
+        if (plan.origins[i].body != number || s.kind != mechanics::SpringKind::structural) continue;
+        lengths.push_back(s.restLength);
+        const bool isNear = s.a == limiting.a || s.a == limiting.b || s.b == limiting.a || s.b == limiting.b;
+        if (isNear && (shortest == nullptr || s.restLength < shortest->restLength)) shortest = &s;
+    }
+    if (shortest == nullptr) return;
+    std::nth_element(lengths.begin(), lengths.begin() + std::ssize(lengths) / 2, lengths.end());
+    const double median = lengths[lengths.size() / 2];
+    if (shortest->restLength > shortEdge * median) return;
+    const auto vertex = [&](int point) {
+        const auto own = static_cast<std::size_t>(authored(plan, point).second);
+        return std::to_string(own < source->meshData->numbers.size() ? source->meshData->numbers[own] : 0);
+    };
+    choice.advice.push_back(body.fullName() + ": the edge between vertices " + vertex(shortest->a) + " and " +
+                            vertex(shortest->b) + " of " + source->mesh + " is " + lengthText(shortest->restLength) +
+                            " long, the median " + lengthText(median) +
+                            ", and sets the step: merge by distance, or integrator = \"implicit-euler\"");
+}
+
+// A damping time with which the step is at least half as long as without any, where that is at least twice as long.
+void adviseOnDamping(const IslandPlan& plan, const ode::MethodInfo& method, StepChoice& choice) {
+    constexpr double worthIt = 2.0, nearly = 0.5;
+    ode::FastestMode mode = choice.mode;
+    const auto limitAt = [&](double tau) {
+        mode.tau = tau;
+        return method.automaticStep(mode);
+    };
+    const double tau = choice.mode.tau, without = limitAt(0.0);
+    if (!(tau > 0) || !(choice.limit > 0) || !(without > worthIt * choice.limit) || !std::isfinite(without)) return;
+    double smaller = 1e-9;  // powers of ten read well
+    while (10.0 * smaller < tau && limitAt(10.0 * smaller) > nearly * without) smaller *= 10.0;
+    if (!(limitAt(smaller) > worthIt * choice.limit)) return;
+    const auto damped = std::find_if(plan.springs.begin(), plan.springs.end(),
+                                     [&](const mechanics::Spring& s) { return s.dampingTime == tau; });
+    const SpringOrigin& origin = plan.origins[static_cast<std::size_t>(damped - plan.springs.begin())];
+    const std::string name =
+        origin.body < 0 ? "a joint" : plan.bodies[static_cast<std::size_t>(origin.body)]->fullName();
+    choice.advice.push_back(name + ": damping_time_s = " + plain(tau) + " sets the step: " + plain(smaller) +
+                            " would allow one of " + inSeconds(limitAt(smaller)) + " instead of " +
+                            inSeconds(choice.limit));
 }
 
 }  // namespace
@@ -137,6 +206,10 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
         choice.warnings.push_back(body.fullName() + ": " + std::string(method->title) + ": " +
                                   std::string(method->caution));
     warnOverLimit(envelope, *method, choice, limitHere, leastOmega);
+    if (std::isfinite(choice.limit)) {
+        adviseOnSliver(plan, choice);
+        adviseOnDamping(plan, *method, choice);
+    }
     return choice;
 }
 

@@ -20,6 +20,7 @@ struct StepChoice {
     std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
     std::vector<std::string> warnings;
     std::string fault;  // file, line and remedy where the step is so long that the run will end by it; else empty
+    std::vector<std::string> advice;  // what would allow a longer step
 };
 
 // The step that holds for all that the envelope allows. share: what generators other than the springs and hands add.

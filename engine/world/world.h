@@ -98,7 +98,8 @@ struct IslandInfo {
     double stepLimit = 0;        // [s] largest stable step by B1 with damping
     double step = 0;             // [s] chosen
     int substeps = 1;
-    std::string limitingSpring;  // what sets the limit, in words
+    std::string limitingSpring;       // what sets the limit, in words
+    std::vector<std::string> advice;  // what would allow a longer step
     std::uint64_t bytes = 0;
     ode::Work work{};  // of its method since the start
 };

@@ -62,7 +62,8 @@ TEST(Divergence, SaysWhatWhereAndWhatWouldHold) {
     EXPECT_NE(divergence->spring.find("of cloth.flag"), std::string::npos);
     EXPECT_GT(divergence->omegaH, divergence->limit);
     EXPECT_NEAR(divergence->safeStep, world.islands()[0].stepLimit, 1e-15);
-    for (const char* word : {"diverged at t =", "ω h =", "remedy: dt =", "velocity Verlet would need"})
+    for (const char* word : {"diverged at t =", "ω h =", "remedy: dt =", "velocity Verlet would need",
+                             "implicit Euler stands every step", "integrator = \"implicit-euler\""})
         EXPECT_NE(divergence->message.find(word), std::string::npos) << word << " in " << divergence->message;
 }
 

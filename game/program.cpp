@@ -25,16 +25,13 @@ int codeOf(ExitCode code) {
 void printShortHelp() {
     printResult(
         "taut plays scenes of ropes, cloth and soft bodies and renders them without a display.\n\n"
-        "  taut render flag -o flag.mp4                 a video of a shipped scene\n"
-        "  taut render my.toml -o out/frame_######.png  a picture file a frame\n"
-        "  taut play curtain                            a window: pull the cloth with the mouse, record what you do\n"
-        "  taut info flag                               what a scene builds, its time step and its cost\n"
-        "  taut chart cloth-corners                     error against cost of every method, as pictures and CSV\n"
-        "  taut check my.toml                           whether a scene file is right\n"
-        "  taut test scenarios                          whether scenarios do what their goldens say\n"
-        "  taut doctor                                  whether everything needed is installed\n"
-        "  taut schema > taut.schema.json               the scene format, for editors\n\n"
-        "taut --help lists the commands, taut COMMAND --help their flags.\n");
+        "  render   a scene as a video, a GIF or pictures     taut render flag -o flag.mp4\n"
+        "  play     it in a window, pulled with the mouse     taut play curtain\n"
+        "  schema   how a scene file is written               taut schema --manual\n"
+        "  check    whether one is right, and what is not     taut check my.toml\n"
+        "  info     what it builds, its time step and cost    taut info my.toml\n"
+        "  test     whether scenes still do what they did     taut test my_scenarios\n\n"
+        "taut --help lists all commands, taut COMMAND --help their flags; taut doctor says what is not installed.\n");
     const std::vector<std::string> scenes = shippedScenes();
     if (!scenes.empty()) printResult("Shipped scenes: {}\n", fmt::join(scenes, ", "));
 }

@@ -67,7 +67,7 @@ void checkFlags(const RenderFlags& flags) {
     if (!flags.output.empty()) checkOutputName(flags.output);
     if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
     if (!flags.video.empty() && !image::isVideoPath(flags.video))
-        fail("--video: the name must end in .mp4, .mov or .mkv");
+        fail("--video: the name must end in .mp4, .mov, .mkv or .gif");
     std::error_code ignored;
     if (!flags.video.empty() && std::filesystem::weakly_canonical(flags.video, ignored) ==
                                     std::filesystem::weakly_canonical(flags.output, ignored))
@@ -271,7 +271,7 @@ int render(const RenderFlags& flags) {
 }
 
 void addOutputFlags(Options& options, RenderFlags& flags) {
-    options.value("-o,--output", flags.output, "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv)");
+    options.value("-o,--output", flags.output, "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .gif)");
     options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
     const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
     options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);

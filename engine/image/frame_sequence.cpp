@@ -25,7 +25,7 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
         if (first != std::string::npos) fail("frames are PNG files: let the name end in .png");
         std::error_code ignored;
         if (pattern.has_extension() && !std::filesystem::is_directory(pattern, ignored))
-            fail("pictures are .png files, videos .mp4, .mov or .mkv; a new folder of this name ends in /");
+            fail("pictures are .png files, videos .mp4, .mov, .mkv or .gif; a new folder of this name ends in /");
         folder_ = pattern;
         before_ = "frame_";
         after_ = ".png";

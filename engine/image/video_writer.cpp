@@ -12,12 +12,43 @@
 namespace taut::image {
 namespace {
 
+constexpr int mostGifFps = 50;
+
 std::string containerOf(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
     if (extension == ".mp4") return "mp4";
     if (extension == ".mov") return "mov";
     if (extension == ".mkv") return "matroska";
+    if (extension == ".gif") return "gif";
     return "";
+}
+
+std::vector<std::string> filmEncoding(const std::string& container, int quality) {
+    std::vector<std::string> arguments = {"-vf",
+                                          "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+                                          "-c:v",
+                                          "libx264",
+                                          "-preset",
+                                          "veryfast",
+                                          "-crf",
+                                          fmt::format("{}", quality),
+                                          "-pix_fmt",
+                                          "yuv420p",
+                                          "-colorspace",
+                                          "bt709",
+                                          "-color_primaries",
+                                          "bt709",
+                                          "-color_trc",
+                                          "iec61966-2-1"};
+    if (container != "matroska") arguments.insert(arguments.end(), {"-movflags", "+faststart"});
+    return arguments;
+}
+
+// Each picture has its own 256 colours: for common ones ffmpeg would keep all pictures until the last. A GIF counts
+// hundredths of a second, and browsers slow down pictures of only one.
+std::vector<std::string> gifEncoding(double fps) {
+    const std::string palette = "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";
+    return {"-vf", (fps > mostGifFps ? fmt::format("fps={},", mostGifFps) : "") + palette, "-loop", "0"};
 }
 
 }  // namespace
@@ -61,25 +92,11 @@ void VideoWriter::start(int width, int height) {
                                           fmt::format("{}", options_.fps),
                                           "-i",
                                           "pipe:0",
-                                          "-an",
-                                          "-vf",
-                                          "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
-                                          "-c:v",
-                                          "libx264",
-                                          "-preset",
-                                          "veryfast",
-                                          "-crf",
-                                          fmt::format("{}", options_.quality),
-                                          "-pix_fmt",
-                                          "yuv420p",
-                                          "-colorspace",
-                                          "bt709",
-                                          "-color_primaries",
-                                          "bt709",
-                                          "-color_trc",
-                                          "iec61966-2-1"};
+                                          "-an"};
     const std::string container = containerOf(path_);
-    if (container != "matroska") arguments.insert(arguments.end(), {"-movflags", "+faststart"});
+    const std::vector<std::string> encoding =
+        container == "gif" ? gifEncoding(options_.fps) : filmEncoding(container, options_.quality);
+    arguments.insert(arguments.end(), encoding.begin(), encoding.end());
     arguments.insert(arguments.end(), {"-f", container, "file:" + file_->temporary().string()});
 
     try {

@@ -1,4 +1,4 @@
-// Encodes pictures as an H.264 video by piping them to ffmpeg. It knows neither scenes nor GL.
+// Encodes pictures as an H.264 video or a GIF by piping them to ffmpeg. It knows neither scenes nor GL.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,15 @@ namespace taut::image {
 struct VideoOptions {
     double fps = 60.0;               // pictures a second
     std::string program = "ffmpeg";  // looked up in PATH
-    int quality = 18;                // constant rate factor: 0 lossless … 51 worst
+    int quality = 18;                // of a video, constant rate factor: 0 lossless … 51 worst
 };
 
-// Whether a path names a video that VideoWriter can write: .mp4, .mov or .mkv.
+// Whether a path names a video that VideoWriter can write: .mp4, .mov, .mkv or .gif.
 bool isVideoPath(const std::filesystem::path& path);
 
 // The video appears under its name when finish() has returned; before, it has a temporary name, and without finish()
-// it is removed. An odd width or height is padded by one black column or row, because yuv420p needs even numbers.
+// it is removed. A GIF has at most 50 pictures a second. Of a video an odd width or height is padded by one black
+// column or row, because yuv420p needs even numbers.
 class VideoWriter : public FrameSink {
   public:
     // Looks for the program, makes the folder and, under its temporary name, the file; throws core::Error(inputOutput),

@@ -37,6 +37,16 @@ TEST(Program, AloneItShowsHowToBegin) {
     const Outcome outcome = run({});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_TRUE(has(outcome.out, "taut render flag -o flag.mp4")) << outcome.out;
+    int commands = 0;  // a line each, with its example
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("  ")) continue;
+        const std::string command = line.substr(2, line.find(' ', 2) - 2);
+        EXPECT_TRUE(has(line, " taut " + command + " ")) << line;
+        EXPECT_EQ(run({command, "--help"}).code, 0) << command;
+        ++commands;
+    }
+    EXPECT_EQ(commands, 6);
 }
 
 TEST(Program, HelpAndVersionAreResults) {
@@ -67,10 +77,10 @@ TEST(Program, OutputsThatCannotBeMeantAreUsageErrors) {
     const Outcome twice = run({"render", scene, "-o", video, "--video", video});
     EXPECT_EQ(twice.code, 2);
     EXPECT_TRUE(has(twice.err, "name the same file")) << twice.err;
-    const Outcome gif = run({"render", scene, "-o", (folder / "a.gif").string()});
-    EXPECT_EQ(gif.code, 2);
-    EXPECT_TRUE(has(gif.err, ".mp4, .mov or .mkv")) << gif.err;
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.gif"));
+    const Outcome webp = run({"render", scene, "-o", (folder / "a.webp").string()});
+    EXPECT_EQ(webp.code, 2);
+    EXPECT_TRUE(has(webp.err, ".mp4, .mov, .mkv or .gif")) << webp.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.webp"));
 }
 
 TEST(Program, NeverOverwritingSparesTheRecordOfTheRunToo) {

@@ -65,6 +65,18 @@ TEST(VideoWriter, OddSizesArePaddedToEvenOnes) {
     EXPECT_EQ(streamOf(folder / "a.mkv"), "66,48,yuv420p,24/1,1");
 }
 
+// Odd sizes stay; 60 pictures a second become 50, and 25 stay 25.
+TEST(VideoWriter, AGifIsEncodedByTheSamePipe) {
+    const TemporaryFolder folder;
+    for (const auto& [fps, text] : {std::pair(60.0, "65,47,bgra,50/1,5"), std::pair(25.0, "65,47,bgra,25/1,6")}) {
+        VideoWriter video(folder / "a.gif", {.fps = fps});
+        for (int frame = 0; frame < 6; ++frame) video.write(frame, test::testPicture(65, 47));
+        video.finish();
+        EXPECT_EQ(streamOf(folder / "a.gif"), text);
+    }
+    EXPECT_EQ(test::contentOf(folder / "a.gif").substr(0, 6), "GIF89a");
+}
+
 TEST(VideoWriter, WithoutFinishNothingStaysAndTheOldVideoIsUntouched) {
     const TemporaryFolder folder;
     test::writeText(folder / "a.mp4", "old");
@@ -141,6 +153,7 @@ TEST(VideoWriter, UnwritableFolderFailsBeforeTheFirstFrame) {
 TEST(VideoWriter, KnowsVideosByTheirEnding) {
     EXPECT_TRUE(isVideoPath("a/b.mp4"));
     EXPECT_TRUE(isVideoPath("b.mkv"));
+    EXPECT_TRUE(isVideoPath("b.gif"));
     EXPECT_FALSE(isVideoPath("a.mp4/frames"));
     EXPECT_FALSE(isVideoPath("frame_######.png"));
 }

@@ -1,5 +1,6 @@
 #include "taut/render/camera_axes.h"
 
+#include <algorithm>
 #include <array>
 #include <glm/ext/matrix_clip_space.hpp>
 
@@ -20,11 +21,24 @@ CameraAxes axesOf(const view::Camera& camera) {
     return axes;
 }
 
+Fade fadeOf(const view::FrameView& view) {
+    const view::Background& background = view.background;
+    // A picture from d [m] away shows things about as large; up to two thirds of d nothing should have faded.
+    const float reach = 2.5F * glm::distance(view.camera.eye, view.camera.target) - 30.0F;
+    const float scale = background.fadesWithCamera ? std::max(reach / background.fadeEnd, 1.0F) : 1.0F;
+    return {scale * background.fadeStart, scale * background.fadeEnd};
+}
+
+float farPlaneOf(const view::Camera& camera) {
+    return std::max(camera.farPlane, 4.0F * glm::distance(camera.eye, camera.target));
+}
+
 glm::mat4 projectionOf(const view::Camera& camera, float aspect) {
     const CameraAxes axes = axesOf(camera);
     glm::mat4 view(glm::transpose(glm::mat3(axes.right, axes.up, -axes.forward)));
     view[3] = view * glm::vec4(-camera.eye, 1.0F);
-    return glm::perspective(camera.fieldOfView, aspect, camera.nearPlane, camera.farPlane) * view;
+    const float nearPlane = std::max(camera.nearPlane, 1e-3F * glm::distance(camera.eye, camera.target));
+    return glm::perspective(camera.fieldOfView, aspect, nearPlane, farPlaneOf(camera)) * view;
 }
 
 }  // namespace taut::render

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "taut/render/camera_axes.h"
+
 namespace taut::render {
 
 GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders)
@@ -14,7 +16,7 @@ GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders)
 
 void GroundPass::draw(const view::FrameView& view, const LightBox& box, std::span<const Bounds> casters,
                       const std::optional<OcclusionArea>& occlusion) {
-    const GroundMesh mesh = groundMesh(view.camera.target, view.ground->height, view.background.fadeEnd, box, casters,
+    const GroundMesh mesh = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, box, casters,
                                        view.light.softness, occlusion);
     gl_->BindVertexArray(layout_.id());
     gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_.id());

@@ -15,7 +15,7 @@ Bounds seenPart(const view::FrameView& view, const glm::mat3& toLight, float asp
     const view::Camera& camera = view.camera;
     const CameraAxes axes = axesOf(camera);
     const float tangent = std::tan(0.5F * camera.fieldOfView);
-    const float far = std::min(camera.farPlane, glm::distance(camera.eye, camera.target) + view.background.fadeEnd);
+    const float far = std::min(farPlaneOf(camera), glm::distance(camera.eye, camera.target) + fadeOf(view).end);
     Bounds seen;
     seen.include(toLight * camera.eye);
     for (const float x : {-1.0F, 1.0F}) {

@@ -46,7 +46,8 @@ FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, con
     block.groundLight = glm::vec4(view.light.ground, 0.0F);
     block.backgroundTop = glm::vec4(view.background.top, 0.0F);
     block.backgroundHorizon = glm::vec4(view.background.horizon, 0.0F);
-    block.fade = {view.camera.target.x, view.camera.target.z, view.background.fadeStart, view.background.fadeEnd};
+    const Fade fade = fadeOf(view);
+    block.fade = {view.camera.target.x, view.camera.target.z, fade.start, fade.end};
     block.mapSize = glm::vec4(box.size, glm::max(box.size.x, box.size.y) / static_cast<float>(texels));
     if (occlusion) block.occlusionArea = glm::vec4(occlusion->low, 1.0F / (occlusion->high - occlusion->low));
     if (view.ground) block.groundColour = glm::vec4(view.ground->colour, view.ground->gridSpacing);

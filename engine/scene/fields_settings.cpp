@@ -193,14 +193,18 @@ SceneSection backgroundSection() {
             .ramps(inPicture)
             .colour("horizon", &BackgroundSpec::horizon, "Colour at the horizon.")
             .ramps(inPicture)
-            .number("fade_start", &BackgroundSpec::fadeStart, "m", notNegative,
-                    "Distance from the camera's target where the ground begins to fade.")
+            .number(
+                "fade_start", &BackgroundSpec::fadeStart, "m", notNegative,
+                "Distance from the camera's target where the ground begins to fade; further if the camera is far and "
+                "neither this nor fade_end is given.")
             .ramps(inPicture)
             .number("fade_end", &BackgroundSpec::fadeEnd, "m", positive, "Distance where the ground has gone.")
             .ramps(inPicture)
             .take();
     section.check = [](const CheckInput& input, void* target) {
-        const auto& background = *static_cast<const BackgroundSpec*>(target);
+        auto& background = *static_cast<BackgroundSpec*>(target);
+        background.fadesWithCamera =
+            input.table.find("fade_start") == nullptr && input.table.find("fade_end") == nullptr;
         if (background.fadeEnd > background.fadeStart) return;
         const bool namesEnd = input.table.find("fade_end") != nullptr;
         input.problems.addError(input.at(namesEnd ? "fade_end" : "fade_start"), "fade_end must be above fade_start");

@@ -73,6 +73,7 @@ struct Background {
     glm::vec3 horizon{0.319F, 0.367F, 0.448F};
     float fadeStart = 8.0F;  // [m] from the camera target, where the ground begins to fade into the horizon
     float fadeEnd = 30.0F;   // [m]
+    bool fadesWithCamera = true;  // both grow where the camera is so far from its target that little ground would show
 };
 
 // The endless floor, drawn when a scene has a level plane.

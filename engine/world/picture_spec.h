@@ -42,6 +42,7 @@ struct BackgroundSpec {
     dvec3 horizon{0.60, 0.64, 0.70};
     double fadeStart = 8.0;  // [m]
     double fadeEnd = 30.0;   // [m]
+    bool fadesWithCamera = true;  // where neither is given
 };
 
 // A line of text in the picture. A body's name hangs above it unless a place is given; once the body is frozen, a

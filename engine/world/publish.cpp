@@ -59,7 +59,8 @@ view::FrameView World::view(bool debug) const {
     view.time = time();
     view.light = lightOf(w.spec.light);
     view.background = {linearColour(w.spec.background.top), linearColour(w.spec.background.horizon),
-                       static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd)};
+                       static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd),
+                       w.spec.background.fadesWithCamera};
     bool chosen = false;
     w.registry.each<CameraPart>([&](ecs::Entity, const CameraPart& part) {
         if (chosen || (!w.spec.picture.camera.empty() && part.spec.name != w.spec.picture.camera)) return;

@@ -65,6 +65,25 @@ TEST(RenderPicture, CameraMayLookStraightDown) {
     EXPECT_NEAR(pixel[1], srgb(filmic(0.4F * (0.8F + 0.1F))), ditherStep + 0.5);
 }
 
+// From 250 m away the ground 60 m from the target is as it is near, and what lies 300 m off is not cut away.
+TEST(RenderPicture, TheGroundOfALargeSceneFadesFurtherAway) {
+    view::FrameView view = floorView();
+    view.camera.eye = {0.0F, 150.0F, 200.0F};
+    const image::Image picture = pictureOf(view);
+    const Pixel near = pixelOf(picture, view.camera, {0.0F, 0.0F, 0.0F});
+    const Pixel sky = pixelAt(pictureOf([&] {
+                                  view::FrameView blank = view;
+                                  blank.ground.reset();
+                                  return blank;
+                              }()),
+                              200, 120);
+    EXPECT_GT(std::abs(brightness(near) - brightness(sky)), 60);
+    EXPECT_NEAR(brightness(pixelOf(picture, view.camera, {0.0F, 0.0F, -60.0F})), brightness(near), 6);
+    view.background.fadesWithCamera = false;
+    const image::Image small = pictureOf(view);
+    EXPECT_NEAR(brightness(pixelOf(small, view.camera, {0.0F, 0.0F, -60.0F})), brightness(sky), 6);
+}
+
 TEST(RenderPicture, ShadowLiesWhereTheLightSaysItDoes) {
     view::FrameView view = floorView();
     view.light.direction = {1.0F, -1.0F, 0.0F};  // a metre high is a metre to the right

@@ -16,6 +16,7 @@ Progress::Progress(const ProgressFacts& facts, bool quiet) : facts_(facts), line
 void Progress::frameDone(const pipeline::FrameRecord& record) {
     const auto now = Clock::now();
     const double left = secondsLeft(record, now);
+    if (record.metrics && !facts_.firstEnergy) facts_.firstEnergy = record.metrics->energy();
     if (line_.isDue(record.frame + 1 == facts_.frames))
         line_.show(line(record, std::chrono::duration<double>(now - start_).count(), left));
 }
@@ -45,9 +46,8 @@ std::string Progress::line(const pipeline::FrameRecord& record, double elapsed, 
     if (record.metrics) {
         const world::Metrics& m = *record.metrics;
         const double energy = m.energy();
-        if (!firstEnergy_) firstEnergy_ = energy;
         text += fmt::format("  strain {:.1f} %  energy {:.4g} J, drift {:+.2g} J", 100.0 * m.maxStrain, energy,
-                            energy - *firstEnergy_);
+                            energy - facts_.firstEnergy.value_or(energy));
     }
     return text;
 }

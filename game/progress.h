@@ -20,6 +20,7 @@ struct ProgressFacts {
     double fps = 60.0;        // pictures a second of scene time
     double step = 0.0;        // h of the island with the smallest [s]
     double stepLimit = 0.0;   // its largest stable step [s]
+    std::optional<double> firstEnergy{};  // [J] at the start of the run; none: of the first record that has metrics
 };
 
 class Progress {
@@ -28,8 +29,7 @@ class Progress {
 
     void frameDone(const pipeline::FrameRecord& record);
 
-    // The line for a record, without a line end; elapsed and left are wall time [s]. Energy drifts from that of the
-    // first record with metrics.
+    // The line for a record, without a line end; elapsed and left are wall time [s].
     std::string line(const pipeline::FrameRecord& record, double elapsed, double left);
 
   private:
@@ -44,7 +44,6 @@ class Progress {
     Clock::time_point paceStart_ = start_;
     std::int64_t paceFrame_ = -1;
     bool pictured_ = false;
-    std::optional<double> firstEnergy_;  // [J]
 };
 
 }  // namespace taut::game

@@ -155,6 +155,8 @@ ProgressFacts progressFacts(const world::World& world, const pipeline::RunOption
         facts.step = island.step;
         facts.stepLimit = island.stepLimit;
     }
+    if (!options.before.empty() && options.before.front().metrics)
+        facts.firstEnergy = options.before.front().metrics->energy();
     return facts;
 }
 

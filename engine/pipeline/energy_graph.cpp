@@ -40,21 +40,35 @@ void paintGrid(Painting& painting, const Box& box, float em, const EnergyScale& 
         painting.text({box.low.x, box.high.y - 0.25F * type}, Side::left, value(scale.low), type, scaleInk);
 }
 
+constexpr float legendType = 0.9F, swatchWidth = 1.1F, legendGap = 0.6F;  // in sizes of the type
+
+std::string valueText(const Curve& curve, const Moment& now, const EnergyScale& scale) {
+    return numberText(curve.energy(now) / scale.unit, scale.decimals + 2) + " " + scale.unitName;
+}
+
 void paintLegend(Painting& painting, const Box& box, float em, const Moment& now, const EnergyScale& scale) {
-    const float type = 0.9F * em, half = 0.5F * (box.high.x - box.low.x), gap = 0.6F * em;
+    const float type = legendType * em, half = 0.5F * (box.high.x - box.low.x - legendGap * em);
     constexpr std::array order{2, 1, 0, 3};  // kinetic, elastic / gravity, total
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Curve& curve = curves[static_cast<std::size_t>(order[i])];
-        const float left = box.low.x + static_cast<float>(i % 2) * (half + 0.5F * gap);
+        const float left = box.low.x + static_cast<float>(i % 2) * (half + legendGap * em);
         const float y = box.high.y + (1.35F + 1.35F * static_cast<float>(i / 2)) * em;
         const float middle = y - 0.32F * type;
         const std::array swatch{glm::vec2(left + 0.1F * em, middle), glm::vec2(left + 0.7F * em, middle)};
         painting.line(swatch, 0.16F * em, curve.ink);
-        painting.text({left + 1.1F * em, y}, Side::left, curve.name, type, curve.ink);
-        painting.text({left + half - 0.5F * gap, y}, Side::right,
-                      numberText(curve.energy(now) / scale.unit, scale.decimals + 2) + " " + scale.unitName, type,
-                      curve.ink);
+        painting.pair(left + swatchWidth * em, left + half, y, curve.name, curve.ink, valueText(curve, now, scale),
+                      curve.ink, type);
     }
+}
+
+EnergyScale scaleOf(std::span<const Moment> moments) {
+    double least = 0.0, most = 0.0;
+    for (const Moment& moment : moments)
+        for (const Curve& curve : curves) {
+            least = std::min(least, curve.energy(moment));
+            most = std::max(most, curve.energy(moment));
+        }
+    return energyScale(least, most);
 }
 
 }  // namespace
@@ -99,14 +113,19 @@ glm::vec2 placeOf(double time, double energy, double now, const EnergyScale& sca
             static_cast<float>(box.high.y - up * static_cast<double>(box.high.y - box.low.y))};
 }
 
+float legendWidth(Painting& painting, float em, std::span<const Moment> moments) {
+    const EnergyScale scale = scaleOf(moments);
+    float half = 0.0F;
+    for (const Curve& curve : curves)
+        half = std::max(half, swatchWidth * em + painting.pairWidth(curve.name, valueText(curve, moments.back(), scale),
+                                                                    legendType * em));
+    return 2.0F * half + legendGap * em;
+}
+
 void paintEnergies(Painting& painting, const Box& box, float em, std::span<const Moment> moments, double now) {
-    double least = 0.0, most = 0.0;
-    for (const Moment& moment : moments)
-        for (const Curve& curve : curves) {
-            least = std::min(least, curve.energy(moment));
-            most = std::max(most, curve.energy(moment));
-        }
-    const EnergyScale scale = energyScale(least, most);
+    const EnergyScale scale = scaleOf(moments);
+    paintLegend(painting, box, em, moments.back(), scale);
+    if (!(box.high.y > box.low.y)) return;
     paintGrid(painting, box, em, scale);
     for (const Curve& curve : curves) {
         std::vector<glm::vec2> corners;
@@ -122,7 +141,6 @@ void paintEnergies(Painting& painting, const Box& box, float em, std::span<const
         }
         painting.line(corners, 0.11F * em, curve.ink);
     }
-    paintLegend(painting, box, em, moments.back(), scale);
 }
 
 }  // namespace taut::pipeline

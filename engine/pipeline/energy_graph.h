@@ -28,7 +28,11 @@ glm::vec2 placeOf(double time, double energy, double now, const EnergyScale& sca
 inline constexpr Ink kineticInk{110, 200, 255}, elasticInk{255, 150, 90}, gravitationalInk{150, 220, 110},
     totalInk{250, 250, 250};
 
+// [px] that the legend needs.
+float legendWidth(Painting& painting, float em, std::span<const Moment> moments);
+
 // The graph in the box and the legend in two lines below it, type of a size of `em` [px]. Expects moments, ascending.
+// A box without height has the legend only.
 void paintEnergies(Painting& painting, const Box& box, float em, std::span<const Moment> moments, double now);
 
 }  // namespace taut::pipeline

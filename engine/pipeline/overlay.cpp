@@ -17,6 +17,7 @@ constexpr float plateStrength = 0.84F;
 
 // Lengths in sizes of the type.
 constexpr float panelWidth = 19.5F, edge = 0.8F, margin = 0.8F, lineHeight = 1.4F, graphHeight = 5.2F;
+constexpr float largestPart = 0.6F;  // of a picture's height that figures and graph may take
 
 std::string milliseconds(double seconds) {
     return fmt::format("{:.3g} ms", 1e3 * seconds);
@@ -39,7 +40,8 @@ StepFacts smallestStep(const world::World& world) {
 }
 
 float typeSize(int pictureHeight) {
-    return std::max(11.0F, 0.02F * static_cast<float>(pictureHeight));
+    const auto height = static_cast<float>(pictureHeight);
+    return std::max(0.02F * height, std::clamp(height / 30.0F, 8.0F, 11.0F));
 }
 
 Overlay::Overlay(const std::filesystem::path& font, const StepFacts& step)
@@ -47,8 +49,6 @@ Overlay::Overlay(const std::filesystem::path& font, const StepFacts& step)
 
 void Overlay::add(const Moment& moment) {
     const std::lock_guard lock(mutex_);
-    if (!hasFirst_) firstGravitational_ = moment.gravitational;
-    hasFirst_ = true;
     moments_.push_back(moment);
 }
 
@@ -60,7 +60,6 @@ void Overlay::paint(image::Image& picture, double time, std::span<const OverlayL
         while (moments_.size() > 1 && moments_[1].time < time - span) moments_.pop_front();
         for (const Moment& moment : moments_)
             if (moment.time <= time + 1e-9) shown.push_back(moment);
-        for (Moment& moment : shown) moment.gravitational -= firstGravitational_;
     }
     if (shown.empty()) return;
     const Moment& now = shown.back();
@@ -70,23 +69,28 @@ void Overlay::paint(image::Image& picture, double time, std::span<const OverlayL
     lines.emplace_back("step h", stepText(step_));
     lines.emplace_back("largest strain", fmt::format("{:.2f} %", 100.0 * now.maxStrain));
 
-    const float em = typeSize(picture.height);
-    const auto count = static_cast<float>(lines.size());
-    const float height = (2.0F * edge + count * lineHeight + 0.3F + graphHeight + 2.0F * lineHeight) * em;
-    const glm::vec2 corner = glm::round(glm::vec2(margin * em));
-    const Box panel{corner, glm::round(corner + glm::vec2(panelWidth * em, height))};
     Painting painting(picture, letters_);
-    painting.plate(panel, 0.5F * em, plateInk, plateStrength);
+    const glm::vec2 size(picture.width, picture.height);
+    const float em = typeSize(picture.height);
+    const float textHeight = 2.0F * edge + static_cast<float>(lines.size() + 2) * lineHeight + 0.3F;
+    const bool hasGraph = (textHeight + graphHeight) * em < largestPart * size.y;
+    const float height = textHeight + (hasGraph ? graphHeight : 0.0F);
+    float inside = std::max((panelWidth - 2.0F * edge) * em, legendWidth(painting, em, shown));
+    for (const auto& [name, value] : lines) inside = std::max(inside, painting.pairWidth(name, value, em));
+    const float width = std::min(inside + 2.0F * edge * em, size.x - 2.0F * margin * em);
 
+    const glm::vec2 corner = glm::round(glm::vec2(margin * em));
+    const Box panel{corner, glm::round(corner + glm::vec2(width, height * em))};
+    painting.plate(panel, 0.5F * em, plateInk, plateStrength);
     const float left = panel.low.x + edge * em, right = panel.high.x - edge * em;
     float y = panel.low.y + (edge + 0.85F) * em;
     for (const auto& [name, value] : lines) {
-        painting.text({left, y}, Side::left, name, em, nameInk);
-        painting.text({right, y}, Side::right, value, em, valueInk);
+        painting.pair(left, right, y, name, nameInk, value, valueInk, em);
         y += lineHeight * em;
     }
-    const float top = y - 0.5F * em;
-    paintEnergies(painting, {{left, top}, {right, top + graphHeight * em}}, em, shown, now.time);
+    const float top = y - (hasGraph ? 0.5F : 0.8F) * em;
+    const Box graph{{left, top}, {right, hasGraph ? top + graphHeight * em : top}};
+    paintEnergies(painting, graph, em, shown, now.time);
 }
 
 }  // namespace taut::pipeline

@@ -39,11 +39,11 @@ class Overlay {
     // An empty font stands for the one that Debian installs. Throws core::Error(inputOutput, badContent) of the font.
     Overlay(const std::filesystem::path& font, const StepFacts& step);
 
-    // Ascending in time. The gravitational energy is shown as what it has changed since the first.
+    // Ascending in time.
     void add(const Moment& moment);
 
     // Paints what was the case at `time` [s]: the last moment not after it, and those before. Forgets what no later
-    // picture will show. Nothing is painted before the first moment.
+    // picture will show. Nothing is painted before the first moment. Small pictures have the figures without the graph.
     void paint(image::Image& picture, double time, std::span<const OverlayLine> above = {});
 
     // For text of the same kind elsewhere in the picture.
@@ -54,8 +54,6 @@ class Overlay {
     StepFacts step_;
     std::mutex mutex_;
     std::deque<Moment> moments_;
-    double firstGravitational_ = 0.0;  // [J]
-    bool hasFirst_ = false;
 };
 
 // [px] size of the type that reads well in a picture of this height.

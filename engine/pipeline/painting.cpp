@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "taut/core/error.h"
@@ -124,6 +125,25 @@ void Painting::text(glm::vec2 at, Side side, std::string_view text, float pixels
         for (int x = 0; x < letters.width; ++x)
             lay(left + x, top + y, light,
                 static_cast<float>(letters.letters[static_cast<std::size_t>(y * letters.width + x)]) / 255.0F);
+}
+
+void Painting::pair(float left, float right, float baseLine, std::string_view name, Ink nameInk, std::string_view value,
+                    Ink valueInk, float pixels) {
+    const float room = right - left - pairWidth("", value, pixels);
+    std::string shown(name);
+    while (!shown.empty() && widthOf(shown, pixels) > room) {
+        if (shown.ends_with("…")) shown.resize(shown.size() - std::string_view("…").size());
+        while (!shown.empty() && (static_cast<unsigned char>(shown.back()) & 0xC0U) == 0x80U) shown.pop_back();
+        if (!shown.empty()) shown.pop_back();
+        if (!shown.empty()) shown += "…";
+    }
+    text({left, baseLine}, Side::left, shown, pixels, nameInk);
+    text({right, baseLine}, Side::right, value, pixels, valueInk);
+}
+
+float Painting::pairWidth(std::string_view name, std::string_view value, float pixels) {
+    constexpr float gap = 0.5F;  // in sizes of the type
+    return widthOf(name, pixels) + gap * pixels + widthOf(value, pixels);
 }
 
 float Painting::widthOf(std::string_view text, float pixels) {

@@ -38,6 +38,12 @@ class Painting {
     // A line of text of a size of type of `pixels`, its base line at `at`, of which that point is the named side.
     void text(glm::vec2 at, Side side, std::string_view text, float pixels, Ink ink);
 
+    // A name at the left end of a span [px] and a value at the right; the name gives way where both do not fit.
+    void pair(float left, float right, float baseLine, std::string_view name, Ink nameInk, std::string_view value,
+              Ink valueInk, float pixels);
+    // [px] that such a span needs for both.
+    float pairWidth(std::string_view name, std::string_view value, float pixels);
+
     float widthOf(std::string_view text, float pixels);  // [px]
 
   private:

@@ -73,8 +73,17 @@ TEST(Progress, LineTellsShareSpeedAndTimeLeft) {
         EXPECT_NE(line.find(part), std::string::npos) << part << " is missing in: " << line;
     record.metrics = world::Metrics{.kinetic = 1.0, .elastic = 2.0, .gravitational = 4.0, .maxStrain = 0.05};
     EXPECT_NE(progress.line(record, 2.0, 66.0).find("strain 5.0 %  energy 7 J, drift +0 J"), std::string::npos);
+    progress.frameDone(record);  // shown or not, the first record is where energy drifts from
     record.metrics->kinetic = 0.5;
     EXPECT_NE(progress.line(record, 2.0, 66.0).find("energy 6.5 J, drift -0.5 J"), std::string::npos);
+}
+
+TEST(Progress, ARunThatGoesOnDriftsFromItsStart) {
+    Progress progress({.frames = 120, .firstEnergy = 10.0}, true);
+    pipeline::FrameRecord record{.frame = 60};
+    record.metrics = world::Metrics{.kinetic = 7.0};
+    progress.frameDone(record);
+    EXPECT_NE(progress.line(record, 2.0, 66.0).find("energy 7 J, drift -3 J"), std::string::npos);
 }
 
 TEST(Interruption, FirstSignalSetsTheFlagAndTheExitCode) {

@@ -79,6 +79,23 @@ TEST(Painting, WhatLiesOutsideIsLeftOut) {
     EXPECT_EQ(picture.rgb, before.rgb);
 }
 
+// The value's letters are the same with and without a name, however long that is.
+TEST(Painting, ANameGivesWayToItsValue) {
+    image::Image alone = grey(120, 20), both = alone;
+    auto painter = letters();
+    Painting(alone, painter).pair(5.0F, 115.0F, 14.0F, "", {}, "123456.7 ms", {255, 0, 0}, 11.0F);
+    Painting(both, painter)
+        .pair(5.0F, 115.0F, 14.0F, "cloth.längster-vorhang", {0, 0, 255}, "123456.7 ms", {255, 0, 0}, 11.0F);
+    int named = 0;
+    for (int x = 0; x < 120; ++x)
+        for (int y = 0; y < 20; ++y)
+            if (pixel(alone, x, y) != std::array{120, 120, 120})
+                EXPECT_EQ(pixel(both, x, y), pixel(alone, x, y)) << x << " " << y;
+            else if (pixel(both, x, y) != std::array{120, 120, 120})
+                ++named;
+    EXPECT_GT(named, 20);
+}
+
 // The curve's own colour is looked for where its energy belongs: a quarter, half and three quarters of the way.
 TEST(Overlay, TheCurveRunsThroughItsEnergies) {
     image::Image picture = grey(400, 200);
@@ -120,6 +137,53 @@ TEST(Overlay, StaysInItsPanelAndDependsOnWhatItWasToldOnly) {
             if (x < 320 && y < 180) continue;
             ASSERT_EQ(pixel(a, x, y), pixel(before, x, y)) << x << " " << y;
         }
+}
+
+// The same values as in metrics.csv: a gravitational energy that stays is shown, not taken for nothing.
+TEST(Overlay, EnergiesCountFromTheSameZeroAsTheMetrics) {
+    image::Image high = grey(640, 360), low = high;
+    for (auto [picture, gravitational] : {std::pair{&high, 35.0}, std::pair{&low, 0.0}}) {
+        Overlay overlay({}, {4e-4, 5e-4});
+        for (int tick = 0; tick < 3; ++tick) {
+            Moment moment = rising(tick);
+            moment.gravitational = gravitational;
+            overlay.add(moment);
+        }
+        overlay.paint(*picture, 0.1);
+    }
+    EXPECT_NE(high.rgb, low.rgb);
+}
+
+TEST(Overlay, LeavesMostOfASmallPictureFree) {
+    image::Image picture = grey(320, 180);
+    Overlay overlay({}, {4e-4, 5e-4});
+    overlay.add(rising(100));
+    overlay.paint(picture, 5.0);
+    int covered = 0;
+    for (int y = 0; y < 180; ++y)
+        for (int x = 0; x < 320; ++x) covered += pixel(picture, x, y) == std::array{120, 120, 120} ? 0 : 1;
+    EXPECT_LT(covered, 320 * 180 / 4);
+    EXPECT_EQ(pixel(picture, 319, 100), (std::array{120, 120, 120}));
+    EXPECT_EQ(pixel(picture, 10, 100), (std::array{120, 120, 120}));
+}
+
+// A panel as wide as its longest line; where the picture is narrower the name is cut.
+TEST(Overlay, APanelIsAsWideAsItsLines) {
+    const std::string name = "a body of a very long name that goes on for a while";
+    const std::vector<OverlayLine> above = {{name, "12345.678 m/s"}};
+    const auto rightEdge = [&](int width, std::span<const OverlayLine> lines) {
+        image::Image picture = grey(width, 360);
+        Overlay overlay({}, {4e-4, 5e-4});
+        overlay.add(rising(100));
+        overlay.paint(picture, 5.0, lines);
+        int edge = 0;
+        for (int x = 0; x < width; ++x)
+            if (pixel(picture, x, 50) != std::array{120, 120, 120}) edge = x;
+        return edge;
+    };
+    EXPECT_LT(rightEdge(640, {}), 230);
+    EXPECT_GT(rightEdge(640, above), 350);
+    EXPECT_LT(rightEdge(320, above), 315);
 }
 
 TEST(Overlay, NothingIsPaintedBeforeTheFirstMoment) {

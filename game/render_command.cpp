@@ -22,6 +22,7 @@
 #include "game/progress.h"
 #include "game/renderers.h"
 #include "game/scene_file.h"
+#include "taut/check/figures.h"
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
 #include "taut/core/parallel.h"
@@ -33,6 +34,7 @@
 #include "taut/pipeline/run.h"
 #include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/run_record.h"
+#include "taut/scene/load.h"
 
 namespace taut::game {
 namespace {
@@ -40,13 +42,14 @@ namespace {
 struct RenderFlags {
     std::string scene;
     std::string output, video;
-    std::string frames, size, camera, gl, hashEvery = "frame";
+    std::string frames, size, camera, gl, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
     bool overlay = false, isConfined = false;
+    bool writesMetrics() const { return metrics || !metricsOf.empty(); }
 };
 
 // What --fps, --seconds, --size and --camera ask for, in the words of the scene format.
@@ -74,7 +77,7 @@ void checkFlags(const RenderFlags& flags) {
         fail("-o and --video name the same file");
     if (flags.output.empty() && !flags.noPictures)
         fail("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
-    if (flags.output.empty() && flags.metrics) fail("--metrics writes a file beside the output: add -o");
+    if (flags.output.empty() && flags.writesMetrics()) fail("--metrics writes a file beside the output: add -o");
     if (flags.continuation.isWanted() && flags.output.empty() && flags.continuation.folder.empty())
         fail("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
     if (flags.continuation.resume && (!flags.video.empty() || image::isVideoPath(flags.output)))
@@ -100,8 +103,27 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec
     options.debugView = flags.debug;
     options.checkpointEvery = flags.continuation.every;
     // Who goes on from a checkpoint may want the figures of the frames before it.
-    options.metrics = flags.metrics || flags.overlay || !flags.quiet || options.checkpointEvery > 0;
+    options.metrics = flags.writesMetrics() || flags.overlay || !flags.quiet || options.checkpointEvery > 0;
     return options;
+}
+
+// What --metrics-of asks for, or null.
+std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::SceneSpec& spec) {
+    if (text.empty()) return nullptr;
+    const auto fail = [](const std::string& message) {
+        throw core::Error(core::ErrorKind::usage, "--metrics-of: " + message);
+    };
+    try {
+        auto figures = std::make_shared<check::Figures>(check::Figures::parse(text));
+        for (const check::Mention& mention : figures->mentions())
+            if (const std::string fault = scene::targetFault(spec, mention.target, mention.hasPoints); !fault.empty())
+                fail(fault);
+        return figures;
+    } catch (const check::Fault& fault) {
+        fail(fmt::format("{} (at \"{}\"){}", fault.what(), text.substr(std::min(fault.at, text.size()), 30),
+                         fault.remedy.empty() ? "" : "; " + fault.remedy));
+    }
+    return nullptr;
 }
 
 // Everything that was asked for, or null; asks before it overwrites.
@@ -121,7 +143,7 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pi
     if (overwrite == Overwrite::no)  // the records belong to the run: asked for or not, they are not replaced
         for (const char* record : {"run.json", "metrics.csv"})
             if (std::filesystem::exists(sink->companion(record)) &&
-                (flags.metrics || record == std::string("run.json")))
+                (flags.writesMetrics() || record == std::string("run.json")))
                 throw core::Error(core::ErrorKind::inputOutput,
                                   fmt::format("{} exists already", sink->companion(record).string()));
     return sink;
@@ -148,15 +170,16 @@ std::vector<pipeline::RunLock> locksOf(const std::string& output, const std::fil
     return locks;
 }
 
-ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps) {
+ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps,
+                            const pipeline::RecordLog& records) {
     ProgressFacts facts{options.lastFrame + 1, fps, world.tickSeconds(), world.tickSeconds()};
     for (const world::IslandInfo& island : world.islands()) {
         if (island.step > facts.step) continue;
         facts.step = island.step;
         facts.stepLimit = island.stepLimit;
     }
-    if (!options.before.empty() && options.before.front().metrics)
-        facts.firstEnergy = options.before.front().metrics->energy();
+    if (!records.empty())
+        if (const pipeline::FrameRecord first = records[0]; first.metrics) facts.firstEnergy = first.metrics->energy();
     return facts;
 }
 
@@ -185,11 +208,12 @@ void writeWith(const std::filesystem::path& path, const std::function<void(const
 }
 
 void writeRecords(const image::FrameSink& sink, const RenderFlags& flags,
-                  const std::function<void(const pipeline::Write&)>& writeJson, const pipeline::RunResult& result) {
+                  const std::function<void(const pipeline::Write&)>& writeJson, const pipeline::RunResult& result,
+                  const std::vector<std::string>& figures) {
     writeWith(sink.companion("run.json"), writeJson);
-    if (flags.metrics)
+    if (flags.writesMetrics())
         writeWith(sink.companion("metrics.csv"),
-                  [&](const pipeline::Write& write) { pipeline::writeMetricsCsv(write, result); });
+                  [&](const pipeline::Write& write) { pipeline::writeMetricsCsv(write, result, figures); });
 }
 
 // What came out, in a line; the first `before` frames are those of an earlier run.
@@ -209,6 +233,8 @@ int render(const RenderFlags& flags) {
     const scene::Loaded scene = readSceneWithKeys(flags.scene, allOverrides(flags), flags.isConfined);
     const world::SceneSpec& spec = scene.spec;
     pipeline::RunOptions options = runOptions(flags, spec);
+    const std::shared_ptr<check::Figures> figures = figuresOf(flags.metricsOf, spec);
+    if (figures) options.figures = [figures](const world::World& world) { return figures->of(world); };
     const Interruption interruption;
 
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, options, spec.run.fps);
@@ -250,7 +276,7 @@ int render(const RenderFlags& flags) {
 
     pipeline::RunResult result;
     {
-        Progress progress(progressFacts(world, options, spec.run.fps), flags.quiet);
+        Progress progress(progressFacts(world, options, spec.run.fps, records), flags.quiet);
         pipeline::RunListener listener = listenerFor(flags, options, progress, overlay.get(), world.ticksPerFrame());
         if (options.checkpointEvery > 0) keepCheckpoints(states, keys, world, listener);
         result = pipeline::play(world, options, draw, flags.noPictures ? nullptr : sink.get(), listener,
@@ -262,7 +288,7 @@ int render(const RenderFlags& flags) {
         const auto writeJson = [&](const pipeline::Write& write) {
             pipeline::writeRunJson(write, spec, world, request, pipeline::machine(), info, result);
         };
-        writeRecords(*sink, flags, writeJson, result);
+        writeRecords(*sink, flags, writeJson, result, figures ? figures->names() : std::vector<std::string>{});
     }
     std::vector<std::string> met = world.warnings();  // such as a block squashed flat on the way
     std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
@@ -278,6 +304,8 @@ void addOutputFlags(Options& options, RenderFlags& flags) {
     const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
     options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
     options.flag("--metrics", flags.metrics, "Write metrics.csv: energy, momentum, strain, contacts of each frame");
+    options.value("--metrics-of", flags.metricsOf, "Besides: what these expressions of checks give, to 17 digits")
+        .typeName("EXPR,…");
     options.flag("--hash", flags.hash, "Print the state hash of each frame");
     options.value("--hash-every", flags.hashEvery, "Print the state hash of each frame or each tick")
         .oneOf({"frame", "tick"})
@@ -313,6 +341,7 @@ Action declareRender(Options& options) {
         "  taut render flag -o flag.mp4\n"
         "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
         "  taut render show -o out/show --checkpoint-every 60 --resume\n"
+        "  taut render flag -o out/flag --metrics-of \"position(cloth.flag@bottom-right).y,max_strain\"\n"
         "  taut render drape -o late.mp4 --frames 120-179 --set material.linen.bend_N_per_m=4");
     return [flags] { return render(*flags); };
 }

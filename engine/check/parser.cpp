@@ -63,6 +63,17 @@ class Parser {
         return claim;
     }
 
+    std::vector<Expression> expressions() {
+        if (text_.size() > maxLength) fail(maxLength, "this is too long");
+        skipBlanks();
+        if (isAtEnd()) fail(0, "this is empty", "write e.g. max_strain(cloth.*)");
+        std::vector<Expression> all;
+        do all.push_back(sum());
+        while (take(","));
+        if (!isAtEnd()) fail(at_, fmt::format("{} stands where a comma or the end is expected", found()));
+        return all;
+    }
+
   private:
     [[noreturn]] static void fail(std::size_t at, const std::string& message, std::string remedy = {}) {
         throw Fault(at, message, std::move(remedy));
@@ -302,6 +313,10 @@ class Parser {
 
 Claim claimOf(std::string_view text, std::vector<Mention>& mentions) {
     return Parser(text, mentions).claim();
+}
+
+std::vector<Expression> expressionsOf(std::string_view text, std::vector<Mention>& mentions) {
+    return Parser(text, mentions).expressions();
 }
 
 }  // namespace taut::check

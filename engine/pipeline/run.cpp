@@ -46,6 +46,7 @@ class Player {
         current_ = FrameRecord{.frame = next_++, .time = world_.time(), .hash = world_.stateHash()};
         saveState();
         if (options_.metrics) current_.metrics = world_.metrics();
+        if (options_.figures) result_.figures[current_.frame] = options_.figures(world_);
         current_.simulating = secondsSince(start);
         if (listener_.frameSimulated) listener_.frameSimulated(current_);
         return true;

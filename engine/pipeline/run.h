@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct RunOptions {
     std::int64_t lastFrame = 0;   // included
     bool debugView = false;
     bool metrics = false;
+    std::function<std::vector<double>(const world::World&)> figures{};  // measured each frame; null: nothing
 
     std::int64_t startFrame = 0;       // where to go on: the world is at the time of this frame already
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
@@ -41,6 +43,7 @@ struct RunListener {
 
 struct RunResult {
     RecordLog frames;  // every simulated one, those before the start among them
+    std::map<std::int64_t, std::vector<double>> figures;  // by frame: RunOptions::figures of those from the start on
     std::optional<world::Divergence> divergence;
     bool interrupted = false;
     double seconds = 0.0;  // [s] of wall time, the whole run

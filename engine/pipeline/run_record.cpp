@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "taut/world/forces/wind.h"
@@ -88,6 +90,14 @@ Json timesJson(const RunResult& result) {
     return {{"simulate", simulating}, {"render", drawing}, {"encode", encoding}, {"total", result.seconds}};
 }
 
+// Quoted where commas would end it.
+std::string csvCell(const std::string& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
 }  // namespace
 
 void writeRunJson(const Write& write, const world::SceneSpec& spec, const world::World& world,
@@ -123,9 +133,10 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     write(result.frames.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
-void writeMetricsCsv(const Write& write, const RunResult& result) {
+void writeMetricsCsv(const Write& write, const RunResult& result, const std::vector<std::string>& figures) {
     std::string text = "frame,time_s";
     for (const world::Metric& metric : world::metricTable()) text += fmt::format(",{}", metric.columns);
+    for (const std::string& name : figures) text += "," + csvCell(name);
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
         const FrameRecord frame = result.frames[i];
         if (!frame.metrics) continue;
@@ -135,6 +146,11 @@ void writeMetricsCsv(const Write& write, const RunResult& result) {
             if (const auto* v = std::get_if<glm::dvec3>(&value)) text += fmt::format(",{},{},{}", v->x, v->y, v->z);
             if (const auto* number = std::get_if<double>(&value)) text += fmt::format(",{}", *number);
             if (const auto* count = std::get_if<std::int64_t>(&value)) text += fmt::format(",{}", *count);
+        }
+        const auto measured = result.figures.find(frame.frame);
+        for (std::size_t k = 0; k < figures.size(); ++k) {
+            const bool isNumber = measured != result.figures.end() && std::isfinite(measured->second[k]);
+            text += isNumber ? fmt::format(",{:.17g}", measured->second[k]) : ",";
         }
         write(text);
         text.clear();

@@ -31,7 +31,8 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
                   const RunRequest& request,                  const Machine& machine, const std::optional<render::RendererInfo>& renderer,
                   const RunResult& result);
 
-// A line a frame that has metrics, with a heading that names the units.
-void writeMetricsCsv(const Write& write, const RunResult& result);
+// A line a frame that has metrics, with a heading that names the units; and the figures under their names, to 17
+// digits, empty where they were not measured or are no numbers.
+void writeMetricsCsv(const Write& write, const RunResult& result, const std::vector<std::string>& figures = {});
 
 }  // namespace taut::pipeline

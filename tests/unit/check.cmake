@@ -1,4 +1,5 @@
 list(APPEND TAUT_UNIT_TESTS
+  check_figures_test.cpp
   check_functions_test.cpp
   check_language_test.cpp
   check_mangled_test.cpp

@@ -83,6 +83,22 @@ TEST(Program, OutputsThatCannotBeMeantAreUsageErrors) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.webp"));
 }
 
+TEST(Program, MetricsOfExpressionsAreColumnsBesideTheOthers) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string(), out = (folder / "out").string();
+    const Outcome wrong =
+        run({"render", scene, "-o", out, "--no-pictures", "--quiet", "--metrics-of", "position(net.sprig@bob)"});
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_TRUE(has(wrong.err, "--metrics-of: there is no net.sprig; did you mean \"net.spring\"?")) << wrong.err;
+    const Outcome right = run({"render", scene, "-o", out, "--no-pictures", "--quiet", "--metrics-of",
+                               "position(net.spring@bob).y,speed(net.spring@bob)"});
+    EXPECT_EQ(right.code, 0) << right.err;
+    const std::string csv = test::contentOf(folder / "out/metrics.csv");
+    EXPECT_TRUE(has(csv, "kinetic_J")) << csv;
+    EXPECT_TRUE(has(csv, ",position(net.spring@bob).y,speed(net.spring@bob)\n")) << csv;
+    EXPECT_TRUE(has(csv, ",1,0\n")) << csv;
+}
+
 TEST(Program, NeverOverwritingSparesTheRecordOfTheRunToo) {
     const TemporaryFolder folder;
     const std::string scene = springScene(folder).string(), frames = (folder / "f_######.png").string();

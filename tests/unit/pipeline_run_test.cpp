@@ -170,6 +170,17 @@ TEST(RunRecord, MetricsHaveALineAFrameWithTheColumnsOfTheHeading) {
     EXPECT_GT(result.frames[3].metrics->kinetic, 0.0);
 }
 
+TEST(RunRecord, FiguresAreColumnsOfSeventeenDigits) {
+    const auto figures = [](const world::World& world) { return std::vector<double>{world.time() / 3.0, NAN}; };
+    const RunResult result = playWithoutPictures(pendulum(), {.lastFrame = 1, .metrics = true, .figures = figures});
+    std::string csv;
+    writeMetricsCsv([&](std::string_view text) { csv += text; }, result, {"time / 3", "distance(a.b, c.d)"});
+    EXPECT_NE(csv.find(",time / 3,\"distance(a.b, c.d)\"\n"), std::string::npos) << csv;
+    const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
+    EXPECT_EQ(result.frames[1].time, 1.0 / 30.0);
+    EXPECT_TRUE(last.ends_with(",0.011111111111111112,\n")) << last;
+}
+
 TEST(RunRecord, JsonTellsWhatWasComputedAndOnWhat) {
     world::SceneSpec spec = pendulum();
     world::WindSpec& wind = spec.forces.add(world::WindSpec{});

@@ -12,6 +12,7 @@
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/regression/judging.h"
+#include "taut/regression/scenario_text.h"
 #include "taut/regression/tape_compare.h"
 
 namespace taut::regression {
@@ -88,6 +89,7 @@ std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& p
         if (updatePicture(scenario, picture, folder, manifest, goldens, why, played.renderer, files))
             changes.push_back(
                 fmt::format("{}: picture", folder.picture(scenario.name, picture.request.key()).string()));
+    if (keepText(scenario, folder)) changes.push_back(fmt::format("{}: text", folder.text(scenario.name).string()));
     for (const std::string& key : dropped) {
         goldens.pictures.erase(key);
         files.remove(folder.picture(scenario.name, key));

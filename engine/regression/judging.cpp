@@ -9,6 +9,7 @@
 #include "taut/image/png.h"
 #include "taut/image/read.h"
 #include "taut/pipeline/run.h"
+#include "taut/regression/scenario_text.h"
 #include "taut/regression/tape_compare.h"
 
 namespace taut::regression {
@@ -99,6 +100,12 @@ void compare(const PlayedPicture& played, const GoldenPicture& golden, const std
         picture.difference = image::pngBytes(image::differencePicture(expected, played.picture));
     }
     if (comparison.within) return;
+    if (comparison.sameSize && comparison.worstTileShare > 0.0) {
+        picture.worstTile = {comparison.worstTileX, comparison.worstTileY,
+                             std::min(image::tileSize, expected.width - comparison.worstTileX),
+                             std::min(image::tileSize, expected.height - comparison.worstTileY)};
+        picture.size = {expected.width, expected.height};
+    }
     picture.verdict = Verdict::failed;
     picture.reason = comparison.sameSize
                          ? picture.figures
@@ -192,6 +199,7 @@ TestScenario judged(const Scenario& scenario, const Played& played, const Golden
     result.verdict = result.state.verdict;
     for (const report::TestCheck& check : result.checks) result.verdict = std::max(result.verdict, check.verdict);
     for (const TestPicture& picture : result.pictures) result.verdict = std::max(result.verdict, picture.verdict);
+    if (result.verdict != Verdict::passed) result.changes = changedText(scenario, folder);
     return result;
 }
 

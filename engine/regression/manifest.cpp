@@ -119,6 +119,9 @@ std::filesystem::path GoldenFolder::stored(const std::string& scenario, const st
 std::filesystem::path GoldenFolder::tape(const std::string& scenario) const {
     return path / scenario / "state.tape";
 }
+std::filesystem::path GoldenFolder::text(const std::string& scenario) const {
+    return path / scenario / "scenario.toml";
+}
 
 Manifest readManifest(const GoldenFolder& folder) {
     core::FileBatch::recover(folder.path);

@@ -44,6 +44,7 @@ struct GoldenFolder {
     std::filesystem::path picture(const std::string& scenario, const std::string& key) const;  // NAME/000120.png
     std::filesystem::path stored(const std::string& scenario, const std::string& key) const;   // NAME/000120.state
     std::filesystem::path tape(const std::string& scenario) const;                             // NAME/state.tape
+    std::filesystem::path text(const std::string& scenario) const;                             // NAME/scenario.toml
 };
 
 // Without a file an empty manifest; an update of goldens that was broken off is brought to its end first. Throws core::Error: inputOutput when it cannot be read, badContent when it is no

@@ -46,6 +46,11 @@ for (const viewer of document.querySelectorAll('.viewer')) {
     figure.querySelector('.none').hidden = Boolean(data);
     image.hidden = !data;
     if (data) image.src = 'data:image/png;base64,' + data; else image.removeAttribute('src');
+    const box = figure.querySelector('svg'), isMarked = Boolean(data) && now.tile[2] > 0;
+    box.style.display = isMarked ? '' : 'none';
+    box.setAttribute('viewBox', '0 0 ' + now.size.join(' '));
+    for (const rect of box.querySelectorAll('rect'))
+      ['x', 'y', 'width', 'height'].forEach((name, i) => rect.setAttribute(name, now.tile[i]));
     image.alt = names[shown] + ', frame ' + now.frame;
     figure.dataset.shown = shown;
   };

@@ -80,6 +80,9 @@ figcaption { display: flex; justify-content: space-between; font-size: 13px; col
 figcaption b { color: var(--text); font-weight: 600; }
 .frame { position: relative; border-radius: 10px; overflow: hidden; background: var(--faint); border: 1px solid var(--line); aspect-ratio: 16 / 9; }
 .frame img { display: block; width: 100%; height: 100%; object-fit: contain; }
+.tile-mark { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none; }
+.tile-mark rect { fill: none; stroke: #000; stroke-width: 4px; vector-effect: non-scaling-stroke; }
+.tile-mark rect + rect { stroke: #ffd400; stroke-width: 2px; }
 .frame [hidden] { display: none !important; }
 .frame .none { position: absolute; inset: 0; display: grid; place-items: center; color: var(--quiet); font-size: 14px; }
 .frame.swaps { cursor: crosshair; }
@@ -87,7 +90,15 @@ figcaption b { color: var(--text); font-weight: 600; }
 .note { margin: 10px 2px 0; font-size: 14px; }
 
 .command { display: flex; gap: 10px; align-items: stretch; margin-top: 10px; }
-.command code { flex: 1; background: var(--faint); border: 1px solid var(--line); border-radius: 8px; padding: 8px 12px; overflow-x: auto; white-space: pre; }
+.command code { flex: 1; background: var(--faint); border: 1px solid var(--line); border-radius: 8px; padding: 8px 12px; min-width: 0; white-space: pre-wrap; overflow-wrap: anywhere; }
+.command button { align-self: flex-start; }
+.diff { background: var(--faint); border: 1px solid var(--line); border-radius: 8px; padding: 6px 0; }
+.diff div { display: grid; grid-template-columns: 44px 1fr; gap: 12px; padding: 0 12px; }
+.diff span { color: var(--quiet); text-align: right; font-size: 12px; font-variant-numeric: tabular-nums; }
+.diff code { white-space: pre-wrap; overflow-wrap: anywhere; }
+.diff .same code { color: var(--quiet); }
+.diff .gone { background: color-mix(in srgb, var(--bad) 12%, transparent); }
+.diff .added { background: color-mix(in srgb, var(--good) 12%, transparent); }
 .cal td { padding: 5px 12px 5px 0; }
 footer { color: var(--quiet); font-size: 13px; margin-top: 28px; }
 @media (max-width: 900px) { .stage { grid-template-columns: 1fr; } .scenario > summary { grid-template-columns: 1fr; } }

@@ -42,12 +42,22 @@ std::string counted(const Items& items, const char* what) {
     return fmt::format("<span>{}/{} {}</span>", passed, items.size(), what);
 }
 
+template <class Item>
+std::vector<const Item*> gravestFirst(const std::vector<Item>& items) {
+    std::vector<const Item*> sorted;
+    for (const Item& item : items) sorted.push_back(&item);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto* a, const auto* b) { return a->verdict > b->verdict; });
+    return sorted;
+}
+
 std::string checksTable(const TestScenario& scenario) {
     if (scenario.checks.empty()) return "";
     std::string text =
         "<h3>Checks</h3>\n<table><tr><th></th><th>check</th><th>holds</th><th>value</th><th>bound</th><th>when</th>"
         "<th>where</th><th>line</th></tr>\n";
-    for (const TestCheck& check : scenario.checks) {
+    for (const TestCheck* each : gravestFirst(scenario.checks)) {
+        const TestCheck& check = *each;
         text += fmt::format(
             "<tr><td>{}</td><td><code>{}</code></td><td>{}</td><td class=\"mono\">{}</td><td class=\"mono\">{}</td>"
             "<td>{}</td><td>{}</td><td class=\"quiet small\">{}</td></tr>\n",
@@ -73,18 +83,20 @@ std::string statePart(const TestState& state) {
 std::string frameJson(const TestPicture& picture) {
     return fmt::format(
         "{{\"key\":{},\"frame\":{},\"label\":{},\"verdict\":\"{}\",\"reason\":{},\"figures\":{},\"why\":{},"
-        "\"madeBy\":{},\"same\":{},\"golden\":\"{}\",\"actual\":\"{}\",\"difference\":\"{}\"}}",
+        "\"madeBy\":{},\"same\":{},\"size\":[{}],\"tile\":[{}],\"golden\":\"{}\",\"actual\":\"{}\",\"difference\":\"{}"
+        "\"}}",
         scriptText(picture.key), picture.frame,
         scriptText(fmt::format("frame {}, {:.3f} s", picture.frame, picture.time)), nameOf(picture.verdict),
         scriptText(picture.reason), scriptText(picture.figures), scriptText(picture.why), scriptText(picture.madeBy),
-        picture.isSame, base64(picture.golden), picture.isSame ? "" : base64(picture.actual),
-        base64(picture.difference));
+        picture.isSame, fmt::join(picture.size, ","), fmt::join(picture.worstTile, ","), base64(picture.golden),
+        picture.isSame ? "" : base64(picture.actual), base64(picture.difference));
 }
 
 std::string figurePart(const char* kind, bool swaps, const char* none) {
     return fmt::format(
         "<figure data-kind=\"{}\"><figcaption><b></b>{}</figcaption><div class=\"frame{}\">"
-        "<img hidden alt=\"\"><div class=\"none\" hidden>{}</div></div></figure>\n",
+        "<img hidden alt=\"\"><svg class=\"tile-mark\" aria-hidden=\"true\"><rect/><rect/></svg><div class=\"none\" "
+        "hidden>{}</div></div></figure>\n",
         kind, swaps ? "<span>point to swap</span>" : "", swaps ? " swaps" : "", none);
 }
 
@@ -110,6 +122,23 @@ std::string viewerPart(const TestScenario& scenario) {
         figurePart("difference", false, "nothing to compare"));
 }
 
+std::string changesPart(const std::vector<TextChange>& changes) {
+    if (changes.empty()) return "";
+    std::string text = "<h3>Changed in its text since</h3>\n<div class=\"diff\">";
+    for (const TextChange& change : changes) {
+        const char* kind = change.sign == '+' ? "added" : change.sign == '-' ? "gone" : "same";
+        if (change.sign == '~')
+            text += "<div class=\"same\"><span></span><code>⋮</code></div>";
+        else
+            text += fmt::format("<div class=\"{}\"><span>{}</span><code>{} {}</code></div>", kind, change.line,
+                                change.sign == '-'   ? "\u2212"
+                                : change.sign == '+' ? "+"
+                                                     : "\u2007",
+                                htmlText(change.text));
+    }
+    return text + "</div>\n";
+}
+
 std::string scenarioPart(const TestScenario& scenario) {
     const bool isGood = scenario.verdict == Verdict::passed;
     std::string text = fmt::format(
@@ -120,7 +149,7 @@ std::string scenarioPart(const TestScenario& scenario) {
         htmlText(scenario.name), htmlText(scenario.title), counted(scenario.checks, "checks"),
         counted(scenario.pictures, "pictures"), scenario.sceneSeconds, scenario.seconds);
     for (const std::string& fault : scenario.faults) text += reason(scenario.verdict, fault);
-    text += viewerPart(scenario) + checksTable(scenario) + statePart(scenario.state);
+    text += viewerPart(scenario) + checksTable(scenario) + statePart(scenario.state) + changesPart(scenario.changes);
     if (!scenario.accept.empty())
         text += fmt::format(
             "<h3>{}</h3>\n<div class=\"command\"><code>{}</code><button class=\"copy\">Copy</button>"
@@ -219,7 +248,7 @@ std::string base64(const std::vector<std::byte>& bytes) {
     return out;
 }
 
-// Failing scenarios stand first. The policy in the head makes sure that the page asks nothing of any network.
+// What is gravest stands first. The policy in the head makes sure that the page asks nothing of any network.
 std::string testPage(const TestReport& report) {
     const Verdict verdict = verdictOf(report);
     std::string text = fmt::format(
@@ -229,13 +258,12 @@ std::string testPage(const TestReport& report) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>taut test: {}</title>\n"
         "<style>{}</style>\n</head>\n<body>\n<main>\n<div class=\"top\"><h1>taut test</h1>{}<span "
         "class=\"space\"></span>"
-        "<button id=\"failing\" aria-pressed=\"false\">Failing only</button><button id=\"theme\">Dark</button></div>\n"
+        "<button id=\"failing\" aria-pressed=\"false\">Hide passed</button><button "
+        "id=\"theme\">Dark</button></div>\n"
         "<div class=\"facts\">{}</div>\n{}",
         nameOf(verdict), pageStyle(), mark(verdict),
         join({report.program, report.compiler, report.machine, report.renderer}), tilesPart(report));
-    for (const bool isGood : {false, true})
-        for (const TestScenario& scenario : report.scenarios)
-            if ((scenario.verdict == Verdict::passed) == isGood) text += scenarioPart(scenario);
+    for (const TestScenario* scenario : gravestFirst(report.scenarios)) text += scenarioPart(*scenario);
     text += calibrationPart(report.calibration);
     for (const std::string& note : report.notes)
         text += fmt::format("<p class=\"quiet small\">{}</p>\n", htmlText(note));

@@ -2,10 +2,13 @@
 // are played nor how they are judged.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "taut/report/text_changes.h"
 
 namespace taut::report {
 
@@ -46,6 +49,8 @@ struct TestPicture {
     std::string madeBy;   // the renderer that drew the golden
     bool isSame = false;  // golden and actual do not differ in a single pixel
     std::vector<std::byte> golden, actual, difference;
+    std::array<int, 2> size{};       // [px] width and height, where a tile is marked
+    std::array<int, 4> worstTile{};  // [px] left, top, width and height of the one that differs most; 0: none
 };
 
 struct TestScenario {
@@ -60,6 +65,7 @@ struct TestScenario {
     double seconds = 0;       // [s] of wall time
     double sceneSeconds = 0;  // [s] of the scene
     double framesPerSecond = 60;
+    std::vector<TextChange> changes;  // of its text since its goldens were accepted
     std::string accept;  // the command that accepts what differs; empty: nothing to accept
 };
 

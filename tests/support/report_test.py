@@ -50,6 +50,12 @@ def failing_run(program, folder):
     made = subprocess.run([program, "test", folder, "--update", "spring", "--why", "The first of its kind."],
                           capture_output=True, text=True, check=False)
     expect(made.returncode == 0, f"no goldens: {made.stderr}")
+    same = folder / "a-same.toml"
+    same.write_text(SCENARIO, encoding="utf-8")
+    kept = subprocess.run([program, "test", folder, "--update", "a-same", "--why", "It stays."], capture_output=True,
+                          text=True, check=False)
+    expect(kept.returncode == 0, f"no goldens: {kept.stderr}")
+    (folder / "b-new.toml").write_text(SCENARIO, encoding="utf-8")
     scenario.write_text(SCENARIO.replace("100.0", "60.0"), encoding="utf-8")
     run = subprocess.run([program, "test", folder, "-o", folder / "out", "--quiet"], capture_output=True, text=True,
                          check=False)
@@ -114,6 +120,38 @@ def read(driver):
     expect(driver.find_element(By.TAG_NAME, "html").get_attribute("data-theme") != before, "no other theme")
 
 
+def find(driver, viewer):
+    """The worst tile is framed where it lies in all three pictures, and the text's change is shown."""
+    tile = json.loads(viewer.find_element(By.CSS_SELECTOR, "script").get_attribute("textContent"))[0]["tile"]
+    expect(tile[2] > 0, "no tile is named")
+    for figure in viewer.find_elements(By.TAG_NAME, "figure"):
+        rect = figure.find_element(By.TAG_NAME, "rect")
+        picture = figure.find_element(By.TAG_NAME, "img")
+        expect(rect.is_displayed(), "the worst tile is not marked")
+        left = picture.rect["x"] + picture.rect["width"] * tile[0] / 160
+        expect(abs(rect.rect["x"] - left) < 4, f"the mark is at {rect.rect['x']}, the tile at {left}")
+    changes = {kind: [line.text for line in driver.find_elements(By.CSS_SELECTOR, f"#spring .diff .{kind} code")]
+               for kind in ("gone", "added")}
+    expect(len(changes["gone"]) == 1 and "100.0" in changes["gone"][0], f"what has gone is {changes['gone']}")
+    expect(len(changes["added"]) == 1 and "60.0" in changes["added"][0], f"what is new is {changes['added']}")
+
+
+def sort(driver):
+    """Failures come first, then what has no golden; the button hides what passed and nothing else."""
+    names = lambda: [s.get_attribute("id") for s in driver.find_elements(By.CSS_SELECTOR, "details.scenario")
+                     if s.is_displayed()]
+    expect(names() == ["spring", "b-new", "a-same"], f"the scenarios stand as {names()}")
+    button = driver.find_element(By.ID, "failing")
+    button.click()
+    expect(names() == ["spring", "b-new"], f"without what passed there are {names()}")
+    button.click()
+    driver.set_window_size(700, 1400)
+    for command in driver.find_elements(By.CSS_SELECTOR, ".command code"):
+        wide = driver.execute_script("return arguments[0].scrollWidth - arguments[0].clientWidth", command)
+        expect(wide <= 0, "a command does not wrap")
+    driver.set_window_size(1200, 1400)
+
+
 def listen(driver, page):
     """What the page asked for: itself, and pictures that it carries."""
     for entry in driver.get_log("performance"):
@@ -133,6 +171,8 @@ def main():
         viewer, images = look(driver, page)
         scrub(viewer, images)
         swap(driver, viewer, images)
+        find(driver, viewer)
+        sort(driver)
         read(driver)
         listen(driver, page)
     finally:

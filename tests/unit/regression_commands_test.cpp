@@ -72,6 +72,25 @@ TEST(TestCommand, AChangedStateFailsWithTickAndBody) {
     EXPECT_TRUE(has(changed.out, "net.spring differs first")) << changed.out;
 }
 
+// The text is kept with the goldens: what was changed in it, and in what it builds on, stands in the report.
+TEST(TestCommand, TheReportShowsWhatChangedInTheText) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "base");
+    test::writeText(folder / "base/spring.toml", springText());
+    test::writeText(folder / "pull.toml", "schema = 1\nscene = \"base/spring.toml\"\n");
+    EXPECT_EQ(acceptRun(folder, "pull", "The first of its kind.").code, 0);
+    const Outcome again = acceptRun(folder, "pull", "Nothing new.");
+    EXPECT_TRUE(has(again.out, "nothing differs from its goldens")) << again.out;
+    test::writeText(folder / "base/spring.toml", springText("99.0"));
+    EXPECT_EQ(testRun(folder).code, 1);
+    const std::string page = test::contentOf(folder / "out/report.html");
+    EXPECT_TRUE(has(page,
+                    "<code>\u2212 springs = [ { a = &quot;nail&quot;, b = &quot;bob&quot;, stiffness_N_per_m = "
+                    "100.0 } ]</code>"));
+    EXPECT_TRUE(has(page, "<code>+ springs = [ { a = &quot;nail&quot;, b = &quot;bob&quot;, stiffness_N_per_m = 99.0"));
+    EXPECT_FALSE(has(page, "[collider.ground]"));
+}
+
 // Two scenarios, the second one without golden: the graver failure decides.
 TEST(TestCommand, AFailureComesBeforeAMissingGolden) {
     const TemporaryFolder folder;

@@ -5,10 +5,11 @@
 #include <span>
 #include <string>
 
-#include "taut/report/junit.h"
-#include "taut/report/test_page.h"
 #include "report_test_results.h"
 #include "support/text.h"
+#include "taut/report/junit.h"
+#include "taut/report/test_page.h"
+#include "taut/report/text_changes.h"
 
 namespace taut::report::report_test_report {
 namespace {
@@ -105,6 +106,48 @@ TEST(TestReportPage, ShowsFailuresFirstWithReasonAndCommand) {
     EXPECT_TRUE(has(page, "too many pixels \\u003c/script> differ"));
     EXPECT_EQ(count(page, "</script>"), 2);
     EXPECT_TRUE(has(page, "<code>1 &lt; 2 &amp; &quot;x&quot;</code>"));
+}
+
+TEST(TestReportPage, WhatIsGravestComesFirst) {
+    TestReport report = mixedReport();
+    report.scenarios[1].checks.insert(report.scenarios[1].checks.begin(), report.scenarios[0].checks[0]);
+    const std::string page = testPage(report);
+    std::size_t last = 0;
+    for (const char* id : {"id=\"diverged\"", "id=\"bad\"", "id=\"missing\"", "id=\"good\""}) {
+        EXPECT_GT(page.find(id), last) << id;
+        last = page.find(id);
+    }
+    const std::size_t bad = page.find("id=\"bad\"");
+    EXPECT_LT(page.find("rope.a, point 3", bad), page.find("speed(rope.a)", bad));  // the check that fails, the other
+}
+
+TEST(TestReportPage, NamesTheWorstTileAndWhatChangedInTheText) {
+    TestReport report = mixedReport();
+    EXPECT_FALSE(has(testPage(report), "Changed in its text"));
+    TestScenario& bad = report.scenarios[1];
+    bad.pictures[0].size = {640, 360};
+    bad.pictures[0].worstTile = {16, 352, 16, 8};
+    bad.changes = textChanges("a = 1\nb < 2\n", "a = 1\nb < 3\n");
+    const std::string page = testPage(report);
+    EXPECT_TRUE(has(page, "\"size\":[640,360],\"tile\":[16,352,16,8]"));
+    EXPECT_TRUE(has(page,
+                    "<div class=\"gone\"><span>2</span><code>\u2212 b &lt; 2</code></div>"
+                    "<div class=\"added\"><span>2</span><code>+ b &lt; 3</code></div>"));
+}
+
+std::string changesText(std::string_view before, std::string_view now) {
+    std::string text;
+    for (const TextChange& change : textChanges(before, now))
+        text += change.sign + std::to_string(change.line) + change.text + "|";
+    return text;
+}
+
+TEST(TextChanges, AreTheFewestLinesWithTheirNeighbours) {
+    EXPECT_EQ(changesText("a\nb\n", "a\nb"), "");
+    EXPECT_EQ(changesText("a\nb\nc\n", "a\nc\n"), " 1a|-2b| 2c|");
+    EXPECT_EQ(changesText("", "x\n"), "+1x|");
+    EXPECT_EQ(changesText("1\n2\n3\n4\n5\n6\n7\n8\n9\n", "1\n2\n3\nx\n5\n6\n7\n8\n9\ny\n"),
+              " 22| 33|-44|+4x| 55| 66|~0| 88| 99|+10y|");
 }
 
 TEST(TestReportPage, ShowsTheCalibration) {

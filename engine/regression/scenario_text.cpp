@@ -1,0 +1,34 @@
+#include "taut/regression/scenario_text.h"
+
+#include "taut/core/error.h"
+#include "taut/core/whole_file.h"
+
+namespace taut::regression {
+
+std::string scenarioText(const Scenario& scenario) {
+    std::string text = core::fileContent(scenario.file);
+    if (scenario.spec.base.empty()) return text;
+    if (!text.ends_with('\n')) text += '\n';
+    const std::filesystem::path base = scenario.spec.base;
+    return text + "\n# " + base.filename().string() + ", which it builds on\n" + core::fileContent(base);
+}
+
+std::vector<report::TextChange> changedText(const Scenario& scenario, const GoldenFolder& folder) {
+    try {
+        const std::filesystem::path kept = folder.text(scenario.name);
+        if (!core::isThere(kept)) return {};
+        return report::textChanges(core::fileContent(kept), scenarioText(scenario));
+    } catch (const core::Error&) {
+        return {};  // a help for the reader of the report, which the verdict does not hang on
+    }
+}
+
+bool keepText(const Scenario& scenario, const GoldenFolder& folder) {
+    const std::filesystem::path kept = folder.text(scenario.name);
+    const std::string text = scenarioText(scenario);
+    if (core::isThere(kept) && core::fileContent(kept) == text) return false;
+    core::writeWholeFile(kept, text);
+    return true;
+}
+
+}  // namespace taut::regression

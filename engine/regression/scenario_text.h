@@ -1,0 +1,22 @@
+// The text that a scenario is made of, kept beside its goldens so that a failure can show what was changed in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "taut/regression/manifest.h"
+#include "taut/regression/scenario.h"
+#include "taut/report/text_changes.h"
+
+namespace taut::regression {
+
+// The scenario's file and the one that it builds on, as they are now. Throws core::Error(inputOutput).
+std::string scenarioText(const Scenario& scenario);
+
+// What has changed in it since its goldens were accepted; empty if nothing has, or their text was not kept.
+std::vector<report::TextChange> changedText(const Scenario& scenario, const GoldenFolder& folder);
+
+// Keeps the text; true if another one was kept or none.
+bool keepText(const Scenario& scenario, const GoldenFolder& folder);
+
+}  // namespace taut::regression

@@ -89,7 +89,8 @@ std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& p
         if (updatePicture(scenario, picture, folder, manifest, goldens, why, played.renderer, files))
             changes.push_back(
                 fmt::format("{}: picture", folder.picture(scenario.name, picture.request.key()).string()));
-    if (keepText(scenario, folder)) changes.push_back(fmt::format("{}: text", folder.text(scenario.name).string()));
+    if (keepText(scenario, folder, files))
+        changes.push_back(fmt::format("{}: text", folder.text(scenario.name).string()));
     for (const std::string& key : dropped) {
         goldens.pictures.erase(key);
         files.remove(folder.picture(scenario.name, key));

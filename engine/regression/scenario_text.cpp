@@ -23,11 +23,11 @@ std::vector<report::TextChange> changedText(const Scenario& scenario, const Gold
     }
 }
 
-bool keepText(const Scenario& scenario, const GoldenFolder& folder) {
+bool keepText(const Scenario& scenario, const GoldenFolder& folder, core::FileBatch& files) {
     const std::filesystem::path kept = folder.text(scenario.name);
     const std::string text = scenarioText(scenario);
     if (core::isThere(kept) && core::fileContent(kept) == text) return false;
-    core::writeWholeFile(kept, text);
+    core::writeWholeFile(files.replace(kept), text);
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/core/file_batch.h"
 #include "taut/regression/manifest.h"
 #include "taut/regression/scenario.h"
 #include "taut/report/text_changes.h"
@@ -17,6 +18,6 @@ std::string scenarioText(const Scenario& scenario);
 std::vector<report::TextChange> changedText(const Scenario& scenario, const GoldenFolder& folder);
 
 // Keeps the text; true if another one was kept or none.
-bool keepText(const Scenario& scenario, const GoldenFolder& folder);
+bool keepText(const Scenario& scenario, const GoldenFolder& folder, core::FileBatch& files);
 
 }  // namespace taut::regression

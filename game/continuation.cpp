@@ -45,23 +45,23 @@ void addContinuationFlags(Options& options, ContinuationFlags& flags) {
         .within(std::int64_t{0}, mostFrames);
 }
 
-RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const world::World& world) {
+RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const world::World& world) {
     core::Hash steps;  // chosen with an eye on the whole timeline
     for (const world::IslandInfo& island : world.islands()) {
         steps.add(island.name);
         steps.add(island.step);
     }
     core::Hash picture;
-    picture.add(scene.picture());
+    picture.add(scene.keys.picture());
     picture.add(static_cast<std::uint64_t>(debug));
     picture.add(static_cast<std::uint64_t>(overlay));
-    const auto state = [scene, stepsKey = steps.value(), ticks = world.ticksPerFrame()](std::int64_t frame) {
+    const auto state = [keys = scene.keys, stepsKey = steps.value(), ticks = world.ticksPerFrame()](std::int64_t frame) {
         core::Hash hash;
-        hash.add(scene.stateAt(frame * ticks));
+        hash.add(keys.stateAt(frame * ticks));
         hash.add(stepsKey);
         return hash.value();
     };
-    return {state, picture.value()};
+    return {state, picture.value(), scene::usedFiles(scene.spec)};
 }
 
 pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
@@ -108,7 +108,7 @@ void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, c
     const auto keep = [folder, keys](std::int64_t frame, std::vector<std::byte> state,
                                      const pipeline::RecordLog& before) {
         pipeline::writeCheckpoint(pipeline::CheckpointFolder(folder).pathOf(frame),
-                                  {frame, keys.state(frame), keys.picture, std::move(state), before.digest()});
+                                  {frame, keys.state(frame), keys.picture, std::move(state), before.digest(), keys.files});
     };
     if (world.tick() == 0) keep(0, world.save(), pipeline::RecordLog());
     listener.checkpoint = keep;

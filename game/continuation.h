@@ -9,7 +9,8 @@
 
 #include "game/command_line.h"
 #include "taut/pipeline/run.h"
-#include "taut/scene/state_keys.h"
+#include "taut/scene/load.h"
+#include "taut/scene/used_files.h"
 #include "taut/world/world.h"
 
 namespace taut::game {
@@ -29,8 +30,9 @@ void addContinuationFlags(Options& options, ContinuationFlags& flags);
 struct RunKeys {
     std::function<std::uint64_t(std::int64_t frame)> state;  // of the state that goes on with that frame
     std::uint64_t picture = 0;
+    std::vector<scene::UsedFile> files;  // that the scene depends on
 };
-RunKeys runKeys(const scene::StateKeys& scene, bool debug, bool overlay, const world::World& world);
+RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const world::World& world);
 
 // Puts the world where the run is to go on, says so in the options, and returns the records of the frames before: for
 // --from the last checkpoint at or before that frame, for --resume the last before the first frame that `output` lacks

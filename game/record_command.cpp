@@ -42,6 +42,7 @@ world::SceneSpec readRecorded(const std::filesystem::path& file, const RecordFla
     scene::Loaded loaded =
         scene::loadSceneText(tape.origin.text, tape.origin.scene, loadOptions(tape.origin.overrides));
     printWarnings(loaded.warnings);
+    tape.origin.files = scene::usedFiles(loaded.spec);
     return std::move(loaded.spec);
 }
 

@@ -247,7 +247,7 @@ int render(const RenderFlags& flags) {
     printWarnings(foreseen);
 
     const std::filesystem::path states = checkpointFolder(flags, sink.get());
-    const RunKeys keys = runKeys(scene.keys, flags.debug, flags.overlay, world);
+    const RunKeys keys = runKeys(scene, flags.debug, flags.overlay, world);
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.yes;
     const std::string output = flags.noPictures ? "" : flags.output;

@@ -39,6 +39,8 @@ void printFacts(const std::string& name, const regression::Tape& tape) {
                tape.tickSeconds, tape.ticksPerFrame, tape.casts.front().names.size(),
                hasPoints(tape) ? " and of their points" : "");
     if (!origin.scene.empty()) printResult("  scene {}\n", origin.scene);
+    for (const scene::UsedFile& file : origin.files)
+        if (file.path != origin.scene) printResult("  depends on {}\n", file.path);
     for (const std::string& override_ : origin.overrides) printResult("  --set {}\n", override_);
     printResult("  by {}, {}, {}\n  last hash {:016x}\n", origin.program, origin.compiler, origin.simd,
                tape.chain.back());
@@ -58,9 +60,14 @@ world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape)
             fmt::format("{}: this tape holds no scene (it is the golden of a scenario): say which to play "
                         "with --scene",
                         flags.tape));
-    std::error_code error;
-    if (!std::filesystem::exists(tape.origin.scene, error) || core::fileContent(tape.origin.scene) != tape.origin.text)
+    if (tape.origin.files.empty() && (!core::isThere(tape.origin.scene) ||
+                                      core::fileContent(tape.origin.scene) != tape.origin.text))
         printWarnings({fmt::format("{} is not what it was; the text on the tape is played", tape.origin.scene)});
+    for (const std::string& change : scene::changedSince(tape.origin.files)) {
+        const bool isScene = change.starts_with(tape.origin.scene + " ");
+        printWarnings({fmt::format("{} since this tape was recorded{}", change,
+                                   isScene ? "; the text on the tape is played" : "")});
+    }
     return scene::loadSceneText(tape.origin.text, tape.origin.scene, options).spec;
 }
 

@@ -15,6 +15,14 @@ namespace {
 const SealedKind checkpointKind{"tautstat", 2, "checkpoint"};
 constexpr std::string_view before = "checkpoint_", after = ".taut";
 
+// ": sail.obj has changed"; empty where no file has.
+std::string changesSince(const Checkpoint& checkpoint) {
+    std::string text;
+    for (const std::string& change : scene::changedSince(checkpoint.files))
+        text += (text.empty() ? ": " : ", ") + change;
+    return text;
+}
+
 }  // namespace
 
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
@@ -24,6 +32,7 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
     writer.add(checkpoint.picture);
     writer.addList(std::span<const std::byte>(checkpoint.world));
     writer.add(checkpoint.records);
+    scene::addUsedFiles(writer, checkpoint.files);
     writeSealed(path, checkpointKind, writer.take());
 }
 
@@ -39,6 +48,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& path, std::uint64_t maxBy
         checkpoint.picture = reader.number<std::uint64_t>();
         checkpoint.world = reader.list<std::byte>();
         checkpoint.records = reader.number<std::uint64_t>();
+        checkpoint.files = scene::nextUsedFiles(reader);
         if (!reader.isAtEnd() || checkpoint.frame < 0) core::ByteReader::fail();
         return checkpoint;
     } catch (const core::Error& error) {
@@ -82,8 +92,8 @@ std::optional<Checkpoint> CheckpointFolder::latest(std::int64_t frame,
             if (checkpoint.frame != there.back() || checkpoint.state != keyOf(there.back()))
                 refused.push_back(
                     fmt::format("{}: this checkpoint is of another scene, or of something else that happens "
-                                "before frame {}",
-                                path.string(), there.back()));
+                                "before frame {}{}",
+                                path.string(), there.back(), changesSince(checkpoint)));
             else if (RecordLog::digestOf(records(), static_cast<std::size_t>(there.back())) != checkpoint.records)
                 refused.push_back(
                     fmt::format("{}: {} is of another run", path.string(), records().filename().string()));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "taut/pipeline/run.h"
+#include "taut/scene/used_files.h"
 
 namespace taut::pipeline {
 
@@ -18,6 +19,7 @@ struct Checkpoint {
     std::uint64_t picture = 0;         // key of all that has made the pictures before
     std::vector<std::byte> world;  // World::save()
     std::uint64_t records = 0;     // digest of the records of the frames before
+    std::vector<scene::UsedFile> files{};  // that the scene depends on, to say which has changed
 };
 
 // Whole or not at all; throws core::Error(inputOutput).

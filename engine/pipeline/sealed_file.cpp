@@ -65,7 +65,7 @@ std::vector<std::byte> unsealed(const SealedKind& kind, std::span<const std::byt
     if (bytes.size() < headSize) refuse(name, fmt::format("this {} is cut short", kind.title));
     core::ByteReader head(bytes.subspan(markSize));
     const auto version = head.number<std::uint32_t>();
-    if (version != kind.version)
+    if (version > kind.version || version < (kind.oldest > 0 ? kind.oldest : kind.version))
         refuse(name, fmt::format("this {} has format {}, and this taut reads format {}: it was written by {} one",
                                  kind.title, version, kind.version, version > kind.version ? "a newer" : "an older"));
     const std::span<const std::byte> body = bytes.subspan(headSize);

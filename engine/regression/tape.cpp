@@ -14,7 +14,7 @@
 namespace taut::regression {
 namespace {
 
-const pipeline::SealedKind kind{"tauttape", 1, "tape"};
+const pipeline::SealedKind kind{.mark = "tauttape", .version = 2, .title = "tape", .oldest = 1};  // 1: without the files used
 
 std::map<std::string, ecs::Entity> bodyEntities(world::World& world) {
     std::map<std::string, ecs::Entity> entities;
@@ -85,6 +85,7 @@ Tape tapeIn(std::span<const std::byte> content) {
     tape.chain = reader.list<std::uint64_t>();
     tape.bodies = reader.list<std::uint64_t>();
     tape.points = reader.list<std::uint32_t>();
+    if (!reader.isAtEnd()) tape.origin.files = scene::nextUsedFiles(reader);
     if (!reader.isAtEnd()) core::ByteReader::fail();
     index(tape);
     return tape;
@@ -141,6 +142,7 @@ void writeTape(const std::filesystem::path& path, const Tape& tape) {
     addNumbers(writer, tape.chain);
     addNumbers(writer, tape.bodies);
     addNumbers(writer, tape.points);
+    if (!tape.origin.files.empty()) scene::addUsedFiles(writer, tape.origin.files);
     pipeline::writeSealed(path, kind, writer.take());
 }
 

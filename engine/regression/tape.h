@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/scene/used_files.h"
 #include "taut/world/world.h"
 
 namespace taut::regression {
@@ -17,6 +18,7 @@ struct TapeOrigin {
     std::string scene;                    // the file that was played; empty in a tape that belongs to a scenario
     std::string text;                     // what that file said
     std::vector<std::string> overrides;   // "key=value"
+    std::vector<scene::UsedFile> files{};  // that it depends on; none in one that belongs to a scenario
 };
 
 // The bodies that a tick has hashes of.

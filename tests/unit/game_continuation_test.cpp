@@ -79,6 +79,7 @@ TEST_F(Continuation, ReusesWhatIsBeforeAChangeOfTheTimeline) {
     const Outcome rest = play({"--from", "20"});
     EXPECT_TRUE(has(rest.err, "going on with frame 20")) << rest.err;
     EXPECT_NE(rest.out, from(whole_.out, 20));
+    EXPECT_TRUE(has(play({"--from", "29", "--set", "world.gravity=[0,-9,0]"}).err, "scene.toml has changed"));
     std::filesystem::remove_all(states());
     EXPECT_EQ(rest.out, play({"--from", "20"}).out) << "as computed from the start";
 }

@@ -208,7 +208,23 @@ TEST(Replay, NamesWhatDiffersFromAnotherTapeOrScene) {
     test::writeText(scene, springText("99.0"));
     const Outcome changed = run({"replay", a, "--verify", "--quiet"});
     EXPECT_EQ(changed.code, 0) << changed.out;
-    EXPECT_TRUE(has(changed.err, "is not what it was")) << changed.err;
+    EXPECT_TRUE(has(changed.err, "s.toml has changed since this tape was recorded; the text")) << changed.err;
+}
+
+// A tape holds the scene's own text only.
+TEST(Replay, NamesWhichOfTheFilesOfItsSceneHasChanged) {
+    const TemporaryFolder folder;
+    const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    test::writeText(folder / "stone.obj", obj);
+    test::writeText(folder / "s.toml", springText("100.0", "[collider.stone]\nshape = \"mesh\"\nmesh = \"stone.obj\"\n"));
+    const std::string tape = (folder / "a.tape").string();
+    EXPECT_EQ(run({"record", (folder / "s.toml").string(), "-o", tape, "--quiet"}).code, 0);
+    EXPECT_TRUE(has(run({"replay", tape}).out, "depends on " + (folder / "stone.obj").string()));
+    EXPECT_EQ(run({"replay", tape, "--verify", "--quiet"}).err, "");
+    test::writeText(folder / "stone.obj", obj + "# another\n");
+    const Outcome changed = run({"replay", tape, "--verify", "--quiet"});
+    EXPECT_EQ(changed.code, 0) << changed.err;
+    EXPECT_TRUE(has(changed.err, "stone.obj has changed since this tape was recorded\n")) << changed.err;
 }
 
 TEST(Replay, RefusesWhatItCannotPlay) {

@@ -96,7 +96,7 @@ void printResults(const study::WorkPrecision& result, const std::vector<study::G
     printResult("{}\n\n{}", result.title, study::workPrecisionSummary(result));
     if (!growth.empty())
         printResult("\nSteps until the error at t = 1 is below 1e-6, and what four evaluations buy\n\n{}",
-                   study::growthSummary(growth));
+                    study::growthSummary(growth));
     for (const std::string& remark : result.remarks) printResult("\n{}\n", remark);
 }
 

@@ -24,7 +24,7 @@ int chartRefinement(const std::filesystem::path& folder, const study::MachineFac
     output.write(std::string(refinementName) + ".csv", study::refinementCsv(result));
     output.write(std::string(refinementName) + ".json", study::refinementJson(result, machine));
     printResult("Sag or stretch at rest against theory, by cells along the longest side\n\n{}",
-               study::refinementSummary(result));
+                study::refinementSummary(result));
     for (const study::NamedChart& drawn : study::refinementCharts(result, {note}))
         output.draw(std::string(refinementName) + "-" + drawn.name, drawn.chart);
     return output.finish(interruption);

@@ -55,7 +55,8 @@ RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const worl
     picture.add(scene.keys.picture());
     picture.add(static_cast<std::uint64_t>(debug));
     picture.add(static_cast<std::uint64_t>(overlay));
-    const auto state = [keys = scene.keys, stepsKey = steps.value(), ticks = world.ticksPerFrame()](std::int64_t frame) {
+    const auto state = [keys = scene.keys, stepsKey = steps.value(),
+                        ticks = world.ticksPerFrame()](std::int64_t frame) {
         core::Hash hash;
         hash.add(keys.stateAt(frame * ticks));
         hash.add(stepsKey);
@@ -73,7 +74,8 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
     if (!flags.resume && !flags.from) return fromStart();
     const std::int64_t goal = flags.from ? *flags.from : std::min(firstMissing(output, options), options.lastFrame);
     std::vector<std::string> refused;
-    const std::optional<pipeline::Checkpoint> checkpoint = checkpoints.latest(goal, keys.state, mostBytes(world), refused);
+    const std::optional<pipeline::Checkpoint> checkpoint =
+        checkpoints.latest(goal, keys.state, mostBytes(world), refused);
     for (const std::string& line : refused) printNote("note: {}\n", line);
     const bool goesOnWithPictures =
         flags.resume && !output.empty() && !image::FramePattern(output).framesThere().empty();
@@ -107,8 +109,9 @@ void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, c
                      pipeline::RunListener& listener) {
     const auto keep = [folder, keys](std::int64_t frame, std::vector<std::byte> state,
                                      const pipeline::RecordLog& before) {
-        pipeline::writeCheckpoint(pipeline::CheckpointFolder(folder).pathOf(frame),
-                                  {frame, keys.state(frame), keys.picture, std::move(state), before.digest(), keys.files});
+        pipeline::writeCheckpoint(
+            pipeline::CheckpointFolder(folder).pathOf(frame),
+            {frame, keys.state(frame), keys.picture, std::move(state), before.digest(), keys.files});
     };
     if (world.tick() == 0) keep(0, world.save(), pipeline::RecordLog());
     listener.checkpoint = keep;

@@ -37,13 +37,13 @@ RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const worl
 // Puts the world where the run is to go on, says so in the options, and returns the records of the frames before: for
 // --from the last checkpoint at or before that frame, for --resume the last before the first frame that `output` lacks
 // (empty: none are drawn). Without any the run starts at frame 0. Prints what it does and what it had to pass over.
-// Throws core::Error: badContent when the pictures on disk were made with other settings, inputOutput when no state goes
-// on from them and they may not be overwritten.
+// Throws core::Error: badContent when the pictures on disk were made with other settings, inputOutput when no state
+// goes on from them and they may not be overwritten.
 pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
                          const std::string& output, pipeline::RunOptions& options, world::World& world);
 
-// Lets the listener write every checkpoint of the run into the folder, and one of its start at once, so that whatever is
-// killed can be resumed. Expects that the folder is there. Throws core::Error(inputOutput).
+// Lets the listener write every checkpoint of the run into the folder, and one of its start at once, so that whatever
+// is killed can be resumed. Expects that the folder is there. Throws core::Error(inputOutput).
 void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, const world::World& world,
                      pipeline::RunListener& listener);
 

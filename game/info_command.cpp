@@ -147,12 +147,12 @@ void printIsland(const world::IslandInfo& i) {
     printResult("\n{}\n", fmt::join(i.bodies, ", "));
     printResult("  points      {} ({} held), {:.4g} kg\n", i.points, i.heldPoints, i.mass);
     printResult("  springs     {} ({} runs, {} single){}\n", i.springs, i.runs, i.singles,
-               i.cells > 0 ? fmt::format(", {} volume cells", i.cells) : "");
+                i.cells > 0 ? fmt::format(", {} volume cells", i.cells) : "");
     printResult("  omega       {:.4g} /s bound of any state, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
-               i.omegaBound, i.omegaNow, i.omegaEstimate);
+                i.omegaBound, i.omegaNow, i.omegaEstimate);
     if (std::isfinite(i.stepLimit))
         printResult("  step limit  {:.4g} ms by {}\n", 1e3 * i.stepLimit,
-                   i.limitingSpring.empty() ? "nothing" : i.limitingSpring);
+                    i.limitingSpring.empty() ? "nothing" : i.limitingSpring);
     else
         printResult("  step limit  none\n");
     for (const std::string& advice : i.advice) printResult("              {}\n", advice);
@@ -195,9 +195,9 @@ void printTable(const Facts& facts) {
     const world::SceneSpec& spec = facts.spec;
     printResult("{}{}\n", spec.file, spec.title.empty() ? "" : ": " + spec.title);
     printResult("{} frames at {:.4g} a second, tick {:.4g} ms = frame / {}, {} precision, {}x{} pixels\n", facts.frames,
-               spec.run.fps, 1e3 * facts.tickSeconds, facts.ticksPerFrame,
-               spec.solver.precision == world::Precision::double_ ? "double" : "single", spec.picture.size.x,
-               spec.picture.size.y);
+                spec.run.fps, 1e3 * facts.tickSeconds, facts.ticksPerFrame,
+                spec.solver.precision == world::Precision::double_ ? "double" : "single", spec.picture.size.x,
+                spec.picture.size.y);
     for (const world::IslandInfo& island : facts.islands) printIsland(island);
     for (const world::JointInfo& joint : facts.joints) printJoint(joint);
 
@@ -242,12 +242,12 @@ std::string undampedLimit(const ode::MethodInfo& method) {
 
 void printMethods() {
     printResult("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", "name", "method", "order", "evals",
-               "arrays", "symplectic", "reversible", "y'=f", "limit", "largest stable ωh at damping ratio ζ");
+                "arrays", "symplectic", "reversible", "y'=f", "limit", "largest stable ωh at damping ratio ζ");
     const auto yes = [](bool is) { return is ? "yes" : "-"; };
     for (const ode::MethodInfo& m : ode::methods())
         printResult("{:<17} {:<16} {:>5} {:>6} {:>7} {:>10} {:>10} {:>6} {:>6}  {}\n", m.name, m.title, m.order,
-                   m.evaluations, m.storedArrays, yes(m.symplectic), yes(m.reversible), yes(m.isFirstOrder()),
-                   undampedLimit(m), m.limit);
+                    m.evaluations, m.storedArrays, yes(m.symplectic), yes(m.reversible), yes(m.isFirstOrder()),
+                    undampedLimit(m), m.limit);
     printResult(
         "\nevals: force evaluations a step, besides the solve of implicit Euler. arrays: kept besides positions and "
         "velocities, of their size. y'=f: takes "

@@ -170,7 +170,7 @@ void LivePlay::report() {
 void LivePlay::printSummary(double seconds) const {
     const double moved = static_cast<double>(ticks_) * session_->world().tickSeconds();
     printResult("{} pictures in {:.1f} s: {:.1f} pictures a second, motion at {:.0f} % of real time\n", pictures_,
-               seconds, static_cast<double>(pictures_) / seconds, 100.0 * moved / seconds);
+                seconds, static_cast<double>(pictures_) / seconds, 100.0 * moved / seconds);
 }
 
 }  // namespace taut::game

@@ -48,8 +48,8 @@ std::filesystem::path baseOf(const std::filesystem::path& scene, const std::stri
     const std::string name = plain.ends_with(".toml") ? plain : plain + ".toml";
     const std::filesystem::path beside = scene.parent_path() / name;
     std::error_code ignored;
-    const bool isBeside =
-        !isShipped && std::filesystem::is_regular_file(beside, ignored) && !std::filesystem::equivalent(beside, scene, ignored);
+    const bool isBeside = !isShipped && std::filesystem::is_regular_file(beside, ignored) &&
+                          !std::filesystem::equivalent(beside, scene, ignored);
     return isBeside ? beside : assetFolder() / "scenes" / name;
 }
 

@@ -51,12 +51,14 @@ void permitOverwriting(const std::filesystem::path& output, std::int64_t first, 
 std::string largeRunText(std::int64_t pictures, int width, int height) {
     constexpr std::int64_t many = 100000;
     if (pictures < many) return "";
-    constexpr double bytesOfPixel = 0.5, picturesOfSecond = 100.0;  // of the shipped scenes' PNG files; of a quick machine
+    constexpr double bytesOfPixel = 0.5,
+                     picturesOfSecond = 100.0;  // of the shipped scenes' PNG files; of a quick machine
     const double count = static_cast<double>(pictures);
-    return fmt::format("{} pictures of {} x {} pixels: about {:.3g} GB of PNG files, and {:.3g} hours at {} pictures a "
-                       "second",
-                       pictures, width, height, 1e-9 * count * bytesOfPixel * width * height,
-                       count / picturesOfSecond / 3600.0, picturesOfSecond);
+    return fmt::format(
+        "{} pictures of {} x {} pixels: about {:.3g} GB of PNG files, and {:.3g} hours at {} pictures a "
+        "second",
+        pictures, width, height, 1e-9 * count * bytesOfPixel * width * height, count / picturesOfSecond / 3600.0,
+        picturesOfSecond);
 }
 
 std::unique_ptr<image::FrameSink> makeSink(const std::filesystem::path& output, double fps) {

@@ -56,7 +56,7 @@ void write(const std::filesystem::path& file, const std::string& text, const stu
     (void)scene::loadSceneText(changed, file.string(), loadOptions());  // throws for what a scene may not say
     if (plan.unseen() > 0)
         printNote("warning: what happens between {:.3g} s and {:.3g} s was not looked at; look at the film\n",
-                   plan.seconds, plan.runSeconds);
+                  plan.seconds, plan.runSeconds);
     replaceSceneFile(file, text, changed);
     printResult("\n{}: {} value{} written\n", file.string(), plan.changes.size(), plan.changes.size() == 1 ? "" : "s");
 }

@@ -16,10 +16,10 @@ std::string clockText(double seconds);
 
 // What of a run never changes.
 struct ProgressFacts {
-    std::int64_t frames = 1;  // to simulate
-    double fps = 60.0;        // pictures a second of scene time
-    double step = 0.0;        // h of the island with the smallest [s]
-    double stepLimit = 0.0;   // its largest stable step [s]
+    std::int64_t frames = 1;              // to simulate
+    double fps = 60.0;                    // pictures a second of scene time
+    double step = 0.0;                    // h of the island with the smallest [s]
+    double stepLimit = 0.0;               // its largest stable step [s]
     std::optional<double> firstEnergy{};  // [J] at the start of the run; none: of the first record that has metrics
 };
 

@@ -72,7 +72,7 @@ int record(const RecordFlags& flags) {
     }
     regression::writeTape(output, tape);
     printResult("{}: {} ticks, {:.4g} s, last hash {:016x}\n", output.string(), tape.ticks(),
-               static_cast<double>(tape.ticks()) * tape.tickSeconds, tape.chain.back());
+                static_cast<double>(tape.ticks()) * tape.tickSeconds, tape.chain.back());
     if (divergence) throw core::Error(core::ErrorKind::diverged, divergence->message);
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
 }

@@ -36,14 +36,14 @@ bool hasPoints(const regression::Tape& tape) {
 void printFacts(const std::string& name, const regression::Tape& tape) {
     const regression::TapeOrigin& origin = tape.origin;
     printResult("{}\n  {} ticks of {:.6g} s, {} a picture, hashes of {} bodies{}\n", name, tape.ticks(),
-               tape.tickSeconds, tape.ticksPerFrame, tape.casts.front().names.size(),
-               hasPoints(tape) ? " and of their points" : "");
+                tape.tickSeconds, tape.ticksPerFrame, tape.casts.front().names.size(),
+                hasPoints(tape) ? " and of their points" : "");
     if (!origin.scene.empty()) printResult("  scene {}\n", origin.scene);
     for (const scene::UsedFile& file : origin.files)
         if (file.path != origin.scene) printResult("  depends on {}\n", file.path);
     for (const std::string& override_ : origin.overrides) printResult("  --set {}\n", override_);
     printResult("  by {}, {}, {}\n  last hash {:016x}\n", origin.program, origin.compiler, origin.simd,
-               tape.chain.back());
+                tape.chain.back());
 }
 
 // What a tape was made from, or the scene that is to be held against it.
@@ -60,8 +60,8 @@ world::SceneSpec sceneOf(const ReplayFlags& flags, const regression::Tape& tape)
             fmt::format("{}: this tape holds no scene (it is the golden of a scenario): say which to play "
                         "with --scene",
                         flags.tape));
-    if (tape.origin.files.empty() && (!core::isThere(tape.origin.scene) ||
-                                      core::fileContent(tape.origin.scene) != tape.origin.text))
+    if (tape.origin.files.empty() &&
+        (!core::isThere(tape.origin.scene) || core::fileContent(tape.origin.scene) != tape.origin.text))
         printWarnings({fmt::format("{} is not what it was; the text on the tape is played", tape.origin.scene)});
     for (const std::string& change : scene::changedSince(tape.origin.files)) {
         const bool isScene = change.starts_with(tape.origin.scene + " ");
@@ -104,7 +104,7 @@ int verdict(const ReplayFlags& flags, const regression::Tape& tape, const regres
         return fmt::format("{}, {}, {}", origin.program, origin.compiler, origin.simd);
     };
     printResult("  {}: by {}\n  {}: by {}\n", flags.tape, by(tape.origin),
-               flags.other.empty() ? "now" : flags.other.c_str(), by(now.origin));
+                flags.other.empty() ? "now" : flags.other.c_str(), by(now.origin));
     if (difference->fault == regression::TapeFault::state && difference->point < 0)
         printResult("  which point it is, two tapes with points can tell (taut record without --no-points)\n");
     return static_cast<int>(ExitCode::checkFailed);

@@ -258,8 +258,9 @@ int test(const TestFlags& flags) {
             regression::runSuite(run.read.scenarios, run.suite, run.manifest, report.renderer, interruption.flag());
     }
     if (flags.calibrate && !interruption.flag())
-        report.calibration = runCalibration(
-            {run.read.scenarios, run.suite.drawing, run.manifest.tolerance, flags.gl, flags.quiet}, interruption.flag());
+        report.calibration =
+            runCalibration({run.read.scenarios, run.suite.drawing, run.manifest.tolerance, flags.gl, flags.quiet},
+                           interruption.flag());
     for (const regression::UnreadScenario& scenario : run.read.unread) {
         report.scenarios.push_back(regression::unreadScenario(scenario));
         printNote("{}\n", scenario.fault);
@@ -290,8 +291,7 @@ void refuseToUpdate(const regression::Scenario& scenario, const regression::Play
 
 int update(const TestFlags& flags) {
     Run run = prepare(flags);
-    if (!run.read.unread.empty())
-        throw core::Error(core::ErrorKind::badContent, run.read.unread.front().fault);
+    if (!run.read.unread.empty()) throw core::Error(core::ErrorKind::badContent, run.read.unread.front().fault);
     const Interruption interruption;
     const core::ThreadLimit limit(flags.threads);
     regression::Drawer drawer(run.suite.drawing);

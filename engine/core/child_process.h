@@ -29,8 +29,8 @@ struct ChildCommand {
 
 // How a process ended: by an exit code of its own, or by a signal.
 struct ChildEnd {
-    int code = 0;    // 0 where a signal ended it
-    int signal = 0;  // 0 where none did
+    int code = 0;       // 0 where a signal ended it
+    int signal = 0;     // 0 where none did
     bool hung = false;  // we ended it, for our patience was at an end
     bool succeeded() const { return code == 0 && signal == 0; }
     std::string text() const;  // "failed with exit code 3", "was ended by signal 9", "hung", "ended well"

@@ -27,8 +27,8 @@ class FileBatch {
     // Throws core::Error(inputOutput); whether the batch is done then, recover() finds out.
     void commit();
 
-    // Finishes what a process that was killed had begun to commit. Throws core::Error: inputOutput, badContent for a list
-    // that names files elsewhere.
+    // Finishes what a process that was killed had begun to commit. Throws core::Error: inputOutput, badContent for a
+    // list that names files elsewhere.
     static void recover(const std::filesystem::path& folder);
 
   private:

@@ -42,13 +42,12 @@ std::string printable(std::string_view text) {
     shown.reserve(text.size());
     while (!text.empty()) {
         const Letter letter = firstLetter(text);
-        if (letter.size == 0) {
+        if (letter.size == 0)
             shown += "\\x" + hexadecimal(static_cast<unsigned char>(text[0]));
-        } else if (steers(letter.code)) {
+        else if (steers(letter.code))
             shown += "\\u{" + hexadecimal(letter.code) + "}";
-        } else {
+        else
             shown += text.substr(0, letter.size);
-        }
         text.remove_prefix(letter.size == 0 ? 1 : letter.size);
     }
     return shown;

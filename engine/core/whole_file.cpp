@@ -121,7 +121,9 @@ namespace {
 class OpenFile {
   public:
     OpenFile(const std::filesystem::path& path, std::chrono::milliseconds patience)
-        : path_(path), patience_(static_cast<int>(patience.count())), descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
+        : path_(path),
+          patience_(static_cast<int>(patience.count())),
+          descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
         if (descriptor_ < 0) failOn(path_, "cannot read", errno);
     }
     ~OpenFile() { ::close(descriptor_); }
@@ -160,8 +162,7 @@ class OpenFile {
 
 }  // namespace
 
-std::string fileContent(const std::filesystem::path& path, std::uint64_t maxBytes,
-                        std::chrono::milliseconds patience) {
+std::string fileContent(const std::filesystem::path& path, std::uint64_t maxBytes, std::chrono::milliseconds patience) {
     const OpenFile file(path, patience);
     const struct stat facts = file.facts();
     if (S_ISDIR(facts.st_mode)) failOn(path, "cannot read", EISDIR);
@@ -170,9 +171,9 @@ std::string fileContent(const std::filesystem::path& path, std::uint64_t maxByte
         throw Error(ErrorKind::inputOutput, path.string() + ": cannot read: this is a device, not a file");
     const auto tooLarge = [&] {
         const std::uint64_t mebibytes = maxBytes >> 20U;
-        throw Error(ErrorKind::badContent, path.string() + ": the file is larger than " +
-                                               (mebibytes > 0 ? std::to_string(mebibytes) + " MiB"
-                                                              : std::to_string(maxBytes) + " bytes"));
+        throw Error(ErrorKind::badContent,
+                    path.string() + ": the file is larger than " +
+                        (mebibytes > 0 ? std::to_string(mebibytes) + " MiB" : std::to_string(maxBytes) + " bytes"));
     };
     if (facts.st_size > 0 && static_cast<std::uint64_t>(facts.st_size) > maxBytes) tooLarge();
     std::string content;

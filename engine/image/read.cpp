@@ -107,10 +107,10 @@ Image readImage(const std::filesystem::path& path, std::int64_t maxPixels) {
     if (stbi_info_from_memory(bytes, size, &image.width, &image.height, &channelsInFile) == 0)
         fail(path, stbi_failure_reason());
     if (std::int64_t{image.width} * image.height > maxPixels)
-        throw core::Error(core::ErrorKind::badContent,
-                          path.string() + ": this picture has " + std::to_string(image.width) + " x " +
-                              std::to_string(image.height) + " pixels; up to " +
-                              std::to_string(maxPixels / 1000000) + " million are read");
+        throw core::Error(core::ErrorKind::badContent, path.string() + ": this picture has " +
+                                                           std::to_string(image.width) + " x " +
+                                                           std::to_string(image.height) + " pixels; up to " +
+                                                           std::to_string(maxPixels / 1000000) + " million are read");
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
         stbi_load_from_memory(bytes, size, &image.width, &image.height, &channelsInFile, 3), &stbi_image_free);
     if (!pixels) fail(path, stbi_failure_reason());

@@ -129,8 +129,9 @@ void VideoWriter::fail(const std::string& what) {
     const std::string text = encoder_->errors();
     encoder_.reset();
     file_.reset();
-    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {} {}{}{}", path_.string(), options_.program, end.hung ? end.text() : what,
-                                                                text.empty() ? "" : ":\n", text));
+    throw core::Error(core::ErrorKind::inputOutput,
+                      fmt::format("{}: {} {}{}{}", path_.string(), options_.program, end.hung ? end.text() : what,
+                                  text.empty() ? "" : ":\n", text));
 }
 
 std::filesystem::path VideoWriter::companion(const std::string& name) const {

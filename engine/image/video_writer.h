@@ -11,7 +11,7 @@
 namespace taut::core {
 class ChildProcess;
 class WholeFile;
-}
+}  // namespace taut::core
 
 namespace taut::image {
 
@@ -30,8 +30,8 @@ bool isVideoPath(const std::filesystem::path& path);
 class VideoWriter : public FrameSink {
   public:
     // Looks for the program, makes the folder and, under its temporary name, the file; throws core::Error(inputOutput),
-    // with the name of the package when the program is missing. The program starts with the first picture, because the size is
-    // known only then.
+    // with the name of the package when the program is missing. The program starts with the first picture, because the
+    // size is known only then.
     VideoWriter(std::filesystem::path path, VideoOptions options);
     ~VideoWriter() override;
     VideoWriter(const VideoWriter&) = delete;

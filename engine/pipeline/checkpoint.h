@@ -14,11 +14,11 @@
 namespace taut::pipeline {
 
 struct Checkpoint {
-    std::int64_t frame = 0;            // that comes next; the world is at its time
-    std::uint64_t state = 0;           // key of all that has made this state: scene, timeline so far, steps
-    std::uint64_t picture = 0;         // key of all that has made the pictures before
-    std::vector<std::byte> world;  // World::save()
-    std::uint64_t records = 0;     // digest of the records of the frames before
+    std::int64_t frame = 0;                // that comes next; the world is at its time
+    std::uint64_t state = 0;               // key of all that has made this state: scene, timeline so far, steps
+    std::uint64_t picture = 0;             // key of all that has made the pictures before
+    std::vector<std::byte> world;          // World::save()
+    std::uint64_t records = 0;             // digest of the records of the frames before
     std::vector<scene::UsedFile> files{};  // that the scene depends on, to say which has changed
 };
 
@@ -29,8 +29,8 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
 // take more memory than maxBytes.
 Checkpoint readCheckpoint(const std::filesystem::path& path, std::uint64_t maxBytes);
 
-// The checkpoints of one run, in a folder: checkpoint_000120.taut goes on with frame 120. Beside them lie the records of
-// all frames, once.
+// The checkpoints of one run, in a folder: checkpoint_000120.taut goes on with frame 120. Beside them lie the records
+// of all frames, once.
 class CheckpointFolder {
   public:
     explicit CheckpointFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}

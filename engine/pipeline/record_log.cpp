@@ -63,9 +63,12 @@ void take(std::span<const Word>& words, Number& number) {
 }
 
 std::vector<Word> wordsOf(const FrameRecord& record) {
-    std::vector<Word> words = {wordOf(record.time),       record.hash,
-                               wordOf(record.pictured),   wordOf(record.simulating),
-                               wordOf(record.drawing),    wordOf(record.encoding),
+    std::vector<Word> words = {wordOf(record.time),
+                               record.hash,
+                               wordOf(record.pictured),
+                               wordOf(record.simulating),
+                               wordOf(record.drawing),
+                               wordOf(record.encoding),
                                wordOf(record.metrics.has_value())};
     const world::Metrics metrics = record.metrics.value_or(world::Metrics{});
     eachNumber(metrics, [&](const auto& number) { words.push_back(wordOf(number)); });
@@ -163,8 +166,7 @@ RecordLog RecordLog::opened(const std::filesystem::path& path, int mode, std::si
         throw core::Error(core::ErrorKind::badContent, fmt::format("{}: the records are missing", path.string()));
     RecordLog log(descriptor, path);
     Word head[headWords] = {};
-    if (!readWords(log.descriptor_, 0, head, path) || head[0] != mark || head[1] != version ||
-        head[2] != recordWords())
+    if (!readWords(log.descriptor_, 0, head, path) || head[0] != mark || head[1] != version || head[2] != recordWords())
         throw core::Error(core::ErrorKind::badContent,
                           fmt::format("{}: these are no records of frames that this taut reads", path.string()));
     log.readDigest(count);
@@ -199,7 +201,9 @@ void RecordLog::readDigest(std::size_t count) {
 }
 
 RecordLog::RecordLog(RecordLog&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), size_(other.size_),
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      path_(std::move(other.path_)),
+      size_(other.size_),
       digest_(other.digest_) {}
 
 RecordLog& RecordLog::operator=(RecordLog&& other) noexcept {

@@ -26,7 +26,7 @@ struct FrameRecord {
 // it cannot be written or read, badContent for a file that is foreign, of another version, or holds too few records.
 class RecordLog {
   public:
-    RecordLog();                                          // empty, without a name; goes with the object
+    RecordLog();                                            // empty, without a name; goes with the object
     explicit RecordLog(const std::filesystem::path& path);  // empty, under that name
 
     // The first `count` of an earlier run: as a copy without a name, or going on in the same file, which forgets the

@@ -42,7 +42,7 @@ struct RunListener {
 };
 
 struct RunResult {
-    RecordLog frames;  // every simulated one, those before the start among them
+    RecordLog frames;                                     // every simulated one, those before the start among them
     std::map<std::int64_t, std::vector<double>> figures;  // by frame: RunOptions::figures of those from the start on
     std::optional<world::Divergence> divergence;
     bool interrupted = false;

@@ -28,8 +28,8 @@ using Write = std::function<void(std::string_view)>;
 
 // Everything that is needed to tell what was computed, how, and on what; state hashes as 16 hexadecimal digits.
 void writeRunJson(const Write& write, const world::SceneSpec& spec, const world::World& world,
-                  const RunRequest& request,                  const Machine& machine, const std::optional<render::RendererInfo>& renderer,
-                  const RunResult& result);
+                  const RunRequest& request, const Machine& machine,
+                  const std::optional<render::RendererInfo>& renderer, const RunResult& result);
 
 // A line a frame that has metrics, with a heading that names the units; and the figures under their names, to 17
 // digits, empty where they were not measured or are no numbers.

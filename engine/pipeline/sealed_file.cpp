@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t markSize = 8, versionSize = 4, checksumSize = 8;
 constexpr std::size_t headSize = markSize + versionSize + checksumSize;
-constexpr int level = 1;                            // of compression: the fastest
-constexpr std::uint64_t mostCompressed = 1100;      // deflate makes nothing smaller than 1/1032
+constexpr int level = 1;                        // of compression: the fastest
+constexpr std::uint64_t mostCompressed = 1100;  // deflate makes nothing smaller than 1/1032
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     core::Hash hash;

@@ -12,10 +12,10 @@
 namespace taut::pipeline {
 
 struct SealedKind {
-    std::string mark;           // 8 characters that every file of the kind begins with
-    std::uint32_t version = 1;  // of the content
-    std::string title;          // "checkpoint", for messages
-    std::uint32_t oldest = 0;   // version that is still read; 0: this one only
+    std::string mark;                                    // 8 characters that every file of the kind begins with
+    std::uint32_t version = 1;                           // of the content
+    std::string title;                                   // "checkpoint", for messages
+    std::uint32_t oldest = 0;                            // version that is still read; 0: this one only
     std::uint64_t maxContent = std::uint64_t{1} << 30U;  // [bytes] more is not unpacked
 };
 

@@ -107,7 +107,8 @@ class Calibration {
                     options_.scratch / fmt::format("{}-{}.png", scenario_->name, picture.request.key());
                 const std::string hash = options_.drawApart(*scenario_, picture.request, process, file);
                 if (stop_) return;
-                const image::Image now = image::readImage(file, std::int64_t{picture.picture.width} * picture.picture.height);
+                const image::Image now =
+                    image::readImage(file, std::int64_t{picture.picture.width} * picture.picture.height);
                 CalibrationRow noise = row(picture, process.name, &now);
                 noise.stateDiffers = hash != hexadecimal(picture.stateHash);
                 addNoise(noise);

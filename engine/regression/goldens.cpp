@@ -31,7 +31,11 @@ bool hasSameChain(const std::filesystem::path& file, const Tape& tape) {
 
 bool hasSamePicture(const std::filesystem::path& file, const image::Image& picture, const image::Tolerance& tolerance) {
     try {
-        return core::isThere(file) && image::compare(image::readImage(file, std::max(image::mostPixels, std::int64_t{picture.width} * picture.height)), picture, tolerance).within;
+        return core::isThere(file) &&
+               image::compare(
+                   image::readImage(file, std::max(image::mostPixels, std::int64_t{picture.width} * picture.height)),
+                   picture, tolerance)
+                   .within;
     } catch (const core::Error& error) {
         if (error.kind() == core::ErrorKind::inputOutput) throw;
         return false;

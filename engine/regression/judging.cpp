@@ -209,9 +209,9 @@ TestScenario unfinished(const Scenario& scenario, const Played& played) {
     result.seconds = played.seconds;
     result.state.word = "not finished !";
     result.state.ticks = played.tape.chain.empty() ? 0 : played.tape.ticks();
-    result.faults.push_back(fmt::format("not finished: interrupted at tick {}, {:.4g} s of {:.4g} s", result.state.ticks,
-                                        static_cast<double>(result.state.ticks) * played.tape.tickSeconds,
-                                        result.sceneSeconds));
+    result.faults.push_back(
+        fmt::format("not finished: interrupted at tick {}, {:.4g} s of {:.4g} s", result.state.ticks,
+                    static_cast<double>(result.state.ticks) * played.tape.tickSeconds, result.sceneSeconds));
     return result;
 }
 

@@ -14,7 +14,8 @@
 namespace taut::regression {
 namespace {
 
-const pipeline::SealedKind kind{.mark = "tauttape", .version = 2, .title = "tape", .oldest = 1};  // 1: without the files used
+const pipeline::SealedKind kind{
+    .mark = "tauttape", .version = 2, .title = "tape", .oldest = 1};  // 1: without the files used
 
 std::map<std::string, ecs::Entity> bodyEntities(world::World& world) {
     std::map<std::string, ecs::Entity> entities;

@@ -14,10 +14,10 @@ namespace taut::regression {
 
 // Where a tape comes from.
 struct TapeOrigin {
-    std::string program, compiler, simd;  // as in run.json
-    std::string scene;                    // the file that was played; empty in a tape that belongs to a scenario
-    std::string text;                     // what that file said
-    std::vector<std::string> overrides;   // "key=value"
+    std::string program, compiler, simd;   // as in run.json
+    std::string scene;                     // the file that was played; empty in a tape that belongs to a scenario
+    std::string text;                      // what that file said
+    std::vector<std::string> overrides;    // "key=value"
     std::vector<scene::UsedFile> files{};  // that it depends on; none in one that belongs to a scenario
 };
 

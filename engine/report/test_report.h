@@ -66,7 +66,7 @@ struct TestScenario {
     double sceneSeconds = 0;  // [s] of the scene
     double framesPerSecond = 60;
     std::vector<TextChange> changes;  // of its text since its goldens were accepted
-    std::string accept;  // the command that accepts what differs; empty: nothing to accept
+    std::string accept;               // the command that accepts what differs; empty: nothing to accept
 };
 
 // How far apart two pictures of the same thing are, or of the same thing with a mistake in it.

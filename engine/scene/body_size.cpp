@@ -48,9 +48,9 @@ SceneSize wholeSizeOf(const world::SceneSpec& scene) {
     size.bodies = sizeOf(scene).bytes();
     for (const world::ColliderSpec& collider : scene.colliders) size.colliders += sizeOf(collider);
     const world::PictureSpec& picture = scene.picture;
-    size.pictures = static_cast<double>(picture.size.x) * picture.size.y *
-                        (bytesOfPixel + bytesOfSample * (picture.samples - 1)) +
-                    bytesOfShadowTexel * picture.shadowSize * picture.shadowSize;
+    size.pictures =
+        static_cast<double>(picture.size.x) * picture.size.y * (bytesOfPixel + bytesOfSample * (picture.samples - 1)) +
+        bytesOfShadowTexel * picture.shadowSize * picture.shadowSize;
     size.timeline = bytesOfAction * static_cast<double>(scene.actions.size() + scene.checks.size());
     return size;
 }

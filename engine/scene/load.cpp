@@ -37,14 +37,14 @@ void addTooLarge(const ReadScene& scene, const SceneSize& size, double limit, Pr
     const Place place = isPicture || scene.spec.colliders.empty()
                             ? Place{.line = 1, .column = 1}
                             : scene.owners.at("collider." + scene.spec.colliders.front().name);
-    problems.addError(place,
-                      fmt::format("the scene is too large: {:.4g} GB for colliders, {:.4g} GB for pictures of {} x {} "
-                                  "pixels, {:.4g} GB for the rest; the limit is {:.4g} GB",
-                                  size.colliders / gigabyte, size.pictures / gigabyte, scene.spec.picture.size.x,
-                                  scene.spec.picture.size.y, (size.bodies + size.timeline) / gigabyte,
-                                  limit / gigabyte),
-                      isPicture ? "give picture a smaller size, fewer samples or a smaller shadow_size"
-                                : "give it fewer colliders, or visible = false where they need not be seen");
+    problems.addError(
+        place,
+        fmt::format("the scene is too large: {:.4g} GB for colliders, {:.4g} GB for pictures of {} x {} "
+                    "pixels, {:.4g} GB for the rest; the limit is {:.4g} GB",
+                    size.colliders / gigabyte, size.pictures / gigabyte, scene.spec.picture.size.x,
+                    scene.spec.picture.size.y, (size.bodies + size.timeline) / gigabyte, limit / gigabyte),
+        isPicture ? "give picture a smaller size, fewer samples or a smaller shadow_size"
+                  : "give it fewer colliders, or visible = false where they need not be seen");
 }
 
 void checkSize(const ReadScene& scene, double limit, Problems& problems) {

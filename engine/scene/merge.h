@@ -32,7 +32,8 @@ struct BaseFile {
 };
 
 // The file that `scene = "…"` in a document names: beside the scene, or a shipped one in the `scenes` of an asset
-// folder, of these alone with "shipped:" before it, with or without ".toml"; never the scene file itself. Reports what is wrong with the name or the file.
+// folder, of these alone with "shipped:" before it, with or without ".toml"; never the scene file itself. Reports what
+// is wrong with the name or the file.
 BaseFile baseFileOf(const Node& root, const std::filesystem::path& sceneFile,
                     const std::vector<std::filesystem::path>& assetFolders, const Confinement& confinement,
                     std::uint64_t maxBytes, Problems& problems);

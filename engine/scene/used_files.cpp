@@ -26,7 +26,8 @@ std::uint64_t contentOf(const std::string& path) {
 std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
     std::vector<UsedFile> files;
     const auto add = [&](const std::string& path) {
-        const bool isKnown = std::any_of(files.begin(), files.end(), [&](const auto& file) { return file.path == path; });
+        const bool isKnown =
+            std::any_of(files.begin(), files.end(), [&](const auto& file) { return file.path == path; });
         if (!path.empty() && !isKnown) files.push_back({path, contentOf(path)});
     };
     add(scene.file);
@@ -45,12 +46,11 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
 
 std::vector<std::string> changedSince(std::span<const UsedFile> files) {
     std::vector<std::string> changes;
-    for (const UsedFile& file : files) {
+    for (const UsedFile& file : files)
         if (!core::isThere(file.path))
             changes.push_back(file.path + " is gone");
         else if (contentOf(file.path) != file.content)
             changes.push_back(file.path + " has changed");
-    }
     return changes;
 }
 

@@ -71,8 +71,8 @@ struct Light {
 struct Background {
     glm::vec3 top{0.051F, 0.084F, 0.163F};
     glm::vec3 horizon{0.319F, 0.367F, 0.448F};
-    float fadeStart = 8.0F;  // [m] from the camera target, where the ground begins to fade into the horizon
-    float fadeEnd = 30.0F;   // [m]
+    float fadeStart = 8.0F;       // [m] from the camera target, where the ground begins to fade into the horizon
+    float fadeEnd = 30.0F;        // [m]
     bool fadesWithCamera = true;  // both grow where the camera is so far from its target that little ground would show
 };
 

@@ -63,8 +63,8 @@ struct World::Impl {
     std::vector<std::string> spawned;            // targets of the spawn actions so far
     std::vector<JointInfo> joints;               // of the scene, as they tied bodies at the start
     std::vector<std::string> jointWarnings;
-    std::vector<Hand> hands;                     // in the order of grabbing
-    std::vector<Ramp> ramps;                     // one for each key, in the order in which they began
+    std::vector<Hand> hands;  // in the order of grabbing
+    std::vector<Ramp> ramps;  // one for each key, in the order in which they began
 
     Impl(const SceneSpec& scene, const Options& options);
 

@@ -40,8 +40,8 @@ struct LightSpec {
 struct BackgroundSpec {
     dvec3 top{0.25, 0.32, 0.44};
     dvec3 horizon{0.60, 0.64, 0.70};
-    double fadeStart = 8.0;  // [m]
-    double fadeEnd = 30.0;   // [m]
+    double fadeStart = 8.0;       // [m]
+    double fadeEnd = 30.0;        // [m]
     bool fadesWithCamera = true;  // where neither is given
 };
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "support/dense_stiffness.h"
+#include "support/network.h"
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/stability.h"
-#include "support/dense_stiffness.h"
-#include "support/network.h"
 
 namespace taut::test::frequency_bounds {
 namespace {

@@ -8,9 +8,9 @@ namespace {
 // By the table of RFC 3629, section 4.
 TEST(Utf8, LettersAreThoseOfTheStandard) {
     const std::pair<const char*, Letter> letters[] = {
-        {"a", {'a', 1}},           {"é", {0xE9, 2}},  {"€", {0x20AC, 3}},      {"😀", {0x1F600, 4}},
-        {"\x80", {}},              {"\xC3", {}},      {"\xC0\xAF", {}},        {"\xE0\x80\xAF", {}},
-        {"\xED\xA0\x80", {}},      {"\xC3(", {}},     {"\xF4\x90\x80\x80", {}}, {"\xF8\x88\x80\x80\x80", {}}};
+        {"a", {'a', 1}},      {"é", {0xE9, 2}}, {"€", {0x20AC, 3}},       {"😀", {0x1F600, 4}},
+        {"\x80", {}},         {"\xC3", {}},     {"\xC0\xAF", {}},         {"\xE0\x80\xAF", {}},
+        {"\xED\xA0\x80", {}}, {"\xC3(", {}},    {"\xF4\x90\x80\x80", {}}, {"\xF8\x88\x80\x80\x80", {}}};
     for (const auto& [text, expected] : letters) {
         const Letter letter = firstLetter(text);
         EXPECT_EQ(letter.size, expected.size) << text;

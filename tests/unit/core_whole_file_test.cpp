@@ -54,7 +54,8 @@ TEST(WholeFile, FullDiskIsReportedAndLeavesNothing) {
 TEST(WholeFile, UnwritableFolderIsReported) {
     const TemporaryFolder folder;
     test::writeText(folder / "file", "");
-    EXPECT_NE(messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(folder / "file" / "a.txt", "x"); })
+    EXPECT_NE(messageOf(
+                  ErrorKind::inputOutput, [&] { writeWholeFile(folder / "file" / "a.txt", "x"); })
                   .find("Not a directory"),
               std::string::npos);
     EXPECT_NE(messageOf(ErrorKind::inputOutput, [&] { prepareFolderOf(folder / "file/deep/a.txt"); })
@@ -64,9 +65,10 @@ TEST(WholeFile, UnwritableFolderIsReported) {
 
 TEST(WholeFile, MissingFolderIsReportedAndAFolderIsNotOverwritten) {
     const TemporaryFolder folder;
-    EXPECT_NE(
-        messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(folder / "none/a.txt", "x"); }).find("No such file"),
-        std::string::npos);
+    EXPECT_NE(messageOf(
+                  ErrorKind::inputOutput, [&] { writeWholeFile(folder / "none/a.txt", "x"); })
+                  .find("No such file"),
+              std::string::npos);
     EXPECT_NE(messageOf(ErrorKind::inputOutput, [&] { writeWholeFile(folder.path(), "x"); }).find("Is a directory"),
               std::string::npos);
 }
@@ -118,7 +120,8 @@ TEST(WholeFile, ReadingEndsWhateverIsRead) {
 
 TEST(WholeFile, ReadingReportsWhatIsMissingOrAFolder) {
     const TemporaryFolder folder;
-    messageOf(ErrorKind::inputOutput, [&] { fileContent(folder / "none"); });
+    messageOf(
+        ErrorKind::inputOutput, [&] { fileContent(folder / "none"); });
     messageOf(ErrorKind::inputOutput, [&] { fileContent(folder.path()); });
     test::writeText(folder / "a", std::string("x\0y", 3));
     messageOf(ErrorKind::badContent, [&] { fileContent(folder / "a", 2); });

@@ -129,9 +129,20 @@ TEST_F(Continuation, ResumingKeepsThePicturesOfAnotherScene) {
 // As a supervisor repeats it: whatever was killed, also before the first state but that of the start.
 TEST_F(Continuation, ResumesWhatWasKilledBeforeItsFirstState) {
     const std::filesystem::path frames = folder_ / "frames";
-    const std::vector<std::string> command = {
-        "render", (folder_ / "scene.toml").string(), "-o", frames.string(), "--quiet", "--checkpoint-every", "20",
-        "--set", "picture.size=[16,16]", "--set", "picture.samples=1", "--set", "picture.shadow_size=128", "--resume"};
+    const std::vector<std::string> command = {"render",
+                                              (folder_ / "scene.toml").string(),
+                                              "-o",
+                                              frames.string(),
+                                              "--quiet",
+                                              "--checkpoint-every",
+                                              "20",
+                                              "--set",
+                                              "picture.size=[16,16]",
+                                              "--set",
+                                              "picture.samples=1",
+                                              "--set",
+                                              "picture.shadow_size=128",
+                                              "--resume"};
     EXPECT_EQ(test::run(command).code, 0);
     for (const char* number : {"000020", "000029"})
         for (const auto& lost : {frames / "checkpoints" / (std::string("checkpoint_") + number + ".taut"),

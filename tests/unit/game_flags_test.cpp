@@ -5,11 +5,11 @@
 #include <csignal>
 #include <utility>
 
-#include "taut/core/edit_distance.h"
-#include "taut/core/error.h"
 #include "game/interruption.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
+#include "taut/core/edit_distance.h"
+#include "taut/core/error.h"
 
 namespace taut::game {
 namespace {
@@ -87,8 +87,7 @@ TEST(Progress, ARunThatGoesOnDriftsFromItsStart) {
 }
 
 TEST(Interruption, FirstSignalSetsTheFlagAndTheExitCode) {
-    for (const auto& [signal, code] :
-         {std::pair{SIGINT, ExitCode::interrupted}, {SIGTERM, ExitCode::terminated}}) {
+    for (const auto& [signal, code] : {std::pair{SIGINT, ExitCode::interrupted}, {SIGTERM, ExitCode::terminated}}) {
         const Interruption interruption;
         EXPECT_FALSE(interruption.flag());
         EXPECT_FALSE(interruption.exitCode().has_value());

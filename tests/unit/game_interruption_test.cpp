@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "taut/image/read.h"
 #include "image_support.h"
+#include "taut/image/read.h"
 
 namespace taut::game {
 namespace {

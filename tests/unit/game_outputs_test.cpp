@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "image_support.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/image/video_writer.h"
-#include "image_support.h"
 
 namespace taut::game {
 namespace {
@@ -47,7 +47,8 @@ TEST(Outputs, VeryManyPicturesAreSaidAndLookedForAtOnce) {
     const TemporaryFolder folder;
     test::writeText(folder / "frame_000007.png", "");
     permitOverwriting(folder.path(), 8, std::int64_t{1} << 40U, Overwrite::no);
-    messageOf(ErrorKind::inputOutput, [&] { permitOverwriting(folder.path(), 7, std::int64_t{1} << 40U, Overwrite::no); });
+    messageOf(ErrorKind::inputOutput,
+              [&] { permitOverwriting(folder.path(), 7, std::int64_t{1} << 40U, Overwrite::no); });
     EXPECT_EQ(largeRunText(1000, 640, 360), "");
     EXPECT_EQ(largeRunText(360000, 1000, 1000),
               "360000 pictures of 1000 x 1000 pixels: about 180 GB of PNG files, and 1 hours at 100 pictures a second");

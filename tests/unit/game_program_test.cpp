@@ -265,10 +265,10 @@ TEST(Program, DivergenceIsExitCodeFourAndKeepsFramesAndDiagnosis) {
 
 TEST(Program, ADivergenceThatIsFrozenIsAWarningAndInTheRecord) {
     const TemporaryFolder folder;
-    const Outcome outcome = run(
-        {"render", springScene(folder).string(), "-o", (folder / "out").string(), "--seconds", "20", "--set",
-         "net.spring.springs=[{a='nail',b='bob',stiffness_N_per_m=1e6,rest_length_m=0.9}]", "--set", "solver.dt=0.02",
-         "--set", "solver.on_divergence=\"freeze\"", "--frames", "399"});
+    const Outcome outcome =
+        run({"render", springScene(folder).string(), "-o", (folder / "out").string(), "--seconds", "20", "--set",
+             "net.spring.springs=[{a='nail',b='bob',stiffness_N_per_m=1e6,rest_length_m=0.9}]", "--set",
+             "solver.dt=0.02", "--set", "solver.on_divergence=\"freeze\"", "--frames", "399"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "warning: net.spring diverged at t = ")) << outcome.err;
     EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_000399.png"));

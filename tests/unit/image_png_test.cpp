@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "taut/image/read.h"
 #include "image_support.h"
+#include "taut/image/read.h"
 
 namespace taut::image {
 namespace {
@@ -73,7 +73,8 @@ TEST(Png, OtherFilesAreRefused) {
     test::writeText(folder / "a.png", "this is no picture");
     messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.png"); });
     test::writeText(folder / "b.png", "GIF89a\1\0\1\0\0\0\0;");
-    messageOf(ErrorKind::badContent, [&] { readImage(folder / "b.png"); });
+    messageOf(
+        ErrorKind::badContent, [&] { readImage(folder / "b.png"); });
     messageOf(ErrorKind::inputOutput, [&] { readImage(folder / "none.png"); });
 }
 
@@ -82,9 +83,8 @@ std::string smallestJpeg() {
     std::string jpeg("\xFF\xD8\xFF\xDB\x00\x43\x00", 7);
     jpeg += std::string(64, '\1');
     jpeg += std::string("\xFF\xC0\x00\x0B\x08\x00\x01\x00\x01\x01\x01\x11\x00", 13);
-    for (const char table : {'\x00', '\x10'}) {
+    for (const char table : {'\x00', '\x10'})
         jpeg += std::string("\xFF\xC4\x00\x14", 4) + table + '\1' + std::string(15, '\0') + '\0';
-    }
     jpeg += std::string("\xFF\xDA\x00\x08\x01\x01\x00\x00\x3F\x00", 10);
     jpeg += "\x3F";
     jpeg += "\xFF\xD9";

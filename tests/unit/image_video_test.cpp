@@ -3,9 +3,9 @@
 #include <csignal>
 #include <cstdio>
 
+#include "image_support.h"
 #include "taut/core/child_process.h"
 #include "taut/image/video_writer.h"
-#include "image_support.h"
 
 namespace taut::image {
 namespace {

@@ -87,8 +87,7 @@ TEST(SealedFile, WithOneBitChangedOrCutShortIsRefused) {
 }
 
 FrameRecord recordOf(std::int64_t i) {
-    FrameRecord record{
-        .frame = i, .time = 0.1 * static_cast<double>(i), .hash = 77U + static_cast<std::uint64_t>(i)};
+    FrameRecord record{.frame = i, .time = 0.1 * static_cast<double>(i), .hash = 77U + static_cast<std::uint64_t>(i)};
     record.pictured = i % 2 == 1;
     record.drawing = 0.25;
     if (i > 0) {

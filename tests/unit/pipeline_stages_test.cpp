@@ -84,15 +84,11 @@ TEST(Stages, WorkOnThreeSuccessiveFramesAtOnce) {
                },
                [&](const view::FrameView& view) {
                    events.happen(named("draw", view.frame));
-                   if (view.frame + 1 < count) {
-                       EXPECT_TRUE(events.waitFor(named("simulate", view.frame + 1)));
-                   }
+                   if (view.frame + 1 < count) EXPECT_TRUE(events.waitFor(named("simulate", view.frame + 1)));
                    return pictureOf(view);
                },
                [&](const view::FrameView& view, const image::Image&) {
-                   if (view.frame + 1 < count) {
-                       EXPECT_TRUE(events.waitFor(named("draw", view.frame + 1)));
-                   }
+                   if (view.frame + 1 < count) EXPECT_TRUE(events.waitFor(named("draw", view.frame + 1)));
                }});
 }
 

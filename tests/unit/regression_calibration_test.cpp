@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "regression_support.h"
 #include "taut/core/child_process.h"
 #include "taut/image/png.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/mutants.h"
 #include "taut/regression/playing.h"
 #include "taut/world/bodies/cloth.h"
-#include "regression_support.h"
 
 namespace taut::regression {
 namespace {
@@ -123,9 +123,7 @@ TEST(Mutants, ChangeWhatTheySay) {
     ASSERT_EQ(all.size(), 6U);
     world::SceneSpec nothing;
     for (const Mutant& mutant : all)
-        if (mutant.isOfState()) {
-            EXPECT_FALSE(mutant.ofScene(nothing, {})) << mutant.name;
-        }
+        if (mutant.isOfState()) EXPECT_FALSE(mutant.ofScene(nothing, {})) << mutant.name;
     world::SceneSpec cloth;
     cloth.bodies.add(world::ClothSpec{});
     cloth.bodies.of<world::ClothSpec>()[0].name = "c";

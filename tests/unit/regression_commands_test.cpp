@@ -216,7 +216,8 @@ TEST(Replay, NamesWhichOfTheFilesOfItsSceneHasChanged) {
     const TemporaryFolder folder;
     const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     test::writeText(folder / "stone.obj", obj);
-    test::writeText(folder / "s.toml", springText("100.0", "[collider.stone]\nshape = \"mesh\"\nmesh = \"stone.obj\"\n"));
+    test::writeText(folder / "s.toml",
+                    springText("100.0", "[collider.stone]\nshape = \"mesh\"\nmesh = \"stone.obj\"\n"));
     const std::string tape = (folder / "a.tape").string();
     EXPECT_EQ(run({"record", (folder / "s.toml").string(), "-o", tape, "--quiet"}).code, 0);
     EXPECT_TRUE(has(run({"replay", tape}).out, "depends on " + (folder / "stone.obj").string()));

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "taut/image/png.h"
 #include "render_support.h"
+#include "taut/image/png.h"
 
 namespace taut::render::test {
 namespace {
@@ -201,9 +201,8 @@ TEST(RenderPicture, EdgesAreAveragedAsLight) {
             const auto value = static_cast<float>(pixelAt(picture, x, y)[1]);
             if (value < 3.0F || value > full - 6.0F) continue;
             float nearest = 255.0F;
-            for (const float part : {0.25F, 0.5F, 0.75F}) {
+            for (const float part : {0.25F, 0.5F, 0.75F})
                 nearest = std::min(nearest, std::abs(value - full * std::sqrt(part)));
-            }
             // The square stands for the sRGB curve; the colour varies by a few steps over the board.
             EXPECT_LT(nearest, 8.0F) << value;
         }

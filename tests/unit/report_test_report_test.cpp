@@ -14,8 +14,8 @@
 namespace taut::report::report_test_report {
 namespace {
 
-using test::bytes;
 using taut::test::has;
+using test::bytes;
 using test::mixedReport;
 
 int count(const std::string& text, const std::string& part) {
@@ -47,8 +47,9 @@ TEST(TestReport, TheTableHasALineForEveryScenarioAndTheSummaryCountsThem) {
 
 TEST(TestReport, FailuresAreToldWithTheirPlaceAndTheCommandThatAcceptsThem) {
     const std::string text = testFailures(mixedReport());
-    for (const char* part : {"bad.toml:7: 5 is not below 3", "state: tick 7 differs", "picture 000010: too many pixels",
-                             "Where this is meant, once its checks hold: taut test s --update bad", "rope.a diverged\n    at point 3"})
+    for (const char* part :
+         {"bad.toml:7: 5 is not below 3", "state: tick 7 differs", "picture 000010: too many pixels",
+          "Where this is meant, once its checks hold: taut test s --update bad", "rope.a diverged\n    at point 3"})
         EXPECT_TRUE(has(text, part)) << part << " in\n" << text;
     EXPECT_FALSE(has(text, "good")) << text;
 }

@@ -38,11 +38,9 @@ void collectPaths(const Node& node, const std::string& path, bool isNamed, std::
         const std::string here = isNamed ? path : path.empty() ? member.key : path + "." + member.key;
         paths.insert(here);
         bool holdsNames = false;
-        if (path.empty()) {
-            for (const SceneSection& section : allSections()) {
+        if (path.empty())
+            for (const SceneSection& section : allSections())
                 holdsNames = holdsNames || (section.name == member.key && section.layout == Layout::named);
-            }
-        }
         collectPaths(member.value, here, holdsNames, paths);
     }
 }
@@ -52,9 +50,8 @@ std::string standIn(const std::string& path) {
     const std::string rest = path.substr(path.find('.') + 1);
     const std::string key = rest.substr(0, rest.find('.'));
     for (const char* common : {"hold", "velocity", "spin_rad_per_s", "jitter_m", "seed", "friction", "thickness",
-                               "collide", "finish", "solver", "array"}) {
+                               "collide", "finish", "solver", "array"})
         if (key == common && !path.starts_with("wind.")) return "cloth." + rest;
-    }
     return path;
 }
 
@@ -89,15 +86,13 @@ void expectDefaultsRestore(const Section& section, void* fresh, const std::strin
         if (value.index() == 0) continue;
         field.write(fresh, value);
         const Value again = field.read(fresh);
-        if (const auto* number = std::get_if<double>(&value)) {
+        if (const auto* number = std::get_if<double>(&value))
             EXPECT_NEAR(std::get<double>(again), *number, 1e-12) << here;
-        } else if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
-            for (std::size_t i = 0; i < numbers->size(); ++i) {
+        else if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+            for (std::size_t i = 0; i < numbers->size(); ++i)
                 EXPECT_NEAR(std::get<std::vector<double>>(again)[i], (*numbers)[i], 1e-12) << here;
-            }
-        } else {
+        else
             EXPECT_EQ(again, value) << here;
-        }
     }
 }
 
@@ -134,9 +129,8 @@ TEST(SceneFieldTable, DefaultsLieInTheirOwnRange) {
             }
         }
     };
-    for (const SceneSection& section : allSections()) {
+    for (const SceneSection& section : allSections())
         check(check, section, section.enter(scene, "name", {}), section.name);
-    }
 }
 
 TEST(SceneFieldTable, AMinimalSceneHasTheDefaultsOfTheStructs) {
@@ -191,9 +185,8 @@ TEST(SceneSchema, ListsEveryFieldWithItsHelpAndDefault) {
 
 TEST(SceneManual, ListsEverySectionAndField) {
     const std::string text = manual();
-    for (const SceneSection& section : allSections()) {
+    for (const SceneSection& section : allSections())
         EXPECT_NE(text.find(section.help), std::string::npos) << section.name;
-    }
     visitFields([&](const std::string& path, const Section&, const Field& field) {
         EXPECT_NE(text.find(" " + field.key + " "), std::string::npos) << path;
         EXPECT_NE(text.find(field.help), std::string::npos) << path;

@@ -30,9 +30,8 @@ world::SceneSpec fullSpec() {
 
 template <class All>
 auto& named(const All& all, const std::string& name) {
-    for (auto& one : all) {
+    for (auto& one : all)
         if (one.name == name) return one;
-    }
     throw std::runtime_error("there is no " + name);
 }
 

@@ -189,9 +189,8 @@ TEST(SceneFiles, AConfinedSceneReadsNothingElsewhere) {
     folder.load(hull("link.obj"), options);
     options.isConfined = true;
     folder.load(hull("own.obj"), options);
-    for (const std::string& text :
-         {hull("link.obj"), hull((elsewhere / "box.obj").string()),
-          "schema = 1\nscene = \"" + (elsewhere / "secret.toml").string() + "\"\n"}) {
+    for (const std::string& text : {hull("link.obj"), hull((elsewhere / "box.obj").string()),
+                                    "schema = 1\nscene = \"" + (elsewhere / "secret.toml").string() + "\"\n"}) {
         const std::string message = folder.messageOf(text, options);
         EXPECT_NE(message.find("lies outside the scene's folder"), std::string::npos) << message;
         EXPECT_EQ(message.find("somebody"), std::string::npos) << message;

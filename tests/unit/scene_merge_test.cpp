@@ -1,7 +1,7 @@
 // A scenario that builds on a scene: what is merged, and which file a message names.
-#include "unit/scene_support.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
+#include "unit/scene_support.h"
 
 namespace taut::scene {
 namespace {
@@ -150,7 +150,8 @@ TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {
 TEST(SceneMerge, TheSceneCannotBeSet) {
     LoadOptions options;
     options.overrides = {"scene=yard"};
-    EXPECT_EQ(messageOver(mergedYard, "", options), "--set scene: error: the scene that a file builds on cannot be set");
+    EXPECT_EQ(messageOver(mergedYard, "", options),
+              "--set scene: error: the scene that a file builds on cannot be set");
 }
 
 // A scenario can be looked at for a second: what lies past an end that was set by hand is left out, not wrong.

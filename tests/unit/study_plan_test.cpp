@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <string>
 
+#include "support/small_scenes.h"
+#include "support/text.h"
 #include "taut/core/error.h"
+#include "taut/scene/by_key.h"
 #include "taut/study/plan_candidate.h"
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_need.h"
 #include "taut/study/plan_run.h"
 #include "taut/world/bodies/block.h"
-#include "taut/scene/by_key.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
 #include "taut/world/forces/wind.h"
-#include "support/small_scenes.h"
-#include "support/text.h"
 
 namespace taut::study {
 namespace {
@@ -90,7 +90,8 @@ TEST(PlanModel, AllEdgesGoWithTheLongest) {
     candidate.count = 6;
     EXPECT_EQ(modelOf(scene, resolution, candidate).bodies.of<world::ClothSpec>()[0].cells, glm::ivec2(6, 4));
     candidate.count = 2;
-    EXPECT_EQ(modelOf(scene, resolution, candidate).bodies.of<world::ClothSpec>()[0].cells, glm::ivec2(2, 2)) << "two at least";
+    EXPECT_EQ(modelOf(scene, resolution, candidate).bodies.of<world::ClothSpec>()[0].cells, glm::ivec2(2, 2))
+        << "two at least";
 }
 
 TEST(PlanModel, WhatIsTiedToItsPointsKeepsThem) {

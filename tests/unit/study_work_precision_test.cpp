@@ -116,12 +116,9 @@ TEST(StudyWorkPrecision, AnEquationOfFirstOrderTakesTheMethodsThatCan) {
 TEST(StudyWorkPrecision, HeunAndRungeKuttaSolveTheQuotientToRounding) {
     const WorkPrecision study = studyWorkPrecision(*makeQuotient(), fixed(3));
     for (const RunPoint& point : study.points) {
-        if (point.method == "heun" || point.method == "rk4") {
+        if (point.method == "heun" || point.method == "rk4")
             EXPECT_LT(point.rmsError, 1e-14) << point.method;  // some 80 roundings of numbers below 4
-        }
-        if (point.method == "euler") {
-            EXPECT_GT(point.rmsError, 1e-4);
-        }
+        if (point.method == "euler") EXPECT_GT(point.rmsError, 1e-4);
     }
 }
 
@@ -134,9 +131,8 @@ TEST(StudyWorkPrecision, RunsFailBeyondTheLimitAndStayInTheTable) {
         const auto method = std::find_if(study.methods.begin(), study.methods.end(),
                                          [&](const MethodFacts& facts) { return facts.name == point.method; });
         if (method->stepLimit == 0) continue;
-        if (point.step < 0.9 * method->stepLimit) {
+        if (point.step < 0.9 * method->stepLimit)
             EXPECT_EQ(point.status, RunStatus::ok) << point.method << " at " << point.step;
-        }
         if (point.step > 1.1 * method->stepLimit) {
             EXPECT_NE(point.status, RunStatus::ok) << point.method << " at " << point.step;
             ++failed;

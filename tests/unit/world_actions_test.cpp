@@ -3,13 +3,13 @@
 
 #include <cmath>
 
+#include "support/timelines.h"
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/world/bodies/block.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/net.h"
 #include "taut/world/bodies/rope.h"
-#include "support/timelines.h"
 #include "taut/world/components.h"
 
 namespace taut::world {

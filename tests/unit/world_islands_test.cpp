@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "support/small_scenes.h"
 #include "taut/core/error.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
-#include "support/small_scenes.h"
 #include "taut/world/island_plan.h"
 #include "taut/world/world.h"
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -39,6 +41,7 @@ std::string drawApart(const std::string& gl, const regression::Scenario& scenari
     // How many threads the renderer may use, and for which processor it compiles.
     command.environment["LP_NUM_THREADS"] = std::nullopt;
     if (!how.processor.empty()) command.environment["GALLIUM_OVERRIDE_CPU_CAPS"] = how.processor;
+    command.patience = std::chrono::hours(24);  // a scene may take long, and `stop` ends it
     const core::ChildResult result = core::runChild(command, {}, &stop);
     if (stop) return "";
     if (!result.end.succeeded())

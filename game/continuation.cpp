@@ -69,7 +69,8 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
                          const std::string& output, pipeline::RunOptions& options, world::World& world) {
     const pipeline::CheckpointFolder checkpoints(folder);
     const auto fromStart = [&] {
-        return flags.every > 0 ? pipeline::RecordLog(checkpoints.records()) : pipeline::RecordLog();
+        return flags.every > 0 ? pipeline::RecordLog(checkpoints.records(), options.figureColumns)
+                               : pipeline::RecordLog(options.figureColumns);
     };
     if (!flags.resume && !flags.from) return fromStart();
     const std::int64_t goal = flags.from ? *flags.from : std::min(firstMissing(output, options), options.lastFrame);
@@ -101,8 +102,8 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
     options.startFrame = checkpoint->frame;
     options.firstFrame = std::max(options.firstFrame, options.startFrame);
     const auto before = static_cast<std::size_t>(checkpoint->frame);
-    return flags.every > 0 ? pipeline::RecordLog::continuing(checkpoints.records(), before)
-                           : pipeline::RecordLog::copyOf(checkpoints.records(), before);
+    return flags.every > 0 ? pipeline::RecordLog::continuing(checkpoints.records(), before, options.figureColumns)
+                           : pipeline::RecordLog::copyOf(checkpoints.records(), before, options.figureColumns);
 }
 
 void keepCheckpoints(const std::filesystem::path& folder, const RunKeys& keys, const world::World& world,

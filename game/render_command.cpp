@@ -126,6 +126,12 @@ std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::
     return nullptr;
 }
 
+pipeline::FigureColumns columnsOf(const std::vector<std::string>& names) {
+    core::Hash key;
+    for (const std::string& name : names) key.add(name);
+    return {names.size(), key.value()};
+}
+
 // Everything that was asked for, or null; asks before it overwrites.
 std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pipeline::RunOptions& options,
                                               double fps) {
@@ -234,7 +240,10 @@ int render(const RenderFlags& flags) {
     const world::SceneSpec& spec = scene.spec;
     pipeline::RunOptions options = runOptions(flags, spec);
     const std::shared_ptr<check::Figures> figures = figuresOf(flags.metricsOf, spec);
-    if (figures) options.figures = [figures](const world::World& world) { return figures->of(world); };
+    if (figures) {
+        options.figures = [figures](const world::World& world) { return figures->of(world); };
+        options.figureColumns = columnsOf(figures->names());
+    }
     const Interruption interruption;
 
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, options, spec.run.fps);

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,7 +18,8 @@
 namespace taut::pipeline {
 namespace {
 
-// A file of words of 8 bytes: mark, version, words in a record, then the records.
+// A file of words of 8 bytes: mark, version, words in a record without figures, count and key of the figures, then the
+// records.
 using Word = std::uint64_t;
 static_assert(std::endian::native == std::endian::little, "words are copied as they lie in memory");
 constexpr Word mark = 0x7363657274756174;  // "tautrecs"
@@ -88,18 +90,19 @@ FrameRecord recordIn(std::span<const Word> words, std::size_t frame) {
     world::Metrics metrics;
     eachNumber(metrics, [&](auto& number) { take(words, number); });
     if (hasMetrics) record.metrics = metrics;
+    for (const Word word : words) record.figures.push_back(std::bit_cast<double>(word));
     return record;
 }
 
-std::size_t recordWords() {
+std::size_t fixedWords() {
     static const std::size_t words = wordsOf({}).size();
     return words;
 }
 
-constexpr std::size_t headWords = 3;
+constexpr std::size_t headWords = 5;
 
-off_t placeOf(std::size_t frame) {
-    return static_cast<off_t>((headWords + frame * recordWords()) * sizeof(Word));
+off_t placeOf(std::size_t frame, std::size_t recordWords) {
+    return static_cast<off_t>((headWords + frame * recordWords) * sizeof(Word));
 }
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error) {
@@ -146,44 +149,67 @@ RecordLog::RecordLog(int descriptor, std::filesystem::path path) : descriptor_(d
     if (descriptor_ < 0) fail(path_, "open the records of frames", errno);
 }
 
-RecordLog::RecordLog() : RecordLog(namelessFile(), "records of frames") {
-    begin();
+RecordLog::RecordLog(const FigureColumns& figures) : RecordLog(namelessFile(), "records of frames") {
+    begin(figures);
 }
 
-RecordLog::RecordLog(const std::filesystem::path& path)
+RecordLog::RecordLog(const std::filesystem::path& path, const FigureColumns& figures)
     : RecordLog(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666), path) {
-    begin();
+    begin(figures);
 }
 
-void RecordLog::begin() {
-    const Word head[headWords] = {mark, version, recordWords()};
+void RecordLog::begin(const FigureColumns& figures) {
+    figures_ = figures;
+    const Word head[headWords] = {mark, version, fixedWords(), figures.count, figures.key};
     writeWords(descriptor_, 0, head, path_);
 }
 
+std::size_t RecordLog::recordWords() const {
+    return fixedWords() + figures_.count;
+}
+
 RecordLog RecordLog::opened(const std::filesystem::path& path, int mode, std::size_t count) {
+    constexpr Word mostFigures = 100000;
     const int descriptor = ::open(path.c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0 && errno == ENOENT)
         throw core::Error(core::ErrorKind::badContent, fmt::format("{}: the records are missing", path.string()));
     RecordLog log(descriptor, path);
     Word head[headWords] = {};
-    if (!readWords(log.descriptor_, 0, head, path) || head[0] != mark || head[1] != version || head[2] != recordWords())
+    if (!readWords(log.descriptor_, 0, head, path) || head[0] != mark || head[1] != version ||
+        head[2] != fixedWords() || head[3] > mostFigures)
         throw core::Error(core::ErrorKind::badContent,
                           fmt::format("{}: these are no records of frames that this taut reads", path.string()));
+    log.figures_ = {static_cast<std::size_t>(head[3]), head[4]};
     log.readDigest(count);
     return log;
 }
 
-RecordLog RecordLog::continuing(const std::filesystem::path& path, std::size_t count) {
+RecordLog RecordLog::continuing(const std::filesystem::path& path, std::size_t count, const FigureColumns& figures) {
     RecordLog log = opened(path, O_RDWR, count);
-    if (::ftruncate(log.descriptor_, placeOf(count)) != 0) fail(path, "write", errno);
-    return log;
+    if (log.figures_ == figures) {
+        if (::ftruncate(log.descriptor_, placeOf(count, log.recordWords())) != 0) fail(path, "write", errno);
+        return log;
+    }
+    // Under another name until all of them are there.
+    const std::filesystem::path fresh = path.string() + ".new";
+    RecordLog other(fresh, figures);
+    other.addAll(log);
+    if (::rename(fresh.c_str(), path.c_str()) != 0) fail(path, "write", errno);
+    return other;
 }
 
-RecordLog RecordLog::copyOf(const std::filesystem::path& path, std::size_t count) {
-    const RecordLog original = opened(path, O_RDONLY, count);
-    RecordLog copy;
-    for (std::size_t frame = 0; frame < count; ++frame) copy.add(original[frame]);
+RecordLog RecordLog::copyOf(const std::filesystem::path& path, std::size_t count, const FigureColumns& figures) {
+    RecordLog copy(figures);
+    copy.addAll(opened(path, O_RDONLY, count));
     return copy;
+}
+
+void RecordLog::addAll(const RecordLog& other) {
+    for (std::size_t frame = 0; frame < other.size(); ++frame) {
+        FrameRecord record = other[frame];
+        if (figures_ != other.figures_) record.figures.assign(figures_.count, std::numeric_limits<double>::quiet_NaN());
+        add(record);
+    }
 }
 
 std::uint64_t RecordLog::digestOf(const std::filesystem::path& path, std::size_t count) {
@@ -193,22 +219,24 @@ std::uint64_t RecordLog::digestOf(const std::filesystem::path& path, std::size_t
 void RecordLog::readDigest(std::size_t count) {
     std::vector<Word> words(recordWords());
     for (; size_ < count; ++size_) {
-        if (!readWords(descriptor_, placeOf(size_), words, path_))
+        if (!readWords(descriptor_, placeOf(size_, recordWords()), words, path_))
             throw core::Error(core::ErrorKind::badContent,
                               fmt::format("{}: the records end with frame {}", path_.string(), size_));
-        for (const Word word : words) digest_.add(word);
+        for (std::size_t i = 0; i < fixedWords(); ++i) digest_.add(words[i]);
     }
 }
 
 RecordLog::RecordLog(RecordLog&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       path_(std::move(other.path_)),
+      figures_(other.figures_),
       size_(other.size_),
       digest_(other.digest_) {}
 
 RecordLog& RecordLog::operator=(RecordLog&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
     std::swap(path_, other.path_);
+    std::swap(figures_, other.figures_);
     std::swap(size_, other.size_);
     std::swap(digest_, other.digest_);
     return *this;
@@ -220,16 +248,18 @@ RecordLog::~RecordLog() {
 
 void RecordLog::add(const FrameRecord& record) {
     TAUT_EXPECTS(record.frame == static_cast<std::int64_t>(size_));
-    const std::vector<Word> words = wordsOf(record);
-    writeWords(descriptor_, placeOf(size_), words, path_);
+    TAUT_EXPECTS(record.figures.size() == figures_.count);
+    std::vector<Word> words = wordsOf(record);
     for (const Word word : words) digest_.add(word);
+    for (const double figure : record.figures) words.push_back(wordOf(figure));
+    writeWords(descriptor_, placeOf(size_, recordWords()), words, path_);
     ++size_;
 }
 
 FrameRecord RecordLog::operator[](std::size_t frame) const {
     TAUT_EXPECTS(frame < size_);
     std::vector<Word> words(recordWords());
-    if (!readWords(descriptor_, placeOf(frame), words, path_)) fail(path_, "read", EIO);
+    if (!readWords(descriptor_, placeOf(frame, recordWords()), words, path_)) fail(path_, "read", EIO);
     return recordIn(words, frame);
 }
 

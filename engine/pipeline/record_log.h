@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "taut/core/hash.h"
 #include "taut/world/world.h"
@@ -20,19 +21,29 @@ struct FrameRecord {
     double simulating = 0.0;  // [s] of wall time
     double drawing = 0.0;
     double encoding = 0.0;
+    std::vector<double> figures{};  // RunOptions::figures; not a number where they were not measured
+};
+
+// What else is measured of each frame: how many figures, and which, as a key of their names.
+struct FigureColumns {
+    std::size_t count = 0;
+    std::uint64_t key = 0;
+    bool operator==(const FigureColumns&) const = default;
 };
 
 // The records of frames 0, 1, …; all of them have the same size in the file. Calls throw core::Error: inputOutput when
 // it cannot be written or read, badContent for a file that is foreign, of another version, or holds too few records.
 class RecordLog {
   public:
-    RecordLog();                                            // empty, without a name; goes with the object
-    explicit RecordLog(const std::filesystem::path& path);  // empty, under that name
+    RecordLog() : RecordLog(FigureColumns{}) {}
+    explicit RecordLog(const FigureColumns& figures);  // empty, without a name; goes with the object
+    RecordLog(const std::filesystem::path& path, const FigureColumns& figures);  // empty, under that name
 
     // The first `count` of an earlier run: as a copy without a name, or going on in the same file, which forgets the
-    // rest.
-    static RecordLog copyOf(const std::filesystem::path& path, std::size_t count);
-    static RecordLog continuing(const std::filesystem::path& path, std::size_t count);
+    // rest. Figures other than those of the earlier run were not measured of its frames.
+    static RecordLog copyOf(const std::filesystem::path& path, std::size_t count, const FigureColumns& figures = {});
+    static RecordLog continuing(const std::filesystem::path& path, std::size_t count,
+                                const FigureColumns& figures = {});
 
     // digest() of the first `count`.
     static std::uint64_t digestOf(const std::filesystem::path& path, std::size_t count);
@@ -41,23 +52,26 @@ class RecordLog {
     RecordLog& operator=(RecordLog&& other) noexcept;
     ~RecordLog();
 
-    void add(const FrameRecord& record);  // expects that its frame is the next
+    void add(const FrameRecord& record);  // expects that its frame is the next, and its figures as many as columns
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
     FrameRecord operator[](std::size_t frame) const;  // expects frame < size()
     FrameRecord back() const { return (*this)[size_ - 1]; }
 
-    // Of all that was added: tells whether a file holds the same records.
+    // Of all that was added but its figures: tells whether a file holds the same records.
     std::uint64_t digest() const { return digest_.value(); }
 
   private:
     RecordLog(int descriptor, std::filesystem::path path);
     static RecordLog opened(const std::filesystem::path& path, int mode, std::size_t count);
-    void begin();
+    void begin(const FigureColumns& figures);
+    std::size_t recordWords() const;
     void readDigest(std::size_t count);
+    void addAll(const RecordLog& other);
 
     int descriptor_ = -1;
     std::filesystem::path path_;  // for messages
+    FigureColumns figures_;
     std::size_t size_ = 0;
     core::Hash digest_;
 };

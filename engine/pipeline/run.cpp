@@ -46,7 +46,7 @@ class Player {
         current_ = FrameRecord{.frame = next_++, .time = world_.time(), .hash = world_.stateHash()};
         saveState();
         if (options_.metrics) current_.metrics = world_.metrics();
-        if (options_.figures) result_.figures[current_.frame] = options_.figures(world_);
+        if (options_.figures) current_.figures = options_.figures(world_);
         current_.simulating = secondsSince(start);
         if (listener_.frameSimulated) listener_.frameSimulated(current_);
         return true;
@@ -132,11 +132,12 @@ std::int64_t frameCount(const world::RunSpec& run) {
 }
 
 RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
-               const RunListener& listener, const std::atomic<bool>& stop, RecordLog records) {
+               const RunListener& listener, const std::atomic<bool>& stop, std::optional<RecordLog> records) {
     TAUT_EXPECTS(options.firstFrame >= 0 && options.firstFrame <= options.lastFrame);
     TAUT_EXPECTS(!draw == (sink == nullptr));
     const auto start = Clock::now();
-    Player player(world, options, listener, stop, std::move(records));
+    if (!records) records.emplace(options.figureColumns);
+    Player player(world, options, listener, stop, std::move(*records));
     if (!draw) {
         while (player.advance()) player.keep();
     } else {

@@ -26,6 +26,7 @@ struct RunOptions {
     bool debugView = false;
     bool metrics = false;
     std::function<std::vector<double>(const world::World&)> figures{};  // measured each frame; null: nothing
+    FigureColumns figureColumns{};                                      // that they fill
 
     std::int64_t startFrame = 0;       // where to go on: the world is at the time of this frame already
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
@@ -42,8 +43,7 @@ struct RunListener {
 };
 
 struct RunResult {
-    RecordLog frames;                                     // every simulated one, those before the start among them
-    std::map<std::int64_t, std::vector<double>> figures;  // by frame: RunOptions::figures of those from the start on
+    RecordLog frames;  // every simulated one, those before the start among them
     std::optional<world::Divergence> divergence;
     bool interrupted = false;
     double seconds = 0.0;  // [s] of wall time, the whole run
@@ -55,8 +55,8 @@ using Draw = std::function<image::Image(const view::FrameView&)>;
 // Plays frames startFrame … lastFrame. With `draw` and `sink` the frames from firstFrame on are drawn and written while
 // the next ones are simulated; without them nothing is drawn. Ends early, with everything that was begun finished, when
 // the state diverges or `stop` becomes true; the sink is finished in any case but an exception. Rethrows what a stage
-// throws. `records` are those of the frames before startFrame.
+// throws. `records` are those of the frames before startFrame; none are needed at 0.
 RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
-               const RunListener& listener, const std::atomic<bool>& stop, RecordLog records = {});
+               const RunListener& listener, const std::atomic<bool>& stop, std::optional<RecordLog> records = {});
 
 }  // namespace taut::pipeline

@@ -148,11 +148,7 @@ void writeMetricsCsv(const Write& write, const RunResult& result, const std::vec
             if (const auto* number = std::get_if<double>(&value)) text += fmt::format(",{}", *number);
             if (const auto* count = std::get_if<std::int64_t>(&value)) text += fmt::format(",{}", *count);
         }
-        const auto measured = result.figures.find(frame.frame);
-        for (std::size_t k = 0; k < figures.size(); ++k) {
-            const bool isNumber = measured != result.figures.end() && std::isfinite(measured->second[k]);
-            text += isNumber ? fmt::format(",{:.17g}", measured->second[k]) : ",";
-        }
+        for (const double figure : frame.figures) text += std::isfinite(figure) ? fmt::format(",{:.17g}", figure) : ",";
         write(text);
         text.clear();
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "taut/core/utf8.h"
 #include "taut/report/page_parts.h"
 
 namespace taut::report {
@@ -225,7 +226,7 @@ std::string join(const std::vector<std::string>& parts) {
 
 std::string htmlText(const std::string& text) {
     std::string out;
-    for (const char c : text) switch (c) {
+    for (const char c : core::printable(text)) switch (c) {
             case '&': out += "&amp;"; break;
             case '<': out += "&lt;"; break;
             case '>': out += "&gt;"; break;

@@ -33,11 +33,11 @@ constexpr double bytesOfTriangle = 500.0, bytesOfKey = 200.0, bytesOfAction = 20
 constexpr double bytesOfCollider = 4e3, bytesOfDrawnCollider = 9e4;
 constexpr double bytesOfShadowTexel = 4.5, bytesOfPixel = 15.0, bytesOfSample = 12.0;  // further samples
 
-double sizeOf(const world::ColliderSpec& collider) {
+double bytesOf(const world::ColliderSpec& collider) {
     double bytes = (collider.visible ? bytesOfDrawnCollider : bytesOfCollider) +
                    bytesOfKey * static_cast<double>(collider.keys.size());
     if (collider.meshData) bytes += bytesOfTriangle * static_cast<double>(collider.meshData->triangles.size());
-    for (const world::ColliderSpec& part : collider.parts) bytes += sizeOf(part);
+    for (const world::ColliderSpec& part : collider.parts) bytes += bytesOf(part);
     return bytes;
 }
 
@@ -46,7 +46,7 @@ double sizeOf(const world::ColliderSpec& collider) {
 SceneSize wholeSizeOf(const world::SceneSpec& scene) {
     SceneSize size;
     size.bodies = sizeOf(scene).bytes();
-    for (const world::ColliderSpec& collider : scene.colliders) size.colliders += sizeOf(collider);
+    for (const world::ColliderSpec& collider : scene.colliders) size.colliders += bytesOf(collider);
     const world::PictureSpec& picture = scene.picture;
     size.pictures =
         static_cast<double>(picture.size.x) * picture.size.y * (bytesOfPixel + bytesOfSample * (picture.samples - 1)) +

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <random>
 
@@ -122,7 +123,7 @@ TEST(RecordLog, GivesBackEveryRecordAndGoesOnWhereItIsTold) {
     const std::filesystem::path path = emptyFolder("log") / "records.taut";
     std::uint64_t atThree = 0;
     {
-        RecordLog log(path);
+        RecordLog log(path, {});
         addUpTo(log, 3);
         atThree = log.digest();
         addUpTo(log, 5);
@@ -140,6 +141,27 @@ TEST(RecordLog, GivesBackEveryRecordAndGoesOnWhereItIsTold) {
     EXPECT_THROW(RecordLog::copyOf(path, 5), core::Error) << "the fourth of before is forgotten";
     std::ofstream(path) << "nothing of the sort";
     EXPECT_THROW(RecordLog::copyOf(path, 0), core::Error);
+}
+
+TEST(RecordLog, KeepsFiguresAndKnowsThatOthersWereNotMeasured) {
+    const std::filesystem::path path = emptyFolder("figures") / "records.taut";
+    const FigureColumns two{2, 7}, otherTwo{2, 8};
+    std::uint64_t digest = 0;
+    {
+        RecordLog log(path, two);
+        for (std::int64_t i = 0; i < 3; ++i) {
+            FrameRecord record = recordOf(i);
+            record.figures = {1.0 * static_cast<double>(i), 0.1};
+            log.add(record);
+        }
+        digest = log.digest();
+    }
+    EXPECT_EQ(RecordLog::copyOf(path, 3, two)[2].figures, (std::vector<double>{2.0, 0.1}));
+    EXPECT_TRUE(std::isnan(RecordLog::copyOf(path, 3, otherTwo)[2].figures.at(1)));
+    const RecordLog without = RecordLog::continuing(path, 3);
+    EXPECT_TRUE(without[1].figures.empty());
+    expectSame(without[1], recordOf(1));
+    EXPECT_EQ(RecordLog::digestOf(path, 3), digest);
 }
 
 Checkpoint example(std::int64_t frame, std::uint64_t state) {
@@ -170,7 +192,7 @@ TEST(Checkpoint, TakesNoMoreLaterInTheRun) {
 
 TEST(CheckpointFolder, FindsTheLastThatFits) {
     const CheckpointFolder folder(emptyFolder("latest"));
-    RecordLog log(folder.records());
+    RecordLog log(folder.records(), {});
     addUpTo(log, 40);
     for (std::int64_t frame : {10, 20, 30, 40})
         writeCheckpoint(folder.pathOf(frame), example(frame, frame < 30 ? 1 : 2));

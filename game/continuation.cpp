@@ -68,6 +68,10 @@ RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const worl
 pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
                          const std::string& output, pipeline::RunOptions& options, world::World& world) {
     const pipeline::CheckpointFolder checkpoints(folder);
+    if (flags.every > 0 && !flags.resume && !flags.from && !flags.mayOverwrite && !checkpoints.framesThere().empty())
+        throw core::Error(core::ErrorKind::inputOutput,
+                          fmt::format("{} holds states of an earlier run; --resume goes on from them, -y begins anew",
+                                      folder.string()));
     const auto fromStart = [&] {
         return flags.every > 0 ? pipeline::RecordLog(checkpoints.records(), options.figureColumns)
                                : pipeline::RecordLog(options.figureColumns);

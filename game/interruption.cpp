@@ -1,5 +1,6 @@
 #include "game/interruption.h"
 
+#include <cstdint>
 #include <ctime>
 
 #include "game/exit_code.h"
@@ -10,21 +11,21 @@ namespace {
 // A signal handler reaches nothing but what is static.
 std::atomic<bool> asked{false};
 volatile std::sig_atomic_t received = 0;
-volatile std::time_t receivedAt = 0;
-constexpr std::time_t secondsTogether = 1;
+std::atomic<std::int64_t> receivedAt{0};
+constexpr std::int64_t together = 1000;  // [ms]
 
-// Seconds of a clock that only goes on.
-std::time_t now() {
+// [ms] of a clock that only goes on.
+std::int64_t now() {
     timespec time{};
     ::clock_gettime(CLOCK_MONOTONIC, &time);
-    return time.tv_sec;
+    return std::int64_t{time.tv_sec} * 1000 + time.tv_nsec / 1000000;
 }
 
 // The first ends the run in order. One that follows at once belongs to it: timeout(1) sends its signal to the process
 // and to its group, a terminal and a supervisor may both send theirs. One that comes later means it.
 extern "C" void noteSignal(int signal) {
     if (asked) {
-        if (now() - receivedAt <= secondsTogether) return;
+        if (now() - receivedAt <= together) return;
         ::signal(signal, SIG_DFL);
         ::raise(signal);
         return;

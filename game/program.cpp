@@ -40,6 +40,7 @@ void printShortHelp() {
 void leaveWriteErrorsToWrite() {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGCHLD, SIG_DFL);  // ignored, it would take the exit codes of children
 }
 
 int runAction(const Action& action) {

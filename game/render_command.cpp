@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -160,19 +161,22 @@ std::filesystem::path checkpointFolder(const RenderFlags& flags, const image::Fr
     return sink != nullptr ? sink->companion("checkpoints") : std::filesystem::path();
 }
 
-// Parts of one run may draw into one folder at the same time; states and their records are one run's alone.
+// Parts of one run may draw into one folder at the same time; states and their records are one run's alone. `lastOfAll`
+// is the last frame of the whole run.
 std::vector<pipeline::RunLock> locksOf(const std::string& output, const std::filesystem::path& states,
-                                       const RunKeys& keys, const pipeline::RunOptions& options,
+                                       const RunKeys& keys, std::int64_t lastOfAll, bool keepsStates,
                                        const std::string& scene) {
     const std::string name = fmt::format("taut render {}, process {}", scene, ::getpid());
     std::vector<pipeline::RunLock> locks;
-    if (!output.empty() && !image::isVideoPath(output)) {
-        core::Hash run;
-        run.add(keys.state(options.lastFrame));
-        run.add(keys.picture);
-        locks.emplace_back(image::FramePattern(output).folder(), pipeline::RunParty{run.value(), name});
-    }
-    if (options.checkpointEvery > 0) locks.emplace_back(states, pipeline::RunParty{std::nullopt, name});
+    if (keepsStates) locks.emplace_back(states, pipeline::RunParty{std::nullopt, name});
+    if (output.empty() || image::isVideoPath(output)) return locks;
+    const std::filesystem::path pictures = image::FramePattern(output).folder();
+    std::error_code ignored;
+    if (keepsStates && std::filesystem::equivalent(pictures, states, ignored)) return locks;
+    core::Hash run;
+    run.add(keys.state(lastOfAll));
+    run.add(keys.picture);
+    locks.emplace_back(pictures, pipeline::RunParty{run.value(), name});
     return locks;
 }
 
@@ -208,7 +212,7 @@ pipeline::RunListener listenerFor(const RenderFlags& flags, const pipeline::RunO
 }
 
 void writeWith(const std::filesystem::path& path, const std::function<void(const pipeline::Write&)>& writeAll) {
-    core::WholeFile file(path);
+    core::WholeFile file(path, std::chrono::seconds(10));  // parts of one run may end at the same time
     writeAll([&](std::string_view text) { file.write(text); });
     file.commit();
 }
@@ -244,9 +248,8 @@ int render(const RenderFlags& flags) {
         options.figures = [figures](const world::World& world) { return figures->of(world); };
         options.figureColumns = columnsOf(figures->names());
     }
-    const Interruption interruption;
-
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, options, spec.run.fps);
+    const Interruption interruption;  // from here on: a question is ended by Ctrl-C as ever
     const std::string large =
         largeRunText(options.lastFrame - options.firstFrame + 1, spec.picture.size.x, spec.picture.size.y);
     if (!large.empty() && !flags.noPictures && !flags.quiet) printNote("note: {}\n", large);
@@ -260,7 +263,8 @@ int render(const RenderFlags& flags) {
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.yes;
     const std::string output = flags.noPictures ? "" : flags.output;
-    const std::vector<pipeline::RunLock> locks = locksOf(output, states, keys, options, flags.scene);
+    const std::vector<pipeline::RunLock> locks = locksOf(
+        output, states, keys, pipeline::frameCount(spec.run) - 1, options.checkpointEvery > 0, flags.scene);
     pipeline::RecordLog records = goOn(continuation, states, keys, output, options, world);
     const std::size_t before = records.size();
 

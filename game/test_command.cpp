@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -21,10 +22,12 @@
 #include "game/shell_word.h"
 #include "game/suggestion.h"
 #include "taut/core/error.h"
+#include "taut/core/file_batch.h"
 #include "taut/core/glob.h"
 #include "taut/core/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
+#include "taut/pipeline/run_lock.h"
 #include "taut/regression/goldens.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/suite.h"
@@ -116,7 +119,17 @@ struct Run {
     regression::ReadScenarios read;
     regression::SuiteOptions suite;
     regression::Manifest manifest;
+    pipeline::RunLock lock;  // of the goldens, while they are changed
 };
+
+// What a scenario is held against lies in its folder, and nothing there leads elsewhere.
+void refuseLinks(const std::filesystem::path& goldens) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(goldens, none))
+        if (entry.is_symlink())
+            throw core::Error(core::ErrorKind::badContent,
+                              fmt::format("{} is a link; goldens of confined scenarios hold none", entry.path().string()));
+}
 
 Run prepare(const TestFlags& flags) {
     checkFlags(flags);
@@ -126,6 +139,12 @@ Run prepare(const TestFlags& flags) {
     choose(flags, run.read);
     run.suite.requiresGoldens = flags.requireGoldens;
     run.suite.goldens = goldenFolder(flags, run.paths);
+    if (flags.isConfined) refuseLinks(run.suite.goldens.path);
+    if (!flags.updates.empty()) {
+        const std::string name = fmt::format("taut test --update {}, process {}", flags.updates.front(), ::getpid());
+        run.lock = pipeline::RunLock(run.suite.goldens.path, {std::nullopt, name});
+        core::FileBatch::recover(run.suite.goldens.path);
+    }
     run.manifest = regression::readManifest(run.suite.goldens);
 
     const int machine = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -212,6 +231,7 @@ std::vector<std::string> orphans(const TestFlags& flags, const Run& run) {
 int finish(const TestFlags& flags, const report::TestReport& report, const std::filesystem::path& page) {
     // First what a full disk cannot take away.
     printResult("{}{}{}", report::testTable(report), report::testFailures(report), report::calibrationTable(report));
+    for (const report::TestScenario& scenario : report.scenarios) writePictures(flags.output, scenario);
     core::writeWholeFile(page, report::testPage(report));
     if (!flags.junit.empty()) core::writeWholeFile(flags.junit, report::junitXml(report));
     printResult("\n{}; {}\n", report::testSummary(report), page.string());
@@ -268,7 +288,6 @@ int test(const TestFlags& flags) {
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     for (report::TestScenario& scenario : report.scenarios) {
         if (isAcceptable(scenario)) scenario.accept = acceptCommand(flags, scenario.name);
-        writePictures(flags.output, scenario);
     }
     if (interruption.exitCode()) addUnplayed(run.read.scenarios, report);
     int code = finish(flags, report, page);

@@ -33,7 +33,10 @@ path checked(const path& folder, const std::string& name) {
     const path relative(name);
     const bool isBelow = !name.empty() && relative.is_relative() &&
                          std::none_of(relative.begin(), relative.end(), [](const path& part) { return part == ".."; });
-    if (!isBelow)
+    std::error_code error;
+    const path root = std::filesystem::canonical(folder, error);
+    const path parent = std::filesystem::weakly_canonical((folder / relative).parent_path(), error);
+    if (!isBelow || error || std::mismatch(root.begin(), root.end(), parent.begin(), parent.end()).first != root.end())
         throw Error(ErrorKind::badContent,
                     listIn(folder).string() + ": names a file that is not in this folder: '" + name + "'");
     return folder / relative;
@@ -74,8 +77,12 @@ void FileBatch::commit() {
     recover(folder_);
 }
 
+bool FileBatch::isPending(const path& folder) {
+    return isThere(listIn(folder));
+}
+
 void FileBatch::recover(const path& folder) {
-    if (!isThere(listIn(folder))) return;
+    if (!isPending(folder)) return;
     std::istringstream lines(fileContent(listIn(folder)));
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with(removeWord)) {
@@ -83,8 +90,8 @@ void FileBatch::recover(const path& folder) {
         } else if (line.starts_with(replaceWord)) {
             const path file = checked(folder, line.substr(replaceWord.size()));
             std::error_code error;
-            if (!isThere(newOf(file))) continue;  // it was renamed before
             std::filesystem::rename(newOf(file), file, error);
+            if (error == std::errc::no_such_file_or_directory) continue;  // it was renamed before
             if (error) failOn(file, "cannot rename the finished file: " + error.message());
         } else {
             throw Error(ErrorKind::badContent, listIn(folder).string() + ": cannot be understood: '" + line + "'");

@@ -27,8 +27,10 @@ class FileBatch {
     // Throws core::Error(inputOutput); whether the batch is done then, recover() finds out.
     void commit();
 
-    // Finishes what a process that was killed had begun to commit. Throws core::Error: inputOutput, badContent for a
-    // list that names files elsewhere.
+    // Whether a process that was killed has left something to finish.
+    static bool isPending(const std::filesystem::path& folder);
+
+    // Finishes it. Throws core::Error: inputOutput, badContent for a list that names files elsewhere, links resolved.
     static void recover(const std::filesystem::path& folder);
 
   private:

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
+#include <thread>
 
 #include "taut/core/error.h"
 #include "taut/core/file_lock.h"
@@ -19,17 +21,20 @@ namespace {
     throw Error(ErrorKind::inputOutput, path.string() + ": " + what + ": " + std::strerror(error));
 }
 
-// What a process that was killed has left under a temporary name; a link is not followed. Throws when it is being
+// Removes what a process that was killed has left under a temporary name; a link is not followed. False when it is being
 // written, by a process that lives.
-void removeLeftOver(const std::filesystem::path& path, const std::filesystem::path& temporary) {
+bool hasRemovedLeftOver(const std::filesystem::path& path, const std::filesystem::path& temporary) {
     const int left = ::open(temporary.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    const bool isFree = left < 0 || tryLock(left, FileLock::exclusive);
+    const bool isLink = left < 0 && errno == ELOOP;
+    if (left < 0 && errno == ENOENT) return true;
+    if (left < 0 && !isLink) failOn(path, "cannot write", errno);
+    const bool isFree = isLink || tryLock(left, FileLock::exclusive);
     // The lock may be one on a file that another process has replaced meanwhile.
-    const bool isGone = left >= 0 && !isNamed(left, temporary);
+    const bool isGone = !isLink && !isNamed(left, temporary);
     const int error = isFree && !isGone && ::unlink(temporary.c_str()) != 0 && errno != ENOENT ? errno : 0;
     if (left >= 0) ::close(left);
-    if (!isFree) throw Error(ErrorKind::inputOutput, path.string() + ": another process is writing this file");
     if (error != 0) failOn(path, "cannot write", error);
+    return isFree;
 }
 
 }  // namespace
@@ -44,17 +49,28 @@ void prepareFolderOf(const std::filesystem::path& path) {
     std::filesystem::create_directories(folder, error);
     if (std::error_code other; error && !std::filesystem::is_directory(folder, other))
         failOn(folder, "cannot make the folder", error.value());
-    const WholeFile probe(path);
+    if (std::filesystem::is_directory(path, error)) failOn(path, "cannot write", EISDIR);
+    // Under a name of its own: another process may be writing this very file.
+    std::string probe = (folder / ".taut-probe-XXXXXX").string();
+    const int descriptor = ::mkstemp(probe.data());
+    if (descriptor < 0) failOn(path, "cannot write", errno);
+    ::unlink(probe.c_str());
+    ::close(descriptor);
 }
 
-WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)), temporary_(temporaryName(path_)) {
+WholeFile::WholeFile(std::filesystem::path path, std::chrono::milliseconds patience)
+    : path_(std::move(path)), temporary_(temporaryName(path_)) {
     if (std::error_code error; std::filesystem::is_directory(path_, error)) failOn(path_, "cannot write", EISDIR);
+    const auto end = std::chrono::steady_clock::now() + patience;
     // Over again when another process has made or taken away that name between two calls.
     while (descriptor_ < 0) {
         descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (descriptor_ < 0) {
             if (errno != EEXIST) failOn(path_, "cannot write", errno);
-            removeLeftOver(path_, temporary_);
+            if (hasRemovedLeftOver(path_, temporary_)) continue;
+            if (std::chrono::steady_clock::now() >= end)
+                throw Error(ErrorKind::inputOutput, path_.string() + ": another process is writing this file");
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
         } else if (!tryLock(descriptor_, FileLock::exclusive) || !isNamed(descriptor_, temporary_)) {
             ::close(descriptor_);
             descriptor_ = -1;
@@ -63,9 +79,15 @@ WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)), tempo
 }
 
 WholeFile::~WholeFile() {
+    remove();
+}
+
+// While it is locked, so that it is not another's that goes.
+void WholeFile::remove() {
     if (descriptor_ < 0) return;
-    ::close(descriptor_);
     ::unlink(temporary_.c_str());
+    ::close(descriptor_);
+    descriptor_ = -1;
 }
 
 void WholeFile::write(std::span<const std::byte> bytes) {
@@ -82,25 +104,15 @@ void WholeFile::write(std::string_view text) {
 }
 
 void WholeFile::commit() {
-    // Some file systems report a full disk only now.
-    if (::close(descriptor_) != 0) {
-        const int error = errno;
-        descriptor_ = -1;
-        ::unlink(temporary_.c_str());
-        failOn(path_, "cannot write", error);
-    }
+    // Some file systems report a full disk only when a descriptor is closed. The lock goes with the last one.
+    if (const int copy = ::dup(descriptor_); copy >= 0 && ::close(copy) != 0) fail("cannot write", errno);
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot rename the finished file", errno);
+    ::close(descriptor_);
     descriptor_ = -1;
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
-        const int error = errno;
-        ::unlink(temporary_.c_str());
-        failOn(path_, "cannot rename the finished file", error);
-    }
 }
 
 void WholeFile::fail(const char* what, int error) {
-    ::close(descriptor_);
-    descriptor_ = -1;
-    ::unlink(temporary_.c_str());
+    remove();
     failOn(path_, what, error);
 }
 

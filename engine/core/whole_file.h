@@ -23,8 +23,9 @@ void prepareFolderOf(const std::filesystem::path& path);
 // of that name from before is untouched.
 class WholeFile {
   public:
-    // Makes the temporary file anew, also where a killed process has left one; throws core::Error(inputOutput).
-    explicit WholeFile(std::filesystem::path path);
+    // Makes the temporary file anew, also where a killed process has left one; waits at most so long for another that is
+    // writing it. Throws core::Error(inputOutput).
+    explicit WholeFile(std::filesystem::path path, std::chrono::milliseconds patience = {});
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;
     WholeFile& operator=(const WholeFile&) = delete;
@@ -40,6 +41,7 @@ class WholeFile {
     void commit();
 
   private:
+    void remove();
     [[noreturn]] void fail(const char* what, int error);
 
     std::filesystem::path path_;

@@ -74,7 +74,7 @@ std::vector<std::int64_t> CheckpointFolder::framesThere() const {
         const char* last = name.data() + name.size() - after.size();
         std::int64_t frame = 0;
         const auto [end, error] = std::from_chars(first, last, frame);
-        if (error == std::errc{} && end == last) frames.push_back(frame);
+        if (error == std::errc{} && end == last && pathOf(frame).filename() == name) frames.push_back(frame);
     }
     std::sort(frames.begin(), frames.end());
     return frames;
@@ -100,7 +100,6 @@ std::optional<Checkpoint> CheckpointFolder::latest(std::int64_t frame,
             else
                 return checkpoint;
         } catch (const core::Error& error) {
-            if (error.kind() != core::ErrorKind::badContent) throw;
             refused.push_back(error.what());
         }
     }

@@ -150,6 +150,7 @@ RecordLog::RecordLog(int descriptor, std::filesystem::path path) : descriptor_(d
 }
 
 RecordLog::RecordLog(const FigureColumns& figures) : RecordLog(namelessFile(), "records of frames") {
+    isNameless_ = true;
     begin(figures);
 }
 
@@ -229,6 +230,7 @@ void RecordLog::readDigest(std::size_t count) {
 RecordLog::RecordLog(RecordLog&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       path_(std::move(other.path_)),
+      isNameless_(other.isNameless_),
       figures_(other.figures_),
       size_(other.size_),
       digest_(other.digest_) {}
@@ -236,6 +238,7 @@ RecordLog::RecordLog(RecordLog&& other) noexcept
 RecordLog& RecordLog::operator=(RecordLog&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
     std::swap(path_, other.path_);
+    std::swap(isNameless_, other.isNameless_);
     std::swap(figures_, other.figures_);
     std::swap(size_, other.size_);
     std::swap(digest_, other.digest_);
@@ -246,13 +249,32 @@ RecordLog::~RecordLog() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+void RecordLog::moveToMemory() {
+    isNameless_ = false;
+    const int memory = ::memfd_create("records", MFD_CLOEXEC);
+    if (memory < 0) fail(path_, "keep the records of frames", errno);
+    std::vector<Word> words(headWords);
+    for (off_t at = 0; at < placeOf(size_, recordWords()); at += static_cast<off_t>(words.size() * sizeof(Word))) {
+        words.resize(at == 0 ? headWords : recordWords());
+        if (!readWords(descriptor_, at, words, path_)) fail(path_, "read", EIO);
+        writeWords(memory, at, words, path_);
+    }
+    ::close(std::exchange(descriptor_, memory));
+}
+
 void RecordLog::add(const FrameRecord& record) {
     TAUT_EXPECTS(record.frame == static_cast<std::int64_t>(size_));
     TAUT_EXPECTS(record.figures.size() == figures_.count);
     std::vector<Word> words = wordsOf(record);
     for (const Word word : words) digest_.add(word);
     for (const double figure : record.figures) words.push_back(wordOf(figure));
-    writeWords(descriptor_, placeOf(size_, recordWords()), words, path_);
+    try {
+        writeWords(descriptor_, placeOf(size_, recordWords()), words, path_);
+    } catch (const core::Error&) {
+        if (!isNameless_) throw;
+        moveToMemory();  // the disk is full that nobody asked to write to
+        writeWords(descriptor_, placeOf(size_, recordWords()), words, path_);
+    }
     ++size_;
 }
 

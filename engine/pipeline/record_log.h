@@ -66,11 +66,13 @@ class RecordLog {
     static RecordLog opened(const std::filesystem::path& path, int mode, std::size_t count);
     void begin(const FigureColumns& figures);
     std::size_t recordWords() const;
+    void moveToMemory();
     void readDigest(std::size_t count);
     void addAll(const RecordLog& other);
 
     int descriptor_ = -1;
     std::filesystem::path path_;  // for messages
+    bool isNameless_ = false;  // and not yet in memory
     FigureColumns figures_;
     std::size_t size_ = 0;
     core::Hash digest_;

@@ -124,7 +124,11 @@ std::filesystem::path GoldenFolder::text(const std::string& scenario) const {
 }
 
 Manifest readManifest(const GoldenFolder& folder) {
-    core::FileBatch::recover(folder.path);
+    if (core::FileBatch::isPending(folder.path))
+        throw core::Error(core::ErrorKind::inputOutput,
+                          fmt::format("{}: an update of goldens was broken off here; taut test … --update NAME --why "
+                                      "\"…\" finishes it, and so does the one that is under way",
+                                      folder.path.string()));
     const std::string file = folder.manifest().string();
     Manifest manifest;
     std::error_code ignored;

@@ -47,7 +47,7 @@ struct GoldenFolder {
     std::filesystem::path text(const std::string& scenario) const;                             // NAME/scenario.toml
 };
 
-// Without a file an empty manifest; an update of goldens that was broken off is brought to its end first. Throws
+// Without a file an empty manifest; throws
 // core::Error: inputOutput when it cannot be read, badContent when it is no manifest, with what is wrong in it.
 Manifest readManifest(const GoldenFolder& folder);
 

@@ -130,6 +130,8 @@ std::filesystem::path layOnBase(Node& root, const std::string& fileName, const L
 }  // namespace
 
 Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options) {
+    if (!confinementOf(path.string(), options).allows(path))
+        throw core::Error(core::ErrorKind::badContent, path.string() + ": error: " + outsideMessage(path));
     return loadSceneText(textFile(path, maxSceneSize), path.string(), options);
 }
 

@@ -129,11 +129,13 @@ Manifest readManifest(const GoldenFolder& folder) {
                           fmt::format("{}: an update of goldens was broken off here; taut test … --update NAME --why "
                                       "\"…\" finishes it, and so does the one that is under way",
                                       folder.path.string()));
-    const std::string file = folder.manifest().string();
-    Manifest manifest;
     std::error_code ignored;
-    if (!std::filesystem::exists(folder.manifest(), ignored) && !ignored) return manifest;
-    const std::string content = core::fileContent(folder.manifest(), std::uint64_t{64} << 20U);
+    if (!std::filesystem::exists(folder.manifest(), ignored) && !ignored) return {};
+    return readManifestText(core::fileContent(folder.manifest(), std::uint64_t{64} << 20U), folder.manifest().string());
+}
+
+Manifest readManifestText(const std::string& content, const std::string& file) {
+    Manifest manifest;
     Json json;
     try {
         json = Json::parse(content);

@@ -51,6 +51,9 @@ struct GoldenFolder {
 // core::Error: inputOutput when it cannot be read, badContent when it is no manifest, with what is wrong in it.
 Manifest readManifest(const GoldenFolder& folder);
 
+// The same for a text; file is used in messages.
+Manifest readManifestText(const std::string& content, const std::string& file);
+
 // Throws core::Error(inputOutput).
 void writeManifest(const std::filesystem::path& file, const Manifest& manifest);
 

@@ -1,0 +1,42 @@
+#!/bin/sh
+# seeds.sh SOURCE FOLDER: what the fuzz targets begin with, taken from what is shipped: FOLDER/TARGET/….
+set -eu
+assets=$1/assets
+goldens=$1/tests/golden
+cd "$2"
+rm -rf seeds
+mkdir seeds
+cd seeds
+mkdir scene timeline check overrides obj image tape manifest world
+
+cp "$assets"/scenes/*.toml scene
+# One of each kind, as in the small scene of fuzz.h.
+sed_names='s/\b(cloth|rope|block|net|wind|material|collider)\.[a-z*][a-z0-9-]*/\1.a/g'
+for file in "$assets"/scenarios/*.toml; do
+    name=$(basename "$file" .toml)
+    cp "$file" "scene/scenario-$name.toml"
+    # The times are those of seconds, and the small scene has half of one.
+    awk '/^\[/ { on = /^\[\[at\]\]/ } on' "$file" | sed -E "$sed_names; s/^t = ([0-9])\./t = 0.\1/" >"timeline/$name.toml"
+    sed -n 's/^that = "\(.*\)"$/\1/p' "$file" | sed -E "$sed_names" | split -l 1 - "check/$name-"
+done
+for file in "$assets"/scenes/*.toml; do
+    awk '/^\[\[/ { head = "" } /^\[[a-z]/ { head = substr($1, 2, length($1) - 2) } /^[a-z_A-Z]+ = [^\[{]*$/ && head { print head "." $1 "=" $3 }' \
+        "$file" | sed -E "$sed_names" | split -l 4 - "overrides/$(basename "$file" .toml)-"
+done
+for file in "$assets"/models/*.obj; do
+    name=$(basename "$file" .obj)
+    # The first of each kind of line, with faces of the first vertices.
+    grep '^v ' "$file" | head -n 24 >"obj/$name"
+    { grep '^vt ' "$file" || true; } | head -n 24 >>"obj/$name"
+    printf 'o a\ng one two\nf 1 2 3\nf 4/1 5/2 6/3 7\nf -1 -2 -3 -4 -5\ng\nf 8/1/1 9//1 10/2/2\n' >>"obj/$name"
+done
+for file in "$assets"/textures/*.png; do
+    name=$(basename "$file" .png)
+    for format in png jpg; do
+        ffmpeg -nostdin -loglevel error -i "$file" -vf scale=24:16 "image/$name.$format"
+        ffmpeg -nostdin -loglevel error -i "$file" -vf scale=24:16 -pix_fmt "$([ $format = png ] && echo pal8 || echo yuvj444p)" "image/$name-other.$format"
+    done
+done
+for file in "$goldens"/*/state.tape; do cp "$file" "tape/$(basename "$(dirname "$file")")"; done
+cp "$goldens/manifest.json" manifest
+find . -size 0 -type f -delete

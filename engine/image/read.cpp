@@ -27,9 +27,16 @@ std::uint32_t bigEndian(const std::string& content, std::size_t at) {
     return value;
 }
 
+bool isPng(const std::string& content) {
+    return content.starts_with("\x89PNG\r\n\x1a\n");
+}
+
+bool isJpeg(const std::string& content) {
+    return content.starts_with("\xFF\xD8");
+}
+
 // stb_image looks at no checksum. Each chunk is its length, a name of four letters, data, and a checksum of the two.
 bool pngIsDamaged(const std::string& content) {
-    if (!content.starts_with("\x89PNG\r\n\x1a\n")) return false;
     std::size_t at = 8;
     while (content.size() - at >= 12) {
         const std::size_t length = bigEndian(content, at);
@@ -61,7 +68,6 @@ bool huffmanTablesFit(const std::string& content, std::size_t at, std::size_t en
 // Whether the segments of a JPEG file (T.81, annex B) follow each other to the marker of its end and its tables are as
 // large as they may be; stb_image looks at neither.
 bool jpegIsDamaged(const std::string& content) {
-    if (!content.starts_with("\xFF\xD8")) return false;
     bool hasScan = false;
     for (std::size_t at = 2; at + 1 < content.size();) {
         if (byteAt(content, at) != 0xFF) return true;
@@ -79,10 +85,11 @@ bool jpegIsDamaged(const std::string& content) {
         at = end;
         if (marker != 0xDA) continue;
         hasScan = true;
-        // Coded data: FF stands before 00, or before the number of a restart; before anything else it begins a segment.
+        // Coded data: FF stands before 00, or before the number of a restart, and FF before these fills up; before
+        // anything else it begins a segment.
         for (; at + 1 < content.size(); ++at) {
             const std::size_t next = byteAt(content, at + 1);
-            if (byteAt(content, at) == 0xFF && next != 0 && (next < 0xD0 || next > 0xD7)) break;
+            if (byteAt(content, at) == 0xFF && next != 0 && next != 0xFF && (next < 0xD0 || next > 0xD7)) break;
         }
     }
     return true;
@@ -97,8 +104,10 @@ bool jpegIsDamaged(const std::string& content) {
 Image readImage(const std::filesystem::path& path, std::int64_t maxPixels) {
     const std::string content = core::fileContent(path, maxBytes);
     if (content.empty()) fail(path, "the file is empty");
-    if (pngIsDamaged(content)) fail(path, "the file breaks off or is damaged");
-    if (jpegIsDamaged(content)) fail(path, "the file breaks off or is damaged");
+    // Without this, what is not looked through here might be a JPEG picture to stb_image all the same.
+    if (!isPng(content) && !isJpeg(content)) fail(path, "it begins as neither does");
+    if (isPng(content) ? pngIsDamaged(content) : jpegIsDamaged(content))
+        fail(path, "the file breaks off or is damaged");
 
     Image image;
     int channelsInFile = 0;

@@ -100,11 +100,32 @@ TEST(Png, OfMorePixelsThanMayBeIsRefusedBeforeItIsDecoded) {
 }
 
 // Sixteen counts of 17 are 272 symbols, where 256 are possible: stb_image 2.27 writes behind its table.
+std::string impossibleTable() {
+    return std::string("\xFF\xC4\x01\x23\x00", 5) + std::string(16, '\x11') + std::string(272, '\0');
+}
+
 TEST(Jpeg, WithAHuffmanTableThatCannotBeIsRefused) {
     const TemporaryFolder folder;
-    const std::string table = std::string("\xFF\xC4\x01\x23\x00", 5) + std::string(16, '\x11') + std::string(272, '\0');
-    test::writeText(folder / "a.jpg", smallestJpeg().insert(2, table));
+    test::writeText(folder / "a.jpg", smallestJpeg().insert(2, impossibleTable()));
     EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.jpg"); }).find("damaged"),
+              std::string::npos);
+}
+
+// In coded data FF FF 00 is what FF 00 is, no segment with a length: what follows is not passed over.
+TEST(Jpeg, BehindBytesThatFillUpNoTableIsOverlooked) {
+    const TemporaryFolder folder;
+    const std::string hidden = std::string("\xFF\xFF\x00\x01\x27", 5) + impossibleTable();
+    std::string jpeg = smallestJpeg();
+    test::writeText(folder / "a.jpg", jpeg.insert(jpeg.size() - 2, hidden));
+    EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.jpg"); }).find("damaged"),
+              std::string::npos);
+}
+
+// stb_image would read it, past all that is looked at before.
+TEST(Jpeg, ThatBeginsWithBytesThatFillUpIsRefused) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.jpg", "\xFF" + smallestJpeg());
+    EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.jpg"); }).find("begins as neither"),
               std::string::npos);
 }
 

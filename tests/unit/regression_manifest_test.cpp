@@ -44,6 +44,7 @@ TEST(Manifest, SaysWhatIsWrongInIt) {
     const std::vector<BadManifest> cases = {
         {"{\n\"schema\": 1,\n}", "manifest.json:3: error: this is no JSON"},
         {"", "error: this is no JSON"},
+        {R"({"schema": 1e999})", "manifest.json: error: it has a number beyond all bounds"},
         {"[]", "the content is no object"},
         {"{}", "schema is missing"},
         {R"({"schema": 2})", "schema is 2, and this taut reads 1"},

@@ -1,12 +1,12 @@
 #!/bin/sh
 # Builds everything and passes every test: g++ all of them, clang the determinism tests (its hashes against those of
 # g++) in a project that has taut as a subproject, and under AddressSanitizer and UndefinedBehaviorSanitizer the unit
-# tests. With --long also the physics tests under sanitizers and those labelled long, which take minutes and rarely
-# break.
+# tests. With --long also the physics tests under sanitizers, the fuzzer for ten seconds a reader, and those labelled
+# long, which take minutes and rarely break.
 set -eu
 case ${1-} in
-    '') without='-LE long' sanitized=unit ;;
-    --long) without= sanitized='unit|physics' ;;
+    '') without='-LE long' sanitized=unit fuzzed= ;;
+    --long) without= sanitized='unit|physics' fuzzed=yes ;;
     *) echo "usage: sh tests/run.sh [--long]" >&2 && exit 2 ;;
 esac
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -31,6 +31,11 @@ build gcc "$root" all -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BU
 build clang "$root/tests/consumer" "taut_determinism consumer_all" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
     -DCMAKE_BUILD_TYPE=Release -DTAUT_PROGRAM=ON -DTAUT_TESTS=ON -DTAUT_WERROR=ON
 build asan "$root" "taut taut_$(echo "$sanitized" | sed 's/|/ taut_/')" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan
+if [ "$fuzzed" ]; then
+    build fuzz "$root" taut_fuzz -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Asan \
+        -DTAUT_FUZZ=ON -DTAUT_PROGRAM=OFF -DTAUT_TESTS=OFF
+    ctest --test-dir "$root/build-fuzz" --output-on-failure -j "$jobs" -L fuzz
+fi
 
 ctest --test-dir "$root/build-clang" --output-on-failure -j "$jobs" -L determinism
 ctest --test-dir "$root/build-asan" --output-on-failure -j "$jobs" -L "$sanitized"

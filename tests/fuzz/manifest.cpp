@@ -1,8 +1,7 @@
 #include "taut/regression/manifest.h"
 
-#include "fuzz.h"
+#include "fuzz/support.h"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return taut::fuzz::read(
-        [&] { taut::regression::readManifestText(std::string(taut::fuzz::textOf(data, size)), "manifest.json"); });
+void taut::fuzz::readManifest(View bytes) {
+    regression::readManifestText(std::string(textOf(bytes)), "manifest.json");
 }

@@ -1,6 +1,7 @@
-#include "fuzz.h"
 #include "taut/scene/obj_file.h"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return taut::fuzz::read([&] { taut::scene::objMeshText(taut::fuzz::textOf(data, size), "fuzz.obj"); });
+#include "fuzz/support.h"
+
+void taut::fuzz::readObj(View bytes) {
+    scene::objMeshText(textOf(bytes), "fuzz.obj");
 }

@@ -3,10 +3,9 @@
 set -eu
 assets=$1/assets
 goldens=$1/tests/golden
+rm -rf "$2"
+mkdir -p "$2"
 cd "$2"
-rm -rf seeds
-mkdir seeds
-cd seeds
 mkdir scene timeline check overrides obj image tape manifest world
 
 cp "$assets"/scenes/*.toml scene
@@ -30,12 +29,8 @@ for file in "$assets"/models/*.obj; do
     { grep '^vt ' "$file" || true; } | head -n 24 >>"obj/$name"
     printf 'o a\ng one two\nf 1 2 3\nf 4/1 5/2 6/3 7\nf -1 -2 -3 -4 -5\ng\nf 8/1/1 9//1 10/2/2\n' >>"obj/$name"
 done
-for file in "$assets"/textures/*.png; do
-    name=$(basename "$file" .png)
-    for format in png jpg; do
-        ffmpeg -nostdin -loglevel error -i "$file" -vf scale=24:16 "image/$name.$format"
-        ffmpeg -nostdin -loglevel error -i "$file" -vf scale=24:16 -pix_fmt "$([ $format = png ] && echo pal8 || echo yuvj444p)" "image/$name-other.$format"
-    done
+for format in rgb24.png pal8.png yuvj420p.jpg gray.jpg; do
+    ffmpeg -nostdin -loglevel error -i "$assets/textures/flag.png" -vf scale=24:16 -pix_fmt "${format%.*}" "image/$format"
 done
 for file in "$goldens"/*/state.tape; do cp "$file" "tape/$(basename "$(dirname "$file")")"; done
 cp "$goldens/manifest.json" manifest

@@ -1,52 +1,35 @@
-// What the fuzz targets share: bytes as the readers want them, a file that is in memory only, a small scene. Each target
-// gives bytes to one reader. It may refuse them with a core::Error; anything else is a mistake of the reader.
+// What the targets share: bytes as the readers want them, a file in memory, a small scene.
 #pragma once
 
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "fuzz/targets.h"
 #include "taut/core/error.h"
-
-// Called by libFuzzer.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed);
-// Its own way of changing bytes; returns how many there are then.
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+#include "taut/scene/load.h"
 
 namespace taut::fuzz {
 
-inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
-    return {reinterpret_cast<const char*>(data), size};
+inline std::string_view textOf(View bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-inline std::span<const std::byte> bytesOf(const std::uint8_t* data, std::size_t size) {
-    return std::as_bytes(std::span(data, size));
-}
-
-// Refusals are what a reader is for.
-template <class Call>
-int read(const Call& call) {
-    try {
-        call();
-    } catch (const core::Error& error) {
-        if (std::string_view(error.what()).empty()) std::abort();
-    }
-    return 0;
+inline Bytes copyOf(std::span<const std::byte> bytes) {
+    const auto* from = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    return {from, from + bytes.size()};
 }
 
 // For readers that take a path.
 class MemoryFile {
   public:
-    MemoryFile(const std::uint8_t* data, std::size_t size) : descriptor_(::memfd_create("fuzz", MFD_CLOEXEC)) {
-        if (::write(descriptor_, data, size) != static_cast<ssize_t>(size)) std::abort();
+    explicit MemoryFile(View bytes) : descriptor_(::memfd_create("fuzz", MFD_CLOEXEC)) {
+        TAUT_EXPECTS(::write(descriptor_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
     }
     ~MemoryFile() { ::close(descriptor_); }
     MemoryFile(const MemoryFile&) = delete;
@@ -56,6 +39,14 @@ class MemoryFile {
   private:
     int descriptor_;
 };
+
+// Reads no other files, and refuses the same on every machine.
+inline scene::LoadOptions alone() {
+    scene::LoadOptions options;
+    options.isConfined = true;
+    options.memoryLimit = 16e9;
+    return options;
+}
 
 // One of each kind, named as seeds.sh names what it finds in the shipped scenes; half a second without actions.
 inline constexpr std::string_view smallScene = R"(schema = 1

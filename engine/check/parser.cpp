@@ -44,6 +44,7 @@ class Parser {
 
     Claim claim() {
         if (text_.size() > maxLength) fail(maxLength, "this claim is too long");
+        refuseUnseen();
         Claim claim;
         claim.text = text_;
         skipBlanks();
@@ -65,6 +66,7 @@ class Parser {
 
     std::vector<Expression> expressions() {
         if (text_.size() > maxLength) fail(maxLength, "this is too long");
+        refuseUnseen();
         skipBlanks();
         if (isAtEnd()) fail(0, "this is empty", "write e.g. max_strain(cloth.*)");
         std::vector<Expression> all;
@@ -77,6 +79,13 @@ class Parser {
   private:
     [[noreturn]] static void fail(std::size_t at, const std::string& message, std::string remedy = {}) {
         throw Fault(at, message, std::move(remedy));
+    }
+    // A message that shows one would break off there.
+    void refuseUnseen() const {
+        const auto isUnseen = [](char c) { return (c >= '\0' && c < ' ' && c != '\t') || c == '\x7F'; };
+        const auto found = std::find_if(text_.begin(), text_.end(), isUnseen);
+        if (found == text_.end()) return;
+        fail(static_cast<std::size_t>(found - text_.begin()), "there is a control character here", "write it on one line");
     }
     bool isAtEnd() const { return at_ >= text_.size(); }
     char next() const { return isAtEnd() ? '\0' : text_[at_]; }

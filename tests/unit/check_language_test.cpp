@@ -67,6 +67,19 @@ TEST(CheckLanguage, TargetsKeepTheirBracketsAndSayWhereTheyStand) {
     EXPECT_FALSE(mentions[2].hasPoints);
 }
 
+// Where a message breaks off there, nothing may be left of it.
+TEST(CheckLanguage, ControlCharactersAreRefusedWhereTheyStand) {
+    for (const std::string unseen : {std::string(1, '\0'), std::string("\n"), std::string("\x7F")}) {
+        try {
+            Check::parse("height(" + unseen + "a.b) > 1");
+            ADD_FAILURE();
+        } catch (const Fault& fault) {
+            EXPECT_EQ(fault.at, 7U);
+            EXPECT_STREQ(fault.what(), "there is a control character here");
+        }
+    }
+}
+
 TEST(CheckLanguage, DeepAndLongTextsAreRefused) {
     EXPECT_THROW(Check::parse(std::string(500, '(') + "time"), Fault);
     EXPECT_THROW(Check::parse(std::string(500, '-') + "time < 1"), Fault);

@@ -85,7 +85,8 @@ class Parser {
         const auto isUnseen = [](char c) { return (c >= '\0' && c < ' ' && c != '\t') || c == '\x7F'; };
         const auto found = std::find_if(text_.begin(), text_.end(), isUnseen);
         if (found == text_.end()) return;
-        fail(static_cast<std::size_t>(found - text_.begin()), "there is a control character here", "write it on one line");
+        fail(static_cast<std::size_t>(found - text_.begin()), "there is a control character here",
+             "write it on one line");
     }
     bool isAtEnd() const { return at_ >= text_.size(); }
     char next() const { return isAtEnd() ? '\0' : text_[at_]; }

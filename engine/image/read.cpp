@@ -3,6 +3,7 @@
 #define STBI_NO_STDIO
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
+#define STBI_ASSERT(condition) static_cast<void>(0)  // it asserts what a file says
 #define STBI_MAX_DIMENSIONS 16384
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -53,22 +54,48 @@ std::size_t byteAt(const std::string& content, std::size_t at) {
     return static_cast<unsigned char>(content[at]);
 }
 
+// What a JPEG file has defined so far, a bit a table: stb_image decodes with tables that were never filled.
+struct JpegTables {
+    unsigned huffman[2] = {0, 0};  // of DC, of AC
+    bool isProgressive = false;
+
+    bool has(std::size_t kind, std::size_t number) const { return (huffman[kind] >> number & 1U) != 0; }
+};
+
 // A Huffman table holds a symbol for each of 256 values at most (ITU-T T.81, B.2.4.2); stb_image believes more.
-bool huffmanTablesFit(const std::string& content, std::size_t at, std::size_t end) {
+bool huffmanTablesFit(const std::string& content, std::size_t at, std::size_t end, JpegTables& tables) {
     while (at < end) {
         if (end - at < 17) return false;
         std::size_t symbols = 0;
         for (std::size_t i = 1; i <= 16; ++i) symbols += byteAt(content, at + i);
         if (symbols > 256 || end - at - 17 < symbols) return false;
+        const std::size_t kind = byteAt(content, at) >> 4U, number = byteAt(content, at) & 15U;
+        if (kind > 1 || number > 3) return false;
+        tables.huffman[kind] |= 1U << number;
         at += 17 + symbols;
     }
     return true;
 }
 
-// Whether the segments of a JPEG file (T.81, annex B) follow each other to the marker of its end and its tables are as
-// large as they may be; stb_image looks at neither.
+// The head of a scan (T.81, B.2.3): how many components, two bytes each, the first and last coefficient, two of four
+// bits. A progressive one needs the tables of what it codes: DC values when they come first, AC values always.
+bool scanHasItsTables(const std::string& content, std::size_t at, std::size_t end, const JpegTables& tables) {
+    const std::size_t components = at < end ? byteAt(content, at) : 0;
+    if (end - at != 4 + 2 * components) return false;
+    const bool isFirst = byteAt(content, end - 3) == 0, isRefined = byteAt(content, end - 1) >> 4U != 0;
+    const bool needsDc = !tables.isProgressive || (isFirst && !isRefined), needsAc = !tables.isProgressive || !isFirst;
+    for (std::size_t i = at + 1; i + 3 < end; i += 2) {
+        const std::size_t dc = byteAt(content, i + 1) >> 4U, ac = byteAt(content, i + 1) & 15U;
+        if ((needsDc && !tables.has(0, dc)) || (needsAc && !tables.has(1, ac))) return false;
+    }
+    return true;
+}
+
+// Whether the segments of a JPEG file (T.81, annex B) do not follow each other to the marker of its end, or its tables
+// are larger than they may be or missing; stb_image looks at none of it.
 bool jpegIsDamaged(const std::string& content) {
     bool hasScan = false;
+    JpegTables tables;
     for (std::size_t at = 2; at + 1 < content.size();) {
         if (byteAt(content, at) != 0xFF) return true;
         const std::size_t marker = byteAt(content, at + 1);
@@ -81,7 +108,9 @@ bool jpegIsDamaged(const std::string& content) {
         const std::size_t length = byteAt(content, at + 2) << 8U | byteAt(content, at + 3);
         const std::size_t end = at + 2 + length;
         if (length < 2 || end > content.size()) return true;
-        if (marker == 0xC4 && !huffmanTablesFit(content, at + 4, end)) return true;
+        if (marker == 0xC2) tables.isProgressive = true;
+        if (marker == 0xC4 && !huffmanTablesFit(content, at + 4, end, tables)) return true;
+        if (marker == 0xDA && !scanHasItsTables(content, at + 4, end, tables)) return true;
         at = end;
         if (marker != 0xDA) continue;
         hasScan = true;

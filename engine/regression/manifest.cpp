@@ -144,7 +144,8 @@ Manifest readManifestText(const std::string& content, const std::string& file) {
         const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(at), '\n');
         throw core::Error(core::ErrorKind::badContent, fmt::format("{}:{}: error: this is no JSON", file, line));
     } catch (const nlohmann::json::out_of_range&) {
-        throw core::Error(core::ErrorKind::badContent, fmt::format("{}: error: it has a number beyond all bounds", file));
+        throw core::Error(core::ErrorKind::badContent,
+                          fmt::format("{}: error: it has a number beyond all bounds", file));
     }
     const Reader reader(json, file, "");
     if (const std::int64_t version = reader.whole("schema", 1); version != schema)

@@ -6,9 +6,15 @@ namespace taut::fuzz {
 
 std::span<const Target> targets() {
     static constexpr Target all[] = {
-        {"check", readCheck},       {"image", readImage, changedImage}, {"manifest", readManifest},
-        {"obj", readObj},           {"overrides", readOverrides},       {"scene", readScene},
-        {"tape", readTape, changedTape}, {"timeline", readTimeline},    {"world", readWorld, changedWorld},
+        {"check", readCheck},
+        {"image", readImage, changedImage},
+        {"manifest", readManifest},
+        {"obj", readObj},
+        {"overrides", readOverrides},
+        {"scene", readScene},
+        {"tape", readTape, changedTape},
+        {"timeline", readTimeline},
+        {"world", readWorld, changedWorld},
     };
     return all;
 }

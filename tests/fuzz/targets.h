@@ -1,5 +1,5 @@
-// The readers of files and texts that others may have made, each as one function of bytes. A reader may refuse them with
-// a core::Error; anything else is a mistake of the reader. libFuzzer calls them (fuzzer.cpp), and the unit tests.
+// The readers of files and texts that others may have made, each as one function of bytes. A reader may refuse them
+// with a core::Error; anything else is a mistake of the reader. libFuzzer calls them (fuzzer.cpp), and the unit tests.
 #pragma once
 
 #include <cstdint>

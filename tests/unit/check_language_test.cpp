@@ -69,7 +69,7 @@ TEST(CheckLanguage, TargetsKeepTheirBracketsAndSayWhereTheyStand) {
 
 // Where a message breaks off there, nothing may be left of it.
 TEST(CheckLanguage, ControlCharactersAreRefusedWhereTheyStand) {
-    for (const std::string unseen : {std::string(1, '\0'), std::string("\n"), std::string("\x7F")}) {
+    for (const std::string& unseen : {std::string(1, '\0'), std::string("\n"), std::string("\x7F")}) {
         try {
             Check::parse("height(" + unseen + "a.b) > 1");
             ADD_FAILURE();

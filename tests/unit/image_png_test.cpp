@@ -111,6 +111,17 @@ TEST(Jpeg, WithAHuffmanTableThatCannotBeIsRefused) {
               std::string::npos);
 }
 
+// stb_image 2.27 decodes with what happens to be where the table would stand.
+TEST(Jpeg, WithoutATableThatItsScanNamesIsRefused) {
+    const TemporaryFolder folder;
+    for (const char* other : {"\x10", "\x01"}) {
+        std::string jpeg = smallestJpeg();
+        test::writeText(folder / "a.jpg", jpeg.replace(jpeg.find("\xFF\xDA") + 6, 1, other));
+        EXPECT_NE(messageOf(ErrorKind::badContent, [&] { readImage(folder / "a.jpg"); }).find("damaged"),
+                  std::string::npos);
+    }
+}
+
 // In coded data FF FF 00 is what FF 00 is, no segment with a length: what follows is not passed over.
 TEST(Jpeg, BehindBytesThatFillUpNoTableIsOverlooked) {
     const TemporaryFolder folder;

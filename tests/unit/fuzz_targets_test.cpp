@@ -64,11 +64,11 @@ TEST(FuzzTargets, ReadOrRefuseWhateverBefallsTheirSeeds) {
                 target, {}, [](Bytes&) {}, 20));  // the target makes them
         // Scenes and worlds take a hundred times as long as the rest, and have more accidents in tests of their own.
         const bool isSlow = std::string("overrides scene timeline world").find(target.name) != std::string::npos;
-        const std::size_t rounds = isSlow ? 4 : 200;
+        const std::size_t rounds = isSlow ? 3 : 100;
         for (std::size_t i = 0; i < rounds; ++i) {
             Bytes bytes = files[i * files.size() / rounds];
             give(target, bytes);
-            for (unsigned accidents = 1 + random() % 3; accidents > 0; --accidents)
+            for (std::size_t accidents = 1 + random() % 3; accidents > 0; --accidents)
                 bytes = changed(
                     target, bytes, [&](Bytes& all) { befall(all, random); }, static_cast<unsigned>(random()));
             give(target, bytes);

@@ -58,6 +58,7 @@ std::string nameIn(const std::string& content) {
 }  // namespace
 
 RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party) : path_(folder / ".taut-lock") {
+    hasMadeFolder_ = !core::isThere(folder);
     core::prepareFolderOf(path_);
     std::string other;
     // A part is refused for a moment while the first is saying who it is.
@@ -86,11 +87,14 @@ RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party) : p
 }
 
 RunLock::RunLock(RunLock&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      hasMadeFolder_(other.hasMadeFolder_) {}
 
 RunLock& RunLock::operator=(RunLock&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(descriptor_, other.descriptor_);
+    std::swap(hasMadeFolder_, other.hasMadeFolder_);
     return *this;
 }
 
@@ -99,6 +103,7 @@ RunLock::~RunLock() {
     // The last one takes the file away: who has opened it meanwhile sees that it is no longer the one of that name.
     if (core::tryLock(descriptor_, core::FileLock::exclusive) && core::isNamed(descriptor_, path_))
         ::unlink(path_.c_str());
+    if (hasMadeFolder_) ::rmdir(path_.parent_path().c_str());  // refused where there is something
     ::close(descriptor_);
 }
 

@@ -29,6 +29,7 @@ class RunLock {
   private:
     std::filesystem::path path_;
     int descriptor_ = -1;
+    bool hasMadeFolder_ = false;  // which goes with it when nothing has come to lie there
 };
 
 }  // namespace taut::pipeline

@@ -5,7 +5,7 @@
 
 // A claim, read and then held against a small world.
 void taut::fuzz::readCheck(View bytes) {
-    static const world::World world(scene::loadSceneText(smallScene, "fuzz.toml", alone()).spec, {.threads = 1});
+    const world::World world(scene::loadSceneText(smallScene, "fuzz.toml", alone()).spec, {.threads = 1});
     try {
         const auto claim = check::Check::parse(textOf(bytes));
         check::Selections selections;

@@ -154,8 +154,14 @@ TEST(FileBatch, ChangesAllFilesOrNone) {
     EXPECT_FALSE(isThere(folder / "b"));
     EXPECT_EQ(folder.entryCount(), 3);
     FileBatch::recover(folder.path());
-    test::writeText(folder / ".changes", "remove ../elsewhere\n");
-    messageOf(ErrorKind::badContent, [&] { FileBatch::recover(folder.path()); });
+    const TemporaryFolder elsewhere;
+    test::writeText(elsewhere / "precious", "kept");
+    std::filesystem::create_directory_symlink(elsewhere.path(), folder / "link");
+    for (const char* list : {"remove ../elsewhere\n", "remove link/precious\n"}) {
+        test::writeText(folder / ".changes", list);
+        messageOf(ErrorKind::badContent, [&] { FileBatch::recover(folder.path()); });
+    }
+    EXPECT_EQ(contentOf(elsewhere / "precious"), "kept");
 }
 
 }  // namespace

@@ -156,6 +156,14 @@ TEST_F(Continuation, ResumesWhatWasKilledBeforeItsFirstState) {
     EXPECT_EQ(test::run(other).code, 6) << "other pictures are not drawn over";
 }
 
+TEST_F(Continuation, ARepeatedRunDoesNotTakeTheStatesOfTheLast) {
+    const Outcome again = play({"--checkpoint-every", "10"});
+    EXPECT_EQ(again.code, 6);
+    EXPECT_TRUE(has(again.err, "holds states of an earlier run; --resume goes on")) << again.err;
+    EXPECT_TRUE(has(play({"--from", "25"}).err, "going on with frame 20"));
+    EXPECT_EQ(play({"--checkpoint-every", "10", "-y"}).out, whole_.out);
+}
+
 TEST_F(Continuation, SaysWhatCannotBe) {
     EXPECT_EQ(play({"--from", "30"}).code, 2) << "the scene ends with frame 29";
     EXPECT_EQ(play({"--from", "3", "--frames", "3-4"}).code, 2);

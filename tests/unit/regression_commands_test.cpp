@@ -50,6 +50,25 @@ TEST(TestCommand, ChecksAloneAreEnoughUntilSomethingIsRecorded) {
     EXPECT_EQ(testRun(folder).code, 8) << "the manifest names it";
 }
 
+// What an update that was broken off has left is finished by the next one; what others lay there is not followed.
+TEST(TestCommand, ATestOnlyReadsGoldensAndFollowsNoLinkWhenConfined) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "spring.toml", springText("100.0", goldenText));
+    EXPECT_EQ(acceptRun(folder, "spring", "The first of its kind.").code, 0);
+    EXPECT_EQ(testRun(folder, {"--confined"}).code, 0);
+    test::writeText(folder / "golden/.changes", "remove manifest.json\n");
+    const Outcome pending = testRun(folder);
+    EXPECT_EQ(pending.code, 6);
+    EXPECT_TRUE(has(pending.err, "an update of goldens was broken off here")) << pending.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "golden/manifest.json"));
+    std::filesystem::remove(folder / "golden/.changes");
+    test::writeText(folder / "secret", "not yours");
+    std::filesystem::create_symlink(folder / "secret", folder / "golden/spring/other");
+    const Outcome confined = testRun(folder, {"--confined"});
+    EXPECT_EQ(confined.code, 3);
+    EXPECT_TRUE(has(confined.err, "golden/spring/other is a link")) << confined.err;
+}
+
 TEST(TestCommand, AScenarioThatCannotBeReadKeepsNoneOfTheOthersFromBeingTested) {
     const TemporaryFolder folder;
     test::writeText(folder / "a.toml", "schema = 1\n[run]\nfps = -3\n");

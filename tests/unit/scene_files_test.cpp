@@ -189,6 +189,9 @@ TEST(SceneFiles, AConfinedSceneReadsNothingElsewhere) {
     folder.load(hull("link.obj"), options);
     options.isConfined = true;
     folder.load(hull("own.obj"), options);
+    elsewhere.write("whole.toml", minimal);
+    std::filesystem::create_symlink(elsewhere / "whole.toml", folder / "whole.toml");
+    EXPECT_THROW(loadScene(folder / "whole.toml", options), core::Error);
     for (const std::string& text : {hull("link.obj"), hull((elsewhere / "box.obj").string()),
                                     "schema = 1\nscene = \"" + (elsewhere / "secret.toml").string() + "\"\n"}) {
         const std::string message = folder.messageOf(text, options);

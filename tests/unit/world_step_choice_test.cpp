@@ -111,7 +111,8 @@ TEST(StepChoice, ASliverEdgeThatSetsTheStepIsNamed) {
     EXPECT_EQ(island.advice[0],
               "cloth.c: the edge between vertices 15 and 16 of shirt.obj is 1 mm long, the median 0.71 m, and sets the "
               "step: merge by distance, or integrator = \"implicit-euler\"");
-    for (const std::string& advice : World(meshWithGap(0.3)).islands()[0].advice)
+    const IslandInfo even = World(meshWithGap(0.3)).islands()[0];
+    for (const std::string& advice : even.advice)
         EXPECT_EQ(advice.find("edge"), std::string::npos) << advice;
 }
 

@@ -157,6 +157,12 @@ SpringNetwork<Real>::SpringNetwork(int points, std::span<const Body> bodies, std
 template <class Real>
 void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
     TAUT_EXPECTS(static_cast<int>(springs.size()) == springCount);
+    largestTau = 0;
+    isTauUniform = true;
+    for (const Spring& s : springs) {
+        largestTau = std::max(largestTau, static_cast<Real>(s.dampingTime));
+        isTauUniform = isTauUniform && s.dampingTime == springs.front().dampingTime;
+    }
     stiffness.clear();
     mixed.clear();
     std::map<std::vector<Real>, int> tables;

@@ -75,6 +75,8 @@ struct SpringNetwork {
     SpringSingles<Real> singles;
     std::vector<int> order;  // which spring stands where: those of the runs, -1 in a gap, then the single ones
     int springCount = 0;
+    Real largestTau = 0;       // [s] of all springs
+    bool isTauUniform = true;  // all have it
 };
 
 }  // namespace taut::mechanics

@@ -4,6 +4,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
+#include <utility>
+
+#include "taut/core/error.h"
+#include "taut/mechanics/cell_shape.h"
 
 namespace taut::mechanics {
 namespace {
@@ -40,7 +45,8 @@ double largestExtra(const NetworkView& network, std::span<const double> extra) {
     return largest;
 }
 
-FrequencyBound overSprings(const NetworkView& network, std::span<const double> atPoint, std::span<const double> extra) {
+// atPoint (points) a_i [1/s²]; more: what is added to the largest sum of them [1/s²].
+FrequencyBound overElements(const NetworkView& network, std::span<const double> atPoint, double more) {
     FrequencyBound bound;
     double largest = 0;
     for (std::size_t s = 0; s < network.springs.size(); ++s) {
@@ -51,9 +57,124 @@ FrequencyBound overSprings(const NetworkView& network, std::span<const double> a
             bound.spring = static_cast<int>(s);
         }
     }
-    const double more = largestExtra(network, extra);
-    bound.omega = std::sqrt(largest + more);
     bound.bySprings = largest >= more;
+    for (const VolumeCell& cell : network.cells) {
+        double sum = 0;
+        for (int i : cell.points) sum += atPoint[static_cast<std::size_t>(i)];
+        if (sum <= largest) continue;
+        largest = sum;
+        bound.bySprings = false;
+    }
+    bound.omega = std::sqrt(largest + more);
+    return bound;
+}
+
+void addOuter(Matrix& sum, double factor, const glm::dvec3& n) {
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            sum[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] += factor * n[i] * n[j];
+}
+void addToAll(Matrix& sum, double factor) {
+    for (std::size_t i = 0; i < 3; ++i) sum[i][i] += factor;
+}
+
+// factor: of the spring's stiffness.
+void addSpring(std::vector<Matrix>& sum, const Spring& spring, double factor, std::span<const glm::dvec3> positions) {
+    const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
+    const glm::dvec3 d = positions[b] - positions[a];
+    const double l = std::sqrt(glm::dot(d, d));
+    const glm::dvec3 n = l > 0 ? d / l : glm::dvec3(0.0);
+    const double across = l > 0 ? std::max(0.0, 1.0 - spring.restLength / l) : 1.0;
+    for (const std::size_t i : {a, b}) {
+        addOuter(sum[i], factor * spring.stiffness * (1.0 - across), n);
+        addToAll(sum[i], factor * spring.stiffness * across);
+    }
+}
+
+// Edges of cells, the lower point first, with what the pressures of their cells make them: h [N/m].
+using Pressed = std::map<std::pair<int, int>, glm::dvec3>;
+
+CellCorners cornersOf(const VolumeCell& cell, std::span<const glm::dvec3> positions) {
+    CellCorners p;
+    for (std::size_t c = 0; c < 4; ++c) p[c] = positions[static_cast<std::size_t>(cell.points[c])];
+    return p;
+}
+
+// factor: of the cell's stiffness.
+void addCell(std::vector<Matrix>& sum, const VolumeCell& cell, double factor, const CellCorners& p) {
+    const CellCorners g = gradientsOf(p);
+    for (std::size_t c = 0; c < 4; ++c)
+        addOuter(sum[static_cast<std::size_t>(cell.points[c])], factor * cell.bulkModulus / cell.restVolume, g[c]);
+}
+
+void addPressure(Pressed& pressed, const VolumeCell& cell, const CellCorners& p) {
+    const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0);
+    for (const auto& [i, j, k, l] : cellEdges) {
+        const int a = cell.points[i], b = cell.points[j];
+        pressed.try_emplace(std::minmax(a, b), 0.0).first->second +=
+            (a < b ? pressure : -pressure) * (p[k] - p[l]) / 6.0;
+    }
+}
+
+double largestRow(const NetworkView& network, const Pressed& pressed) {
+    std::vector<double> rows(network.inverseMasses.size(), 0.0);
+    for (const auto& [edge, h] : pressed) {
+        const auto a = static_cast<std::size_t>(edge.first), b = static_cast<std::size_t>(edge.second);
+        const double entry = std::sqrt(network.inverseMasses[a] * network.inverseMasses[b] * glm::dot(h, h));
+        rows[a] += entry;
+        rows[b] += entry;
+    }
+    return rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
+}
+
+// Σ_e T_e K_e at the points, T (elements: springs, then cells) a factor of their stiffness; `loose` (springs; may be
+// empty) are those that count with all their stiffness in every direction.
+std::vector<Matrix> stiffnessAtPoints(const NetworkView& network, std::span<const glm::dvec3> positions,
+                                      const std::vector<bool>& loose, const std::vector<double>& factors) {
+    std::vector<Matrix> sum(network.inverseMasses.size(), Matrix{});
+    for (std::size_t s = 0; s < network.springs.size(); ++s) {
+        const Spring& spring = network.springs[s];
+        const double factor = factors.empty() ? 1.0 : factors[s];
+        if (loose.empty() || !loose[s]) {
+            addSpring(sum, spring, factor, positions);
+        } else {
+            addToAll(sum[static_cast<std::size_t>(spring.a)], factor * spring.stiffness);
+            addToAll(sum[static_cast<std::size_t>(spring.b)], factor * spring.stiffness);
+        }
+    }
+    for (std::size_t c = 0; c < network.cells.size(); ++c)
+        addCell(sum, network.cells[c], factors.empty() ? 1.0 : factors[network.springs.size() + c],
+                cornersOf(network.cells[c], positions));
+    return sum;
+}
+
+// The first sweep gives every point a_i; the second weighs each element with the sum of its a_i.
+FrequencyBound secondBound(const NetworkView& network, std::span<const double> extra,
+                           std::span<const glm::dvec3> positions, const std::vector<bool>& loose) {
+    const auto rates = [&](const std::vector<Matrix>& sum) {
+        std::vector<double> atPoint(sum.size());
+        for (std::size_t i = 0; i < sum.size(); ++i) atPoint[i] = largestEigenvalue(sum[i]) * network.inverseMasses[i];
+        return atPoint;
+    };
+    const std::vector<double> a = rates(stiffnessAtPoints(network, positions, loose, {}));
+    Pressed pressed;
+    for (const VolumeCell& cell : network.cells) addPressure(pressed, cell, cornersOf(cell, positions));
+    const double more = largestExtra(network, extra) + largestRow(network, pressed);
+    FrequencyBound bound = overElements(network, a, more);
+    if (network.cells.empty()) return bound;
+
+    std::vector<double> factors;
+    for (const Spring& spring : network.springs)
+        factors.push_back(a[static_cast<std::size_t>(spring.a)] + a[static_cast<std::size_t>(spring.b)]);
+    for (const VolumeCell& cell : network.cells) {
+        factors.push_back(0.0);
+        for (int i : cell.points) factors.back() += a[static_cast<std::size_t>(i)];
+    }
+    const std::vector<double> b = rates(stiffnessAtPoints(network, positions, loose, factors));
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (a[i] > 0) largest = std::max(largest, b[i] / a[i]);
+    bound.omega = std::min(bound.omega, std::sqrt(largest + more));
     return bound;
 }
 
@@ -92,34 +213,45 @@ double lastComponent(const std::vector<double>& alpha, const std::vector<double>
 }  // namespace
 
 FrequencyBound boundAnywhere(const NetworkView& network, std::span<const double> extraStiffness) {
+    TAUT_EXPECTS(network.cells.empty());
     std::vector<double> sum(network.inverseMasses.size(), 0.0);
     for (const Spring& spring : network.springs) {
         sum[static_cast<std::size_t>(spring.a)] += spring.stiffness;
         sum[static_cast<std::size_t>(spring.b)] += spring.stiffness;
     }
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] *= network.inverseMasses[i];
-    return overSprings(network, sum, extraStiffness);
+    return overElements(network, sum, largestExtra(network, extraStiffness));
 }
 
 FrequencyBound boundHere(const NetworkView& network, std::span<const double> extraStiffness,
                          std::span<const glm::dvec3> positions) {
-    std::vector<Matrix> sum(network.inverseMasses.size(), Matrix{});
-    for (const Spring& spring : network.springs) {
-        const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
-        const glm::dvec3 d = positions[b] - positions[a];
-        const double l = std::sqrt(glm::dot(d, d));
-        const glm::dvec3 n = l > 0 ? d / l : glm::dvec3(0.0);
-        const double across = l > 0 ? std::max(0.0, 1.0 - spring.restLength / l) : 1.0;
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) {
-                const double entry = spring.stiffness * ((1.0 - across) * n[i] * n[j] + (i == j ? across : 0.0));
-                sum[a][static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] += entry;
-                sum[b][static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] += entry;
-            }
+    return secondBound(network, extraStiffness, positions, {});
+}
+
+FrequencyBound boundWithin(const NetworkView& network, std::span<const double> extraStiffness,
+                           std::span<const glm::dvec3> restPositions, double stretch) {
+    if (network.cells.empty()) return boundAnywhere(network, extraStiffness);
+    std::vector<bool> isCorner(network.inverseMasses.size(), false), loose;
+    for (const VolumeCell& cell : network.cells)
+        for (int i : cell.points) isCorner[static_cast<std::size_t>(i)] = true;
+    for (const Spring& spring : network.springs)
+        loose.push_back(!isCorner[static_cast<std::size_t>(spring.a)] || !isCorner[static_cast<std::size_t>(spring.b)]);
+    FrequencyBound largest;
+    std::vector<glm::dvec3> positions(restPositions.size());
+    const auto lookAt = [&](const glm::dvec3& scale) {
+        for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = scale * restPositions[i];
+        const FrequencyBound bound = secondBound(network, extraStiffness, positions, loose);
+        if (bound.omega > largest.omega) largest = bound;
+    };
+    lookAt(glm::dvec3(stretch));
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 thick(1.0), thin(stretch);
+        thick[axis] = -stretch;
+        thin[axis] = -1.0 / stretch;
+        lookAt(thick);
+        lookAt(thin);
     }
-    std::vector<double> atPoint(sum.size());
-    for (std::size_t i = 0; i < sum.size(); ++i) atPoint[i] = largestEigenvalue(sum[i]) * network.inverseMasses[i];
-    return overSprings(network, atPoint, extraStiffness);
+    return largest;
 }
 
 void addSpringStiffness(std::span<const Spring> springs, std::span<const glm::dvec3> positions,

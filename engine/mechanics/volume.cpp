@@ -6,12 +6,13 @@
 
 #include "taut/core/error.h"
 #include "taut/core/instruction_set.h"
+#include "taut/mechanics/cell_shape.h"
 
 namespace taut::mechanics {
 namespace {
 
 using glm::dvec3;
-using Corners = std::array<dvec3, 4>;
+using Corners = CellCorners;
 
 template <class Real>
 auto volumeKernel() -> void (*)(const VolumeBatch<Real>&) {
@@ -29,65 +30,9 @@ std::vector<std::array<int, 4>> pointsOf(std::span<const VolumeCell> cells) {
     return points;
 }
 
-template <class Real>
-dvec3 vectorAt(const Real* planes, std::ptrdiff_t stride, int i) {
-    return {planes[i], planes[i + stride], planes[i + 2 * stride]};
-}
-
-template <class Real>
-Corners cornersOf(const VolumeCell& cell, const Real* planes, std::ptrdiff_t stride) {
-    Corners p;
-    for (std::size_t c = 0; c < 4; ++c) p[c] = vectorAt(planes, stride, cell.points[c]);
-    return p;
-}
-
-double volumeOf(const Corners& p) {
-    return glm::dot(p[1] - p[0], glm::cross(p[2] - p[0], p[3] - p[0])) / 6.0;
-}
-
-Corners gradientsOf(const Corners& p) {
-    const dvec3 e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0];
-    const dvec3 g1 = glm::cross(e2, e3) / 6.0, g2 = glm::cross(e3, e1) / 6.0, g3 = glm::cross(e1, e2) / 6.0;
-    return {-(g1 + g2 + g3), g1, g2, g3};
-}
-
 // |V/V0 - 1| within the working stretch s, from mirrored cells to those stretched along all three axes.
 double largestChange(double s) {
     return std::max(1.0 + s, s * s * s - 1.0);
-}
-
-// What the stability bound is made of: lengths of the gradients [m²], and of the second derivatives [m] that couple two
-// corners, which are a sixth of the edge between the other two.
-struct Lengths {
-    std::array<double, 4> gradients;
-    std::array<std::array<double, 4>, 4> couplings;  // symmetric, 0 on the diagonal
-};
-
-Lengths lengthsOf(const Corners& p) {
-    Lengths lengths{};
-    const Corners g = gradientsOf(p);
-    for (std::size_t i = 0; i < 4; ++i) {
-        lengths.gradients[i] = glm::length(g[i]);
-        for (std::size_t j = i + 1; j < 4; ++j) {
-            const std::size_t k = i > 0 ? 0 : j > 1 ? 1 : 2, l = 6 - i - j - k;  // the other two: all four sum to 6
-            lengths.couplings[i][j] = lengths.couplings[j][i] = glm::length(p[k] - p[l]) / 6.0;
-        }
-    }
-    return lengths;
-}
-
-// The larger of the lengths within the working stretch s and those of the moment; couplings times K |V/V0 - 1|.
-Lengths worstLengths(const VolumeCell& cell, const Corners& rest, const Corners& now, double s) {
-    const double change = cell.bulkModulus * largestChange(s);
-    const double changeNow = cell.bulkModulus * std::abs(volumeOf(now) / cell.restVolume - 1.0);
-    Lengths worst = lengthsOf(rest);
-    const Lengths here = lengthsOf(now);
-    for (std::size_t i = 0; i < 4; ++i) {
-        worst.gradients[i] = std::max(s * s * worst.gradients[i], here.gradients[i]);
-        for (std::size_t j = 0; j < 4; ++j)
-            worst.couplings[i][j] = std::max(change * s * worst.couplings[i][j], changeNow * here.couplings[i][j]);
-    }
-    return worst;
 }
 
 bool isBeyond(const Corners& rest, const Corners& now, double ratio, double s) {
@@ -240,40 +185,6 @@ void VolumePreservation<Real>::addDiagonal(int stride, Real* out) const {
                 const Real slope = slopes_[c][3 * i + static_cast<std::size_t>(axis)];
                 out[axis * stride + cells_[c].points[i]] += slope * slope;
             }
-}
-
-template <class Real>
-void VolumePreservation<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
-    if (cells_.empty()) return;
-    const auto count = static_cast<std::size_t>(motion.count);
-    std::vector<Lengths> worst;
-    std::vector<double> touching(count, 0.0), coupled(count, 0.0);
-    auto inverseMass = [&](int point) { return static_cast<double>(motion.inverseMass[point]); };
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        const VolumeCell& cell = cells_[c];
-        worst.push_back(worstLengths(cell, rest_[c], cornersOf(cell, motion.x, motion.stride), workingStretch_));
-        const double root = std::sqrt(cell.bulkModulus / cell.restVolume);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const auto point = static_cast<std::size_t>(cell.points[i]);
-            touching[point] += root * worst[c].gradients[i];
-            for (std::size_t j = 0; j < 4; ++j)
-                coupled[point] +=
-                    worst[c].couplings[i][j] * std::sqrt(inverseMass(cell.points[i]) * inverseMass(cell.points[j]));
-        }
-    }
-    double first = 0.0;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        double row = 0.0;
-        for (std::size_t i = 0; i < 4; ++i) {
-            const int point = cells_[c].points[i];
-            row += inverseMass(point) * worst[c].gradients[i] * touching[static_cast<std::size_t>(point)];
-        }
-        first = std::max(first, row * std::sqrt(cells_[c].bulkModulus / cells_[c].restVolume));
-    }
-    const double bound = first + *std::max_element(coupled.begin(), coupled.end());
-    for (std::size_t i = 0; i < count; ++i)
-        if (touching[i] > 0.0 && motion.inverseMass[i] > Real(0))
-            share.stiffness[i] += bound / static_cast<double>(motion.inverseMass[i]);
 }
 
 template class VolumePreservation<float>;

@@ -43,7 +43,13 @@ Json seedsJson(const world::SceneSpec& spec) {
 
 Json islandsJson(const world::World& world) {
     Json islands = Json::array();
-    for (const world::IslandInfo& island : world.islands())
+    for (const world::IslandInfo& island : world.islands()) {
+        Json changes = Json::array();
+        for (const world::StepChange& change : island.stepChanges)
+            changes.push_back({{"time_s", change.time},
+                               {"from", change.from},
+                               {"to", change.to},
+                               {"tick_repeated", change.isRepeated}});
         islands.push_back({{"name", island.name},
                            {"bodies", island.bodies},
                            {"method", island.method},
@@ -52,7 +58,10 @@ Json islandsJson(const world::World& world) {
                            {"step_s", island.step},
                            {"substeps", island.substeps},
                            {"step_limit_s", island.stepLimit},
+                           {"follows_state", island.followsState},
+                           {"substeps_changed", changes},
                            {"limited_by", island.limitingSpring}});
+    }
     return islands;
 }
 

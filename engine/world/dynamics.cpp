@@ -1,6 +1,7 @@
 #include "taut/world/dynamics.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -16,7 +17,10 @@ template <class Real>
 class DynamicsOf final : public Dynamics {
   public:
     DynamicsOf(const IslandPlan& plan, const ForceList& forces)
-        : plan_(plan), system_(massesOf(plan), plan.ranges, plan.springs), state_(system_.layout()) {
+        : plan_(plan),
+          system_(massesOf(plan), plan.ranges, plan.springs),
+          state_(system_.layout()),
+          bound_(system_.layout().count, system_.layout().stride) {
         lead();
         setForces(forces);
         for (std::size_t i = 0; i < plan_.positions.size(); ++i) {
@@ -36,6 +40,7 @@ class DynamicsOf final : public Dynamics {
         if (isShape) return setForces(forces);
         if (isMaterial)
             for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
+        if (isMaterial && !volumes_.empty()) bound_.setCells(cellsOf(plan_));
         if (changes.has(Change::grips)) addGrips();
     }
 
@@ -71,7 +76,7 @@ class DynamicsOf final : public Dynamics {
         method_->start(system_, t, h, state_);
         std::size_t size = 0;
         forEachPart([&](Real*, std::size_t n) { size += n; });
-        kept_.resize(size);
+        keptSize_ = size;
     }
     void step(double t) override { method_->step(system_, t, step_, state_); }
     void rememberPositions() override { std::copy(state_.x.begin(), state_.x.end(), before_.begin()); }
@@ -109,16 +114,22 @@ class DynamicsOf final : public Dynamics {
         });
         if (!touched_.empty()) method_->touch(state_, touched_);
     }
-    void keep() override {
-        Real* next = kept_.data();
+    void keep(Since moment) override {
+        std::vector<Real>& kept = kept_[static_cast<std::size_t>(moment)];
+        kept.resize(keptSize_);
+        Real* next = kept.data();
         forEachPart([&](const Real* numbers, std::size_t n) { next = std::copy_n(numbers, n, next); });
     }
-    void goBack() override {
-        const Real* next = kept_.data();
+    void goBack(Since moment) override {
+        const Real* next = kept_[static_cast<std::size_t>(moment)].data();
         forEachPart([&](Real* numbers, std::size_t n) {
             std::copy_n(next, n, numbers);
             next += n;
         });
+    }
+    void setStep(double h) override { step_ = h; }
+    mechanics::FastestNow fastestNow() override {
+        return bound_(system_.network(), state_.x.data(), system_.inverseMasses());
     }
     ode::Work work() const override { return method_->work(); }
 
@@ -191,7 +202,7 @@ class DynamicsOf final : public Dynamics {
         for (auto& array : state_.memory) bytes.planes(array);
         if (!bytes.isReading()) return;
         makeMethod();  // it has nothing of its own that the state does not have
-        keep();
+        for (const Since moment : {Since::tick, Since::step}) keep(moment);
     }
     void describe(IslandInfo& info) const override {
         info.runs = static_cast<int>(system_.network().runs.size());
@@ -242,15 +253,6 @@ class DynamicsOf final : public Dynamics {
         }
     }
 
-    static std::vector<mechanics::VolumeCell> cellsOf(const Body& body) {
-        std::vector<mechanics::VolumeCell> cells;
-        for (std::size_t c = 0; c < body.model.cells.size(); ++c) {
-            if (body.damage.isCellGone(c)) continue;
-            cells.push_back(body.model.cells[c]);
-            for (int& i : cells.back().points) i = body.pointOf[static_cast<std::size_t>(i)];
-        }
-        return cells;
-    }
     // What keeps the volume of each body that has cells.
     void addVolumes() {
         for (const Body* body : plan_.bodies) {
@@ -261,6 +263,7 @@ class DynamicsOf final : public Dynamics {
             volumes_.emplace_back(body, volume.get());
             system_.add(std::move(volume));
         }
+        bound_.setCells(cellsOf(plan_));
     }
 
     void makeMethod() {
@@ -312,7 +315,10 @@ class DynamicsOf final : public Dynamics {
     std::unique_ptr<ode::Method<Real>> method_;
     double step_ = 0;  // [s]
     ode::State<Real> state_;
-    std::vector<Real> kept_;    // of the state, close together: of small islands a line of the cache or two
+    // (moments) of the state, close together: of small islands a line of the cache or two
+    std::array<std::vector<Real>, 2> kept_;
+    std::size_t keptSize_ = 0;
+    mechanics::StateBound<Real> bound_;
     Planes before_, velocity_;  // scratch
     std::vector<int> touched_;
 };

@@ -9,6 +9,7 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/core/hash.h"
+#include "taut/mechanics/state_bound.h"
 #include "taut/mechanics/volume.h"
 #include "taut/ode/method.h"
 #include "taut/world/forces/force.h"
@@ -37,6 +38,8 @@ class Changes : public std::bitset<static_cast<std::size_t>(Change::count)> {
     }
 };
 
+enum class Since { tick, step };
+
 // Of points on their way out of a collider that they began in. [m/s]
 inline constexpr double emergingSpeed = 1.0;
 
@@ -62,9 +65,13 @@ class Dynamics {
     // After that: points that began inside a collider go on their way out no faster than emergingSpeed; those that are
     // out leave the list.
     virtual void emerge(const collision::Colliders& colliders, std::vector<int>& inside) = 0;
-    // The state as it is, to come back to.
-    virtual void keep() = 0;
-    virtual void goBack() = 0;
+    // The state as it is, to come back to: at the start of a tick, or of a step.
+    virtual void keep(Since moment) = 0;
+    virtual void goBack(Since moment) = 0;
+    // The length of the steps to come, of a state that was read.
+    virtual void setStep(double h) = 0;
+    // The bounds of springs and cells as they are now.
+    virtual mechanics::FastestNow fastestNow() = 0;
     virtual ode::Work work() const = 0;  // since the island was made or read
 
     // Velocities as the method stores them, those at t [s], which may cost an evaluation, and the first made the

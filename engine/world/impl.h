@@ -42,6 +42,7 @@ struct Picked {
 struct World::Impl {
     SceneSpec spec;  // as ramps have left it
     core::ThreadLimit threads;
+    bool keepsSteps = false;
     ecs::Registry registry;
     std::vector<System> systems;
     ForceList added;  // by addForce()

@@ -20,17 +20,22 @@ std::string insideWarning(const Body& body, const std::string& collider, int poi
 
 }  // namespace
 
-Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t)
+Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
+               bool keepsStep)
     : plan_(std::move(plan)), forces_(forces) {
     dynamics_ = makeDynamics(plan_, forces_);
-    choice_ = chooseStep(envelope,
-                         envelope.isStatic ? dynamics_->stabilityShare(t)
-                                           : makeDynamics(envelope.plan, envelope.forces)->stabilityShare(t),
-                         1.0 / ticksPerSecond, [&] {
-                             return mechanics::leastFrequency(inverseMassesOf(plan_), stiffnessAt(plan_.positions));
-                         });
+    const mechanics::FastestNow now = dynamics_->fastestNow();
+    choice_ = chooseStep(
+        envelope,
+        envelope.isStatic ? dynamics_->stabilityShare(t)
+                          : makeDynamics(envelope.plan, envelope.forces)->stabilityShare(t),
+        1.0 / ticksPerSecond,
+        [&] { return mechanics::leastFrequency(inverseMassesOf(plan_), stiffnessAt(plan_.positions)); },
+        keepsStep ? nullptr : &now);
+    if (choice_.need)
+        following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
     dynamics_->start(t, choice_.step);
-    dynamics_->keep();
+    for (const Since moment : {Since::tick, Since::step}) dynamics_->keep(moment);
     watchPlasticity();
     mayFreeze_ = plan_.solver.onDivergence == OnDivergence::freeze;
     hasCells_ = std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
@@ -69,11 +74,45 @@ void Island::findInside(std::span<const std::string> names) {
 std::optional<Fault> Island::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
     if (mayFreeze_ && frozen_) return std::nullopt;
     TAUT_EXPECTS(!isOpen_);
-    dynamics_->keep();
     hasMoved_ = true;
+    if (!choice_.need) {
+        dynamics_->keep(Since::tick);
+        return takeSubsteps(time, moving);
+    }
+    if (following_.substeps() != choice_.substeps) {
+        dynamics_->synchronise(time.start());
+        startWith(time, following_.substeps(), false);
+    }
+    const std::vector<int> inside = inside_;
+    const bool hadTouched = hasTouched_;
+    for (;;) {
+        dynamics_->keep(Since::tick);
+        if (const auto fault = takeSubsteps(time, moving)) return fault;
+        const double need = (*choice_.need)(dynamics_->fastestNow());
+        if (!following_.isExceededBy(need)) {
+            following_.lengthenIfCalm(need);
+            return std::nullopt;
+        }
+        following_.shorten(need);
+        dynamics_->goBack(Since::tick);
+        inside_ = inside;
+        hasTouched_ = hadTouched;
+        dynamics_->synchronise(time.start());
+        startWith(time, following_.substeps(), true);
+    }
+}
+
+void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
+    if (substeps != choice_.substeps) stepChanges_.push_back({time.start(), choice_.substeps, substeps, isRepeated});
+    choice_.substeps = substeps;
+    choice_.step = 1.0 / (time.ticksPerSecond * substeps);
+    dynamics_->start(time.start(), choice_.step);
+}
+
+std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving) {
     for (int s = 0; s < choice_.substeps; ++s) {
         const auto end = [&] { return time.at(s + 1, choice_.substeps); };
-        if (mayFreeze_) dynamics_->keep();
+        if (mayFreeze_) dynamics_->keep(Since::step);
         if (mayCollide_) dynamics_->rememberPositions();
         dynamics_->step(time.at(s, choice_.substeps));
         if (!dynamics_->isBounded()) return giveUp(end());
@@ -99,7 +138,7 @@ void Island::moveColliders(std::span<const ColliderMotion> moving, int substep) 
 }
 
 void Island::freeze(const Fault& fault, const TickTime& time) {
-    dynamics_->goBack();
+    dynamics_->goBack(Since::step);
     contacts_.clear();
     FrozenIsland frozen;
     frozen.name = plan_.bodies.front()->fullName();

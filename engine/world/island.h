@@ -20,6 +20,7 @@
 #include "taut/world/dynamics.h"
 #include "taut/world/envelope.h"
 #include "taut/world/step_choice.h"
+#include "taut/world/step_following.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -51,7 +52,9 @@ class Island {
   public:
     // At time t [s]. Chooses its step, which holds for all that the envelope allows; throws core::Error(badContent)
     // where no step would do.
-    Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t);
+    // With `keepsStep` no state changes it.
+    Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
+           bool keepsStep);
     Island(const Island&) = delete;
     Island& operator=(const Island&) = delete;
 
@@ -67,7 +70,7 @@ class Island {
     bool settle(const TickTime& time);
 
     // Puts the state back that the last tick began with.
-    void undoTick() { dynamics_->goBack(); }
+    void undoTick() { dynamics_->goBack(Since::tick); }
 
     // After a fault: back to the state before the step that failed, where it stays; its ticks do nothing any more.
     void freeze(const Fault& fault, const TickTime& time);
@@ -119,6 +122,9 @@ class Island {
     void visit(StateBytes& bytes);
 
   private:
+    std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving);
+    // From velocities at the time of the positions.
+    void startWith(const TickTime& time, int substeps, bool isRepeated);
     std::optional<Fault> overstrained(double t);
     Fault giveUp(double t) const;
     void findInside(std::span<const std::string> names);
@@ -135,6 +141,7 @@ class Island {
     const ode::MethodInfo& method() const { return *methodsOf(plan_.solver).find(plan_.solver.integrator); }
     void visitPlan(StateBytes& bytes);
     void visitInside(StateBytes& bytes);
+    void visitStep(StateBytes& bytes);
 
     // What every tick looks at stands close together.
     std::unique_ptr<Dynamics> dynamics_;
@@ -149,6 +156,8 @@ class Island {
     bool isChanged_ = false;   // the plan is not as it was built
     Changes changes_;          // of the plan, that the dynamics know nothing of yet
     StepChoice choice_;
+    StepFollowing following_;              // where choice_.need is
+    std::vector<StepChange> stepChanges_;  // so far
     IslandPlan plan_;
     ForceList forces_;
     ode::Work workElsewhere_;  // of what ran before it was read, less that of what was only asked

@@ -16,9 +16,14 @@ void Island::close(const TickTime& time) {
     if (changes_.any()) {
         dynamics_->take(changes_, forces_);
         watchPlasticity();
+        if (choice_.need) choice_.need->raise(dynamics_->stabilityShare(time.start()), inverseMassesOf(plan_));
         watchLimit(time.start());
     }
-    dynamics_->start(time.start(), choice_.step);
+    if (choice_.need) {
+        const double need = (*choice_.need)(dynamics_->fastestNow());
+        if (following_.isExceededBy(need)) following_.shorten(need);
+    }
+    startWith(time, choice_.need ? following_.substeps() : choice_.substeps, false);
     changes_.reset();
     isOpen_ = false;
 }
@@ -63,10 +68,11 @@ void Island::setForces(const TickTime& time, const ForceList& forces) {
         dynamics_->steer(forces_);
 }
 
-// What is changed while it runs may go beyond what the step was chosen for; that is said once. Rest lengths have no
-// part in the limit.
+// What is changed while it runs may go beyond what a step that stays was chosen for; that is said once. Rest lengths
+// have no part in the limit.
 void Island::watchLimit(double t) {
-    if (changes_ == Changes{}.add(Change::lengths) || !limitWarning_.empty() || !(choice_.step <= choice_.limit))
+    if (choice_.need || changes_ == Changes{}.add(Change::lengths) || !limitWarning_.empty() ||
+        !(choice_.step <= choice_.limit))
         return;
     const double limit = stepLimit(plan_, dynamics_->stabilityShare(t));
     if (choice_.step <= limit * (1 + 1e-6)) return;  // single precision computes the share a little differently

@@ -332,6 +332,25 @@ std::vector<double> inverseMassesOf(const IslandPlan& plan) {
     return inverseMasses;
 }
 
+std::vector<mechanics::VolumeCell> cellsOf(const Body& body) {
+    std::vector<mechanics::VolumeCell> cells;
+    for (std::size_t c = 0; c < body.model.cells.size(); ++c) {
+        if (body.damage.isCellGone(c)) continue;
+        cells.push_back(body.model.cells[c]);
+        for (int& i : cells.back().points) i = body.pointOf[static_cast<std::size_t>(i)];
+    }
+    return cells;
+}
+
+std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan) {
+    std::vector<mechanics::VolumeCell> all;
+    for (const Body* body : plan.bodies) {
+        const std::vector<mechanics::VolumeCell> cells = cellsOf(*body);
+        all.insert(all.end(), cells.begin(), cells.end());
+    }
+    return all;
+}
+
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
     for (const Body* body : plan.bodies)
         for (std::size_t i = 0; i < body->pointOf.size(); ++i)

@@ -68,6 +68,9 @@ const ode::Methods& methodsOf(const SolverSpec& solver);
 
 // (points) [1/kg], 0 where held.
 std::vector<double> inverseMassesOf(const IslandPlan& plan);
+// The cells that are left of a body, or of all bodies of the plan, by points of the island.
+std::vector<mechanics::VolumeCell> cellsOf(const Body& body);
+std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan);
 // The body and its own number of a point; null and the point where none has it. Of welded bodies the first.
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point);
 // Whether a point moves by itself: neither held nor in a rigid grip.

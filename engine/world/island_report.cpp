@@ -124,14 +124,17 @@ IslandInfo Island::info(const TickTime& time) const {
     info.step = choice_.step;
     info.substeps = choice_.substeps;
     info.work = work();
+    info.followsState = choice_.need.has_value();
+    info.stepChanges = stepChanges_;
     info.limitingSpring = choice_.limitingSpring;
     info.advice = choice_.advice;
     std::vector<dvec3> x;
     dynamics_->positions(x);
     const std::vector<double> inverseMasses = inverseMassesOf(plan_);
-    info.omegaNow =
-        mechanics::boundHere({plan_.springs, inverseMasses}, dynamics_->stabilityShare(time.start()).stiffness, x)
-            .omega;
+    const std::vector<mechanics::VolumeCell> cells = cellsOf(plan_);
+    info.omegaNow = mechanics::boundHere({plan_.springs, inverseMasses, cells},
+                                         dynamics_->stabilityShare(time.start()).stiffness, x)
+                        .omega;
     info.omegaEstimate = mechanics::estimateFrequency(inverseMasses, stiffnessAt(x));
     return info;
 }
@@ -155,7 +158,8 @@ Divergence Island::diagnose(const Fault& fault, const TickTime& time) const {
     const std::vector<double> inverseMasses = inverseMassesOf(plan_);
     std::vector<dvec3> positions;
     dynamics_->positions(positions);
-    const mechanics::FrequencyBound here = mechanics::boundHere({plan_.springs, inverseMasses}, {}, positions);
+    const std::vector<mechanics::VolumeCell> cells = cellsOf(plan_);
+    const mechanics::FrequencyBound here = mechanics::boundHere({plan_.springs, inverseMasses, cells}, {}, positions);
     const mechanics::Spring* stiffest = nullptr;
     for (const mechanics::Spring& s : plan_.springs)
         if ((s.a == fault.point || s.b == fault.point) && (stiffest == nullptr || s.stiffness > stiffest->stiffness))

@@ -116,14 +116,37 @@ void Island::visitInside(StateBytes& bytes) {
     bytes.each(insideWarnings_, [&](std::string& warning) { bytes(warning); });
 }
 
+void Island::visitStep(StateBytes& bytes) {
+    const double tickSeconds = choice_.step * choice_.substeps;
+    bool follows = choice_.need.has_value();
+    int substeps = choice_.substeps;
+    bytes(follows);
+    bytes(substeps);
+    if (follows != choice_.need.has_value() || (!follows && substeps != choice_.substeps))
+        misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
+    if (!follows) return;
+    following_.visit([&](auto& number) { bytes(number); });
+    bytes.notNegative(choice_.need->moreOmega2);
+    bytes.notNegative(choice_.need->others.rate);
+    bytes.each(stepChanges_, [&](StepChange& change) {
+        bytes(change.time);
+        bytes(change.from);
+        bytes(change.to);
+        bytes(change.isRepeated);
+    });
+    bytes.require(substeps > 0 && substeps <= mostSubsteps && following_.isSound(mostSubsteps));
+    if (!bytes.isReading()) return;
+    choice_.substeps = substeps;
+    choice_.step = tickSeconds / substeps;
+    dynamics_->setStep(choice_.step);
+}
+
 void Island::visit(StateBytes& bytes) {
     const std::string name = plan_.bodies.front()->fullName();
     visitInside(bytes);
     bytes.expect(name, "the bodies are others");
     bytes.expect(plan_.solver.integrator, "the methods of its bodies are others");
-    int substeps = choice_.substeps;
-    bytes(substeps);
-    if (substeps != choice_.substeps) misfit("the steps of " + name + " are others");
+    visitStep(bytes);
     auto springs = static_cast<std::uint64_t>(plan_.springs.size());
     bytes(springs);
     if (springs != plan_.springs.size()) misfit("the springs of " + name + " are others");

@@ -13,21 +13,59 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-constexpr double mostSubsteps = 1e6;
+// The bounds of an island's plan, where its points are or in any shape that it may take.
+class PlanBounds {
+  public:
+    PlanBounds(const IslandPlan& plan, std::span<const double> moreStiffness)
+        : plan_(plan), more_(moreStiffness), inverseMasses_(inverseMassesOf(plan)), cells_(cellsOf(plan)) {
+        for (const Body* body : plan.bodies)
+            if (!body->model.cells.empty()) stretch_ = std::max(stretch_, body->model.workingStretch);
+        for (const mechanics::Spring& spring : plan.springs) {
+            dashpots_.push_back(spring);
+            dashpots_.back().stiffness *= spring.dampingTime;
+            dashpots_.back().restLength = HUGE_VAL;  // it acts along the spring alone
+        }
+    }
 
-// Drags [1/s]: the smallest and the largest of free points.
-ode::FastestMode fastestMode(const IslandPlan& plan, const mechanics::StabilityShare& share, double leastDrag,
-                             double mostDrag, double omega) {
+    mechanics::FrequencyBound anywhere() const { return boundWithin(view(), more_, plan_.positions, stretch_); }
+    mechanics::FrequencyBound here() const { return boundHere(view(), more_, plan_.positions); }
+    // λ_max of M⁻¹C [1/s].
+    double dampingAnywhere() const { return square(mechanics::boundAnywhere({dashpots_, inverseMasses_}, {}).omega); }
+    double dampingHere() const {
+        return square(mechanics::boundHere({dashpots_, inverseMasses_}, {}, plan_.positions).omega);
+    }
+
+  private:
+    static double square(double value) { return value * value; }
+    mechanics::NetworkView view() const { return {plan_.springs, inverseMasses_, cells_}; }
+
+    const IslandPlan& plan_;
+    std::span<const double> more_;
+    std::vector<double> inverseMasses_;
+    std::vector<mechanics::VolumeCell> cells_;
+    std::vector<mechanics::Spring> dashpots_;
+    double stretch_ = 1;
+};
+
+// Drags [1/s]: the smallest and the largest of free points. damping [1/s]: of the dashpots.
+ode::FastestMode fastestMode(const mechanics::StabilityShare& share, double leastDrag, double mostDrag, double omega,
+                             double damping) {
     ode::FastestMode mode{.omega = omega, .drag = leastDrag, .largestDrag = mostDrag};
-    for (const mechanics::Spring& spring : plan.springs) mode.tau = std::max(mode.tau, spring.dampingTime);
+    if (omega > 0) mode.tau = damping / (omega * omega);
     for (double rate : share.dampingRate) mode.rate = std::max(mode.rate, rate);
     return mode;
 }
 
+double largestTau(const IslandPlan& plan) {
+    double tau = 0;
+    for (const mechanics::Spring& spring : plan.springs) tau = std::max(tau, spring.dampingTime);
+    return tau;
+}
+
 // Some methods need damping, others bear little of it: the step has to hold with the most and with the least.
-double automaticStep(const ode::MethodInfo& method, const Envelope& envelope, ode::FastestMode mode) {
+double automaticStep(const ode::MethodInfo& method, double leastTauShare, ode::FastestMode mode) {
     const double most = method.automaticStep(mode);
-    mode.tau = std::min(mode.tau, envelope.leastTau);
+    mode.tau *= leastTauShare;
     return std::min(most, method.automaticStep(mode));
 }
 
@@ -118,11 +156,12 @@ void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
 void adviseOnDamping(const IslandPlan& plan, const ode::MethodInfo& method, StepChoice& choice) {
     constexpr double worthIt = 2.0, nearly = 0.5;
     ode::FastestMode mode = choice.mode;
-    const auto limitAt = [&](double tau) {
-        mode.tau = tau;
+    const double tau = largestTau(plan);
+    const auto limitAt = [&](double smaller) {
+        mode.tau = choice.mode.tau * (tau > 0 ? smaller / tau : 0.0);
         return method.automaticStep(mode);
     };
-    const double tau = choice.mode.tau, without = limitAt(0.0);
+    const double without = limitAt(0.0);
     if (!(tau > 0) || !(choice.limit > 0) || !(without > worthIt * choice.limit) || !std::isfinite(without)) return;
     double smaller = 1e-9;  // powers of ten read well
     while (10.0 * smaller < tau && limitAt(10.0 * smaller) > nearly * without) smaller *= 10.0;
@@ -146,9 +185,24 @@ double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share)
         leastDrag = std::min(leastDrag, point.dragRate);
         mostDrag = std::max(mostDrag, point.dragRate);
     }
-    const double omega = mechanics::boundAnywhere({plan.springs, inverseMassesOf(plan)}, share.stiffness).omega;
+    const PlanBounds bounds(plan, share.stiffness);
     const ode::MethodInfo& method = *methodsOf(plan.solver).find(plan.solver.integrator);
-    return method.automaticStep(fastestMode(plan, share, leastDrag, mostDrag, omega));
+    return method.automaticStep(
+        fastestMode(share, leastDrag, mostDrag, bounds.anywhere().omega, bounds.dampingAnywhere()));
+}
+
+double StepNeed::operator()(const mechanics::FastestNow& now) const {
+    ode::FastestMode mode = others;
+    const double omega2 = now.omega2 + moreOmega2;
+    mode.omega = std::sqrt(omega2);
+    mode.tau = omega2 > 0 ? now.damping / omega2 : 0.0;
+    return tickSeconds / (safety * automaticStep(*method, leastTauShare, mode));
+}
+
+void StepNeed::raise(const mechanics::StabilityShare& share, std::span<const double> inverseMasses) {
+    for (std::size_t i = 0; i < inverseMasses.size(); ++i)
+        moreOmega2 = std::max(moreOmega2, share.stiffness[i] * inverseMasses[i]);
+    for (double rate : share.dampingRate) others.rate = std::max(others.rate, rate);
 }
 
 std::string inSeconds(double t) {
@@ -158,34 +212,40 @@ std::string inSeconds(double t) {
 }
 
 StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds,
-                      const std::function<double()>& leastOmega) {
+                      const std::function<double()>& leastOmega, const mechanics::FastestNow* now) {
     const IslandPlan& plan = envelope.plan;
     for (std::size_t i = 0; i < envelope.handStiffness.size(); ++i) {
         share.stiffness[i] += envelope.handStiffness[i];
         share.dampingRate[i] += envelope.handRate[i];
     }
-    const std::vector<double> inverseMasses = inverseMassesOf(plan);
-    const mechanics::NetworkView network{plan.springs, inverseMasses};
     const ode::MethodInfo* method = methodsOf(plan.solver).find(plan.solver.integrator);
     const Body& body = *plan.bodies.front();
     if (method == nullptr)
         throw Error(ErrorKind::badContent, at(body.spec->source) + "no method \"" + plan.solver.integrator + "\"");
 
     StepChoice choice;
-    choice.anywhere = mechanics::boundAnywhere(network, share.stiffness);
-    choice.here = mechanics::boundHere(network, share.stiffness, plan.positions);
+    const PlanBounds bounds(plan, share.stiffness);
+    choice.anywhere = bounds.anywhere();
+    choice.here = bounds.here();
     if (!choice.anywhere.bySprings)
         choice.limitingSpring = "volume cells, anchors or hands of " + body.fullName();
     else if (choice.anywhere.spring >= 0)
         choice.limitingSpring = describeSpring(plan, choice.anywhere.spring);
-    const auto modeAt = [&](double omega) {
-        return fastestMode(plan, share, envelope.leastDrag, envelope.mostDrag, omega);
+    const auto modeAt = [&](double omega, double damping) {
+        return fastestMode(share, envelope.leastDrag, envelope.mostDrag, omega, damping);
     };
-    choice.mode = modeAt(choice.anywhere.omega);
-    choice.limit = automaticStep(*method, envelope, choice.mode);
-    const double limitHere = automaticStep(*method, envelope, modeAt(choice.here.omega));
+    const double tau = largestTau(plan), leastTauShare = tau > 0 ? std::min(1.0, envelope.leastTau / tau) : 1.0;
+    choice.mode = modeAt(choice.anywhere.omega, bounds.dampingAnywhere());
+    choice.limit = automaticStep(*method, leastTauShare, choice.mode);
+    const double limitHere = automaticStep(*method, leastTauShare, modeAt(choice.here.omega, bounds.dampingHere()));
 
-    const double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
+    double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
+    if (now != nullptr && !plan.solver.dt && method->caution.empty() && std::isfinite(choice.limit)) {
+        choice.need = StepNeed{method, tickSeconds, plan.solver.safety, modeAt(0, 0), 0, leastTauShare};
+        choice.need->raise(share, inverseMassesOf(plan));
+        const double need = (*choice.need)(*now);
+        wanted = need > 0 ? tickSeconds / need : HUGE_VAL;
+    }
     if (!(wanted > 0))
         throw Error(ErrorKind::badContent, at(body.spec->source) + body.fullName() +
                                                ": dt = \"auto\" finds no step: " + std::string(method->title) +
@@ -205,7 +265,7 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
     if (!method->caution.empty())
         choice.warnings.push_back(body.fullName() + ": " + std::string(method->title) + ": " +
                                   std::string(method->caution));
-    warnOverLimit(envelope, *method, choice, limitHere, leastOmega);
+    if (!choice.need) warnOverLimit(envelope, *method, choice, limitHere, leastOmega);
     if (std::isfinite(choice.limit)) {
         adviseOnSliver(plan, choice);
         adviseOnDamping(plan, *method, choice);

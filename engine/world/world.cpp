@@ -15,7 +15,11 @@
 namespace taut::world {
 
 World::Impl::Impl(const SceneSpec& scene, const Options& options)
-    : spec(scene), threads(options.threads), added(options.forces), start(std::make_unique<const SceneSpec>(scene)) {
+    : spec(scene),
+      threads(options.threads),
+      keepsSteps(options.keepsSteps),
+      added(options.forces),
+      start(std::make_unique<const SceneSpec>(scene)) {
     ticksPerFrame = Ticks(spec.run).perFrame;
     ticksPerSecond = Ticks(spec.run).perSecond;
     for (const CameraSpec& camera : spec.cameras) {
@@ -93,7 +97,8 @@ void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Env
     plan.solver.precision = spec.solver.precision;
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
-    islands.push_back(std::make_unique<Island>(std::move(plan), current, envelope, ticksPerSecond, seconds()));
+    islands.push_back(
+        std::make_unique<Island>(std::move(plan), current, envelope, ticksPerSecond, seconds(), keepsSteps));
     for (Body* body : members) body->island = islands.back().get();
 }
 

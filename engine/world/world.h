@@ -85,6 +85,13 @@ struct BodyHash {
     std::uint64_t hash = 0;
 };
 
+// An island's step, a tick's part, that followed its state.
+struct StepChange {
+    double time = 0;          // [s] of the tick that it began with
+    int from = 1, to = 1;     // substeps a tick
+    bool isRepeated = false;  // the tick, which had been taken in steps too long
+};
+
 struct IslandInfo {
     std::string name;                 // of its first body
     std::vector<std::string> bodies;  // "cloth.flag", …
@@ -98,8 +105,10 @@ struct IslandInfo {
     double stepLimit = 0;        // [s] largest stable step by B1 with damping
     double step = 0;             // [s] chosen
     int substeps = 1;
-    std::string limitingSpring;       // what sets the limit, in words
-    std::vector<std::string> advice;  // what would allow a longer step
+    bool followsState = false;            // the step may change
+    std::vector<StepChange> stepChanges;  // so far
+    std::string limitingSpring;           // what sets the limit, in words
+    std::vector<std::string> advice;      // what would allow a longer step
     std::uint64_t bytes = 0;
     ode::Work work{};  // of its method since the start
 };
@@ -119,6 +128,7 @@ struct JointInfo {
 struct Options {
     int threads = 0;                                     // 0: as many as the machine has
     std::vector<std::shared_ptr<const Force>> forces{};  // besides those of the scene; steps allow for them
+    bool keepsSteps = false;  // those of the first tick to the last; else "auto" follows the state
 };
 
 class World {

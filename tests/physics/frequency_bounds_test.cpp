@@ -10,6 +10,7 @@
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/stability.h"
+#include "taut/mechanics/volume.h"
 
 namespace taut::test::frequency_bounds {
 namespace {
@@ -144,6 +145,95 @@ TEST(FrequencyBounds, AreTightOnCloth) {
         EXPECT_LT(anywhere, 1.55);  // about 1.4–1.5 times ω
     }
 }
+
+// M^{-1/2} K M^{-1/2} of springs and cells at these positions, K of the cells from its product with unit vectors.
+double fastestOfBlock(const Model& model, std::span<const dvec3> positions) {
+    Matrix matrix = scaledStiffness(model, positions);
+    const mechanics::VolumePreservation<double> volume(model.cells, model.positions);
+    const std::size_t n = model.positions.size();
+    std::vector<double> x, u(3 * n, 0.0), product(3 * n);
+    for (int p = 0; p < 3; ++p)
+        for (const dvec3& position : positions) x.push_back(position[p]);
+    mechanics::Motion<double> motion{.count = static_cast<int>(n), .stride = static_cast<int>(n), .x = x.data()};
+    for (std::size_t column = 0; column < 3 * n; ++column) {
+        u[column] = 1.0;
+        std::fill(product.begin(), product.end(), 0.0);
+        volume.addStiffnessProduct(motion, u.data(), product.data());
+        u[column] = 0.0;
+        for (std::size_t row = 0; row < 3 * n; ++row)
+            matrix.at(3 * (row % n) + row / n, 3 * (column % n) + column / n) +=
+                product[row] / std::sqrt(model.masses[row % n] * model.masses[column % n]);
+    }
+    return std::sqrt(std::max(0.0, eigenvalues(matrix).back()));
+}
+
+struct Lattice {
+    dvec3 size;  // [m]
+    glm::ivec3 cells;
+    double bulkOverYoung;
+};
+
+class FrequencyBoundsOfBlocks : public testing::TestWithParam<Lattice> {
+  protected:
+    Model model_ = mechanics::buildBlock(
+        {.size = GetParam().size, .cells = GetParam().cells, .young = 2e4, .bulk = 2e4 * GetParam().bulkOverYoung});
+    std::vector<double> inverseMasses_ = inverseMassesOf(model_);
+    mechanics::NetworkView view_{model_.springs, inverseMasses_, model_.cells};
+    static constexpr double workingStretch = 1.5;
+
+    double here(std::span<const dvec3> positions) const { return mechanics::boundHere(view_, {}, positions).omega; }
+    std::vector<dvec3> deformed(const glm::dmat3& by) const {
+        std::vector<dvec3> positions = model_.positions;
+        for (dvec3& x : positions) x = by * x;
+        return positions;
+    }
+};
+
+TEST_P(FrequencyBoundsOfBlocks, AreTightAtRestAndOverTheWorkingRange) {
+    const double truth = fastestOfBlock(model_, model_.positions);
+    EXPECT_GE(here(model_.positions), truth);
+    EXPECT_LE(here(model_.positions), 1.45 * truth);
+
+    // The largest true ω of the corners of the range and of states within it.
+    Random random(7);
+    double largest = 0;
+    const auto look = [&](const glm::dmat3& by) { largest = std::max(largest, fastestOfBlock(model_, deformed(by))); };
+    look(glm::dmat3(workingStretch));
+    for (int axis = 0; axis < 3; ++axis) {
+        dvec3 thick(1.0), thin(workingStretch);
+        thick[axis] = -workingStretch;
+        thin[axis] = -1.0 / workingStretch;
+        look(glm::dmat3({thick.x, 0, 0}, {0, thick.y, 0}, {0, 0, thick.z}));
+        look(glm::dmat3({thin.x, 0, 0}, {0, thin.y, 0}, {0, 0, thin.z}));
+    }
+    const double within = mechanics::boundWithin(view_, {}, model_.positions, workingStretch).omega;
+    EXPECT_GE(within, largest);
+    EXPECT_LE(within, 1.45 * largest);
+}
+
+// Sheared, stretched, mirrored, and every point pushed by up to a cell.
+TEST_P(FrequencyBoundsOfBlocks, AreNeverBelowTheTruthInWildDeformations) {
+    Random random(11);
+    for (int i = 0; i < 100; ++i) {
+        glm::dmat3 by;
+        for (int c = 0; c < 3; ++c)
+            by[c] = {random.between(-1.5, 1.5), random.between(-1.5, 1.5), random.between(-1.5, 1.5)};
+        std::vector<dvec3> positions = deformed(by);
+        const double stir = random.between(0.0, 0.1);
+        for (dvec3& x : positions)
+            x += stir * dvec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+        EXPECT_GE(here(positions), fastestOfBlock(model_, positions)) << "deformation " << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lattices, FrequencyBoundsOfBlocks,
+    testing::Values(Lattice{{0.2, 0.2, 0.2}, {2, 2, 2}, 1.0}, Lattice{{0.2, 0.2, 0.2}, {2, 2, 2}, 0.1},
+                    Lattice{{0.2, 0.2, 0.2}, {2, 2, 2}, 10.0}, Lattice{{0.4, 0.1, 0.1}, {4, 1, 1}, 1.0},
+                    Lattice{{0.4, 0.1, 0.1}, {4, 1, 1}, 0.1}, Lattice{{0.4, 0.1, 0.1}, {4, 1, 1}, 10.0},
+                    Lattice{{0.3, 0.1, 0.3}, {3, 1, 3}, 1.0}, Lattice{{0.3, 0.1, 0.3}, {3, 1, 3}, 0.1},
+                    Lattice{{0.3, 0.1, 0.3}, {3, 1, 3}, 10.0}, Lattice{{0.3, 0.2, 0.1}, {2, 2, 2}, 1.0},
+                    Lattice{{0.3, 0.2, 0.1}, {2, 2, 2}, 0.1}, Lattice{{0.3, 0.2, 0.1}, {2, 2, 2}, 10.0}));
 
 TEST(FrequencyEstimate, IsWithinOnePercent) {
     for (double stretch : {1.0, 1.3, 0.9}) {

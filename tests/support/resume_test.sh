@@ -51,30 +51,30 @@ render() {
 }
 hashes() { sed -n "/state_hash/,/]/p" "$1/run.json"; }
 
-start=$(date +%s%N)
 render "$work/whole" --checkpoint-every 5
 [ "$(hashes "$work/whole" | wc -l)" -gt 60 ] || { echo "run.json has no hashes"; exit 1; }
-duration=$((($(date +%s%N) - start) / 1000000))  # [ms]
 
 killed=0
 round=0
 while [ "$round" -lt "$kills" ]; do
     round=$((round + 1))
     folder=$work/run$round
-    # Spread over the run by the golden ratio; the same moments each time, as far as clocks go.
-    moment=$((duration * (618 * round % 1000) / 1000))
+    # When so many of its 60 pictures are there, spread by the golden ratio; how far into the next is left to chance.
+    pictures=$((60 * (618 * round % 1000) / 1000))
     "$taut" render "$work/scene.toml" -o "$folder" --quiet --metrics --checkpoint-every 5 &
     run=$!
-    sleep "$((moment / 1000)).$(printf %03d $((moment % 1000)))"
+    while kill -0 "$run" 2>/dev/null && [ "$(find "$folder" -name "*.png" 2>/dev/null | wc -l)" -lt "$pictures" ]; do
+        sleep 0.01
+    done
     if kill -9 "$run" 2>/dev/null; then killed=$((killed + 1)); fi
     wait "$run" 2>/dev/null || true
     render "$folder" --checkpoint-every 5 --resume
     for picture in "$work"/whole/*.png; do
-        cmp "$picture" "$folder/$(basename "$picture")" || { echo "after a kill at $moment ms"; exit 1; }
+        cmp "$picture" "$folder/$(basename "$picture")" || { echo "after a kill at $pictures pictures"; exit 1; }
     done
     [ "$(ls "$folder"/*.png | wc -l)" -eq 60 ] || { echo "$folder has not 60 pictures"; exit 1; }
-    [ "$(hashes "$folder")" = "$(hashes "$work/whole")" ] || { echo "other hashes after a kill at $moment ms"; exit 1; }
-    cmp "$work/whole/metrics.csv" "$folder/metrics.csv" || { echo "other metrics after a kill at $moment ms"; exit 1; }
+    [ "$(hashes "$folder")" = "$(hashes "$work/whole")" ] || { echo "other hashes after a kill at $pictures pictures"; exit 1; }
+    cmp "$work/whole/metrics.csv" "$folder/metrics.csv" || { echo "other metrics after a kill at $pictures pictures"; exit 1; }
     rm -rf "$folder"
 done
 echo "killed $killed of $kills runs"

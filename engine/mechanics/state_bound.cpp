@@ -1,0 +1,290 @@
+#include "taut/mechanics/state_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "taut/core/vectorise.h"
+#include "taut/mechanics/cell_shape.h"
+
+namespace taut::mechanics {
+namespace {
+
+constexpr int slice = 128;  // springs at once, so that what lies between two loops stays in the first-level cache
+constexpr int lanes = 16;   // partial maxima
+
+template <class Real>
+struct Entries {
+    alignas(64) Real of[6][slice];
+};
+
+// Entries of k [(1 - t) nnᵀ + t I] for n springs, t = max(0, 1 - L/l).
+template <class Real>
+inline void springEntries(int n, const Real* const from[3], const Real* const to[3], const Real* k, const Real* rest,
+                          Entries<Real>& g) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const Real dx = to[0][i] - from[0][i], dy = to[1][i] - from[1][i], dz = to[2][i] - from[2][i];
+        const Real l = std::sqrt(dx * dx + dy * dy + dz * dz);
+        const Real inverse = l > Real(0) ? Real(1) / l : Real(0);
+        const Real stretched = Real(1) - rest[i] * inverse;
+        const Real across = stretched > Real(0) ? stretched : Real(0);
+        const Real same = k[i] * across, along = k[i] * (Real(1) - across) * inverse * inverse;
+        const Real ax = along * dx, ay = along * dy, az = along * dz;
+        g.of[0][i] = ax * dx + same;
+        g.of[1][i] = ax * dy;
+        g.of[2][i] = ax * dz;
+        g.of[3][i] = ay * dy + same;
+        g.of[4][i] = ay * dz;
+        g.of[5][i] = az * dz + same;
+    }
+}
+
+// The largest root x of x³ - 3x - 2r, 2 cos(acos(r)/3), by a polynomial in √((1 + r)/2) that is nowhere below it, exact
+// at both ends and at most 1.3e-4 above (from its values and slopes at the ends and its curvature at 0).
+template <class Real>
+inline Real largestRoot(Real r) {
+    const Real half = Real(0.5) * (Real(1) + r);
+    const Real y = std::sqrt(half > Real(0) ? (half < Real(1) ? half : Real(1)) : Real(0));
+    return (Real(1) + Real(0.001) * y * (Real(1) - y)) *
+           (Real(1) + y * (Real(1.15470054) + y * (Real(-0.22222222) + y * (Real(0.09145394) - y * Real(0.02393226)))));
+}
+
+// λ_max of a symmetric 3×3 matrix: its mean plus the spread p of its eigenvalues times the root for its skewness
+// (Smith 1961).
+template <class Real>
+inline Real largestEigenvalue(Real xx, Real xy, Real xz, Real yy, Real yz, Real zz) {
+    const Real mean = (xx + yy + zz) * Real(1.0 / 3.0);
+    xx -= mean;
+    yy -= mean;
+    zz -= mean;
+    const Real square = (xx * xx + yy * yy + zz * zz + Real(2) * (xy * xy + xz * xz + yz * yz)) * Real(1.0 / 6.0);
+    const Real spread = std::sqrt(square);
+    const Real determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    const Real cube = square * spread;
+    const Real skewness = cube > Real(0) ? Real(0.5) * determinant / cube : Real(1);
+    return mean + spread * largestRoot(skewness);
+}
+
+}  // namespace
+
+template <class Real>
+StateBound<Real>::StateBound(int points, int stride)
+    : points_(points),
+      stride_(stride),
+      sum_(6 * static_cast<std::size_t>(stride)),
+      a_(static_cast<std::size_t>(stride)),
+      b_(static_cast<std::size_t>(stride)) {}
+
+template <class Real>
+void StateBound<Real>::setCells(std::span<const VolumeCell> cells) {
+    cells_.assign(cells.begin(), cells.end());
+    edges_.clear();
+    edgesOf_.clear();
+    std::map<std::pair<int, int>, int> numbers;
+    for (const VolumeCell& cell : cells_) {
+        edgesOf_.emplace_back();
+        for (std::size_t e = 0; e < cellEdges.size(); ++e) {
+            const auto ends = std::minmax(cell.points[cellEdges[e].i], cell.points[cellEdges[e].j]);
+            const auto [entry, isNew] = numbers.try_emplace(ends, static_cast<int>(edges_.size()));
+            if (isNew) edges_.push_back({ends.first, ends.second});
+            edgesOf_.back()[e] = entry->second;
+        }
+    }
+    pressed_.resize(edges_.size());
+    rows_.resize(static_cast<std::size_t>(points_));
+}
+
+template <class Real>
+void StateBound<Real>::sumSprings(const SpringNetwork<Real>& network, const Real* x, Of what, const Real* weights) {
+    Entries<Real> g;
+    alignas(64) Real k[slice], rest[slice];
+    for (const SpringRun<Real>& run : network.runs) {
+        const Real* rests = run.mixed < 0 ? nullptr : network.mixed.data() + run.mixed;
+        for (int first = 0; first < run.count; first += slice) {
+            const int n = std::min(slice, run.count - first), a = run.a + first, b = a + run.offset;
+            const Real* stiffness = network.stiffness.data() + run.table + first;
+            for (int i = 0; i < n; ++i) {
+                k[i] = stiffness[i];
+                rest[i] = rests == nullptr ? run.restLength : rests[first + i];
+                if (what != Of::dashpots) continue;
+                k[i] *= rests == nullptr ? run.tau : rests[run.count + first + i];
+                rest[i] = std::numeric_limits<Real>::max();
+            }
+            if (weights != nullptr)
+                for (int i = 0; i < n; ++i) k[i] *= weights[a + i] + weights[b + i];
+            const Real *const from[3] = {x + a, x + stride_ + a, x + 2 * stride_ + a}, *const to[3] = {
+                                                                                           x + b, x + stride_ + b,
+                                                                                           x + 2 * stride_ + b};
+            springEntries(n, from, to, k, rest, g);
+            for (int p = 0; p < 6; ++p) {
+                const Real* entry = g.of[p];
+                Real *atA = plane(p) + a, *atB = plane(p) + b;
+                TAUT_INDEPENDENT
+                for (int i = 0; i < n; ++i) atA[i] += entry[i];
+                TAUT_INDEPENDENT
+                for (int i = 0; i < n; ++i) atB[i] += entry[i];
+            }
+        }
+    }
+    const SpringSingles<Real>& s = network.singles;
+    alignas(64) Real ends[2][3][slice];
+    for (int first = 0; first < s.size(); first += slice) {
+        const int n = std::min(slice, s.size() - first);
+        const int *a = s.a.data() + first, *b = s.b.data() + first;
+        for (int p = 0; p < 3; ++p) {
+            const Real* at = x + static_cast<std::ptrdiff_t>(p) * stride_;
+            for (int i = 0; i < n; ++i) {
+                ends[0][p][i] = at[a[i]];
+                ends[1][p][i] = at[b[i]];
+            }
+        }
+        for (int i = 0; i < n; ++i) {
+            k[i] = s.k[static_cast<std::size_t>(first + i)];
+            rest[i] = s.restLength[static_cast<std::size_t>(first + i)];
+            if (weights != nullptr) k[i] *= weights[a[i]] + weights[b[i]];
+            if (what != Of::dashpots) continue;
+            k[i] *= s.tau[static_cast<std::size_t>(first + i)];
+            rest[i] = std::numeric_limits<Real>::max();
+        }
+        const Real *const from[3] = {ends[0][0], ends[0][1], ends[0][2]}, *const to[3] = {ends[1][0], ends[1][1],
+                                                                                          ends[1][2]};
+        springEntries(n, from, to, k, rest, g);
+        for (int p = 0; p < 6; ++p) {
+            Real* at = plane(p);
+            for (int i = 0; i < n; ++i) {
+                at[a[i]] += g.of[p][i];
+                at[b[i]] += g.of[p][i];
+            }
+        }
+    }
+}
+
+template <class Real>
+void StateBound<Real>::sumCells(const Real* x, const Real* weights) {
+    for (const VolumeCell& cell : cells_) {
+        const CellCorners g = gradientsOf(cornersOf(cell, x, stride_));
+        double factor = cell.bulkModulus / cell.restVolume;
+        if (weights != nullptr) {
+            double weight = 0;
+            for (int i : cell.points) weight += static_cast<double>(weights[i]);
+            factor *= weight;
+        }
+        for (std::size_t c = 0; c < 4; ++c) {
+            const int i = cell.points[c];
+            const glm::dvec3 n = g[c], f = factor * n;
+            plane(0)[i] += static_cast<Real>(f.x * n.x);
+            plane(1)[i] += static_cast<Real>(f.x * n.y);
+            plane(2)[i] += static_cast<Real>(f.x * n.z);
+            plane(3)[i] += static_cast<Real>(f.y * n.y);
+            plane(4)[i] += static_cast<Real>(f.y * n.z);
+            plane(5)[i] += static_cast<Real>(f.z * n.z);
+        }
+    }
+}
+
+template <class Real>
+void StateBound<Real>::takeRates(const Real* inverseMass, core::AlignedArray<Real>& a) const {
+    const Real *xx = sum_.data(), *xy = xx + stride_, *xz = xy + stride_, *yy = xz + stride_, *yz = yy + stride_,
+               *zz = yz + stride_;
+    Real* rates = a.data();
+    TAUT_INDEPENDENT
+    for (int i = 0; i < points_; ++i)
+        rates[i] = inverseMass[i] * largestEigenvalue(xx[i], xy[i], xz[i], yy[i], yz[i], zz[i]);
+}
+
+template <class Real>
+double StateBound<Real>::largestOfSprings(const SpringNetwork<Real>& network, const Real* a) const {
+    Real most[lanes] = {};
+    for (const SpringRun<Real>& run : network.runs) {
+        const Real *k = network.stiffness.data() + run.table, *from = a + run.a, *to = from + run.offset;
+        const auto look = [&](int i, int lane) {
+            const Real sum = k[i] > Real(0) ? from[i] + to[i] : Real(0);
+            most[lane] = sum > most[lane] ? sum : most[lane];
+        };
+        int i = 0;
+        for (; i + lanes <= run.count; i += lanes)
+            for (int lane = 0; lane < lanes; ++lane) look(i + lane, lane);
+        for (; i < run.count; ++i) look(i, 0);
+    }
+    const SpringSingles<Real>& s = network.singles;
+    for (std::size_t i = 0; i < s.a.size(); ++i)
+        if (s.k[i] > Real(0)) most[0] = std::max(most[0], a[s.a[i]] + a[s.b[i]]);
+    return static_cast<double>(*std::max_element(most, most + lanes));
+}
+
+template <class Real>
+double StateBound<Real>::largestOfCells(const Real* a) const {
+    Real most = 0;
+    for (const VolumeCell& cell : cells_) {
+        Real sum = 0;
+        for (int i : cell.points) sum += a[i];
+        most = std::max(most, sum);
+    }
+    return static_cast<double>(most);
+}
+
+template <class Real>
+double StateBound<Real>::largestRow(const Real* x, const Real* inverseMass) {
+    std::fill(pressed_.begin(), pressed_.end(), glm::dvec3(0.0));
+    std::fill(rows_.begin(), rows_.end(), 0.0);
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const VolumeCell& cell = cells_[c];
+        const CellCorners p = cornersOf(cell, x, stride_);
+        const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0) / 6.0;
+        for (std::size_t e = 0; e < cellEdges.size(); ++e) {
+            const CellEdge& edge = cellEdges[e];
+            pressed_[static_cast<std::size_t>(edgesOf_[c][e])] +=
+                (cell.points[edge.i] < cell.points[edge.j] ? pressure : -pressure) * (p[edge.k] - p[edge.l]);
+        }
+    }
+    double largest = 0;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        const auto a = static_cast<std::size_t>(edges_[e].a), b = static_cast<std::size_t>(edges_[e].b);
+        const double entry = std::sqrt(static_cast<double>(inverseMass[a]) * static_cast<double>(inverseMass[b]) *
+                                       glm::dot(pressed_[e], pressed_[e]));
+        rows_[a] += entry;
+        rows_[b] += entry;
+        largest = std::max({largest, rows_[a], rows_[b]});
+    }
+    return largest;
+}
+
+// Where all springs have the same damping time, C is at most that times their K.
+template <class Real>
+FastestNow StateBound<Real>::operator()(const SpringNetwork<Real>& network, const Real* x, const Real* inverseMass) {
+    FastestNow now;
+    const auto clear = [&] { std::fill(sum_.begin(), sum_.end(), Real(0)); };
+    if (network.largestTau > Real(0) && !network.isTauUniform) {
+        clear();
+        sumSprings(network, x, Of::dashpots, nullptr);
+        takeRates(inverseMass, a_);
+        now.damping = largestOfSprings(network, a_.data());
+    }
+    clear();
+    sumSprings(network, x, Of::stiffness, nullptr);
+    takeRates(inverseMass, a_);
+    now.omega2 = largestOfSprings(network, a_.data());
+    if (network.isTauUniform) now.damping = static_cast<double>(network.largestTau) * now.omega2;
+    if (cells_.empty()) return now;
+
+    sumCells(x, nullptr);
+    takeRates(inverseMass, a_);
+    now.omega2 = std::max(largestOfSprings(network, a_.data()), largestOfCells(a_.data()));
+    clear();
+    sumSprings(network, x, Of::stiffness, a_.data());
+    sumCells(x, a_.data());
+    takeRates(inverseMass, b_);
+    Real most = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(points_); ++i)
+        if (a_[i] > Real(0)) most = std::max(most, b_[i] / a_[i]);
+    now.omega2 = std::min(now.omega2, static_cast<double>(most)) + largestRow(x, inverseMass);
+    return now;
+}
+
+template class StateBound<float>;
+template class StateBound<double>;
+
+}  // namespace taut::mechanics

@@ -1,0 +1,63 @@
+// The bound of a state's frequencies, B2 of stability.h, over a network as it is laid out for speed: cheap enough to be
+// asked for every tick.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "taut/core/aligned_array.h"
+#include "taut/mechanics/model.h"
+#include "taut/mechanics/spring_network.h"
+
+namespace taut::mechanics {
+
+// Bounds of the two largest eigenvalues that limit a step.
+struct FastestNow {
+    double omega2 = 0;   // [1/s²] of M⁻¹K, springs and cells
+    double damping = 0;  // [1/s] of M⁻¹C, dashpots
+};
+
+template <class Real>
+class StateBound {
+  public:
+    // Of points in planes of `stride`.
+    StateBound(int points, int stride);
+
+    // Cells by the points of the network.
+    void setCells(std::span<const VolumeCell> cells);
+
+    // x (3 · stride) [m], inverseMass (stride) [1/kg], 0 if held. Same bits on every machine; single precision may come
+    // out low by a ten-thousandth.
+    FastestNow operator()(const SpringNetwork<Real>& network, const Real* x, const Real* inverseMass);
+
+  private:
+    enum class Of { stiffness, dashpots };
+
+    void sumSprings(const SpringNetwork<Real>& network, const Real* x, Of what, const Real* weights);
+    void sumCells(const Real* x, const Real* weights);
+    // a (points) from the sums: w λ_max.
+    void takeRates(const Real* inverseMass, core::AlignedArray<Real>& a) const;
+    double largestOfSprings(const SpringNetwork<Real>& network, const Real* a) const;
+    double largestOfCells(const Real* a) const;
+    double largestRow(const Real* x, const Real* inverseMass);
+    Real* plane(int p) { return sum_.data() + static_cast<std::ptrdiff_t>(p) * stride_; }
+
+    int points_, stride_;
+    core::AlignedArray<Real> sum_;    // (6 · stride) xx xy xz yy yz zz
+    core::AlignedArray<Real> a_, b_;  // (stride)
+    std::vector<VolumeCell> cells_;
+    struct Edge {
+        int a, b;
+    };
+    std::vector<Edge> edges_;                  // of the cells, the lower point first
+    std::vector<std::array<int, 6>> edgesOf_;  // (cells) numbers of their edges, in the order of cell_shape.h
+    std::vector<glm::dvec3> pressed_;          // (edges) [N/m]
+    std::vector<double> rows_;                 // (points)
+};
+
+extern template class StateBound<float>;
+extern template class StateBound<double>;
+
+}  // namespace taut::mechanics

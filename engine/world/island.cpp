@@ -105,7 +105,7 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
 void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
     if (substeps != choice_.substeps) stepChanges_.push_back({time.start(), choice_.substeps, substeps, isRepeated});
     choice_.substeps = substeps;
-    choice_.step = 1.0 / (time.ticksPerSecond * substeps);
+    choice_.step = 1.0 / time.ticksPerSecond / substeps;
     dynamics_->start(time.start(), choice_.step);
 }
 

@@ -117,7 +117,6 @@ void Island::visitInside(StateBytes& bytes) {
 }
 
 void Island::visitStep(StateBytes& bytes) {
-    const double tickSeconds = choice_.step * choice_.substeps;
     bool follows = choice_.need.has_value();
     int substeps = choice_.substeps;
     bytes(follows);
@@ -125,6 +124,10 @@ void Island::visitStep(StateBytes& bytes) {
     if (follows != choice_.need.has_value() || (!follows && substeps != choice_.substeps))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
     if (!follows) return;
+    double safety = choice_.need->safety;
+    bytes(safety);
+    if (safety != choice_.need->safety)
+        misfit("the rule for the steps of " + plan_.bodies.front()->fullName() + " is another");
     following_.visit([&](auto& number) { bytes(number); });
     bytes.notNegative(choice_.need->moreOmega2);
     bytes.notNegative(choice_.need->others.rate);
@@ -137,7 +140,7 @@ void Island::visitStep(StateBytes& bytes) {
     bytes.require(substeps > 0 && substeps <= mostSubsteps && following_.isSound(mostSubsteps));
     if (!bytes.isReading()) return;
     choice_.substeps = substeps;
-    choice_.step = tickSeconds / substeps;
+    choice_.step = choice_.need->tickSeconds / substeps;
     dynamics_->setStep(choice_.step);
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/scenes.h"
 #include "taut/ode/method_table.h"
 #include "taut/world/bodies/net.h"
-#include "support/scenes.h"
 
 namespace taut::test::contact {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "taut/mechanics/builders.h"
 #include "support/network.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::test::float_floor {
 namespace {

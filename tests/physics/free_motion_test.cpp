@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "taut/mechanics/builders.h"
 #include "support/network.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::test::free_motion {
 namespace {

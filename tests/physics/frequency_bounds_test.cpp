@@ -206,6 +206,14 @@ TEST_P(FrequencyBoundsOfBlocks, AreTightAtRestAndOverTheWorkingRange) {
         look(glm::dmat3({thick.x, 0, 0}, {0, thick.y, 0}, {0, 0, thick.z}));
         look(glm::dmat3({thin.x, 0, 0}, {0, thin.y, 0}, {0, 0, thin.z}));
     }
+    for (const dvec3& scale : {dvec3(1.5, 1, 1), dvec3(1.5, 0.02, 1.5), dvec3(1, -1, 1), dvec3(1.4, -0.5, 1.4)})
+        look(glm::dmat3({scale.x, 0, 0}, {0, scale.y, 0}, {0, 0, scale.z}));
+    for (int i = 0; i < 10; ++i) {
+        std::vector<dvec3> positions = model_.positions;
+        for (dvec3& x : positions)
+            x += 0.03 * dvec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+        largest = std::max(largest, fastestOfBlock(model_, positions));
+    }
     const double within = mechanics::boundWithin(view_, {}, model_.positions, workingStretch).omega;
     EXPECT_GE(within, largest);
     EXPECT_LE(within, 1.45 * largest);

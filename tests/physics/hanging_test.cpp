@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/network.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/stability.h"
-#include "support/network.h"
 
 namespace taut::test::hanging {
 namespace {
@@ -49,9 +49,8 @@ TEST(HangingRope, StretchesUnderItsOwnWeightByTheTheoryAtEveryResolution) {
         // At rest to 1e-12 m/s against springs and drag of 8/s: 1e-12 m or so.
         EXPECT_NEAR(stretch, mass * g * length / (2.0 * ea), 1e-9) << segments << " segments";
         // In the middle three quarters of it have come together.
-        if (segments % 2 == 0) {
+        if (segments % 2 == 0)
             EXPECT_NEAR(x[x.size() / 2].y, 2 - 0.5 * length - 0.75 * stretch, 1e-9) << segments << " segments";
-        }
     }
 }
 

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "support/network.h"
+#include "support/oscillator.h"
+#include "support/scenes.h"
 #include "taut/mechanics/builders.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/net.h"
 #include "taut/world/forces/anchor.h"
 #include "taut/world/forces/wind.h"
-#include "support/network.h"
-#include "support/oscillator.h"
-#include "support/scenes.h"
 
 namespace taut::test::hard_cases {
 namespace {
@@ -129,9 +129,7 @@ TEST(CoincidentPoints, StayFiniteAndPartWhenPushed) {
             Network still(model, method.name, 1e-3);
             still.step(1000);
             EXPECT_TRUE(areNumbers(still.positions()));
-            if (apart == 0.0) {
-                EXPECT_EQ(still.position(0), still.position(1));
-            }
+            if (apart == 0.0) EXPECT_EQ(still.position(0), still.position(1));
             model.velocities[1] = {0, 1, 0};
             Network pushed(model, method.name, 1e-3);
             pushed.step(1000);
@@ -164,9 +162,8 @@ TEST(MassRatioOfAMillion, SwingsAsTheReducedMassDoes) {
             const double now = network.position(1).x - network.position(0).x - 1.0;
             // 2e4 steps of rounding at 1e-16 of 1 m, of 0.05 m: 1e-10 when they add up.
             ASSERT_NEAR(now / swing, ought.state.x[0] / swing, 1e-9) << method.name << ", step " << n;
-            if (method.name == "leapfrog" || method.name == "velocity-verlet") {
+            if (method.name == "leapfrog" || method.name == "velocity-verlet")
                 ASSERT_NEAR(now / swing, std::cos(2.0 * n * std::asin(omega * h / 2.0)), 1e-9) << n;
-            }
         }
         EXPECT_LT(glm::length(network.momentum()), 1e-12) << method.name;
     }
@@ -320,9 +317,7 @@ TEST(NotANumber, InAnAnchorStopsTheRunAndNamesThePointInEveryMethod) {
             // Methods that ask for forces once a step have it in that point alone. The others pass it on within the
             // step, and name the first that has it.
             const bool isAlone = method.evaluations == 1 && method.name != "velocity-verlet";
-            if (isAlone) {
-                EXPECT_EQ(divergence->point, 13);
-            }
+            if (isAlone) EXPECT_EQ(divergence->point, 13);
             const std::string point = "point " + std::to_string(divergence->point);
             EXPECT_NE(divergence->message.find(point + " has a velocity that is not a number"), std::string::npos)
                 << divergence->message;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <vector>
 
-#include "taut/core/trig.h"
-#include "taut/world/bodies/cloth.h"
 #include "support/network.h"
 #include "support/oscillator.h"
 #include "support/scenes.h"
+#include "taut/core/trig.h"
+#include "taut/world/bodies/cloth.h"
 
 namespace taut::test::implicit_euler {
 namespace {

@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 
+#include "support/network.h"
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/stability.h"
-#include "support/network.h"
 
 namespace taut::test::linear_modes {
 namespace {

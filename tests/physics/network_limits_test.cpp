@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/dense_stiffness.h"
+#include "support/scenes.h"
 #include "taut/core/error.h"
 #include "taut/mechanics/builders.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/forces/wind.h"
-#include "support/dense_stiffness.h"
-#include "support/scenes.h"
 
 namespace taut::test::network_limits {
 namespace {
@@ -111,11 +111,10 @@ TEST(ClothLimit, OfLeapfrogWithStrongDashpotsIsWhereTheFlatClothBeginsToTremble)
         const std::vector<dvec3> start = positionsOf(world, "cloth.sheet");
         EXPECT_FALSE(advance(world, 5000));
         EXPECT_FALSE(world.warnings().empty());
-        if (share < 1.0) {
+        if (share < 1.0)
             EXPECT_LT(farthest(world, start), 1e-4);  // as above
-        } else {
+        else
             EXPECT_GT(farthest(world, start), 1e-2);  // 1e5 times the stir
-        }
     }
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "support/network.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/wind.h"
-#include "support/network.h"
 
 namespace taut::test::network_order {
 namespace {

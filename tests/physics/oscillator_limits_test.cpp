@@ -64,11 +64,10 @@ TEST(ExplicitEulerLimit, GrowsWithDampingUpToOneAndFallsBeyond) {
     for (double zeta : zetas)
         for (double share : {0.0, 0.5, 1.0}) {
             SCOPED_TRACE("ζ = " + std::to_string(zeta) + ", dashpot share " + std::to_string(share));
-            if (zeta > 0.0) {
+            if (zeta > 0.0)
                 expectLimit("euler", damped(zeta * (1.0 - share), zeta * share), eulerLimit(zeta));
-            } else {  // no step is small enough: 1 + z² a step at z = 0.02 gives e^40
+            else  // no step is small enough: 1 + z² a step at z = 0.02 gives e^40
                 EXPECT_GT(largestAmplitude("euler", damped(0.0, 0.0), 0.02 / omega), 1e11);
-            }
         }
 }
 
@@ -187,9 +186,7 @@ TEST(LargestStep, OfAFreePointIsSetByItsDampingAlone) {
         EXPECT_TRUE(std::isinf(method.largestStep(nothing)));
         // v' = -c v: the position drifts by v0/c; growth beyond the limit is by 1.01 a step at least.
         const double limit = method.largestStep(damper);
-        if (method.name == "symplectic-euler") {
-            EXPECT_DOUBLE_EQ(limit, 0.25);
-        }
+        if (method.name == "symplectic-euler") EXPECT_DOUBLE_EQ(limit, 0.25);
         if (method.name == "implicit-euler") {
             EXPECT_TRUE(std::isinf(limit));
             continue;

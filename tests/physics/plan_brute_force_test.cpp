@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/small_scenes.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/plan.h"
 #include "taut/study/plan_run.h"
@@ -16,7 +17,6 @@
 #include "taut/world/bodies/net.h"
 #include "taut/world/bodies/rope.h"
 #include "taut/world/forces/wind.h"
-#include "support/small_scenes.h"
 
 namespace taut::study::plan_brute_force {
 namespace {

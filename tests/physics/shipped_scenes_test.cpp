@@ -4,9 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "support/scenes.h"
 #include "taut/scene/load.h"
 #include "taut/world/bodies/cloth.h"
-#include "support/scenes.h"
 
 namespace taut::test::shipped_scenes {
 namespace {

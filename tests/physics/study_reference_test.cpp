@@ -36,9 +36,7 @@ TEST_P(ExactProblem, SatisfiesItsEquation) {
         EXPECT_LT(error, 1e-7) << steps;        // of motions of 1 cm (chain) to 20 m
         EXPECT_LT(energyError, 1e-6) << steps;  // [J] of 0.1 to 50
         // Half the step, a sixteenth of the error, until rounding: the limit of the runs is the solution.
-        if (steps > 400 && last > 1e-12) {
-            EXPECT_NEAR(last / error, 16.0, 2.0);
-        }
+        if (steps > 400 && last > 1e-12) EXPECT_NEAR(last / error, 16.0, 2.0);
         last = error;
     }
 }

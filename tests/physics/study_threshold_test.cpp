@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "support/dense_stiffness.h"
 #include "taut/mechanics/builders.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/threshold.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
-#include "support/dense_stiffness.h"
 
 namespace taut::test::study_threshold {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "taut/mechanics/builders.h"
-#include "taut/mechanics/volume.h"
 #include "mechanics_planar_state.h"
 #include "support/eigenvalues.h"
+#include "taut/mechanics/builders.h"
+#include "taut/mechanics/volume.h"
 
 namespace taut::mechanics {
 namespace {
@@ -52,22 +52,6 @@ taut::test::Matrix stiffnessMatrix(const PlanarState<double>& state, const Volum
             matrix.at(row, column) = out[state.index(static_cast<int>(row / 3), static_cast<int>(row % 3))];
     }
     return matrix;
-}
-
-double largestFrequencySquared(const PlanarState<double>& state, const VolumePreservation<double>& volume) {
-    taut::test::Matrix matrix = stiffnessMatrix(state, volume);
-    for (std::size_t row = 0; row < matrix.n; ++row)
-        for (std::size_t column = 0; column < matrix.n; ++column)
-            matrix.at(row, column) *= std::sqrt(state.inverseMass[row / 3] * state.inverseMass[column / 3]);
-    return taut::test::eigenvalues(matrix).back();
-}
-
-double boundSquared(const PlanarState<double>& state, const VolumePreservation<double>& volume) {
-    const StabilityShare share = state.stability(volume);
-    double bound = 0.0;
-    for (std::size_t i = 0; i < share.stiffness.size(); ++i)
-        bound = std::max(bound, share.stiffness[i] * state.inverseMass[i]);
-    return bound;
 }
 
 TEST(Volume, AtRestHasNoForceAndNoEnergy) {
@@ -214,49 +198,6 @@ TEST(Volume, ReportCountsCollapsedInvertedAndOverstretched) {
     report = volume.inspect(poked.motion());
     const auto& points = model.cells[static_cast<std::size_t>(report.smallestCell)].points;
     EXPECT_EQ(std::count(points.begin(), points.end(), 0), 1);
-}
-
-// Rigorous in the working range, mirrored cells included.
-TEST(Volume, StabilityShareBoundsTheFrequencyInTheWholeWorkingRange) {
-    const Model model = block(2);
-    const VolumePreservation<double> volume = generatorOf(model, 1.5);
-    const dvec3 states[] = {{1, 1, 1},        {1.5, 1, 1},      {1.5, 1.5, 1}, {1.5, 1.5, 1.5}, {1, 0.02, 1},
-                            {1.5, 0.02, 1.5}, {1.5, 1e-9, 1.5}, {1, -1, 1},    {1.4, -0.5, 1.4}};
-    for (const dvec3& factors : states) {
-        PlanarState<double> state(model);
-        scale(state, factors);
-        ASSERT_EQ(volume.inspect(state.motion()).overstretched, 0);
-        const double bound = boundSquared(PlanarState<double>(model), volume);
-        EXPECT_LE(largestFrequencySquared(state, volume), bound) << factors.x << ' ' << factors.y << ' ' << factors.z;
-    }
-    for (int attempt = 1; attempt <= 3; ++attempt) {
-        PlanarState<double> state(model);
-        state.shake(0.04 * attempt, 0.0);
-        ASSERT_EQ(volume.inspect(state.motion()).overstretched, 0);
-        EXPECT_LE(largestFrequencySquared(state, volume), boundSquared(PlanarState<double>(model), volume));
-    }
-}
-
-TEST(Volume, StabilityShareIsNotFarAboveTheFrequency) {
-    const Model model = block(2);
-    PlanarState<double> state(model);
-    const VolumePreservation<double> tight = generatorOf(model, 1.5);
-    const double bound = boundSquared(state, tight);
-    scale(state, dvec3(1.5));
-    EXPECT_LT(bound, 6.0 * largestFrequencySquared(state, tight));
-}
-
-// Left its range, the share counts what is there.
-TEST(Volume, StabilityShareFollowsAStateBeyondTheWorkingStretch) {
-    const Model model = block(1);
-    const VolumePreservation<double> volume = generatorOf(model, 1.0);
-    for (const dvec3& factors : {dvec3(3, 3, 1), dvec3(3, 3, 3), dvec3(2, -2, 2)}) {
-        PlanarState<double> state(model);
-        scale(state, factors);
-        EXPECT_GT(volume.inspect(state.motion()).overstretched, 0);
-        EXPECT_LE(largestFrequencySquared(state, volume), boundSquared(state, volume));
-        EXPECT_GT(largestFrequencySquared(state, volume), boundSquared(PlanarState<double>(model), volume));
-    }
 }
 
 template <class Real>

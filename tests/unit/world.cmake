@@ -21,5 +21,6 @@ list(APPEND TAUT_UNIT_TESTS
   world_rehearsal_test.cpp
   world_saving_test.cpp
   world_step_choice_test.cpp
+  world_step_following_test.cpp
   world_targets_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::world)

@@ -1,4 +1,4 @@
-// The step allows for all that a timeline will do, and is the same from the first tick to the last.
+// A step that stays allows for all that a timeline will do, from the first tick to the last.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -174,12 +174,15 @@ TEST(Envelope, TheStepBearsAHandThatItWouldNotBearWithoutAllowingForIt) {
         }
         return true;
     };
-    World unaware(scene);
+    World unaware(scene, {.keepsSteps = true});
     EXPECT_FALSE(survives(unaware));
     ASSERT_FALSE(unaware.warnings().empty());
     EXPECT_NE(unaware.warnings().back().find("its step of"), std::string::npos) << unaware.warnings().back();
+    World following(scene);
+    EXPECT_TRUE(survives(following));
+    EXPECT_TRUE(following.warnings().empty()) << following.warnings().front();
     scene.hand = {true, 5000, 0.3};
-    World aware(scene);
+    World aware(scene, {.keepsSteps = true});
     EXPECT_TRUE(survives(aware));
     EXPECT_TRUE(aware.warnings().empty()) << aware.warnings().front();
     const IslandInfo island = aware.islands()[0];
@@ -188,7 +191,7 @@ TEST(Envelope, TheStepBearsAHandThatItWouldNotBearWithoutAllowingForIt) {
 
 TEST(Envelope, TheStepStaysThroughEverything) {
     const SceneSpec scene = support::everythingHappens();
-    World world(scene);
+    World world(scene, {.keepsSteps = true});
     std::vector<double> steps;
     for (const IslandInfo& island : world.islands()) {
         steps.push_back(island.step);

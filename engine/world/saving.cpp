@@ -3,6 +3,7 @@
 
 #include "taut/world/impl.h"
 #include "taut/world/kinds.h"
+#include "taut/world/result_bits.h"
 #include "taut/world/state_bytes.h"
 #include "taut/world/ticks.h"
 
@@ -57,6 +58,16 @@ void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, SceneSpec&
     bytes.atLeast(ramp.length, 0, longestWay);
     visitValue(bytes, now, size);
     if (bytes.isReading()) ramp.action.field->write(spec, now);
+}
+
+// Before the number of bits; no frame rate either.
+constexpr std::uint64_t bitsMark = 0xfff8'7461'7574'0002ULL;  // a NaN
+
+void visitBits(StateBytes& bytes) {
+    int number = bytes.isReading() ? 1 : resultBits;
+    if (bytes.mark(bitsMark, true)) bytes(number);
+    bytes.require(areBits(number));
+    if (number != resultBits) throw core::Error(core::ErrorKind::badContent, "this state was " + recordedBy(number));
 }
 
 // Before the bytes of a world with kinds of its own; no frame rate, with which all others begin.
@@ -116,6 +127,7 @@ void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const st
 }  // namespace
 
 void World::Impl::visit(StateBytes& bytes) {
+    visitBits(bytes);
     visitKinds(bytes, ownKinds(spec, added, islands, tick), ownActions(spec, longestWay));
     double rate = ticksPerSecond;
     bytes(rate);

@@ -177,7 +177,7 @@ class World {
     // Everything that the ticks so far have changed, as bytes, and back into a world that was built from the same scene
     // up to that tick, with the same forces, and has not ticked yet; what a scene says of later ticks may differ as
     // long as it leads to the same steps. restore() throws core::Error(badContent) for bytes that do not fit this
-    // world, and leaves it unusable then.
+    // world or were saved by other bits (result_bits.h), and leaves it unusable then.
     std::vector<std::byte> save() const;
     void restore(std::span<const std::byte> bytes);
 

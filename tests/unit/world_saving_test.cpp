@@ -1,6 +1,7 @@
 // A world as bytes: what is restored goes on bit for bit, and damaged bytes are refused.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 #include "support/timelines.h"
@@ -10,6 +11,7 @@
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
 #include "taut/world/components.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::world {
 namespace {
@@ -194,6 +196,22 @@ TEST(SavingWhole, BytesOfAnotherSceneAreRefusedByName) {
     other = scene;
     other.bodies.add(support::rope("more", {0, 3, 0}, {1, 3, 0}, 8));
     EXPECT_NE(refusal(other, bytes), "");
+}
+
+// The number stands behind a mark of eight bytes.
+TEST(SavingWhole, BytesOfOtherBitsAreRefusedAndThoseWithoutANumberAreOfBitsOne) {
+    SceneSpec scene;
+    scene.bodies.add(support::rope("line", {0, 2, 0}, {1, 2, 0}, 8));
+    const std::vector<std::byte> bytes = World(scene).save();
+    const auto numbered = [&](std::int32_t number) {
+        std::vector<std::byte> other = bytes;
+        std::memcpy(other.data() + 8, &number, sizeof number);
+        return other;
+    };
+    EXPECT_EQ(refusal(scene, numbered(resultBits + 1)), "this state was " + recordedBy(resultBits + 1));
+    for (const std::int32_t none : {0, -1, mostBits + 1}) EXPECT_NE(refusal(scene, numbered(none)), "") << none;
+    EXPECT_EQ(refusal(scene, {bytes.begin() + 12, bytes.end()}),
+              resultBits == 1 ? "" : "this state was " + recordedBy(1));
 }
 
 // Refused, or restored to something that can be asked and advanced; the sanitised build looks for worse.

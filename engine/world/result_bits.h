@@ -1,0 +1,24 @@
+// The generation of results, which files carry that keep results or go on from them. It knows no file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace taut::world {
+
+// Raised by one in the commit that changes what any scene computes, if only in the last bit. What carries no number was
+// recorded by bits 1.
+inline constexpr int resultBits = 1;
+
+inline constexpr int mostBits = 999'999'999;  // 1 … this: anything else is no such number
+
+constexpr bool areBits(std::int64_t number) {
+    return number >= 1 && number <= mostBits;
+}
+
+// "recorded by bits 1, this is bits 2".
+inline std::string recordedBy(int bits, int now = resultBits) {
+    return "recorded by bits " + std::to_string(bits) + ", this is bits " + std::to_string(now);
+}
+
+}  // namespace taut::world

@@ -30,6 +30,14 @@ std::uint64_t mostBytes(const world::World& world) {
     return 8 * world.save().size() + (std::uint64_t{64} << 20U);
 }
 
+// There is nothing else to go on from, and the frames before are of its bits too.
+[[noreturn]] void refuseOtherBits(const pipeline::PassedOver& checkpoint, const ContinuationFlags& flags) {
+    throw core::Error(
+        core::ErrorKind::inputOutput,
+        fmt::format("{}: only a taut of its bits goes on from it; {}", checkpoint.why,
+                    flags.from ? "without --from, -y draws all frames again" : "-y draws all frames again"));
+}
+
 }  // namespace
 
 void addContinuationFlags(Options& options, ContinuationFlags& flags) {
@@ -78,10 +86,13 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
     };
     if (!flags.resume && !flags.from) return fromStart();
     const std::int64_t goal = flags.from ? *flags.from : std::min(firstMissing(output, options), options.lastFrame);
-    std::vector<std::string> refused;
+    std::vector<pipeline::PassedOver> refused;
     const std::optional<pipeline::Checkpoint> checkpoint =
         checkpoints.latest(goal, keys.state, mostBytes(world), refused);
-    for (const std::string& line : refused) printNote("note: {}\n", line);
+    for (const pipeline::PassedOver& each : refused) {
+        if (each.isOfOtherBits && !checkpoint && (flags.from || !flags.mayOverwrite)) refuseOtherBits(each, flags);
+        printNote("note: {}\n", each.why);
+    }
     const bool goesOnWithPictures =
         flags.resume && !output.empty() && !image::FramePattern(output).framesThere().empty();
     if (!checkpoint) {

@@ -38,7 +38,7 @@ RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const worl
 // --from the last checkpoint at or before that frame, for --resume the last before the first frame that `output` lacks
 // (empty: none are drawn). Without any the run starts at frame 0. Prints what it does and what it had to pass over.
 // Throws core::Error: badContent when the pictures on disk were made with other settings, inputOutput when no state
-// goes on from them and they may not be overwritten.
+// goes on from them and they may not be overwritten, or when all that there is was recorded by other bits.
 pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
                          const std::string& output, pipeline::RunOptions& options, world::World& world);
 

@@ -12,6 +12,7 @@
 #include "taut/core/error.h"
 #include "taut/live/hand.h"
 #include "taut/scene/document.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::live {
 namespace {
@@ -181,8 +182,8 @@ std::string overrideLine(const std::string& text) {
 
 std::string scenarioText(const Recording& recording) {
     const double last = static_cast<double>(recording.endTick) / static_cast<double>(recording.ticksPerFrame);
-    std::string text = fmt::format("# Recorded by taut play: {} frames, state hash {:016x} at tick {}.\n", last + 1.0,
-                                   recording.hash, recording.endTick);
+    std::string text = fmt::format("# Recorded by taut play: {} frames, state hash {:016x} at tick {}, bits {}.\n",
+                                   last + 1.0, recording.hash, recording.endTick, world::resultBits);
     text += fmt::format("schema = 1\nscene = {}\n", quoted(recording.scene));
 
     // The last word on each key.

@@ -12,7 +12,8 @@
 namespace taut::pipeline {
 namespace {
 
-const SealedKind checkpointKind{"tautstat", 2, "checkpoint"};
+const SealedKind checkpointKind{
+    .mark = "tautstat", .version = 3, .title = "checkpoint", .oldest = 2};  // 2: without bits
 constexpr std::string_view before = "checkpoint_", after = ".taut";
 
 // ": sail.obj has changed"; empty where no file has.
@@ -33,6 +34,7 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
     writer.addList(std::span<const std::byte>(checkpoint.world));
     writer.add(checkpoint.records);
     scene::addUsedFiles(writer, checkpoint.files);
+    writer.add(static_cast<std::int32_t>(checkpoint.bits));
     writeSealed(path, checkpointKind, writer.take());
 }
 
@@ -49,7 +51,8 @@ Checkpoint readCheckpoint(const std::filesystem::path& path, std::uint64_t maxBy
         checkpoint.world = reader.list<std::byte>();
         checkpoint.records = reader.number<std::uint64_t>();
         checkpoint.files = scene::nextUsedFiles(reader);
-        if (!reader.isAtEnd() || checkpoint.frame < 0) core::ByteReader::fail();
+        checkpoint.bits = reader.isAtEnd() ? 1 : reader.number<std::int32_t>();
+        if (!reader.isAtEnd() || checkpoint.frame < 0 || !world::areBits(checkpoint.bits)) core::ByteReader::fail();
         return checkpoint;
     } catch (const core::Error& error) {
         throw core::Error(core::ErrorKind::badContent, fmt::format("{}: {}", path.string(), error.what()));
@@ -82,25 +85,31 @@ std::vector<std::int64_t> CheckpointFolder::framesThere() const {
 
 std::optional<Checkpoint> CheckpointFolder::latest(std::int64_t frame,
                                                    const std::function<std::uint64_t(std::int64_t)>& keyOf,
-                                                   std::uint64_t maxBytes, std::vector<std::string>& refused) const {
+                                                   std::uint64_t maxBytes, std::vector<PassedOver>& refused) const {
     std::vector<std::int64_t> there = framesThere();
     while (!there.empty() && there.back() > frame) there.pop_back();
     for (; !there.empty(); there.pop_back()) {
         const std::filesystem::path path = pathOf(there.back());
         try {
             Checkpoint checkpoint = readCheckpoint(path, maxBytes);
-            if (checkpoint.frame != there.back() || checkpoint.state != keyOf(there.back()))
+            if (checkpoint.bits != world::resultBits) {  // first: its keys may differ for that alone
+                if (std::none_of(refused.begin(), refused.end(), [](const auto& each) { return each.isOfOtherBits; }))
+                    refused.push_back(
+                        {fmt::format("{}: this checkpoint was {}", path.string(), world::recordedBy(checkpoint.bits)),
+                         true});
+            } else if (checkpoint.frame != there.back() || checkpoint.state != keyOf(there.back())) {
                 refused.push_back(
-                    fmt::format("{}: this checkpoint is of another scene, or of something else that happens "
-                                "before frame {}{}",
-                                path.string(), there.back(), changesSince(checkpoint)));
-            else if (RecordLog::digestOf(records(), static_cast<std::size_t>(there.back())) != checkpoint.records)
+                    {fmt::format("{}: this checkpoint is of another scene, or of something else that happens "
+                                 "before frame {}{}",
+                                 path.string(), there.back(), changesSince(checkpoint))});
+            } else if (RecordLog::digestOf(records(), static_cast<std::size_t>(there.back())) != checkpoint.records) {
                 refused.push_back(
-                    fmt::format("{}: {} is of another run", path.string(), records().filename().string()));
-            else
+                    {fmt::format("{}: {} is of another run", path.string(), records().filename().string())});
+            } else {
                 return checkpoint;
+            }
         } catch (const core::Error& error) {
-            refused.push_back(error.what());
+            refused.push_back({error.what()});
         }
     }
     return std::nullopt;

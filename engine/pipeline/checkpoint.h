@@ -10,6 +10,7 @@
 
 #include "taut/pipeline/run.h"
 #include "taut/scene/used_files.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::pipeline {
 
@@ -20,6 +21,13 @@ struct Checkpoint {
     std::vector<std::byte> world;          // World::save()
     std::uint64_t records = 0;             // digest of the records of the frames before
     std::vector<scene::UsedFile> files{};  // that the scene depends on, to say which has changed
+    int bits = world::resultBits;          // generation of results
+};
+
+// A checkpoint that cannot be used.
+struct PassedOver {
+    std::string why;  // "FILE: …"
+    bool isOfOtherBits = false;
 };
 
 // Whole or not at all; throws core::Error(inputOutput).
@@ -41,9 +49,9 @@ class CheckpointFolder {
     std::vector<std::int64_t> framesThere() const;  // ascending
 
     // The last one at or before a frame whose state key is as `keyOf` says for its frame, and whose records are there.
-    // Those that cannot be used are passed over, each with a line in `refused`.
+    // Those that cannot be used are passed over, each with its reason; of those of other bits the last alone.
     std::optional<Checkpoint> latest(std::int64_t frame, const std::function<std::uint64_t(std::int64_t)>& keyOf,
-                                     std::uint64_t maxBytes, std::vector<std::string>& refused) const;
+                                     std::uint64_t maxBytes, std::vector<PassedOver>& refused) const;
 
   private:
     std::filesystem::path folder_;

@@ -8,6 +8,7 @@
 
 #include "taut/world/forces/wind.h"
 #include "taut/world/metric_table.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::pipeline {
 namespace {
@@ -114,6 +115,7 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
                   const std::optional<render::RendererInfo>& renderer, const RunResult& result) {
     Json json;
     json["program"] = machine.program;
+    json["bits"] = world::resultBits;
     json["scene"] = spec.file;
     json["output"] = request.output;
     json["overrides"] = request.overrides;

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "taut/pipeline/checkpoint.h"
+#include "taut/world/result_bits.h"
 #include "tests/unit/program_support.h"
 
 namespace taut::game::game_continuation {
@@ -107,8 +109,29 @@ TEST_F(Continuation, PassesOverADamagedState) {
     file.put(9);  // the version
     file.close();
     const Outcome again = play({"--from", "20"});
-    EXPECT_TRUE(has(again.err, "format 9, and this taut reads format 2: it was written by a newer one")) << again.err;
+    EXPECT_TRUE(has(again.err, "format 9, and this taut reads format 3: it was written by a newer one")) << again.err;
     EXPECT_EQ(again.out, from(whole_.out, 20));
+}
+
+// Those after it are of other bits: none of them goes with the frames before.
+TEST_F(Continuation, RefusesStatesOfOtherBitsByName) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 30U;  // [bytes]
+    for (const char* number : {"000000", "000010", "000020"}) {
+        pipeline::Checkpoint checkpoint = pipeline::readCheckpoint(state(number), most);
+        ++checkpoint.bits;
+        pipeline::writeCheckpoint(state(number), checkpoint);
+    }
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"--from", "25"}, {"--from", "25", "-y"}, {"--resume"}}) {
+        const Outcome refused = play(command);
+        EXPECT_EQ(refused.code, 6);
+        EXPECT_TRUE(has(refused.err, "0.taut: this checkpoint was " + world::recordedBy(world::resultBits + 1)))
+            << refused.err;
+        EXPECT_TRUE(has(refused.err, "-y draws all frames again")) << refused.err;
+    }
+    const Outcome anew = play({"--resume", "-y"});
+    EXPECT_EQ(anew.code, 0) << anew.err;
+    EXPECT_EQ(anew.out, whole_.out);
 }
 
 // Pictures of another scene are not replaced unasked.

@@ -8,6 +8,7 @@
 
 #include "image_support.h"
 #include "program_support.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::game {
 namespace {
@@ -237,6 +238,7 @@ TEST(Program, RendersFramesWithTheirRecordAndKeepsWhatExists) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out/f_001.png"));
     const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
     EXPECT_EQ(json["state_hash"].size(), 5U);
+    EXPECT_EQ(json["bits"], world::resultBits);
     EXPECT_EQ(json["gl"]["backend"], "osmesa");
     EXPECT_EQ(run({"render", scene, "-o", pattern, "--frames", "2-4", "-n"}).code, 6);
     EXPECT_EQ(run({"render", scene, "-o", pattern, "--frames", "2-4", "-y", "--quiet"}).code, 0);

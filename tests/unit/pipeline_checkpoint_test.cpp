@@ -201,7 +201,7 @@ TEST(CheckpointFolder, FindsTheLastThatFits) {
     EXPECT_EQ(folder.framesThere(), (std::vector<std::int64_t>{10, 15, 20, 30, 40}));
 
     const auto always = [](std::uint64_t key) { return [key](std::int64_t) { return key; }; };
-    std::vector<std::string> refused;
+    std::vector<PassedOver> refused;
     EXPECT_EQ(folder.latest(40, always(2), mostBytes, refused)->frame, 40);
     EXPECT_EQ(folder.latest(39, always(2), mostBytes, refused)->frame, 30);
     EXPECT_TRUE(refused.empty());
@@ -210,12 +210,13 @@ TEST(CheckpointFolder, FindsTheLastThatFits) {
     refused.clear();
     EXPECT_EQ(folder.latest(19, always(1), mostBytes, refused)->frame, 10);
     ASSERT_EQ(refused.size(), 1U);
-    EXPECT_NE(refused[0].find("checkpoint_000015.taut: this is no checkpoint of taut"), std::string::npos);
+    EXPECT_NE(refused[0].why.find("checkpoint_000015.taut: this is no checkpoint of taut"), std::string::npos);
     EXPECT_FALSE(folder.latest(9, always(1), mostBytes, refused));
     refused.clear();
     RecordLog::continuing(folder.records(), 25);
     EXPECT_EQ(folder.latest(30, always(2), mostBytes, refused), std::nullopt) << "the records end before";
-    EXPECT_NE(refused.at(0).find("records.taut: the records end with frame 25"), std::string::npos) << refused[0];
+    EXPECT_NE(refused.at(0).why.find("records.taut: the records end with frame 25"), std::string::npos)
+        << refused[0].why;
     EXPECT_FALSE(CheckpointFolder(folder.path() / "missing").latest(9, always(1), mostBytes, refused));
 }
 
@@ -245,11 +246,47 @@ TEST(RunLock, LetsPartsOfOneRunInAndNobodyElse) {
     EXPECT_NE(refusal({1, "the first"}), "");
 }
 
+// The number is the last of the content; format 2 ends before it.
+TEST(Checkpoint, KeepsItsBitsAndWithoutANumberIsOfBitsOne) {
+    const std::filesystem::path folder = emptyFolder("bits");
+    Checkpoint checkpoint = example(3, 9);
+    checkpoint.bits = 77;
+    writeCheckpoint(folder / "c.taut", checkpoint);
+    EXPECT_EQ(readCheckpoint(folder / "c.taut", mostBytes).bits, 77);
+    std::vector<std::byte> bytes = readSealed(folder / "c.taut", {"tautstat", 3, "checkpoint"});
+    bytes.back() = std::byte{0xff};  // below zero
+    writeSealed(folder / "d.taut", {"tautstat", 3, "checkpoint"}, bytes);
+    EXPECT_THROW(readCheckpoint(folder / "d.taut", mostBytes), core::Error);
+    bytes.resize(bytes.size() - sizeof(std::int32_t));
+    writeSealed(folder / "d.taut", {"tautstat", 2, "checkpoint"}, bytes);
+    EXPECT_EQ(readCheckpoint(folder / "d.taut", mostBytes).bits, 1);
+}
+
+TEST(CheckpointFolder, PassesOverThoseOfOtherBitsAndSaysSoOnce) {
+    const CheckpointFolder folder(emptyFolder("otherbits"));
+    RecordLog log(folder.records(), {});
+    addUpTo(log, 30);
+    for (std::int64_t frame : {10, 20, 30}) {
+        Checkpoint checkpoint = example(frame, 1);
+        if (frame > 10) checkpoint.bits = world::resultBits + 1;
+        writeCheckpoint(folder.pathOf(frame), checkpoint);
+    }
+    std::vector<PassedOver> refused;
+    EXPECT_EQ(folder
+                  .latest(
+                      30, [](std::int64_t) { return 1; }, mostBytes, refused)
+                  ->frame,
+              10);
+    ASSERT_EQ(refused.size(), 1U);
+    EXPECT_TRUE(refused[0].isOfOtherBits);
+    EXPECT_NE(refused[0].why.find("checkpoint_000030.taut: this checkpoint was recorded by bits"), std::string::npos);
+}
+
 // A file under another's name would put the pictures out of step.
 TEST(CheckpointFolder, DoesNotTrustNames) {
     const CheckpointFolder folder(emptyFolder("names"));
     writeCheckpoint(folder.pathOf(10), example(11, 1));
-    std::vector<std::string> refused;
+    std::vector<PassedOver> refused;
     EXPECT_FALSE(folder.latest(
         20, [](std::int64_t) { return 1; }, mostBytes, refused));
     EXPECT_EQ(refused.size(), 1U);

@@ -68,7 +68,8 @@ int runCommandLine(int argc, const char* const* argv, std::span<const Command> c
          .version = "taut " TAUT_VERSION,
          .footer = "Exit codes: 0 ok, 1 a check or golden failed, 2 usage, 3 bad content, 4 diverged, 5 "
                    "need not met,\n"
-                   "6 input or output, 7 nothing to draw with, 8 golden missing, 130 and 143 interrupted."},
+                   "6 input or output, 7 nothing to draw with, 8 golden missing or of other bits, 130 and 143 "
+                   "interrupted."},
         commands);
     const Request request = line.read(argc, argv);
     switch (request.kind) {

@@ -19,6 +19,7 @@
 #include "taut/regression/tape.h"
 #include "taut/regression/tape_compare.h"
 #include "taut/scene/load.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::game {
 namespace {
@@ -42,8 +43,8 @@ void printFacts(const std::string& name, const regression::Tape& tape) {
     for (const scene::UsedFile& file : origin.files)
         if (file.path != origin.scene) printResult("  depends on {}\n", file.path);
     for (const std::string& override_ : origin.overrides) printResult("  --set {}\n", override_);
-    printResult("  by {}, {}, {}\n  last hash {:016x}\n", origin.program, origin.compiler, origin.simd,
-                tape.chain.back());
+    printResult("  by {}, {}, {}, bits {}\n  last hash {:016x}\n", origin.program, origin.compiler, origin.simd,
+                origin.bits, tape.chain.back());
 }
 
 // What a tape was made from, or the scene that is to be held against it.
@@ -101,7 +102,7 @@ int verdict(const ReplayFlags& flags, const regression::Tape& tape, const regres
     }
     printResult("{}\n", regression::describe(*difference));
     const auto by = [](const regression::TapeOrigin& origin) {
-        return fmt::format("{}, {}, {}", origin.program, origin.compiler, origin.simd);
+        return fmt::format("{}, {}, {}, bits {}", origin.program, origin.compiler, origin.simd, origin.bits);
     };
     printResult("  {}: by {}\n  {}: by {}\n", flags.tape, by(tape.origin),
                 flags.other.empty() ? "now" : flags.other.c_str(), by(now.origin));
@@ -121,6 +122,12 @@ int replay(const ReplayFlags& flags) {
         if (!flags.scene.empty())
             throw core::Error(core::ErrorKind::usage, "--verify with a second tape plays nothing: leave --scene out");
         return verdict(flags, tape, regression::readTape(flags.other));
+    }
+    if (tape.origin.bits != world::resultBits) {
+        printResult("{}: {}: {}\n", flags.tape, world::recordedBy(tape.origin.bits),
+                    tape.origin.bits < world::resultBits ? "results have changed since; taut record makes it anew"
+                                                         : "it needs a newer taut");
+        return static_cast<int>(ExitCode::goldenMissing);
     }
     const Interruption interruption;
     const regression::Tape now = played(flags, tape, interruption);

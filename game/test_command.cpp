@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -33,6 +34,7 @@
 #include "taut/regression/suite.h"
 #include "taut/report/junit.h"
 #include "taut/report/test_page.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::game {
 namespace {
@@ -155,13 +157,14 @@ Run prepare(const TestFlags& flags) {
     return run;
 }
 
-// The command that makes what a scenario does its golden.
-std::string acceptCommand(const TestFlags& flags, const std::string& name) {
+// The command that makes what scenarios do their goldens.
+std::string acceptCommand(const TestFlags& flags, const std::vector<std::string>& names) {
     std::string command = "taut test";
     for (const std::string& path : flags.paths) command += " " + shellWord(path);
     if (!flags.goldens.empty()) command += " --goldens " + shellWord(flags.goldens);
     if (!flags.gl.empty()) command += " --gl " + flags.gl;
-    return command + fmt::format(" --update {} --why \"…\"", shellWord(name));
+    for (const std::string& name : names) command += " --update " + shellWord(name);
+    return command + " --why \"…\"";
 }
 
 // Whether something of it differs from its goldens.
@@ -169,8 +172,23 @@ bool isAcceptable(const report::TestScenario& scenario) {
     const auto differs = [](const auto& item) {
         return item.verdict == report::Verdict::failed || item.verdict == report::Verdict::missing;
     };
+    if (scenario.state.verdict == report::Verdict::outdated) return scenario.state.bits < world::resultBits;
     if (!scenario.state.word.empty()) return false;  // there is nothing to accept
     return differs(scenario.state) || std::any_of(scenario.pictures.begin(), scenario.pictures.end(), differs);
+}
+
+// A line for each number of bits that goldens were recorded by.
+std::vector<std::string> outdatedLines(const TestFlags& flags, const std::vector<report::TestScenario>& scenarios) {
+    std::map<int, std::vector<std::string>> names;
+    for (const report::TestScenario& scenario : scenarios)
+        if (scenario.state.verdict == report::Verdict::outdated) names[scenario.state.bits].push_back(scenario.name);
+    std::vector<std::string> lines;
+    for (const auto& [bits, all] : names)
+        lines.push_back(world::recordedBy(bits) + ": " +
+                        (bits < world::resultBits ? acceptCommand(flags, all)
+                                                  : fmt::format("{} need{} a newer taut", fmt::join(all, ", "),
+                                                                all.size() == 1 ? "s" : "")));
+    return lines;
 }
 
 void writePictures(const std::filesystem::path& folder, const report::TestScenario& scenario) {
@@ -192,7 +210,8 @@ int exitCodeOf(report::Verdict verdict) {
     switch (verdict) {
         case report::Verdict::diverged: return static_cast<int>(ExitCode::diverged);
         case report::Verdict::failed: return static_cast<int>(ExitCode::checkFailed);
-        case report::Verdict::missing: return static_cast<int>(ExitCode::goldenMissing);
+        case report::Verdict::missing:
+        case report::Verdict::outdated: return static_cast<int>(ExitCode::goldenMissing);
         case report::Verdict::passed:
         case report::Verdict::skipped: break;
     }
@@ -286,9 +305,9 @@ int test(const TestFlags& flags) {
         printNote("{}\n", scenario.fault);
     }
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    for (report::TestScenario& scenario : report.scenarios) {
-        if (isAcceptable(scenario)) scenario.accept = acceptCommand(flags, scenario.name);
-    }
+    for (report::TestScenario& scenario : report.scenarios)
+        if (isAcceptable(scenario)) scenario.accept = acceptCommand(flags, {scenario.name});
+    report.outdated = outdatedLines(flags, report.scenarios);
     if (interruption.exitCode()) addUnplayed(run.read.scenarios, report);
     int code = finish(flags, report, page);
     if (!run.read.unread.empty()) code = static_cast<int>(ExitCode::badContent);
@@ -356,7 +375,8 @@ Action declareTest(Options& options) {
         "  taut test assets/scenarios --goldens tests/golden --junit out/test/junit.xml\n"
         "  taut test my --update flag --why \"the wind blows from the left now\"\n"
         "Exit codes: 0 all right, 1 a check or golden failed, 3 a scenario cannot be read, 4 a scenario diverged,\n"
-        "8 a golden is missing.");
+        "8 a golden is missing, or was recorded by other bits (results have changed since); checks are judged all the\n"
+        "same. Of several the first of 3, 4, 1, 8.");
     return [flags] { return flags->updates.empty() && flags->why.empty() ? test(*flags) : update(*flags); };
 }
 

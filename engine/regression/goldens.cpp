@@ -20,12 +20,16 @@ namespace {
 
 const pipeline::SealedKind storedKind{"tautgold", 1, "stored state of a golden picture"};
 
-bool hasSameChain(const std::filesystem::path& file, const Tape& tape) {
+// The bits of the tape there, where its chain is the same.
+std::optional<int> bitsOfSameChain(const std::filesystem::path& file, const Tape& tape) {
     try {
-        return core::isThere(file) && !firstDifference(readTape(file), tape);
+        if (!core::isThere(file)) return std::nullopt;
+        const Tape golden = readTape(file);
+        if (firstDifference(golden, tape)) return std::nullopt;
+        return golden.origin.bits;
     } catch (const core::Error& error) {
         if (error.kind() == core::ErrorKind::inputOutput) throw;
-        return false;  // damaged: written anew
+        return std::nullopt;  // damaged: written anew
     }
 }
 
@@ -42,16 +46,19 @@ bool hasSamePicture(const std::filesystem::path& file, const image::Image& pictu
     }
 }
 
-// True when the golden had to change.
-bool updateState(const Scenario& scenario, const Played& played, const GoldenFolder& folder, GoldenScenario& goldens,
-                 const std::string& why, core::FileBatch& files) {
+// What of the golden had to change; empty: nothing.
+std::string updateState(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
+                        GoldenScenario& goldens, const std::string& why, core::FileBatch& files) {
     const std::filesystem::path file = folder.tape(scenario.name);
     const std::string last = hexadecimal(played.tape.chain.back());
-    if (goldens.state && goldens.state->lastHash == last && hasSameChain(file, played.tape)) return false;
-    writeTape(files.replace(file), played.tape);
     const TapeOrigin& origin = played.tape.origin;
+    std::optional<int> known;
+    if (goldens.state && goldens.state->lastHash == last) known = bitsOfSameChain(file, played.tape);
+    if (known == origin.bits && goldens.bits == origin.bits) return "";
+    if (known != origin.bits) writeTape(files.replace(file), played.tape);
+    if (known) return fmt::format("the same state, now of bits {}", origin.bits);
     goldens.state = {why, last, played.tape.ticks(), origin.program, origin.compiler, origin.simd};
-    return true;
+    return fmt::format("state, {} ticks", played.tape.ticks());
 }
 
 bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const GoldenFolder& folder,
@@ -61,17 +68,20 @@ bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const 
     const std::filesystem::path file = folder.picture(scenario.name, key), stored = folder.stored(scenario.name, key);
     const auto known = goldens.pictures.find(key);
     const std::string hash = hexadecimal(played.stateHash);
+    const auto writeStored = [&] {
+        if (!played.request.restart) return;
+        TAUT_EXPECTS(!played.savedState.empty());
+        pipeline::writeSealed(files.replace(stored), storedKind, played.savedState);
+    };
     const bool isKnown = known != goldens.pictures.end();
     const bool hasState =
         !played.request.restart || (isKnown && core::isThere(stored) && known->second.stateHash == hash);
     if (isKnown && hasState && hasSamePicture(file, played.picture, manifest.tolerance)) {
         known->second.stateHash = hash;  // the picture stays and so does its reason; its state may have changed unseen
+        if (goldens.bits != world::resultBits) writeStored();
         return false;
     }
-    if (played.request.restart) {
-        TAUT_EXPECTS(!played.savedState.empty());
-        pipeline::writeSealed(files.replace(stored), storedKind, played.savedState);
-    }
+    writeStored();
     image::writePng(files.replace(file), played.picture);
     goldens.pictures[key] = {why, hash, renderer};
     return true;
@@ -87,8 +97,8 @@ std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& p
     Manifest updated = manifest;
     const std::vector<std::string> dropped = leftOver(scenario, manifest);
     GoldenScenario& goldens = updated.scenarios[scenario.name];
-    if (updateState(scenario, played, folder, goldens, why, files))
-        changes.push_back(fmt::format("{}: state, {} ticks", folder.tape(scenario.name).string(), played.tape.ticks()));
+    if (const std::string change = updateState(scenario, played, folder, goldens, why, files); !change.empty())
+        changes.push_back(fmt::format("{}: {}", folder.tape(scenario.name).string(), change));
     for (const PlayedPicture& picture : played.pictures)
         if (updatePicture(scenario, picture, folder, manifest, goldens, why, played.renderer, files))
             changes.push_back(
@@ -101,6 +111,7 @@ std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& p
         files.remove(folder.stored(scenario.name, key));
         changes.push_back(fmt::format("{}: dropped", folder.picture(scenario.name, key).string()));
     }
+    goldens.bits = world::resultBits;
     writeManifest(files.replace(folder.manifest()), updated);
     files.commit();
     manifest = std::move(updated);

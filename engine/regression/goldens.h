@@ -11,9 +11,9 @@
 namespace taut::regression {
 
 // Writes the chain and the pictures of the scenario that are missing or differ from their goldens, drops those that it
-// asks for no more, and gives each that changes the reason; what agrees stays as it is, to the last byte. Returns a
-// line for each change. Throws core::Error(inputOutput). Expects a scenario that was played to its end with saved
-// states.
+// asks for no more, and gives each that changes the reason; what agrees stays as it is, to the last byte but for the
+// number of bits. Returns a line for each change. Throws core::Error(inputOutput). Expects a scenario that was played
+// to its end with saved states.
 std::vector<std::string> updateGoldens(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
                                        Manifest& manifest, const std::string& why);
 

@@ -32,6 +32,17 @@ std::int64_t mostPixels(const image::Image& picture) {
     return std::max(image::mostPixels, std::int64_t{picture.width} * picture.height);
 }
 
+bool isRecorded(const GoldenScenario& goldens) {
+    return goldens.state || !goldens.pictures.empty();
+}
+
+void setOutdated(TestState& state, int recorded, int now) {
+    state.verdict = Verdict::outdated;
+    state.bits = recorded;
+    state.word = fmt::format("bits {}", recorded);
+    state.reason = world::recordedBy(recorded, now);
+}
+
 std::vector<std::byte> bytesOf(const std::filesystem::path& path) {
     const std::string content = core::fileContent(path, std::uint64_t{1} << 30U);
     const auto bytes = std::as_bytes(std::span<const char>(content.data(), content.size()));
@@ -39,7 +50,7 @@ std::vector<std::byte> bytesOf(const std::filesystem::path& path) {
 }
 
 TestState judgedState(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
-                      const GoldenScenario& goldens) {
+                      const GoldenScenario& goldens, int bits) {
     TestState state;
     state.ticks = played.tape.ticks();
     state.lastHash = hexadecimal(played.tape.chain.back());
@@ -54,7 +65,9 @@ TestState judgedState(const Scenario& scenario, const Played& played, const Gold
     state.madeBy = fmt::format("{}, {}, {}", goldens.state->program, goldens.state->compiler, goldens.state->simd);
     try {
         const Tape golden = readTape(file);
-        if (const auto difference = firstDifference(golden, played.tape)) {
+        if (golden.origin.bits != bits) {
+            setOutdated(state, golden.origin.bits, bits);
+        } else if (const auto difference = firstDifference(golden, played.tape)) {
             state.verdict = Verdict::failed;
             state.reason = describe(*difference);
             if (difference->fault == TapeFault::length)
@@ -72,7 +85,7 @@ TestState judgedState(const Scenario& scenario, const Played& played, const Gold
 }
 
 bool isOfChecksOnly(const Scenario& scenario, const GoldenFolder& folder, const GoldenScenario& goldens) {
-    return !scenario.spec.checks.empty() && scenario.goldens.empty() && !goldens.state && goldens.pictures.empty() &&
+    return !scenario.spec.checks.empty() && scenario.goldens.empty() && !isRecorded(goldens) &&
            !core::isThere(folder.tape(scenario.name));
 }
 
@@ -172,8 +185,13 @@ std::vector<std::string> leftOver(const Scenario& scenario, const Manifest& mani
     return keys;
 }
 
-TestScenario judged(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
-                    const Manifest& manifest, bool requiresGoldens) {
+bool isOutdated(const Scenario& scenario, const Goldens& goldens) {
+    const GoldenScenario& known = goldensOf(scenario, goldens.manifest);
+    return isRecorded(known) && known.bits != goldens.bits;
+}
+
+TestScenario judged(const Scenario& scenario, const Played& played, const Goldens& all, bool requiresGoldens) {
+    const auto& [folder, manifest, bits] = all;
     const GoldenScenario& goldens = goldensOf(scenario, manifest);
     TestScenario result = blank(scenario);
     result.seconds = played.seconds;
@@ -191,7 +209,15 @@ TestScenario judged(const Scenario& scenario, const Played& played, const Golden
         result.state.ticks = played.tape.ticks();
         result.state.lastHash = hexadecimal(played.tape.chain.back());
     } else {
-        result.state = judgedState(scenario, played, folder, goldens);
+        result.state = judgedState(scenario, played, folder, goldens, bits);
+    }
+    if (isOutdated(scenario, all)) {
+        if (!played.divergence) setOutdated(result.state, goldens.bits, bits);
+        for (std::size_t i = 0; i < result.pictures.size(); ++i) {
+            if (!played.pictures[i].fault.empty()) continue;
+            result.pictures[i].verdict = Verdict::outdated;
+            result.pictures[i].reason.clear();
+        }
     }
     for (const std::string& key : leftOver(scenario, manifest))
         result.notes.push_back(fmt::format("the golden picture {} is asked for no more; --update drops it", key));

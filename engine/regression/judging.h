@@ -8,10 +8,21 @@
 
 namespace taut::regression {
 
+// What scenarios are held against.
+struct Goldens {
+    const GoldenFolder& folder;
+    const Manifest& manifest;
+    int bits = world::resultBits;  // of what was played
+};
+
+// Whether the scenario has goldens of other bits: they tell nothing of what it does.
+bool isOutdated(const Scenario& scenario, const Goldens& goldens);
+
 // The pictures of the result are PNG files as bytes. A scenario that asks for no pictures, has checks and was never
-// recorded passes by its checks, unless goldens are required of each.
-report::TestScenario judged(const Scenario& scenario, const Played& played, const GoldenFolder& folder,
-                            const Manifest& manifest, bool requiresGoldens);
+// recorded passes by its checks, unless goldens are required of each. Of one that is outdated the checks are judged;
+// what differs stands in the pictures' figures and fails nothing.
+report::TestScenario judged(const Scenario& scenario, const Played& played, const Goldens& goldens,
+                            bool requiresGoldens);
 
 // Of a scenario that was interrupted: failed, with how far it came.
 report::TestScenario unfinished(const Scenario& scenario, const Played& played);

@@ -46,6 +46,12 @@ class Reader {
             below(key, fmt::format("is no whole number of at least {}", least));
         return value.get<std::int64_t>();
     }
+    int bits(const char* key) const {
+        const Json& value = member(key);
+        if (!value.is_number_integer() || !world::areBits(value.get<std::int64_t>()))
+            below(key, fmt::format("is no whole number from 1 to {}", world::mostBits));
+        return value.get<int>();
+    }
     double number(const char* key) const {
         const Json& value = member(key);
         if (!value.is_number() || value.get<double>() < 0.0) below(key, "is no number of at least 0");
@@ -88,6 +94,7 @@ bool isPlainName(const std::string& name) {
 
 GoldenScenario scenarioIn(const Reader& reader) {
     GoldenScenario scenario;
+    scenario.bits = reader.has("bits") ? reader.bits("bits") : 1;
     if (reader.has("state")) scenario.state = stateIn(reader.object("state"));
     if (!reader.has("pictures")) return scenario;
     reader.object("pictures").each([&](const std::string& key, const Reader& picture) {
@@ -99,6 +106,7 @@ GoldenScenario scenarioIn(const Reader& reader) {
 
 Json jsonOf(const GoldenScenario& scenario) {
     Json json = Json::object();
+    json["bits"] = scenario.bits;
     if (const auto& state = scenario.state)
         json["state"] = {{"why", state->why},         {"ticks", state->ticks},       {"last_hash", state->lastHash},
                          {"program", state->program}, {"compiler", state->compiler}, {"simd", state->simd}};

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "taut/image/compare.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::regression {
 
@@ -28,6 +29,7 @@ struct GoldenState {
 };
 
 struct GoldenScenario {
+    int bits = world::resultBits;  // generation of results that its goldens were recorded by
     std::optional<GoldenState> state;
     std::map<std::string, GoldenPicture> pictures;
 };

@@ -68,13 +68,13 @@ class Suite {
         const Scenario& scenario = scenarios_[i];
         PlayOptions options;
         options.threads = options_.threadsEach;
-        options.storedState = storedStates(options_.goldens, scenario);
+        const Goldens goldens{options_.goldens, manifest_, options_.bits};
+        if (!isOutdated(scenario, goldens)) options.storedState = storedStates(options_.goldens, scenario);
         report::TestScenario result;
         try {
             const Played played = playScenario(scenario, drawer, options, stop_);
-            result = played.interrupted
-                         ? unfinished(scenario, played)
-                         : judged(scenario, played, options_.goldens, manifest_, options_.requiresGoldens);
+            result = played.interrupted ? unfinished(scenario, played)
+                                        : judged(scenario, played, goldens, options_.requiresGoldens);
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
             result = brokenScenario(scenario, error.what());

@@ -19,6 +19,7 @@ struct SuiteOptions {
     DrawingOptions drawing;
     GoldenFolder goldens;
     bool requiresGoldens = false;  // checks alone do not pass
+    int bits = world::resultBits;  // of what is played
     // Called as scenarios end, one at a time.
     std::function<void(int done, const report::TestScenario& scenario)> scenarioDone{};
 };

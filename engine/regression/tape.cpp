@@ -15,7 +15,7 @@ namespace taut::regression {
 namespace {
 
 const pipeline::SealedKind kind{
-    .mark = "tauttape", .version = 2, .title = "tape", .oldest = 1};  // 1: without the files used
+    .mark = "tauttape", .version = 3, .title = "tape", .oldest = 1};  // 1: without the files used, 2: without bits
 
 std::map<std::string, ecs::Entity> bodyEntities(world::World& world) {
     std::map<std::string, ecs::Entity> entities;
@@ -87,7 +87,8 @@ Tape tapeIn(std::span<const std::byte> content) {
     tape.bodies = reader.list<std::uint64_t>();
     tape.points = reader.list<std::uint32_t>();
     if (!reader.isAtEnd()) tape.origin.files = scene::nextUsedFiles(reader);
-    if (!reader.isAtEnd()) core::ByteReader::fail();
+    tape.origin.bits = reader.isAtEnd() ? 1 : reader.number<std::int32_t>();
+    if (!reader.isAtEnd() || !world::areBits(tape.origin.bits)) core::ByteReader::fail();
     index(tape);
     return tape;
 }
@@ -143,7 +144,8 @@ void writeTape(const std::filesystem::path& path, const Tape& tape) {
     addNumbers(writer, tape.chain);
     addNumbers(writer, tape.bodies);
     addNumbers(writer, tape.points);
-    if (!tape.origin.files.empty()) scene::addUsedFiles(writer, tape.origin.files);
+    scene::addUsedFiles(writer, tape.origin.files);
+    writer.add(static_cast<std::int32_t>(tape.origin.bits));
     pipeline::writeSealed(path, kind, writer.take());
 }
 

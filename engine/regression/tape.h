@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "taut/scene/used_files.h"
+#include "taut/world/result_bits.h"
 #include "taut/world/world.h"
 
 namespace taut::regression {
@@ -19,6 +20,7 @@ struct TapeOrigin {
     std::string text;                      // what that file said
     std::vector<std::string> overrides;    // "key=value"
     std::vector<scene::UsedFile> files{};  // that it depends on; none in one that belongs to a scenario
+    int bits = world::resultBits;          // generation of results
 };
 
 // The bodies that a tick has hashes of.

@@ -62,14 +62,17 @@ std::vector<Case> casesOf(const TestScenario& scenario) {
 }
 
 bool isFailure(Verdict verdict) {
-    return verdict != Verdict::passed && verdict != Verdict::skipped;
+    return verdict > Verdict::outdated;
+}
+
+bool isSkipped(Verdict verdict) {
+    return verdict == Verdict::skipped || verdict == Verdict::outdated;
 }
 
 std::string counts(const std::vector<Case>& cases, double seconds) {
     const auto failures = std::count_if(
         cases.begin(), cases.end(), [](const Case& c) { return isFailure(c.verdict); });
-    const auto skipped =
-        std::count_if(cases.begin(), cases.end(), [](const Case& c) { return c.verdict == Verdict::skipped; });
+    const auto skipped = std::count_if(cases.begin(), cases.end(), [](const Case& c) { return isSkipped(c.verdict); });
     return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"", cases.size(),
                        failures, skipped, seconds);
 }
@@ -77,7 +80,10 @@ std::string counts(const std::vector<Case>& cases, double seconds) {
 std::string caseXml(const std::string& suite, const Case& c) {
     std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(suite),
                                    escaped(c.name), c.seconds);
-    if (c.verdict == Verdict::skipped) return text + ">\n      <skipped/>\n    </testcase>\n";
+    if (isSkipped(c.verdict)) {
+        const std::string why = c.message.empty() ? "" : fmt::format(" message=\"{}\"", escaped(c.message));
+        return text + fmt::format(">\n      <skipped{}/>\n    </testcase>\n", why);
+    }
     if (!isFailure(c.verdict)) return text + "/>\n";
     const std::string first = c.message.substr(0, c.message.find('\n'));
     return text + fmt::format(">\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n    </testcase>\n",

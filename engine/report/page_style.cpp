@@ -40,12 +40,12 @@ button[aria-pressed="true"] { background: var(--text); color: var(--page); borde
 .tile span { color: var(--quiet); font-size: 13px; }
 .bar { display: flex; gap: 8px; align-items: center; margin: 0 0 14px; }
 
-.passed { color: var(--good); } .failed { color: var(--bad); } .missing { color: var(--gap); }
+.passed { color: var(--good); } .failed { color: var(--bad); } .missing, .outdated { color: var(--gap); }
 .diverged { color: var(--halt); } .skipped { color: var(--skip); }
 .mark { display: inline-flex; align-items: center; gap: 7px; font-weight: 600; white-space: nowrap; }
 .mark::before { content: ""; width: 9px; height: 9px; border-radius: 50%; background: currentColor; }
 .mark.failed::before { border-radius: 2px; }
-.mark.missing::before { background: none; border: 2px solid currentColor; }
+.mark.missing::before, .mark.outdated::before { background: none; border: 2px solid currentColor; }
 .mark.diverged::before { border-radius: 0; transform: rotate(45deg); }
 
 .scenario { background: var(--card); border: 1px solid var(--line); border-radius: 14px; margin-bottom: 14px; box-shadow: var(--shade); }
@@ -63,6 +63,7 @@ td code, td.mono { white-space: nowrap; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .reason { border-left: 3px solid currentColor; padding: 8px 12px; border-radius: 0 8px 8px 0; background: var(--faint); margin: 10px 0 0; white-space: pre-wrap; overflow-wrap: anywhere; font-size: 14px; }
 .reason > span { color: var(--text); }
+.reason + .scenario { margin-top: 14px; }
 .quiet { color: var(--quiet); }
 .small { font-size: 13px; }
 

@@ -37,7 +37,8 @@ std::string reason(Verdict verdict, const std::string& text) {
 
 template <class Items>
 std::string counted(const Items& items, const char* what) {
-    if (items.empty()) return "";
+    if (std::all_of(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::outdated; }))
+        return "";  // or there are none
     const auto passed =
         std::count_if(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::passed; });
     return fmt::format("<span>{}/{} {}</span>", passed, items.size(), what);
@@ -210,6 +211,7 @@ std::string tilesPart(const TestReport& report) {
     if (count(Verdict::diverged) > 0) tile(count(Verdict::diverged), "diverged", "diverged");
     if (count(Verdict::failed) > 0) tile(count(Verdict::failed), "failed", "failed");
     if (count(Verdict::missing) > 0) tile(count(Verdict::missing), "without golden", "missing");
+    if (count(Verdict::outdated) > 0) tile(count(Verdict::outdated), "outdated", "outdated");
     tile(count(Verdict::passed), "passed", count(Verdict::passed) > 0 ? "passed" : "quiet");
     text += fmt::format("<div class=\"tile\"><b>{:.1f} s</b><span>wall time</span></div>\n</div>\n", report.seconds);
     return text;
@@ -264,6 +266,7 @@ std::string testPage(const TestReport& report) {
         "<div class=\"facts\">{}</div>\n{}",
         nameOf(verdict), pageStyle(), mark(verdict),
         join({report.program, report.compiler, report.machine, report.renderer}), tilesPart(report));
+    for (const std::string& line : report.outdated) text += reason(Verdict::outdated, line);
     for (const TestScenario* scenario : gravestFirst(report.scenarios)) text += scenarioPart(*scenario);
     text += calibrationPart(report.calibration);
     for (const std::string& note : report.notes)

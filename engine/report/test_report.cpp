@@ -13,7 +13,8 @@ namespace {
 
 template <class Items>
 std::string countPassed(const Items& items) {
-    if (items.empty()) return "-";
+    if (std::all_of(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::outdated; }))
+        return "-";  // or there are none
     const auto passed =
         std::count_if(items.begin(), items.end(), [](const auto& item) { return item.verdict == Verdict::passed; });
     return fmt::format("{}/{}{}", passed, items.size(), static_cast<std::size_t>(passed) == items.size() ? "" : " !");
@@ -39,7 +40,7 @@ void addLine(std::string& text, const std::string& line) {
 }  // namespace
 
 std::string nameOf(Verdict verdict) {
-    constexpr std::array names{"passed", "skipped", "missing", "failed", "diverged"};
+    constexpr std::array names{"passed", "skipped", "outdated", "missing", "failed", "diverged"};
     return names[static_cast<std::size_t>(verdict)];
 }
 
@@ -69,17 +70,21 @@ std::string testTable(const TestReport& report) {
 std::string testFailures(const TestReport& report) {
     std::string text;
     for (const TestScenario& scenario : report.scenarios) {
-        if (scenario.verdict == Verdict::passed && scenario.notes.empty()) continue;
+        const bool isSilent = scenario.verdict == Verdict::passed || scenario.verdict == Verdict::outdated;
+        if (isSilent && scenario.notes.empty()) continue;
         text += fmt::format("\n{} ({})\n", scenario.name, scenario.file);
         for (const std::string& fault : scenario.faults) addLine(text, fault);
         for (const TestCheck& check : scenario.checks)
             if (!check.reason.empty()) addLine(text, fmt::format("{}: {}", check.source, check.reason));
-        if (!scenario.state.reason.empty()) addLine(text, fmt::format("state: {}", scenario.state.reason));
+        if (!scenario.state.reason.empty() && scenario.state.verdict != Verdict::outdated)
+            addLine(text, fmt::format("state: {}", scenario.state.reason));
         for (const TestPicture& picture : scenario.pictures)
             if (!picture.reason.empty()) addLine(text, fmt::format("picture {}: {}", picture.key, picture.reason));
         for (const std::string& note : scenario.notes) addLine(text, fmt::format("note: {}", note));
-        if (!scenario.accept.empty()) addLine(text, fmt::format("{}: {}", acceptHeading(scenario), scenario.accept));
+        if (!scenario.accept.empty() && scenario.verdict != Verdict::outdated)
+            addLine(text, fmt::format("{}: {}", acceptHeading(scenario), scenario.accept));
     }
+    for (const std::string& line : report.outdated) text += fmt::format("\n{}\n", line);
     return text;
 }
 
@@ -87,7 +92,7 @@ std::string testSummary(const TestReport& report) {
     std::string text = fmt::format("{} scenario{}:", report.scenarios.size(), report.scenarios.size() == 1 ? "" : "s");
     const char* comma = " ";
     for (const Verdict verdict :
-         {Verdict::diverged, Verdict::failed, Verdict::missing, Verdict::skipped, Verdict::passed}) {
+         {Verdict::diverged, Verdict::failed, Verdict::missing, Verdict::outdated, Verdict::skipped, Verdict::passed}) {
         const auto count = std::count_if(report.scenarios.begin(), report.scenarios.end(),
                                          [&](const TestScenario& scenario) { return scenario.verdict == verdict; });
         if (count == 0) continue;

@@ -12,7 +12,8 @@
 
 namespace taut::report {
 
-enum class Verdict { passed, skipped, missing, failed, diverged };  // the later the worse
+// The later the worse. Outdated: recorded by other bits, and so not compared.
+enum class Verdict { passed, skipped, outdated, missing, failed, diverged };
 
 struct TestCheck {
     Verdict verdict = Verdict::passed;
@@ -35,6 +36,7 @@ struct TestState {
     std::string why;       // the manifest's reason for the golden
     std::string madeBy;    // the program that recorded the golden
     std::string word{};    // what became of it, in the table; empty: as the verdict says
+    int bits = 0;          // of the goldens, where outdated
 };
 
 // PNG files as bytes; empty where there is none.
@@ -88,6 +90,8 @@ struct TestReport {
     std::string renderer;   // of the pictures drawn now
     std::string tolerance;  // in words
     std::vector<std::string> notes;
+    std::vector<std::string>
+        outdated;  // what there is to say of outdated scenarios, once for all of one number of bits
     std::vector<TestScenario> scenarios;
     std::vector<CalibrationRow> calibration;
     double seconds = 0;  // [s] of wall time
@@ -104,7 +108,8 @@ Verdict verdictOf(const TestReport& report);
 // A line a scenario: name, checks, state, pictures, time.
 std::string testTable(const TestReport& report);
 
-// Everything that went wrong, a paragraph a scenario, with the command that accepts it; empty when nothing did.
+// Everything that went wrong, a paragraph a scenario, with the command that accepts it, and what is outdated; empty
+// when nothing did.
 std::string testFailures(const TestReport& report);
 
 // "3 scenarios: 1 failed, 2 passed, 12.3 s".

@@ -12,7 +12,7 @@ void readTape(View bytes) {
 // Changes what is under the seal and seals it again, or little would come past the checksum; now and then the seal.
 Bytes changedTape(const Bytes& bytes, const Change& change, unsigned number) {
     const pipeline::SealedKind kind{
-        .mark = "tauttape", .version = 2, .title = "tape", .oldest = 1, .maxContent = std::uint64_t{1} << 20U};
+        .mark = "tauttape", .version = 3, .title = "tape", .oldest = 1, .maxContent = std::uint64_t{1} << 20U};
     Bytes content;
     try {
         if (number % 16 != 0) content = copyOf(unsealed(kind, std::as_bytes(std::span(bytes)), "tape"));

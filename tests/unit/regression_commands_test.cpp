@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "regression_support.h"
+#include "taut/regression/tape.h"
 
 namespace taut {
 namespace {
@@ -108,6 +109,44 @@ TEST(TestCommand, TheReportShowsWhatChangedInTheText) {
                     "100.0 } ]</code>"));
     EXPECT_TRUE(has(page, "<code>+ springs = [ { a = &quot;nail&quot;, b = &quot;bob&quot;, stiffness_N_per_m = 99.0"));
     EXPECT_FALSE(has(page, "[collider.ground]"));
+}
+
+// The manifest of FOLDER's goldens with another number of bits.
+void setBits(const TemporaryFolder& folder, int bits) {
+    const std::filesystem::path file = folder / "golden/manifest.json";
+    auto json = nlohmann::ordered_json::parse(test::contentOf(file));
+    for (auto& scenario : json["scenarios"]) scenario["bits"] = bits;
+    test::writeText(file, json.dump(2));
+}
+
+// Where there are fewer bits too, both ways: the remedy of the older goldens is an update, of the newer a newer taut.
+TEST(TestCommand, GoldensOfOtherBitsAreSaidOnceAndNotCompared) {
+    const TemporaryFolder folder;
+    const std::string check = "[[check]]\nthat = \"position(net.spring@#1).y > 0.2\"\n";
+    for (const char* name : {"a", "b"}) {
+        test::writeText(folder / (std::string(name) + ".toml"), springText("100.0", goldenText + check));
+        EXPECT_EQ(acceptRun(folder, name, "The first of its kind.").code, 0);
+        test::writeText(folder / (std::string(name) + ".toml"), springText("30.0", goldenText + check));
+    }
+    EXPECT_EQ(testRun(folder).code, 1) << "its state differs";
+    for (const int bits : {world::resultBits + 1, world::resultBits - 1}) {
+        if (!world::areBits(bits)) continue;
+        setBits(folder, bits);
+        const Outcome outcome = testRun(folder, {"--junit", (folder / "junit.xml").string()});
+        EXPECT_EQ(outcome.code, 8) << outcome.out;
+        EXPECT_TRUE(has(outcome.out, "\n" + world::recordedBy(bits) + ": " +
+                                         (bits > world::resultBits ? "a, b need a newer taut\n" : "taut test ")))
+            << outcome.out;
+        EXPECT_EQ(has(outcome.out, " --update a --update b --why "), bits < world::resultBits) << outcome.out;
+        EXPECT_TRUE(has(outcome.out, "2 scenarios: 2 outdated")) << outcome.out;
+        EXPECT_FALSE(has(outcome.out, "differs")) << outcome.out;
+        EXPECT_TRUE(has(test::contentOf(folder / "junit.xml"), "failures=\"0\" errors=\"0\" skipped=\"6\""));
+    }
+    test::writeText(folder / "b.toml", springText("30.0", goldenText + "[[check]]\nthat = \"speed(rope.line) < 0\"\n"));
+    EXPECT_EQ(testRun(folder).code, 1) << "a check that fails is graver";
+    EXPECT_EQ(acceptRun(folder, "a", "Results are others.").code, 0);
+    const Outcome accepted = testRun(folder, {"--filter", "a"});
+    EXPECT_EQ(accepted.code, 0) << accepted.out;
 }
 
 // Two scenarios, the second one without golden: the graver failure decides.
@@ -228,6 +267,20 @@ TEST(Replay, NamesWhatDiffersFromAnotherTapeOrScene) {
     const Outcome changed = run({"replay", a, "--verify", "--quiet"});
     EXPECT_EQ(changed.code, 0) << changed.out;
     EXPECT_TRUE(has(changed.err, "s.toml has changed since this tape was recorded; the text")) << changed.err;
+}
+
+TEST(Replay, HoldsNoTapeOfOtherBitsAgainstARunOfThese) {
+    const TemporaryFolder folder;
+    const std::string tape = (folder / "a.tape").string(), scene = (folder / "s.toml").string();
+    test::writeText(scene, springText());
+    EXPECT_EQ(run({"record", scene, "-o", tape, "--quiet"}).code, 0);
+    regression::Tape other = regression::readTape(tape);
+    ++other.origin.bits;
+    regression::writeTape(tape, other);
+    const Outcome outcome = run({"replay", tape, "--verify", "--quiet"});
+    EXPECT_EQ(outcome.code, 8);
+    EXPECT_EQ(outcome.out, tape + ": " + world::recordedBy(other.origin.bits) + ": it needs a newer taut\n");
+    EXPECT_EQ(run({"replay", tape, "--verify", tape}).code, 0) << "two of the same bits";
 }
 
 // A tape holds the scene's own text only.

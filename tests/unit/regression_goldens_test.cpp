@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "regression_support.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"
-#include "regression_support.h"
+#include "taut/regression/suite.h"
 
 namespace taut::regression {
 namespace {
@@ -96,6 +97,55 @@ TEST(Goldens, OfAnotherSizeDiffer) {
     const Outcome outcome = testRun(folder);
     EXPECT_EQ(outcome.code, 1);
     EXPECT_TRUE(has(outcome.out, "has 64x54 pixels, its golden 96x54")) << outcome.out;
+}
+
+// A run of other bits than the goldens: their differences are none, and what the scenario itself says still counts.
+TEST(Goldens, OfOtherBitsFailNothing) {
+    const TemporaryFolder folder;
+    begin(folder, restartText);
+    test::writeText(folder / "spring.toml",
+                    springText("30.0", restartText + "[[check]]\nthat = \"position(net.spring@#1).y > 0.2\"\n"));
+    SuiteOptions options;
+    options.drawing.shaders = std::filesystem::path(TAUT_SOURCE_DIR) / "shaders";
+    options.goldens = {folder / "golden"};
+    const auto tested = [&](int bits) {
+        options.bits = bits;
+        std::string renderer;
+        return runSuite(readScenarios({folder / "spring.toml"}, {}).scenarios, options, readManifest(options.goldens),
+                        renderer, false)
+            .front();
+    };
+    EXPECT_EQ(tested(world::resultBits).verdict, report::Verdict::failed);
+    const report::TestScenario other = tested(world::resultBits + 1);
+    EXPECT_EQ(other.verdict, report::Verdict::outdated);
+    EXPECT_EQ(other.checks.front().verdict, report::Verdict::passed);
+    EXPECT_EQ(other.state.bits, world::resultBits);
+    EXPECT_EQ(other.state.reason, world::recordedBy(world::resultBits, world::resultBits + 1));
+    ASSERT_EQ(other.pictures.size(), 1U);
+    EXPECT_EQ(other.pictures[0].verdict, report::Verdict::outdated);
+    EXPECT_FALSE(other.pictures[0].golden.empty());
+    EXPECT_FALSE(other.pictures[0].figures.empty());
+}
+
+// The number of all that goes with the scenario becomes that of the program, and no reason changes.
+TEST(GoldenUpdate, OfTheSameResultsByOtherBitsChangesTheNumberAlone) {
+    const TemporaryFolder folder;
+    begin(folder, restartText);
+    const std::string manifest = test::contentOf(folder / "golden/manifest.json");
+    const std::string tape = test::contentOf(folder / "golden/spring/state.tape");
+    const std::string state = test::contentOf(folder / "golden/spring/000006.state");
+    Manifest other = readManifest({folder / "golden"});
+    ++other.scenarios["spring"].bits;
+    writeManifest(folder / "golden/manifest.json", other);
+    Tape newer = readTape(folder / "golden/spring/state.tape");
+    ++newer.origin.bits;
+    writeTape(folder / "golden/spring/state.tape", newer);
+    test::writeText(folder / "golden/spring/000006.state", "of other bits");
+    const Outcome updated = acceptRun(folder, "spring", "Another reason.");
+    EXPECT_TRUE(has(updated.out, "state.tape: the same state, now of bits ")) << updated.out;
+    EXPECT_EQ(test::contentOf(folder / "golden/manifest.json"), manifest);
+    EXPECT_EQ(test::contentOf(folder / "golden/spring/state.tape"), tape);
+    EXPECT_EQ(test::contentOf(folder / "golden/spring/000006.state"), state);
 }
 
 // A picture that starts from a stored state tells of pictures: another stiffness is a matter of the state's test alone.

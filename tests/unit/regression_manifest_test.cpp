@@ -19,12 +19,14 @@ TEST(Manifest, ComesBackAsItWas) {
     const TemporaryFolder folder;
     Manifest manifest;
     manifest.tolerance = {3, 0.0002, 2, 0.5};
+    manifest.scenarios["flag"].bits = 77;
     manifest.scenarios["flag"].state = {"Because.", "0123456789abcdef", 479, "taut 1", "g++", "avx2"};
     manifest.scenarios["flag"].pictures["000120"] = {"For \"beauty\", é", "00000000000000ff", "llvmpipe"};
     writeManifest(folder / "new/golden/manifest.json", manifest);
     const Manifest back = readManifest({folder / "new/golden"});
     ASSERT_EQ(back.scenarios.size(), 1U);
     const GoldenScenario& flag = back.scenarios.at("flag");
+    EXPECT_EQ(flag.bits, 77);
     EXPECT_EQ(flag.state->why, "Because.");
     EXPECT_EQ(flag.state->ticks, 479);
     EXPECT_EQ(flag.state->lastHash, "0123456789abcdef");
@@ -33,6 +35,10 @@ TEST(Manifest, ComesBackAsItWas) {
     EXPECT_EQ(back.tolerance, manifest.tolerance);
     writeManifest(folder / "again/manifest.json", back);
     EXPECT_EQ(test::contentOf(folder / "again/manifest.json"), test::contentOf(folder / "new/golden/manifest.json"));
+}
+
+TEST(Manifest, WithoutANumberItsScenariosAreOfBitsOne) {
+    EXPECT_EQ(readManifestText(R"({"schema": 1, "scenarios": {"a": {}}})", "m.json").scenarios.at("a").bits, 1);
 }
 
 struct BadManifest {
@@ -51,6 +57,11 @@ TEST(Manifest, SaysWhatIsWrongInIt) {
         {R"({"schema": "1"})", "schema is no whole number"},
         {R"({"schema": 1, "scenarios": 3})", "scenarios is no object"},
         {R"({"schema": 1, "scenarios": {"../x": {}}})", "scenarios has the name '../x'"},
+        {R"({"schema": 1, "scenarios": {"a": {"bits": 0}}})",
+         "scenarios.a.bits is no whole number from 1 to 999999999"},
+        {R"({"schema": 1, "scenarios": {"a": {"bits": 1000000000}}})", "scenarios.a.bits is no whole number"},
+        {R"({"schema": 1, "scenarios": {"a": {"bits": 18446744073709551615}}})", "scenarios.a.bits is no whole number"},
+        {R"({"schema": 1, "scenarios": {"a": {"bits": 1.5}}})", "scenarios.a.bits is no whole number"},
         {R"({"schema": 1, "scenarios": {"a": {"state": {}}}})", "scenarios.a.state.why is missing"},
         {R"({"schema": 1, "scenarios": {"a": {"state": {"why": " "}}}})", "scenarios.a.state.why is empty"},
         {R"({"schema": 1, "scenarios": {"a": {"state": {"why": "x", "last_hash": "12"}}}})",

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
+#include "regression_support.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/regression/tape_compare.h"
-#include "regression_support.h"
 #include "taut/scene/load.h"
 
 namespace taut::regression {
@@ -138,6 +140,26 @@ TEST(Tape, DamagedForeignAndFutureOnesAreRefused) {
     for (std::size_t length : {std::size_t{10}, whole.size() / 2, whole.size() - 1})
         EXPECT_FALSE(said(whole.substr(0, length)).empty()) << length;
     test::messageOf(core::ErrorKind::inputOutput, [&] { readTape(folder / "none.tape"); });
+}
+
+// The number is the last of the content; formats 1 and 2 end before it.
+TEST(Tape, KeepsItsBitsAndWithoutANumberIsOfBitsOne) {
+    const TemporaryFolder folder;
+    Tape tape = record(test::springText(), 3);
+    EXPECT_EQ(tape.origin.bits, world::resultBits);
+    tape.origin.bits = 77;
+    writeTape(folder / "a.tape", tape);
+    EXPECT_EQ(readTape(folder / "a.tape").origin.bits, 77);
+    std::vector<std::byte> content = pipeline::readSealed(folder / "a.tape", {"tauttape", 3, "tape"});
+    for (const std::int32_t none : {0, -1, world::mostBits + 1}) {
+        std::memcpy(content.data() + content.size() - sizeof none, &none, sizeof none);
+        pipeline::writeSealed(folder / "b.tape", {"tauttape", 3, "tape"}, content);
+        EXPECT_TRUE(
+            has(test::messageOf(core::ErrorKind::badContent, [&] { readTape(folder / "b.tape"); }), "b.tape: "));
+    }
+    content.resize(content.size() - sizeof(std::int32_t));
+    pipeline::writeSealed(folder / "b.tape", {"tauttape", 2, "tape"}, content);
+    EXPECT_EQ(readTape(folder / "b.tape").origin.bits, 1);
 }
 
 // Whole by its checksum and yet nonsense inside: counts that do not fit each other.

@@ -76,6 +76,33 @@ TEST(TestReportJunit, EscapesWhatXmlDoesNotAllow) {
     EXPECT_TRUE(has(xml, "a&lt;b&gt;&amp;&quot;????? é&#10;")) << xml;
 }
 
+// Nothing of it was compared: it is no failure of its own, but no success of the run either.
+TEST(TestReport, WhatIsOutdatedIsSkippedAndSaidOnceForAll) {
+    TestReport report;
+    for (const char* name : {"a", "b"}) {
+        TestScenario scenario;
+        scenario.name = name;
+        scenario.verdict = scenario.state.verdict = Verdict::outdated;
+        scenario.state.reason = "recorded by bits 1";
+        scenario.state.word = "bits 1";
+        scenario.accept = "accept one";
+        scenario.pictures.resize(1);
+        scenario.pictures[0].verdict = Verdict::outdated;
+        report.scenarios.push_back(scenario);
+    }
+    report.outdated = {"recorded by bits 1: accept both"};
+    EXPECT_EQ(verdictOf(report), Verdict::outdated);
+    EXPECT_EQ(testFailures(report), "\nrecorded by bits 1: accept both\n");
+    EXPECT_FALSE(has(testTable(report), "!")) << testTable(report);
+    EXPECT_EQ(testSummary(report), "2 scenarios: 2 outdated, 0.0 s");
+    const std::string xml = junitXml(report), page = testPage(report);
+    EXPECT_TRUE(has(xml, "tests=\"6\" failures=\"0\" errors=\"0\" skipped=\"4\"")) << xml;
+    EXPECT_EQ(count(xml, "<skipped message=\"recorded by bits 1\"/>"), 2) << xml;
+    EXPECT_EQ(count(page, "accept both"), 1);
+    EXPECT_EQ(count(page, "<code>accept one</code>"), 2);
+    EXPECT_FALSE(has(page, "0/1"));
+}
+
 // RFC 4648, section 10.
 TEST(TestReportPage, Base64IsThatOfTheStandard) {
     EXPECT_EQ(base64(bytes("")), "");

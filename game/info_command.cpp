@@ -108,6 +108,7 @@ Json islandJson(const world::IslandInfo& i) {
             {"step_limit_s", i.stepLimit},
             {"step_s", i.step},
             {"substeps", i.substeps},
+            {"follows_state", i.followsState},
             {"limited_by", i.limitingSpring},
             {"advice", i.advice},
             {"bytes", i.bytes}};
@@ -148,7 +149,7 @@ void printIsland(const world::IslandInfo& i) {
     printResult("  points      {} ({} held), {:.4g} kg\n", i.points, i.heldPoints, i.mass);
     printResult("  springs     {} ({} runs, {} single){}\n", i.springs, i.runs, i.singles,
                 i.cells > 0 ? fmt::format(", {} volume cells", i.cells) : "");
-    printResult("  omega       {:.4g} /s bound of any state, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
+    printResult("  omega       {:.4g} /s bound of any shape, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
                 i.omegaBound, i.omegaNow, i.omegaEstimate);
     if (std::isfinite(i.stepLimit))
         printResult("  step limit  {:.4g} ms by {}\n", 1e3 * i.stepLimit,
@@ -156,7 +157,8 @@ void printIsland(const world::IslandInfo& i) {
     else
         printResult("  step limit  none\n");
     for (const std::string& advice : i.advice) printResult("              {}\n", advice);
-    printResult("  step        {:.4g} ms = tick / {}, {}\n", 1e3 * i.step, i.substeps, i.method);
+    printResult("  step        {:.4g} ms = tick / {}, {}{}\n", 1e3 * i.step, i.substeps, i.method,
+                i.followsState ? ", and follows the bound of now" : "");
     printResult("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
 }
 

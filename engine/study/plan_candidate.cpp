@@ -140,7 +140,7 @@ SceneSpec modelOf(const SceneSpec& spec, const Resolution& resolution, const Can
 StepFacts stepFacts(const SceneSpec& model) {
     StepFacts facts;
     try {
-        const world::World world(model, {.threads = 1});
+        const world::World world(model, {.threads = 1, .keepsSteps = true});
         facts.tick = world.tickSeconds();
         facts.islands = 0;
         facts.leastSubsteps = 0;

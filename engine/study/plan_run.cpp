@@ -199,7 +199,7 @@ PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const 
              const RunLimits& limits) {
     PlanRun run;
     try {
-        world::World world(model, {.threads = 1});
+        world::World world(model, {.threads = 1, .keepsSteps = true});
         for (const world::IslandInfo& island : world.islands()) {
             run.springs += island.springs;
             if (island.substeps <= run.substeps) continue;

@@ -86,7 +86,7 @@ class Search {
     }
 
     void playReference() {
-        world::World world(inSteps(spec_, "rk4", 0.0));
+        world::World world(inSteps(spec_, "rk4", 0.0), {.keepsSteps = true});
         const auto ticks = static_cast<long long>(std::ceil(result_.seconds / world.tickSeconds()));
         double mass = 0;
         for (const world::IslandInfo& info : world.islands()) mass += info.mass;

@@ -109,6 +109,7 @@ Json islandJson(const world::IslandInfo& i) {
             {"step_s", i.step},
             {"substeps", i.substeps},
             {"follows_state", i.followsState},
+            {"splits_dashpots", i.splitsDashpots},
             {"limited_by", i.limitingSpring},
             {"advice", i.advice},
             {"bytes", i.bytes}};
@@ -157,8 +158,8 @@ void printIsland(const world::IslandInfo& i) {
     else
         printResult("  step limit  none\n");
     for (const std::string& advice : i.advice) printResult("              {}\n", advice);
-    printResult("  step        {:.4g} ms = tick / {}, {}{}\n", 1e3 * i.step, i.substeps, i.method,
-                i.followsState ? ", and follows the bound of now" : "");
+    printResult("  step        {:.4g} ms = tick / {}, {}{}{}\n", 1e3 * i.step, i.substeps, i.method,
+                i.splitsDashpots ? ", dashpots split off" : "", i.followsState ? ", and follows the bound of now" : "");
     printResult("  memory      {:.3g} MB\n", static_cast<double>(i.bytes) / 1e6);
 }
 

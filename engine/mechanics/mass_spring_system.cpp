@@ -42,6 +42,7 @@ template <class Real>
 void MassSpringSystem<Real>::setPoints(std::span<const PointMass> points) {
     TAUT_EXPECTS(static_cast<int>(points.size()) == layout_.count);
     hands_.clear();
+    sweep_.forget();
     for (std::size_t i = 0; i < points.size(); ++i) {
         TAUT_EXPECTS(points[i].mass > 0.0);
         mass_[i] = static_cast<Real>(points[i].mass);
@@ -216,6 +217,21 @@ void MassSpringSystem<Real>::finish(const SpringBlock& block, const Motion<Real>
                          window.room});
     const Real* const a[3] = {window.at(0, first), window.at(1, first), window.at(2, first)};
     sink.take(first, last, a);
+}
+
+template <class Real>
+void MassSpringSystem<Real>::setSprings(std::span<const Spring> springs) {
+    sweep_.forget();
+    (isSplit_ ? damped_ : network_).setSprings(springs);
+    if (isSplit_) network_.takeUndamped(damped_);
+}
+
+template <class Real>
+void MassSpringSystem<Real>::split() {
+    if (isSplit_) return;
+    isSplit_ = true;
+    damped_ = network_;
+    network_.takeUndamped(damped_);
 }
 
 template <class Real>

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "taut/core/aligned_array.h"
+#include "taut/mechanics/dashpot_sweep.h"
 #include "taut/mechanics/force_generator.h"
 #include "taut/mechanics/spring_kernels.h"
 #include "taut/mechanics/spring_network.h"
@@ -37,7 +38,9 @@ struct PointMass {
 };
 
 template <class Real>
-class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::ImplicitSystem<Real> {
+class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
+                               public ode::ImplicitSystem<Real>,
+                               public ode::SplitSystem<Real> {
   public:
     using PointMass = mechanics::PointMass;
     using Body = PointRange;
@@ -55,7 +58,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     // Take effect when the method is started again. As many as before, springs between the same points; setPoints()
     // lets go of points that are led.
     void setPoints(std::span<const PointMass> points);
-    void setSprings(std::span<const Spring> springs) { network_.setSprings(springs); }
+    void setSprings(std::span<const Spring> springs);
 
     // Expects points that are held, each led once. Takes effect when the method is started, or started again.
     void lead(LedPoints led);
@@ -71,11 +74,20 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     void addProduct(const Real* u, Real* out) const override;
     void addDiagonal(Real* out) const override;
 
+    // The dashpots, one after the other; see dashpot_sweep.h.
+    ode::SplitSystem<Real>* splitPart() override { return this; }
+    void split() override;
+    void dampBefore(double h, const Real* x, Real* v) override { sweep_.before(damped_, points(x, v), h); }
+    void dampBetween(double h, const Real* x, Real* v) override { sweep_.between(damped_, points(x, v), h); }
+    void dampAfter(double h, const Real* x, Real* v) override { sweep_.after(damped_, points(x, v), h); }
+    double largestPairRate() { return sweep_.largestPairRate(network(), inverseMass_.data()); }
+
     // What generators are told: x and v (layout().size()) [m], [m/s] as they are passed in, not copied.
     Motion<Real> motion(double t, const Real* x, const Real* v) const;
     const Real* masses() const override { return mass_.data(); }
     const Real* inverseMasses() const override { return inverseMass_.data(); }
-    const SpringNetwork<Real>& network() const { return network_; }
+    // With all dashpots, split off or not.
+    const SpringNetwork<Real>& network() const { return isSplit_ ? damped_ : network_; }
     std::uint64_t bytes() const;  // memory that it takes
 
   private:
@@ -100,6 +112,9 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
         int blocksWaiting = 0;
     };
 
+    typename DashpotSweep<Real>::Points points(const Real* x, Real* v) const {
+        return {layout_.stride, inverseMass_.data(), x, v};
+    }
     void layOutLanes();
     void sweep(std::size_t chunk, const Motion<Real>& now, ode::AccelerationSink<Real>& sink);
     void applySprings(const SpringBlock& block, const Motion<Real>& now, Window& window);
@@ -121,6 +136,9 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>, public ode::
     Real uniform_[3] = {};           // acceleration of all free points in this evaluation [m/s²]
     SpringKernels<Real> kernels_;
     SpringProducts<Real> products_;
+    DashpotSweep<Real> sweep_;
+    bool isSplit_ = false;
+    SpringNetwork<Real> damped_;  // once split: with the dashpots, which network_ is then without
 };
 
 }  // namespace taut::mechanics

@@ -199,6 +199,18 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
     }
 }
 
+template <class Real>
+void SpringNetwork<Real>::takeUndamped(const SpringNetwork& damped) {
+    *this = damped;
+    largestTau = 0;
+    isTauUniform = true;
+    for (SpringRun<Real>& run : runs) {
+        run.tau = 0;
+        if (run.mixed >= 0) std::fill_n(mixed.begin() + run.mixed + run.count, run.count, Real(0));
+    }
+    std::fill(singles.tau.begin(), singles.tau.end(), Real(0));
+}
+
 template struct SpringNetwork<float>;
 template struct SpringNetwork<double>;
 

@@ -67,6 +67,9 @@ struct SpringNetwork {
     // Takes stiffness, rest length and damping time over. Expects the springs it was made of, between the same points.
     void setSprings(std::span<const Spring> springs);
 
+    // The springs of a network of the same, without their dashpots.
+    void takeUndamped(const SpringNetwork& damped);
+
     std::vector<SpringBlock> blocks;
     std::vector<SpringChunk> chunks;
     std::vector<SpringRun<Real>> runs;

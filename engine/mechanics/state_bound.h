@@ -17,6 +17,7 @@ namespace taut::mechanics {
 struct FastestNow {
     double omega2 = 0;   // [1/s²] of M⁻¹K, springs and cells
     double damping = 0;  // [1/s] of M⁻¹C, dashpots
+    double pairs = 0;    // [1/s] DashpotSweep::largestPairRate(), which no state changes
 };
 
 template <class Real>

@@ -13,6 +13,10 @@
 #include "taut/ode/update_kernels.h"
 
 namespace taut::ode {
+
+template <class Real>
+std::unique_ptr<Method<Real>> makeSplitLeapfrog();
+
 namespace {
 
 template <class Real>
@@ -131,7 +135,8 @@ class Leapfrog final : public Method<Real> {
 };
 
 template <class Real>
-std::unique_ptr<Method<Real>> makeLeapfrog(const MethodOptions&) {
+std::unique_ptr<Method<Real>> makeLeapfrog(const MethodOptions& options) {
+    if (options.splits) return makeSplitLeapfrog<Real>();
     return std::make_unique<Leapfrog<Real>>();
 }
 

@@ -45,11 +45,12 @@ struct Work {
     }
 };
 
-// How methods that solve equations go about it; the others have no use for it.
+// How methods that solve equations, or split them, go about it; the others have no use for it.
 struct MethodOptions {
     int newtonSteps = 1;       // >= 1 linear solves a step; the first alone is Baraff and Witkin's method
     double tolerance = 1e-5;   // of a solve, residual over right-hand side; single precision stops at 1e-6
     int maxIterations = 1000;  // of a solve
+    bool splits = false;       // leap-frog: the system's split part
 };
 
 template <class Real>

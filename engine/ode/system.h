@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "taut/ode/implicit_system.h"
+#include "taut/ode/split_system.h"
 
 namespace taut::ode {
 
@@ -52,6 +53,8 @@ class SecondOrderSystem {
     virtual void prescribe(double, Real*, Real*) {}
     // What implicit methods need besides, of the same system; nullptr when it has none.
     virtual ImplicitSystem<Real>* implicitPart() { return nullptr; }
+    // What methods that split off its stiff part need besides; nullptr when it has none.
+    virtual SplitSystem<Real>* splitPart() { return nullptr; }
 };
 
 // Shows a second-order system as a first-order one: y = (x planes, v planes), y' = (v, a_el - γ v).

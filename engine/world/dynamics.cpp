@@ -129,8 +129,11 @@ class DynamicsOf final : public Dynamics {
     }
     void setStep(double h) override { step_ = h; }
     mechanics::FastestNow fastestNow() override {
-        return bound_(system_.network(), state_.x.data(), system_.inverseMasses());
+        mechanics::FastestNow now = bound_(system_.network(), state_.x.data(), system_.inverseMasses());
+        now.pairs = system_.largestPairRate();
+        return now;
     }
+    void split() override { splits_ = true; }
     ode::Work work() const override { return method_->work(); }
 
     std::vector<dvec3> velocities() const override { return list(state_.v); }
@@ -269,7 +272,7 @@ class DynamicsOf final : public Dynamics {
     void makeMethod() {
         const SolverSpec& solver = plan_.solver;
         method_ = methodsOf(solver).make<Real>(solver.integrator,
-                                               {solver.newtonSteps, solver.cgTolerance, solver.cgIterations});
+                                               {solver.newtonSteps, solver.cgTolerance, solver.cgIterations, splits_});
     }
 
     mechanics::Motion<Real> motion(double t) const { return system_.motion(t, state_.x.data(), state_.v.data()); }
@@ -314,6 +317,7 @@ class DynamicsOf final : public Dynamics {
 
     std::unique_ptr<ode::Method<Real>> method_;
     double step_ = 0;  // [s]
+    bool splits_ = false;
     ode::State<Real> state_;
     // (moments) of the state, close together: of small islands a line of the cache or two
     std::array<std::vector<Real>, 2> kept_;

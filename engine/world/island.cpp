@@ -34,6 +34,7 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
         keepsStep ? nullptr : &now);
     if (choice_.need)
         following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
+    if (choice_.splits) dynamics_->split();
     dynamics_->start(t, choice_.step);
     for (const Since moment : {Since::tick, Since::step}) dynamics_->keep(moment);
     watchPlasticity();

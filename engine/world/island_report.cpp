@@ -126,6 +126,7 @@ IslandInfo Island::info(const TickTime& time) const {
     info.work = work();
     info.followsState = choice_.need.has_value();
     info.stepChanges = stepChanges_;
+    info.splitsDashpots = choice_.splits;
     info.limitingSpring = choice_.limitingSpring;
     info.advice = choice_.advice;
     std::vector<dvec3> x;

@@ -119,9 +119,11 @@ void Island::visitInside(StateBytes& bytes) {
 void Island::visitStep(StateBytes& bytes) {
     bool follows = choice_.need.has_value();
     int substeps = choice_.substeps;
+    bool splits = choice_.splits;
     bytes(follows);
+    bytes(splits);
     bytes(substeps);
-    if (follows != choice_.need.has_value() || (!follows && substeps != choice_.substeps))
+    if (follows != choice_.need.has_value() || splits != choice_.splits || (!follows && substeps != choice_.substeps))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
     if (!follows) return;
     double safety = choice_.need->safety;

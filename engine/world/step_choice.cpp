@@ -69,6 +69,14 @@ double automaticStep(const ode::MethodInfo& method, double leastTauShare, ode::F
     return std::min(most, method.automaticStep(mode));
 }
 
+// Of a method that splits the dashpots off: one after the other they drag velocities along over y springs, and above y = 1
+// (half of it before a kick, half after) they would turn them round.
+double longestSplit(const ode::MethodInfo& method, const ode::FastestMode& undamped, double pairs) {
+    constexpr double mostOfLimit = 0.98, mostY = 1.0;
+    const double limit = mostOfLimit * method.automaticStep(undamped);
+    return pairs > 0 ? std::min(limit, mostY / pairs) : limit;
+}
+
 // The longest step [s] of which it is not sure that the mode grows beyond all bounds, whatever damps it. Methods with a
 // caution are given steps at which undamped motion grows slowly; at four times those, by 64 times as much or more.
 double longestBearable(const ode::MethodInfo& method, ode::FastestMode mode) {
@@ -195,6 +203,7 @@ double StepNeed::operator()(const mechanics::FastestNow& now) const {
     ode::FastestMode mode = others;
     const double omega2 = now.omega2 + moreOmega2;
     mode.omega = std::sqrt(omega2);
+    if (splits) return tickSeconds / (safety * longestSplit(*method, mode, now.pairs));
     mode.tau = omega2 > 0 ? now.damping / omega2 : 0.0;
     return tickSeconds / (safety * automaticStep(*method, leastTauShare, mode));
 }
@@ -204,6 +213,9 @@ void StepNeed::raise(const mechanics::StabilityShare& share, std::span<const dou
         moreOmega2 = std::max(moreOmega2, share.stiffness[i] * inverseMasses[i]);
     for (double rate : share.dampingRate) others.rate = std::max(others.rate, rate);
 }
+
+// What a step that splits the dashpots off costs, of one that does not: two sweeps over them besides the forces.
+constexpr double splitCosts = 2.5;
 
 std::string inSeconds(double t) {
     char text[32];
@@ -243,6 +255,13 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
     if (now != nullptr && !plan.solver.dt && method->caution.empty() && std::isfinite(choice.limit)) {
         choice.need = StepNeed{method, tickSeconds, plan.solver.safety, modeAt(0, 0), 0, leastTauShare};
         choice.need->raise(share, inverseMassesOf(plan));
+        StepNeed split = *choice.need;
+        split.splits = true;
+        const bool isCheaper = splitCosts * split(*now) < (*choice.need)(*now);
+        if (plan.solver.integrator == "leapfrog" && plan.solver.dashpots != Dashpots::extrapolated &&
+            (isCheaper || plan.solver.dashpots == Dashpots::split))
+            choice.need = split;
+        choice.splits = choice.need->splits;
         const double need = (*choice.need)(*now);
         wanted = need > 0 ? tickSeconds / need : HUGE_VAL;
     }

@@ -24,6 +24,7 @@ struct StepNeed {
     ode::FastestMode others;   // all but ω and dashpots
     double moreOmega2 = 0;     // [1/s²] what generators and hands add at most
     double leastTauShare = 1;  // of the damping that there is, the least that ever will be
+    bool splits = false;       // the dashpots off
 
     double operator()(const mechanics::FastestNow& now) const;
     // Allows for what generators have come to add.
@@ -33,6 +34,7 @@ struct StepNeed {
 struct StepChoice {
     int substeps = 1;
     std::optional<StepNeed> need;  // of an island whose step follows its state
+    bool splits = false;           // the dashpots off
     double step = 0;               // h = tick / substeps [s]
     double limit = 0;  // largest stable step [s], by the bound that holds in any shape, of cells in any they may take
     ode::FastestMode mode;  // what the limit is computed from

@@ -106,6 +106,7 @@ struct IslandInfo {
     double step = 0;             // [s] chosen
     int substeps = 1;
     bool followsState = false;            // the step may change
+    bool splitsDashpots = false;          // off from the other forces
     std::vector<StepChange> stepChanges;  // so far
     std::string limitingSpring;           // what sets the limit, in words
     std::vector<std::string> advice;      // what would allow a longer step

@@ -1,0 +1,51 @@
+// The inner loops of dashpots that act on the velocities of their ends one after the other; one copy an instruction
+// set, every copy gives the same bits.
+//
+// A dashpot's impulse p is that of the mean of the velocities before and after it (the implicit midpoint rule):
+//   p = c h (u + ½ Δu)·n,  v_a += w_a p n,  v_b -= w_b p n,  u = v_b - v_a.
+// Alone Δu·n = -(w_a + w_b) p, so that p = g u·n with g = c h/(1 + y), y = ½ c h (w_a + w_b). Those of a run that
+// follow each other share points, and are solved together.
+#pragma once
+
+namespace taut::mechanics {
+
+template <class Real>
+struct DashpotRun {
+    int n;
+    int offset;       // > 0: dashpot i joins points i and i + offset
+    int stride;       // of x and v
+    const Real* x;    // planes at the run's first point [m]
+    const Real* u;    // likewise: velocities that they feel …
+    Real* v;          // … and those that they change; may be the same [m/s]
+    const Real* w;    // (points) at the run's first [1/kg]
+    const Real* g;    // (n) [kg]
+    bool isForwards;  // else the last come first
+    bool isStiff;     // so that repeated substitution would take long
+};
+
+template <class Real>
+struct DashpotList {
+    int n;
+    int stride;
+    const Real* x;  // planes from point 0
+    Real* v;
+    const Real* w;
+    const int* a;  // (n)
+    const int* b;
+    const Real* g;
+    bool isForwards;
+};
+
+#define TAUT_DECLARE(isa)                      \
+    namespace isa {                            \
+    void dampRun(const DashpotRun<float>&);    \
+    void dampRun(const DashpotRun<double>&);   \
+    void dampList(const DashpotList<float>&);  \
+    void dampList(const DashpotList<double>&); \
+    }
+TAUT_DECLARE(sse2)
+TAUT_DECLARE(avx2)
+TAUT_DECLARE(avx512)
+#undef TAUT_DECLARE
+
+}  // namespace taut::mechanics

@@ -55,7 +55,7 @@ void MassSpringSystem<Real>::setPoints(std::span<const PointMass> points) {
 // no more than all that the chunk touches.
 template <class Real>
 void MassSpringSystem<Real>::layOutLanes() {
-    constexpr int slack = 512;  // points
+    constexpr int slack = 2048;  // points
     constexpr int lanes = static_cast<int>(core::cacheLine / sizeof(Real));
     const auto window = [](int first, int room) {
         room = (room + lanes - 1) / lanes * lanes + lanes;
@@ -74,8 +74,16 @@ void MassSpringSystem<Real>::layOutLanes() {
             network_.blocks[static_cast<std::size_t>(chunk.firstBlock + std::max(0, blocksWaiting - 1))];
         const int waiting = blocksWaiting > 0 ? lastWaiting.lastPoint - chunk.firstPoint : 0;
         const int all = chunk.lastPoint + chunk.spill - chunk.firstPoint;
+        const int singles = network_.blocks[static_cast<std::size_t>(chunk.lastBlock) - 1].lastSingle -
+                            network_.blocks[static_cast<std::size_t>(chunk.firstBlock)].firstSingle;
+        const bool isPacked = 2 * singles >= chunk.lastPoint - chunk.firstPoint;
         lanes_.push_back(
             {window(chunk.firstPoint, std::min(need + slack, all)), window(chunk.firstPoint, waiting), blocksWaiting});
+        if (isPacked) {
+            Lane& lane = lanes_.back();
+            lane.state = core::AlignedArray<Real>(static_cast<std::size_t>(packedState * lane.window.room));
+            lane.force = core::AlignedArray<Real>(static_cast<std::size_t>(packedForce * lane.window.room));
+        }
         incoming = chunk.spill;
     }
 }
@@ -145,39 +153,67 @@ void MassSpringSystem<Real>::accelerate(double t, const Real* x, const Real* v, 
 template <class Real>
 void MassSpringSystem<Real>::sweep(std::size_t c, const Motion<Real>& now, ode::AccelerationSink<Real>& sink) {
     const SpringChunk& chunk = network_.chunks[c];
-    Window& window = lanes_[c].window;
+    Lane& lane = lanes_[c];
+    Window& window = lane.window;
     int reach = window.first = chunk.firstPoint;
     for (int i = chunk.firstBlock; i < chunk.lastBlock; ++i) {
         const SpringBlock& block = network_.blocks[static_cast<std::size_t>(i)];
-        if (block.reach > reach) {
-            if (block.reach > window.first + window.room) window.slide(block.firstPoint, reach);
-            for (int p = 0; p < 3; ++p) std::fill(window.at(p, reach), window.at(p, block.reach), Real(0));
-            reach = block.reach;
-        }
-        applySprings(block, now, window);
-        if (i - chunk.firstBlock >= lanes_[c].blocksWaiting)
+        moveOn(lane, block, now, reach);
+        applySprings(block, now, lane);
+        if (lane.isPacked()) unpack(lane, block.firstPoint, block.lastPoint);
+        if (i - chunk.firstBlock >= lane.blocksWaiting)
             finish(block, now, window, sink);
         else
             for (int p = 0; p < 3; ++p)
                 std::copy(window.at(p, block.firstPoint), window.at(p, block.lastPoint),
-                          lanes_[c].waiting.at(p, block.firstPoint));
+                          lane.waiting.at(p, block.firstPoint));
     }
+    if (lane.isPacked()) unpack(lane, chunk.lastPoint, chunk.lastPoint + chunk.spill);
+}
+
+// Lets the window reach as far as the block's springs do; no force is there yet.
+template <class Real>
+void MassSpringSystem<Real>::moveOn(Lane& lane, const SpringBlock& block, const Motion<Real>& now, int& reach) {
+    if (block.reach <= reach) return;
+    Window& window = lane.window;
+    const auto state = [&](int point) { return lane.state.data() + (point - window.first) * packedState; };
+    const auto force = [&](int point) { return lane.force.data() + (point - window.first) * packedForce; };
+    if (block.reach > window.first + window.room) {
+        if (lane.isPacked()) {
+            std::copy(state(block.firstPoint), state(reach), state(window.first));
+            std::copy(force(block.firstPoint), force(reach), force(window.first));
+        }
+        window.slide(block.firstPoint, reach);
+    }
+    for (int p = 0; p < 3; ++p) std::fill(window.at(p, reach), window.at(p, block.reach), Real(0));
+    if (lane.isPacked())
+        kernels_.pack({block.reach - reach, now.stride, now.x + reach, now.v + reach, state(reach), force(reach)});
+    reach = block.reach;
 }
 
 template <class Real>
-void MassSpringSystem<Real>::applySprings(const SpringBlock& block, const Motion<Real>& now, Window& window) {
-    for (int r = block.firstRun; r < block.lastRun; ++r) {
+void MassSpringSystem<Real>::applySprings(const SpringBlock& block, const Motion<Real>& now, Lane& lane) {
+    Window& window = lane.window;
+    for (int r = block.firstRun; r < block.lastRun; r += network_.runs[static_cast<std::size_t>(r)].together) {
         const SpringRun<Real>& run = network_.runs[static_cast<std::size_t>(r)];
-        const Real* mixed = run.mixed < 0 ? nullptr : network_.mixed.data() + run.mixed;
-        kernels_.run({run.count, run.offset, now.stride, window.room, now.x + run.a, now.v + run.a, window.at(0, run.a),
-                      network_.stiffness.data() + run.table, run.restLength, run.tau, mixed,
-                      mixed == nullptr ? nullptr : mixed + run.count});
+        kernels_.bundle({&run, network_.stiffness.data(), network_.mixed.data(), now.stride, window.room, now.x + run.a,
+                         now.v + run.a, window.at(0, run.a)});
     }
     if (block.firstSingle == block.lastSingle) return;
     const SpringSingles<Real>& s = network_.singles;
-    const int at = block.firstSingle;
-    kernels_.list({block.lastSingle - at, now.stride, window.room, window.first, now.x, now.v, window.f.data(),
-                   s.a.data() + at, s.b.data() + at, s.k.data() + at, s.restLength.data() + at, s.tau.data() + at});
+    const int at = block.firstSingle, n = block.lastSingle - at;
+    if (lane.isPacked())
+        kernels_.packedList({n, window.first, lane.state.data(), lane.force.data(), s.a.data() + at, s.b.data() + at,
+                             s.k.data() + at, s.restLength.data() + at, s.tau.data() + at});
+    else
+        kernels_.list({n, now.stride, window.room, window.first, now.x, now.v, window.f.data(), s.a.data() + at,
+                       s.b.data() + at, s.k.data() + at, s.restLength.data() + at, s.tau.data() + at});
+}
+
+template <class Real>
+void MassSpringSystem<Real>::unpack(Lane& lane, int first, int last) {
+    kernels_.unpack({last - first, lane.force.data() + (first - lane.window.first) * packedForce,
+                     lane.window.at(0, first), lane.window.room});
 }
 
 template <class Real>
@@ -255,7 +291,8 @@ void MassSpringSystem<Real>::addDiagonal(Real* out) const {
 template <class Real>
 std::uint64_t MassSpringSystem<Real>::bytes() const {
     std::uint64_t reals = mass_.size() * 3 + external_.size() + network_.stiffness.size() + network_.mixed.size();
-    for (const Lane& lane : lanes_) reals += lane.window.f.size() + lane.waiting.f.size();
+    for (const Lane& lane : lanes_)
+        reals += lane.window.f.size() + lane.waiting.f.size() + lane.state.size() + lane.force.size();
     const std::uint64_t single = 2 * sizeof(int) + 3 * sizeof(Real);
     return reals * sizeof(Real) + network_.runs.size() * sizeof(SpringRun<Real>) + network_.singles.a.size() * single +
            network_.blocks.size() * sizeof(SpringBlock) + network_.order.size() * sizeof(int) + products_.bytes();

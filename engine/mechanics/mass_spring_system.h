@@ -110,6 +110,9 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
         Window window;   // after the sweep: what the chunk spills into the next
         Window waiting;  // forces of the first blocks, which wait for the spill of the chunk before
         int blocksWaiting = 0;
+        // Where single springs are many: points of the window point by point, as PackedSpringArgs has them.
+        core::AlignedArray<Real> state = {}, force = {};
+        bool isPacked() const { return state.size() > 0; }
     };
 
     typename DashpotSweep<Real>::Points points(const Real* x, Real* v) const {
@@ -117,7 +120,9 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     }
     void layOutLanes();
     void sweep(std::size_t chunk, const Motion<Real>& now, ode::AccelerationSink<Real>& sink);
-    void applySprings(const SpringBlock& block, const Motion<Real>& now, Window& window);
+    void moveOn(Lane& lane, const SpringBlock& block, const Motion<Real>& now, int& reach);
+    void applySprings(const SpringBlock& block, const Motion<Real>& now, Lane& lane);
+    void unpack(Lane& lane, int first, int last);
     void takeSpill(std::size_t chunk, const Motion<Real>& now, ode::AccelerationSink<Real>& sink);
     void finish(const SpringBlock& block, const Motion<Real>& now, Window& window, ode::AccelerationSink<Real>& sink);
 

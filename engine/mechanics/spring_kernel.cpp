@@ -5,101 +5,204 @@
 // Each spring is evaluated once. At l = 0 the direction is undefined and the force zero; with L = 0 the force is
 // k d, linear through l = 0.
 #include "taut/core/vectorise.h"
+#include "taut/core/vectors.h"
 #include "taut/mechanics/spring_kernels.h"
 
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-inline float root(float x) {
-    return __builtin_sqrtf(x);
+using core::TAUT_ISA::larger;
+using core::TAUT_ISA::load;
+using core::TAUT_ISA::NarrowVector;
+using core::TAUT_ISA::root;
+using core::TAUT_ISA::store;
+using core::TAUT_ISA::WideVector;
+
+// Below this l² counts as this: so that 1/l is finite at l = 0, where d makes the force zero. The smallest normal
+// numbers, of which 1/l² is finite too. [m²]
+inline float least(float) {
+    return 0x1p-126F;
 }
-inline double root(double x) {
-    return __builtin_sqrt(x);
+inline double least(double) {
+    return 0x1p-1022;
 }
 
-// The factor of d in F_a, as 1 - (L - τ u·d/l)/l: finite however small l is.
-template <class Real, bool damped>
-inline Real factor(Real dx, Real dy, Real dz, Real ux, Real uy, Real uz, Real k, Real rest, Real tau) {
-    const Real l = root(dx * dx + dy * dy + dz * dz);
-    const Real inverse = l > Real(0) ? Real(1) / l : Real(0);
-    Real length = rest;  // at which the spring would be free of force
-    if (damped) length -= tau * (ux * dx + uy * dy + uz * dz) * inverse;
-    return k * (Real(1) - length * inverse);
+// What c = x_a - x_b times it is F_a: (L - τ u·d/l)/l - 1 times k, finite however small l is. u = v_a - v_b: the signs
+// are those that spare instructions.
+template <class Real, bool damped, class V>
+inline V factor(V cx, V cy, V cz, V uc, V k, V rest, V tau) {
+    const V squared = cx * cx + cy * cy + cz * cz;
+    const V inverse = Real(1) / root(larger(squared, V{} + least(Real())));
+    if (damped) return ((rest - uc * inverse * tau) * inverse - Real(1)) * k;
+    return (rest * inverse - Real(1)) * k;
 }
 
-// Springs at once. A run is cut so that between its ends, unless they are close, nothing overlaps; and what lies in
-// between stays in the first-level cache.
-constexpr int slice = 128;
+// Springs of each run at once: how they pull at points waits until all are done, for ends a of one may be ends b of
+// another, and stays in the first-level cache meanwhile.
+template <class Real>
+constexpr int slice = 1024 / static_cast<int>(sizeof(Real));
 
-// n <= slice springs of a run from the given one on. With both ends `apart` (offset >= n) forces go straight to
-// both; else the ends b have to wait until all ends a are done. `mixed`: with rest lengths and damping times of their
-// own.
-template <class Real, bool damped, bool mixed, bool apart>
-inline void runSlice(const SpringRunArgs<Real>& s, int first, int n) {
-    const long stride = s.stride, windowStride = s.windowStride, offset = s.offset;
-    const Real *xa = s.x + first, *ya = xa + stride, *za = ya + stride;
-    const Real *xb = xa + offset, *yb = ya + offset, *zb = za + offset;
-    const Real *ua = s.v + first, *va = ua + stride, *wa = va + stride;
-    const Real *ub = ua + offset, *vb = va + offset, *wb = wa + offset;
-    Real *fxa = s.f + first, *fya = fxa + windowStride, *fza = fya + windowStride;
-    Real *fxb = fxa + offset, *fyb = fya + offset, *fzb = fza + offset;
-    const Real* k = s.k + first;
-    const Real rest = s.restLength, tau = s.tau;
-    const Real *rests = mixed ? s.restLengths + first : nullptr, *taus = mixed ? s.taus + first : nullptr;
-    alignas(64) Real gx[slice], gy[slice], gz[slice];
-    TAUT_INDEPENDENT
-    for (int i = 0; i < n; ++i) {
-        const Real dx = xb[i] - xa[i], dy = yb[i] - ya[i], dz = zb[i] - za[i];
-        Real ux = 0, uy = 0, uz = 0;
-        if (damped) {
-            ux = ub[i] - ua[i];
-            uy = vb[i] - va[i];
-            uz = wb[i] - wa[i];
-        }
-        const Real pull =
-            factor<Real, damped>(dx, dy, dz, ux, uy, uz, k[i], mixed ? rests[i] : rest, mixed ? taus[i] : tau);
-        const Real fx = pull * dx, fy = pull * dy, fz = pull * dz;
-        fxa[i] += fx;
-        fya[i] += fy;
-        fza[i] += fz;
-        if (apart) {
-            fxb[i] -= fx;
-            fyb[i] -= fy;
-            fzb[i] -= fz;
-        } else {
-            gx[i] = fx;
-            gy[i] = fy;
-            gz[i] = fz;
-        }
+// Runs whose offsets differ by no more are taken off the forces together: each force is loaded and stored once for all
+// of them, and not while its last store is still on its way to the cache.
+constexpr int margin = 4;
+
+// What is to be taken off the forces. Of each run it stands at the point a of the spring, for its point b; the sum
+// over the runs, turned round, for the points a themselves is a run of offset 0. Around each there are zeros.
+template <class Real>
+struct Pulls {
+    static constexpr int line = 64 / static_cast<int>(sizeof(Real));
+    static constexpr int plane = line + slice<Real> + line;
+    alignas(64) Real of[1 + mostTogether][3][plane];
+    // Of each run, once a lane.
+    alignas(64) Real rest[mostTogether][line], tau[mostTogether][line];
+};
+
+// The springs i … of all runs, as many as V has lanes, of the slice that begins with spring `first`.
+template <class V, class Real, bool damped, bool mixed>
+inline void pull(const SpringBundleArgs<Real>& s, int first, int i, Pulls<Real>& pulls) {
+    const long stride = s.stride;
+    const Real *x = s.x + first + i, *y = x + stride, *z = y + stride;
+    const Real *u = s.v + first + i, *v = u + stride, *w = v + stride;
+    const V xa = load<V>(x), ya = load<V>(y), za = load<V>(z);
+    V ua{}, va{}, wa{}, sx{}, sy{}, sz{};
+    if (damped) {
+        ua = load<V>(u);
+        va = load<V>(v);
+        wa = load<V>(w);
     }
-    if (apart) return;
+    const Real* k = s.stiffness + first + i;
+    Real* to = pulls.of[0][0] + Pulls<Real>::line + i;
+    constexpr int plane = Pulls<Real>::plane;
+    const int together = s.runs->together;
+    for (int r = 0; r < together; ++r) {
+        const SpringRun<Real>& run = s.runs[r];
+        const long offset = run.offset;
+        const V cx = xa - load<V>(x + offset), cy = ya - load<V>(y + offset), cz = za - load<V>(z + offset);
+        V uc{};
+        if (damped)
+            uc = (ua - load<V>(u + offset)) * cx + (va - load<V>(v + offset)) * cy + (wa - load<V>(w + offset)) * cz;
+        const Real *rest = pulls.rest[r], *tau = pulls.tau[r];
+        if (mixed && run.mixed >= 0) {
+            rest = s.mixed + run.mixed + first + i;
+            tau = rest + run.count;
+        }
+        const V f = factor<Real, damped>(cx, cy, cz, uc, load<V>(k + run.table), load<V>(rest), load<V>(tau));
+        const V fx = f * cx, fy = f * cy, fz = f * cz;
+        Real* own = to + static_cast<long>(r + 1) * (3 * plane);
+        store(own, fx);
+        store(own + plane, fy);
+        store(own + 2 * plane, fz);
+        sx -= fx;
+        sy -= fy;
+        sz -= fz;
+    }
+    store(to, sx);
+    store(to + plane, sy);
+    store(to + 2 * plane, sz);
+}
+
+// The last vector of a slice may reach back over the one before: the same is computed again.
+template <class V, class Real, bool damped, bool mixed>
+inline void pullAll(const SpringBundleArgs<Real>& s, int first, int n, Pulls<Real>& pulls) {
+    constexpr int lanes = sizeof(V) / sizeof(Real);
+    int i = 0;
+    for (; i + lanes <= n; i += lanes) pull<V, Real, damped, mixed>(s, first, i, pulls);
+    if (i < n) pull<V, Real, damped, mixed>(s, first, n - lanes, pulls);
+}
+
+// n forces, less the pulls of `count` runs.
+template <class Real, int count>
+inline void takeOff(Real* f, long stride, const Real* const* pulls, int n) {
+    constexpr int plane = Pulls<Real>::plane;
+    Real *fx = f, *fy = fx + stride, *fz = fy + stride;
+    const Real *p0 = pulls[0], *p1 = pulls[1], *p2 = pulls[2], *p3 = pulls[3];
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
-        fxb[i] -= gx[i];
-        fyb[i] -= gy[i];
-        fzb[i] -= gz[i];
+        Real x = fx[i] - p0[i], y = fy[i] - p0[i + plane], z = fz[i] - p0[i + 2 * plane];
+        if (count > 1) {
+            x -= p1[i];
+            y -= p1[i + plane];
+            z -= p1[i + 2 * plane];
+        }
+        if (count > 2) {
+            x -= p2[i];
+            y -= p2[i + plane];
+            z -= p2[i + 2 * plane];
+        }
+        if (count > 3) {
+            x -= p3[i];
+            y -= p3[i + plane];
+            z -= p3[i + 2 * plane];
+        }
+        fx[i] = x;
+        fy[i] = y;
+        fz[i] = z;
+    }
+}
+
+// f at the first point a of a slice of n.
+template <class Real>
+inline void takeOff(const SpringBundleArgs<Real>& s, Real* f, int n, Pulls<Real>& pulls) {
+    constexpr int line = Pulls<Real>::line, most = 4;
+    const int runs = 1 + s.runs->together;
+    const auto offset = [&](int r) { return r == 0 ? 0 : s.runs[r - 1].offset; };
+    for (int from = 0, to = 0; from < runs; from = to) {
+        to = from + 1;
+        while (to < runs && to - from < most && offset(to) >= offset(from) && offset(to) <= offset(from) + margin) ++to;
+        const Real* of[most] = {};
+        for (int r = from; r < to; ++r) {
+            of[r - from] = pulls.of[r][0] + line + offset(from) - offset(r);
+            if (to - from == 1) break;
+            for (auto& plane : pulls.of[r]) {
+                __builtin_memset(plane + line - margin, 0, margin * sizeof(Real));
+                __builtin_memset(plane + line + n, 0, margin * sizeof(Real));
+            }
+        }
+        const int width = n + offset(to - 1) - offset(from);
+        Real* at = f + offset(from);
+        switch (to - from) {
+            case 1: takeOff<Real, 1>(at, s.windowStride, of, width); break;
+            case 2: takeOff<Real, 2>(at, s.windowStride, of, width); break;
+            case 3: takeOff<Real, 3>(at, s.windowStride, of, width); break;
+            default: takeOff<Real, 4>(at, s.windowStride, of, width);
+        }
     }
 }
 
 template <class Real, bool damped, bool mixed>
-inline void run(const SpringRunArgs<Real>& s) {
-    for (int first = 0; first < s.n; first += slice) {
-        const int n = s.n - first < slice ? s.n - first : slice;
-        if (s.offset >= n)
-            runSlice<Real, damped, mixed, true>(s, first, n);
+inline void bundle(const SpringBundleArgs<Real>& s) {
+    constexpr int narrow = sizeof(NarrowVector<Real>) / sizeof(Real), wide = sizeof(WideVector<Real>) / sizeof(Real);
+    Pulls<Real> pulls;
+    for (int r = 0; r < s.runs->together; ++r)
+        for (int i = 0; i < Pulls<Real>::line; ++i) {
+            pulls.rest[r][i] = s.runs[r].restLength;
+            pulls.tau[r][i] = s.runs[r].tau;
+        }
+    for (int first = 0; first < s.runs->count; first += slice<Real>) {
+        const int n = s.runs->count - first < slice<Real> ? s.runs->count - first : slice<Real>;
+        if (n >= wide)
+            pullAll<WideVector<Real>, Real, damped, mixed>(s, first, n, pulls);
+        else if (n >= narrow)
+            pullAll<NarrowVector<Real>, Real, damped, mixed>(s, first, n, pulls);
         else
-            runSlice<Real, damped, mixed, false>(s, first, n);
+            pullAll<Real, Real, damped, mixed>(s, first, n, pulls);
+        takeOff(s, s.f + first, n, pulls);
     }
 }
 
 template <class Real>
-inline void runAny(const SpringRunArgs<Real>& s) {
-    if (s.restLengths != nullptr)
-        run<Real, true, true>(s);
-    else if (s.tau != Real(0))
-        run<Real, true, false>(s);
+inline void bundleAny(const SpringBundleArgs<Real>& s) {
+    bool damped = false, mixed = false;
+    for (int r = 0; r < s.runs->together; ++r) {
+        damped = damped || s.runs[r].tau != Real(0);
+        mixed = mixed || s.runs[r].mixed >= 0;
+    }
+    if (mixed)
+        bundle<Real, true, true>(s);
+    else if (damped)
+        bundle<Real, true, false>(s);
     else
-        run<Real, false, false>(s);
+        bundle<Real, false, false>(s);
 }
 
 // Gathers a batch into planar buffers, computes it side by side, scatters it spring by spring in order.
@@ -113,15 +216,15 @@ inline void list(const SpringListArgs<Real>& s) {
         for (int p = 0; p < 3; ++p) {
             const Real *x = s.x + static_cast<long>(p) * s.stride, *v = s.v + static_cast<long>(p) * s.stride;
             for (int i = 0; i < n; ++i) {
-                d[p][i] = x[b[i]] - x[a[i]];
-                u[p][i] = v[b[i]] - v[a[i]];
+                d[p][i] = x[a[i]] - x[b[i]];
+                u[p][i] = v[a[i]] - v[b[i]];
             }
         }
         const Real *k = s.k + first, *rest = s.restLength + first, *tau = s.tau + first;
         TAUT_INDEPENDENT
         for (int i = 0; i < n; ++i) {
-            const Real pull =
-                factor<Real, true>(d[0][i], d[1][i], d[2][i], u[0][i], u[1][i], u[2][i], k[i], rest[i], tau[i]);
+            const Real uc = u[0][i] * d[0][i] + u[1][i] * d[1][i] + u[2][i] * d[2][i];
+            const Real pull = factor<Real, true>(d[0][i], d[1][i], d[2][i], uc, k[i], rest[i], tau[i]);
             d[0][i] *= pull;
             d[1][i] *= pull;
             d[2][i] *= pull;
@@ -133,6 +236,80 @@ inline void list(const SpringListArgs<Real>& s) {
                 f[b[i] - s.windowFirst] -= d[p][i];
             }
         }
+    }
+}
+
+// Likewise, but a point is a vector or two.
+template <class Real>
+inline void packedList(const PackedSpringArgs<Real>& s) {
+    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+    constexpr int batch = 64;
+    alignas(64) Real c[batch][4], u[batch][4], pull[batch];
+    const Real* state = s.state - static_cast<long>(s.windowFirst) * packedState;
+    Real* f = s.f - static_cast<long>(s.windowFirst) * packedForce;
+    for (int first = 0; first < s.n; first += batch) {
+        const int n = s.n - first < batch ? s.n - first : batch;
+        const int *a = s.a + first, *b = s.b + first;
+        for (int i = 0; i < n; ++i) {
+            const Real *from = state + static_cast<long>(a[i]) * packedState,
+                       *to = state + static_cast<long>(b[i]) * packedState;
+            Four xa, xb, va, vb;
+            __builtin_memcpy(&xa, from, sizeof xa);
+            __builtin_memcpy(&xb, to, sizeof xb);
+            __builtin_memcpy(&va, from + 4, sizeof va);
+            __builtin_memcpy(&vb, to + 4, sizeof vb);
+            xa -= xb;
+            va -= vb;
+            __builtin_memcpy(c[i], &xa, sizeof xa);
+            __builtin_memcpy(u[i], &va, sizeof va);
+        }
+        const Real *k = s.k + first, *rest = s.restLength + first, *tau = s.tau + first;
+        TAUT_INDEPENDENT
+        for (int i = 0; i < n; ++i) {
+            const Real uc = u[i][0] * c[i][0] + u[i][1] * c[i][1] + u[i][2] * c[i][2];
+            pull[i] = factor<Real, true>(c[i][0], c[i][1], c[i][2], uc, k[i], rest[i], tau[i]);
+        }
+        for (int i = 0; i < n; ++i) {
+            Real *atA = f + static_cast<long>(a[i]) * packedForce, *atB = f + static_cast<long>(b[i]) * packedForce;
+            Four d, fa, fb;
+            __builtin_memcpy(&d, c[i], sizeof d);
+            __builtin_memcpy(&fa, atA, sizeof fa);
+            __builtin_memcpy(&fb, atB, sizeof fb);
+            d *= pull[i];
+            fa += d;
+            fb -= d;
+            __builtin_memcpy(atA, &fa, sizeof fa);
+            __builtin_memcpy(atB, &fb, sizeof fb);
+        }
+    }
+}
+
+template <class Real>
+inline void pack(const PackArgs<Real>& s) {
+    const long stride = s.stride;
+    const Real *x = s.x, *y = x + stride, *z = y + stride, *u = s.v, *v = u + stride, *w = v + stride;
+    for (int i = 0; i < s.n; ++i) {
+        Real *point = s.state + i * packedState, *force = s.f + i * packedForce;
+        point[0] = x[i];
+        point[1] = y[i];
+        point[2] = z[i];
+        point[3] = 0;
+        point[4] = u[i];
+        point[5] = v[i];
+        point[6] = w[i];
+        point[7] = 0;
+        force[0] = force[1] = force[2] = force[3] = 0;
+    }
+}
+
+template <class Real>
+inline void unpack(const UnpackArgs<Real>& s) {
+    Real *fx = s.f, *fy = fx + s.windowStride, *fz = fy + s.windowStride;
+    TAUT_INDEPENDENT
+    for (int i = 0; i < s.n; ++i) {
+        fx[i] += s.packed[i * packedForce];
+        fy[i] += s.packed[i * packedForce + 1];
+        fz[i] += s.packed[i * packedForce + 2];
     }
 }
 
@@ -163,17 +340,35 @@ inline void accelerateAny(const AccelerationArgs<Real>& s) {
 
 }  // namespace
 
-void springRunFloat(const SpringRunArgs<float>& s) {
-    runAny(s);
+void springBundleFloat(const SpringBundleArgs<float>& s) {
+    bundleAny(s);
 }
-void springRunDouble(const SpringRunArgs<double>& s) {
-    runAny(s);
+void springBundleDouble(const SpringBundleArgs<double>& s) {
+    bundleAny(s);
 }
 void springListFloat(const SpringListArgs<float>& s) {
     list(s);
 }
 void springListDouble(const SpringListArgs<double>& s) {
     list(s);
+}
+void packedListFloat(const PackedSpringArgs<float>& s) {
+    packedList(s);
+}
+void packedListDouble(const PackedSpringArgs<double>& s) {
+    packedList(s);
+}
+void packFloat(const PackArgs<float>& s) {
+    pack(s);
+}
+void packDouble(const PackArgs<double>& s) {
+    pack(s);
+}
+void unpackFloat(const UnpackArgs<float>& s) {
+    unpack(s);
+}
+void unpackDouble(const UnpackArgs<double>& s) {
+    unpack(s);
 }
 void accelerateFloat(const AccelerationArgs<float>& s) {
     accelerateAny(s);

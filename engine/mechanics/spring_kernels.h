@@ -5,22 +5,30 @@ namespace taut::mechanics {
 
 // Forces live in a window of three planes, points of the network in three planes of another stride.
 
-// n springs alike: spring i joins points i and i + offset of the planes.
+// Springs alike: spring i joins points a + i and a + i + offset.
 template <class Real>
-struct SpringRunArgs {
-    int n;
-    int offset;        // > 0
+struct SpringRun {
+    int a;       // first point
+    int offset;  // > 0
+    int count;
+    int together;          // runs from this one on that begin at the same point and are as long; 0 within such a bundle
+    int table;             // where its stiffnesses begin in a table of them [N/m]
+    Real restLength, tau;  // of all its springs [m], damping time [s] …
+    int mixed;             // … if < 0; else where their rest lengths begin in another, followed by their taus
+};
+inline constexpr int mostTogether = 8;
+
+// A bundle: runs that begin at the same point and have the same number of springs.
+template <class Real>
+struct SpringBundleArgs {
+    const SpringRun<Real>* runs;  // (runs->together), 1 … mostTogether
+    const Real* stiffness;        // the tables that they name
+    const Real* mixed;
     int stride;        // of x and v
     int windowStride;  // of f
-    const Real* x;     // planes at the run's first point a [m]
+    const Real* x;     // planes at the runs' first point a [m]
     const Real* v;     // likewise [m/s]
     Real* f;           // likewise, added to [N]
-    const Real* k;     // (n) stiffness [N/m]
-    Real restLength;   // [m]
-    Real tau;          // damping time [s]
-    // (n) rest lengths and damping times of springs that are not alike in them; or nullptr.
-    const Real* restLengths = nullptr;
-    const Real* taus = nullptr;
 };
 
 // n springs between any points.
@@ -40,6 +48,44 @@ struct SpringListArgs {
     const Real* tau;         // (n) [s]
 };
 
+// Points point by point instead of plane by plane, for springs that jump between them: x y z 0 u v w 0, and for forces
+// x y z 0.
+inline constexpr int packedState = 8, packedForce = 4;
+
+// n springs between any points of a packed window.
+template <class Real>
+struct PackedSpringArgs {
+    int n;
+    int windowFirst;         // point at the window's start
+    const Real* state;       // (window · packedState)
+    Real* f;                 // (window · packedForce) [N]
+    const int* a;            // (n)
+    const int* b;            // (n)
+    const Real* k;           // (n) [N/m]
+    const Real* restLength;  // (n) [m]
+    const Real* tau;         // (n) [s]
+};
+
+// Packs x and v of n points, and sets their packed forces to zero.
+template <class Real>
+struct PackArgs {
+    int n;
+    int stride;
+    const Real* x;  // planes
+    const Real* v;  // likewise
+    Real* state;
+    Real* f;
+};
+
+// Adds packed forces of n points to a window's planes.
+template <class Real>
+struct UnpackArgs {
+    int n;
+    const Real* packed;
+    Real* f;
+    int windowStride;
+};
+
 // From forces to accelerations of n points: a = (f + external)/m + uniform for free points, 0 for held ones.
 template <class Real>
 struct AccelerationArgs {
@@ -54,8 +100,11 @@ struct AccelerationArgs {
 
 template <class Real>
 struct SpringKernels {
-    void (*run)(const SpringRunArgs<Real>&);
+    void (*bundle)(const SpringBundleArgs<Real>&);
     void (*list)(const SpringListArgs<Real>&);
+    void (*packedList)(const PackedSpringArgs<Real>&);
+    void (*pack)(const PackArgs<Real>&);
+    void (*unpack)(const UnpackArgs<Real>&);
     void (*accelerate)(const AccelerationArgs<Real>&);
 };
 

@@ -1,8 +1,11 @@
 #include "taut/mechanics/spring_network.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "taut/core/error.h"
 
@@ -13,7 +16,7 @@ constexpr int blockPoints = 256;   // a block's springs and points fit the first
 constexpr int chunkPoints = 8192;  // at least: enough work for a thread
 constexpr int mostChunks = 8;      // each has a window of its own, which costs memory traffic
 constexpr int shortestRun = 8;     // below that, single springs are as fast
-constexpr int longestBridge = 3;   // missing springs that a run steps over with stiffness zero
+constexpr int longestBridge = 3;   // missing springs that a run steps over, or is filled up with, at stiffness zero
 
 // The springs of one block that look alike, by point a.
 using Key = std::tuple<int, double, double>;  // offset, rest length, damping time
@@ -99,39 +102,75 @@ class Builder {
         }
     }
 
+    // Springs from … to - 1 of a block's list, which make a run over the points a = first … last - 1.
+    struct Stretch {
+        std::size_t from, to;
+        int offset, first, last;
+    };
+
     void fill(SpringBlock& block, const std::vector<Sorted>& list) {
         block.firstRun = static_cast<int>(network_.runs.size());
         block.firstSingle = network_.singles.size();
-        for (std::size_t from = 0; from < list.size();) from = takeRun(list, from);
+        std::vector<Stretch> stretches;
+        for (std::size_t from = 0; from < list.size();) {
+            const Stretch stretch = longestFrom(list, from);
+            from = stretch.to;
+            if (stretch.to - stretch.from >= shortestRun)
+                stretches.push_back(stretch);
+            else
+                for (std::size_t i = stretch.from; i < stretch.to; ++i) addSingle(list[i]);
+        }
+        while (!stretches.empty()) addBundle(list, takeBundle(stretches, block.reach));
         block.lastRun = static_cast<int>(network_.runs.size());
         block.lastSingle = network_.singles.size();
     }
 
-    // Collects the longest run from `from` on; returns where the next begins.
-    std::size_t takeRun(const std::vector<Sorted>& list, std::size_t from) {
-        const int offset = std::get<0>(list[from].key);
+    static Stretch longestFrom(const std::vector<Sorted>& list, std::size_t from) {
         std::size_t to = from + 1;
         while (to < list.size() && list[to].key == list[from].key && list[to].a > list[to - 1].a &&
                list[to].a - list[to - 1].a - 1 <= longestBridge)
             ++to;
-        if (static_cast<int>(to - from) < shortestRun) {
-            for (std::size_t i = from; i < to; ++i) addSingle(list[i]);
-            return to;
-        }
-        SpringRun<Real> run{};
-        run.a = list[from].a;
-        run.offset = offset;
-        run.count = list[to - 1].a - run.a + 1;
-        network_.runs.push_back(run);
-        for (std::size_t i = from; i < to; ++i) {
-            if (i > from) network_.order.insert(network_.order.end(), gap(list[i - 1], list[i]), -1);
-            network_.order.push_back(list[i].spring);
-        }
-        return to;
+        return {from, to, std::get<0>(list[from].key), list[from].a, list[to - 1].a + 1};
     }
 
-    static std::size_t gap(const Sorted& one, const Sorted& next) {
-        return static_cast<std::size_t>(next.a - one.a - 1);
+    // Takes the first stretch out, and of the others those that begin and end near it; fills all up to the same points,
+    // as far as their springs would not reach beyond the block's.
+    static std::vector<Stretch> takeBundle(std::vector<Stretch>& stretches, int reach) {
+        std::vector<Stretch> bundle, others;
+        Stretch all = stretches.front();
+        for (const Stretch& s : stretches) {
+            const int first = std::min(all.first, s.first), last = std::max(all.last, s.last);
+            const int offset = std::max(all.offset, s.offset);
+            const bool isNear = std::abs(s.first - stretches.front().first) <= longestBridge &&
+                                std::abs(s.last - stretches.front().last) <= longestBridge;
+            if (!isNear || last - 1 + offset >= reach || bundle.size() == mostTogether) {
+                others.push_back(s);
+                continue;
+            }
+            bundle.push_back(s);
+            all = {0, 0, offset, first, last};
+        }
+        for (Stretch& s : bundle) {
+            s.first = all.first;
+            s.last = all.last;
+        }
+        stretches = std::move(others);
+        return bundle;
+    }
+
+    void addBundle(const std::vector<Sorted>& list, const std::vector<Stretch>& bundle) {
+        for (const Stretch& stretch : bundle) {
+            SpringRun<Real> run{};
+            run.a = stretch.first;
+            run.offset = stretch.offset;
+            run.count = stretch.last - stretch.first;
+            run.together = &stretch == bundle.data() ? static_cast<int>(bundle.size()) : 0;
+            network_.runs.push_back(run);
+            const std::size_t begin = network_.order.size();
+            network_.order.resize(begin + static_cast<std::size_t>(run.count), -1);
+            for (std::size_t i = stretch.from; i < stretch.to; ++i)
+                network_.order[begin + static_cast<std::size_t>(list[i].a - run.a)] = list[i].spring;
+        }
     }
 
     void addSingle(const Sorted& s) {
@@ -171,6 +210,7 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
     for (SpringRun<Real>& run : runs) {
         for (std::vector<Real>* table : {&k, &lengths, &taus})
             table->assign(static_cast<std::size_t>(run.count), Real(0));
+        bool isFirst = true;
         bool isMixed = false;
         for (std::size_t i = 0; i < k.size(); ++i, ++next) {
             if (*next < 0) continue;
@@ -178,13 +218,16 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
             k[i] = static_cast<Real>(s.stiffness);
             lengths[i] = static_cast<Real>(s.restLength);
             taus[i] = static_cast<Real>(s.dampingTime);
-            isMixed = isMixed || lengths[i] != lengths[0] || taus[i] != taus[0];
+            if (isFirst) {
+                isFirst = false;
+                run.restLength = lengths[i];
+                run.tau = taus[i];
+            }
+            isMixed = isMixed || lengths[i] != run.restLength || taus[i] != run.tau;
         }
         const auto [entry, isNew] = tables.try_emplace(k, static_cast<int>(stiffness.size()));
         if (isNew) stiffness.insert(stiffness.end(), k.begin(), k.end());
         run.table = entry->second;
-        run.restLength = lengths[0];
-        run.tau = taus[0];
         run.mixed = isMixed ? static_cast<int>(mixed.size()) : -1;
         if (!isMixed) continue;
         mixed.insert(mixed.end(), lengths.begin(), lengths.end());

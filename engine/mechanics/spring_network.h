@@ -10,6 +10,7 @@
 
 #include "taut/core/aligned_array.h"
 #include "taut/mechanics/model.h"
+#include "taut/mechanics/spring_kernels.h"
 
 namespace taut::mechanics {
 
@@ -31,16 +32,6 @@ struct SpringChunk {
     int firstBlock, lastBlock;
     int firstPoint, lastPoint;
     int spill;  // points after lastPoint that its springs touch
-};
-
-template <class Real>
-struct SpringRun {
-    int a;       // first point
-    int offset;  // b - a
-    int count;
-    int table;             // where its stiffnesses begin in `stiffness`
-    Real restLength, tau;  // of all its springs …
-    int mixed;             // … if < 0; else where their rest lengths begin in `mixed`, followed by their taus
 };
 
 template <class Real>
@@ -73,10 +64,11 @@ struct SpringNetwork {
     std::vector<SpringBlock> blocks;
     std::vector<SpringChunk> chunks;
     std::vector<SpringRun<Real>> runs;
-    std::vector<Real> stiffness;  // tables of the runs, shared by content; a zero bridges a gap in a run
+    std::vector<Real> stiffness;  // tables of the runs, shared by content; a zero bridges a gap in a run or fills it up
     std::vector<Real> mixed;      // tables of runs whose springs have become different
     SpringSingles<Real> singles;
-    std::vector<int> order;  // which spring stands where: those of the runs, -1 in a gap, then the single ones
+    std::vector<int>
+        order;  // which spring stands where: those of the runs, -1 where there is none, then the single ones
     int springCount = 0;
     Real largestTau = 0;       // [s] of all springs
     bool isTauUniform = true;  // all have it

@@ -1,7 +1,9 @@
 #include "hanging_cloth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "taut/mechanics/builders.h"
@@ -34,6 +36,49 @@ mechanics::Model hangingCloth(int side) {
     for (int p : cloth.groups.at("top")) cloth.held[static_cast<std::size_t>(p)] = true;
     for (std::size_t i = 0; i < cloth.positions.size(); ++i)
         cloth.positions[i].z = 0.01 * std::sin(9.0 * cloth.uv[i].x + 4.0 * cloth.uv[i].y) * cloth.uv[i].y;
+    return cloth;
+}
+
+mechanics::Model hangingMesh(int side) {
+    const mechanics::Model sheet = hangingCloth(side);
+    const std::size_t count = sheet.positions.size();
+    std::mt19937 random(1);
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<std::vector<int>> neighbours(count);
+    for (int j = 0; j + 1 < side; ++j)
+        for (int i = 0; i + 1 < side; ++i) {
+            const int a = j * side + i, b = a + 1, c = b + side, d = a + side;
+            if (random() % 2 == 0)
+                triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+            else
+                triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
+            for (const int from : {a, b, c, d})
+                for (const int to : {a, b, c, d})
+                    if (from != to) neighbours[static_cast<std::size_t>(from)].push_back(to);
+        }
+    std::vector<int> order{0}, numberOf(count, -1);
+    numberOf[0] = 0;
+    for (std::size_t next = 0; next < order.size(); ++next) {
+        std::vector<int>& around = neighbours[static_cast<std::size_t>(order[next])];
+        std::shuffle(around.begin(), around.end(), random);
+        for (const int i : around) {
+            int& number = numberOf[static_cast<std::size_t>(i)];
+            if (number >= 0) continue;
+            number = static_cast<int>(order.size());
+            order.push_back(i);
+        }
+    }
+    mechanics::MeshClothShape shape;
+    shape.material.bend = 2.0;
+    shape.material.dampingTime = 1e-6;
+    shape.material.dragRate = 0.5;
+    for (const int i : order) shape.positions.push_back(sheet.positions[static_cast<std::size_t>(i)]);
+    for (const auto& corners : triangles) {
+        auto& t = shape.triangles.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i) t[i] = numberOf[static_cast<std::size_t>(corners[i])];
+    }
+    mechanics::Model cloth = mechanics::buildMeshCloth(shape);
+    for (int p : cloth.groups.at("top")) cloth.held[static_cast<std::size_t>(p)] = true;
     return cloth;
 }
 

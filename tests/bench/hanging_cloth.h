@@ -13,6 +13,10 @@ namespace taut::bench {
 // side × side points: structural, shear and bend springs, all with dashpots, and drag.
 mechanics::Model hangingCloth(int side);
 
+// The same sheet as a mesh, as one is read from a file: side × side points, each square cut into two triangles this way
+// or that, numbered at random and then breadth first, as islands number the points of a mesh.
+mechanics::Model hangingMesh(int side);
+
 // A step that is stable for the cloth with dashpots, half the leap-frog limit [s].
 double stableStep(const mechanics::Model& cloth);
 

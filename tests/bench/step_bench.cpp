@@ -4,6 +4,7 @@
 //
 //   Cloth/<float|double>/N/threads      counters: ns a point a step of each, and how many times faster taut is
 //   Scaling/…                           the same cloth, taut alone: what a point costs as the state grows
+//   Mesh/…                              likewise, as a mesh with the numbering of a file
 //   WindyCloth/…                        likewise, with wind on its triangles
 //
 // Bullet's link solver and the textbook version run on one thread always, Bullet in single precision always.
@@ -16,10 +17,10 @@
 #include <vector>
 
 #include "bullet_links.h"
-#include "taut/core/instruction_set.h"
-#include "taut/core/parallel.h"
 #include "hanging_cloth.h"
 #include "object_springs.h"
+#include "taut/core/instruction_set.h"
+#include "taut/core/parallel.h"
 
 namespace taut::bench {
 namespace {
@@ -113,10 +114,10 @@ void clothAgainstOthers(benchmark::State& state, int side, int threads) {
     state.counters["x_objects"] = median(overTextbook);
 }
 
-template <class Real, Air air>
+template <class Real, Air air, mechanics::Model (*model)(int) = hangingCloth>
 void clothAlone(benchmark::State& state, int side, int threads) {
     const core::ThreadLimit limit(threads);
-    const mechanics::Model cloth = hangingCloth(side);
+    const mechanics::Model cloth = model(side);
     ClothRun<Real> run(cloth, air);
     Contestant taut([&](int n) { run.step(n); }, cloth.pointCount(), threads);
     for ([[maybe_unused]] auto _ : state)
@@ -141,11 +142,16 @@ void addAll() {
             add("Cloth/float", clothAgainstOthers<float>, side, threads, rounds);
             add("Cloth/double", clothAgainstOthers<double>, side, threads, rounds);
         }
-    for (const int side : {32, 64, 128, 256, 512}) {
-        add("Scaling/float", clothAlone<float, Air::still>, side, 1, 4 * rounds);
-        add("Scaling/double", clothAlone<double, Air::still>, side, 1, 4 * rounds);
-    }
+    for (const int threads : {1, 2})
+        for (const int side : {32, 64, 128, 256, 512}) {
+            add("Scaling/float", clothAlone<float, Air::still>, side, threads, 4 * rounds);
+            add("Scaling/double", clothAlone<double, Air::still>, side, threads, 4 * rounds);
+        }
     for (const int threads : {1, 2}) {
+        for (const int side : {64, 256}) {
+            add("Mesh/float", clothAlone<float, Air::still, hangingMesh>, side, threads, 2 * rounds);
+            add("Mesh/double", clothAlone<double, Air::still, hangingMesh>, side, threads, 2 * rounds);
+        }
         add("WindyCloth/float", clothAlone<float, Air::windy>, 256, threads, rounds);
         add("WindyCloth/double", clothAlone<double, Air::windy>, 256, threads, rounds);
     }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "mechanics_random_net.h"
@@ -37,31 +38,45 @@ glm::dvec3 force(const std::vector<Real>& x, const std::vector<Real>& v, int a, 
     return (k * (glm::length(d) - L) + k * tau * glm::dot(u, n)) * n;
 }
 
-// Lengths about the vectors and the slices of the kernel, offsets from overlapping to far apart, with and without
-// dashpots: against the definition, and every instruction set against the first.
-TYPED_TEST(SpringKernelsOf, RunsAddEachSpringToBothEndsWithTheSameBits) {
+// A bundle of runs that begin at point 0, n springs each, with stiffnesses from `k` on: what springKernels takes.
+template <class Real>
+std::vector<SpringRun<Real>> bundleOf(int n, const std::vector<int>& offsets, double rest, double tau) {
+    std::vector<SpringRun<Real>> runs;
+    for (const int offset : offsets)
+        runs.push_back(
+            {0, offset, n, 0, static_cast<int>(runs.size()), static_cast<Real>(rest), static_cast<Real>(tau), -1});
+    runs[0].together = static_cast<int>(runs.size());
+    return runs;
+}
+
+// Lengths about the vectors and the slices of the kernel, offsets from overlapping to far apart, alone and together,
+// with and without dashpots: against the definition, and every instruction set against the first.
+TYPED_TEST(SpringKernelsOf, BundlesAddEachSpringToBothEndsWithTheSameBits) {
     using Real = TypeParam;
     const InstructionSetGuard guard;
     const auto x = randomPlanes<Real>(1), v = randomPlanes<Real>(2), before = randomPlanes<Real>(3),
                k = randomPlanes<Real>(4);
-    // Sums of at most three terms below 8 in size, each with some ten roundings.
-    const double tolerance = 100.0 * static_cast<double>(std::numeric_limits<Real>::epsilon());
-    for (const int n : {1, 2, 3, 7, 8, 9, 15, 16, 17, 31, 33, 100, 127, 128, 129, 255, 256, 300})
-        for (const int offset : {1, 2, 3, 15, 16, 17, 100, 127, 128, 129, 400})
+    // Sums of at most eighteen terms below 8 in size, each with some ten roundings.
+    const double tolerance = 600.0 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+    for (const int n : {1, 2, 3, 7, 8, 9, 15, 16, 17, 31, 33, 100, 127, 128, 129, 255, 256, 257, 300})
+        for (const std::vector<int>& offsets :
+             {std::vector{1}, {2}, {17}, {128}, {400}, {1, 2}, {1, 2, 31, 32, 33, 64}, {3, 4, 5, 6, 7, 8, 200, 500}})
             for (const double tau : {0.0, 0.125}) {
                 std::vector<glm::dvec3> expected(stride, glm::dvec3(0.0));
-                for (int i = 0; i < n; ++i) {
-                    const double stiffness = static_cast<double>(k[static_cast<std::size_t>(i)]);
-                    const glm::dvec3 f = force(x, v, i, i + offset, stiffness, 0.25, tau);
-                    expected[static_cast<std::size_t>(i)] += f;
-                    expected[static_cast<std::size_t>(i + offset)] -= f;
-                }
+                for (std::size_t r = 0; r < offsets.size(); ++r)
+                    for (int i = 0; i < n; ++i) {
+                        const double stiffness = static_cast<double>(k[r + static_cast<std::size_t>(i)]);
+                        const glm::dvec3 f = force(x, v, i, i + offsets[r], stiffness, 0.25, tau);
+                        expected[static_cast<std::size_t>(i)] += f;
+                        expected[static_cast<std::size_t>(i + offsets[r])] -= f;
+                    }
+                const auto runs = bundleOf<Real>(n, offsets, 0.25, tau);
                 std::vector<Real> first;
                 for (const core::InstructionSet set : supportedSets()) {
                     core::useInstructionSet(set);
                     std::vector<Real> f = before;
-                    springKernels<Real>().run({n, offset, stride, stride, x.data(), v.data(), f.data(), k.data(),
-                                               Real(0.25), static_cast<Real>(tau)});
+                    springKernels<Real>().bundle(
+                        {runs.data(), k.data(), nullptr, stride, stride, x.data(), v.data(), f.data()});
                     if (first.empty()) {
                         first = f;
                         for (int p = 0; p < 3; ++p)
@@ -69,13 +84,11 @@ TYPED_TEST(SpringKernelsOf, RunsAddEachSpringToBothEndsWithTheSameBits) {
                                 const auto at = static_cast<std::size_t>(p * stride + i);
                                 const double change = static_cast<double>(f[at]) - static_cast<double>(before[at]);
                                 ASSERT_NEAR(change, expected[static_cast<std::size_t>(i)][p], tolerance)
-                                    << "n " << n << ", offset " << offset << ", point " << i;
-                                if (i >= n + offset) {
-                                    ASSERT_EQ(f[at], before[at]);
-                                }
+                                    << "n " << n << ", " << offsets.size() << " runs, point " << i;
+                                if (i >= n + offsets.back()) ASSERT_EQ(f[at], before[at]);
                             }
                     }
-                    ASSERT_EQ(f, first) << core::nameOf(set) << ", n " << n << ", offset " << offset;
+                    ASSERT_EQ(f, first) << core::nameOf(set) << ", n " << n << ", " << offsets.size() << " runs";
                 }
             }
 }
@@ -86,17 +99,48 @@ TYPED_TEST(SpringKernelsOf, RunsOfDifferentSpringsEqualARunForEach) {
     const InstructionSetGuard guard;
     const auto x = randomPlanes<Real>(1), v = randomPlanes<Real>(2), k = randomPlanes<Real>(3),
                rest = randomPlanes<Real>(4), tau = randomPlanes<Real>(5);
-    const int n = 300, offset = 400;
+    const int n = 300;
+    const std::vector<int> offsets{400};
+    std::vector<Real> mixed(rest.begin(), rest.begin() + n);
+    mixed.insert(mixed.end(), tau.begin(), tau.begin() + n);
+    auto runs = bundleOf<Real>(n, offsets, 0.0, 0.0);
+    runs[0].mixed = 0;
     for (const core::InstructionSet set : supportedSets()) {
         core::useInstructionSet(set);
         std::vector<Real> together(3 * stride), oneByOne(3 * stride);
-        springKernels<Real>().run({n, offset, stride, stride, x.data(), v.data(), together.data(), k.data(), Real(0),
-                                   Real(0), rest.data(), tau.data()});
-        for (std::size_t i = 0; i < n; ++i)
-            springKernels<Real>().run({1, offset, stride, stride, x.data() + i, v.data() + i, oneByOne.data() + i,
-                                       k.data() + i, rest[i], tau[i]});
+        springKernels<Real>().bundle(
+            {runs.data(), k.data(), mixed.data(), stride, stride, x.data(), v.data(), together.data()});
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto one = bundleOf<Real>(1, offsets, static_cast<double>(rest[i]), static_cast<double>(tau[i]));
+            springKernels<Real>().bundle(
+                {one.data(), k.data() + i, nullptr, stride, stride, x.data() + i, v.data() + i, oneByOne.data() + i});
+        }
         EXPECT_EQ(together, oneByOne) << core::nameOf(set);
     }
+}
+
+// Ends that meet, or come so near that l² vanishes in the numbers of the machine: no force where the direction is
+// undefined, k d at a rest length of zero, and never more than k L.
+TYPED_TEST(SpringKernelsOf, StayFiniteAsLengthsVanish) {
+    using Real = TypeParam;
+    const InstructionSetGuard guard;
+    const Real tiny = std::numeric_limits<Real>::denorm_min();
+    const Real d[] = {0, tiny, 1000 * tiny, std::numeric_limits<Real>::min(),
+                      std::sqrt(std::numeric_limits<Real>::min())};
+    for (const core::InstructionSet set : supportedSets())
+        for (const double rest : {0.0, 0.5})
+            for (const Real& length : d) {
+                core::useInstructionSet(set);
+                const auto runs = bundleOf<Real>(1, {1}, rest, 0.125);
+                const std::vector<Real> x{0, length, 0, 0, 0, 0}, v{0, 1, 0, 1, 0, 0};
+                const Real k = 3;
+                std::vector<Real> f(6);
+                springKernels<Real>().bundle({runs.data(), &k, nullptr, 2, 2, x.data(), v.data(), f.data()});
+                const Real most = k * static_cast<Real>(rest + 0.125) * Real(1.0001) + k * length;
+                for (const Real force : f) ASSERT_LE(std::abs(force), most) << core::nameOf(set) << " " << length;
+                if (length == Real(0))
+                    for (const Real force : f) ASSERT_EQ(force, Real(0));
+            }
 }
 
 TYPED_TEST(SpringKernelsOf, ListsAddEachSpringToBothEndsWithTheSameBits) {
@@ -125,7 +169,7 @@ TYPED_TEST(SpringKernelsOf, ListsAddEachSpringToBothEndsWithTheSameBits) {
         }
         // Partial sums are below `largest` and each addition rounds once, each spring some ten times.
         const double tolerance = 16.0 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * (1.0 + largest);
-        std::vector<Real> first;
+        std::vector<Real> first, firstOwn;
         for (const core::InstructionSet set : supportedSets()) {
             core::useInstructionSet(set);
             std::vector<Real> f(before.begin(), before.begin() + 3 * windowStride);
@@ -133,12 +177,24 @@ TYPED_TEST(SpringKernelsOf, ListsAddEachSpringToBothEndsWithTheSameBits) {
                                         b.data(), k.data(), rest.data(), tau.data()});
             if (first.empty()) first = f;
             ASSERT_EQ(f, first) << core::nameOf(set);
+
+            // The same springs point by point: forces of their own, added at the end.
+            constexpr int points = windowStride - 8;
+            std::vector<Real> state(points * packedState), packed(points * packedForce, Real(1)), own(3 * windowStride);
+            springKernels<Real>().pack(
+                {points, stride, x.data() + windowFirst, v.data() + windowFirst, state.data(), packed.data()});
+            springKernels<Real>().packedList(
+                {n, windowFirst, state.data(), packed.data(), a.data(), b.data(), k.data(), rest.data(), tau.data()});
+            springKernels<Real>().unpack({points, packed.data(), own.data(), windowStride});
+            if (firstOwn.empty()) firstOwn = own;
+            ASSERT_EQ(own, firstOwn) << core::nameOf(set);
         }
         for (int p = 0; p < 3; ++p)
             for (int i = 0; i < windowStride; ++i) {
                 const auto at = static_cast<std::size_t>(p * windowStride + i);
                 ASSERT_NEAR(static_cast<double>(first[at]) - static_cast<double>(before[at]),
                             expected[static_cast<std::size_t>(i)][p], tolerance);
+                ASSERT_NEAR(static_cast<double>(firstOwn[at]), expected[static_cast<std::size_t>(i)][p], tolerance);
             }
     }
 }

@@ -7,6 +7,7 @@
 // Drag is semi-implicit (limit h ω < 2 whatever γ), other velocity forces see the extrapolated w, which keeps order
 // 2 at the limit h²ω² + 4hc < 4 for a modal rate c. Start: v(-h/2) = v0 - (h/2) a(x0, v0), w = v0.
 #include <algorithm>
+#include <atomic>
 
 #include "taut/ode/method.h"
 #include "taut/ode/step_limits.h"
@@ -36,6 +37,7 @@ class Leapfrog final : public Method<Real> {
         if (h != h_) prepare(system, h, state.layout);
         Update update(*this, static_cast<Real>(h), state);
         system.accelerate(t, state.x.data(), state.memory[0].data(), update);
+        this->speeds_ = update.isBeyond ? Speeds::beyond : Speeds::within;
         system.prescribe(t + h, state.x.data(), state.memory[0].data());
         system.prescribe(t + 0.5 * h, nullptr, state.v.data());
         ++this->work_.evaluations;
@@ -89,13 +91,15 @@ class Leapfrog final : public Method<Real> {
             const int entry = this->method.isDragUniform_ ? 0 : first;
             for (int p = 0; p < this->layout.planes; ++p) {
                 const std::ptrdiff_t at = this->plane(p) + first;
-                this->method.kernels_.leapfrog(last - first, a[p], this->method.keep_.data() + entry,
-                                               this->method.gain_.data() + entry, h, state.x.data() + at,
-                                               state.v.data() + at, state.memory[0].data() + at);
+                const bool isWithin = this->method.kernels_.leapfrog(
+                    last - first, a[p], this->method.keep_.data() + entry, this->method.gain_.data() + entry, h,
+                    this->method.speedLimit_, state.x.data() + at, state.v.data() + at, state.memory[0].data() + at);
+                if (!isWithin) isBeyond.store(true, std::memory_order_relaxed);
             }
         }
         Real h;
         State<Real>& state;
+        std::atomic<bool> isBeyond = false;
     };
 
     struct HalfStepBack final : Sink {

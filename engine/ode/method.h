@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -53,6 +54,9 @@ struct MethodOptions {
     bool splits = false;       // leap-frog: the system's split part
 };
 
+// What a method found among the velocities that a step wrote; unknown when it did not look.
+enum class Speeds { unknown, within, beyond };
+
 template <class Real>
 class Method {
   public:
@@ -73,8 +77,15 @@ class Method {
 
     virtual Work work() const { return work_; }  // since it was made
 
+    // Asks step() to look for velocities that are not below the limit [m/s] in a plane, or are no numbers, and what it
+    // found in the last step. Points that are moved by hand are not looked at.
+    void watch(Real speedLimit) { speedLimit_ = speedLimit; }
+    Speeds speeds() const { return speeds_; }
+
   protected:
     Work work_;
+    Real speedLimit_ = std::numeric_limits<Real>::infinity();
+    Speeds speeds_ = Speeds::unknown;
 };
 
 // The fastest motion of a system, as a bound: what limits the step.

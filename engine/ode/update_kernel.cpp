@@ -5,7 +5,25 @@ namespace taut::ode::TAUT_ISA {
 namespace {
 
 template <class Real>
-inline void leapfrog(int n, const Real* a, const Real* keep, const Real* gain, Real h, Real* x, Real* v, Real* w) {
+struct BitsOf;
+template <>
+struct BitsOf<float> {
+    using Type = unsigned;
+};
+template <>
+struct BitsOf<double> {
+    using Type = unsigned long;
+};
+
+template <class Real>
+inline bool leapfrog(int n, const Real* a, const Real* keep, const Real* gain, Real h, Real limit, Real* x, Real* v,
+                     Real* w) {
+    // Without their sign, numbers come in the order of their bits, infinity and NaN last. What is added carries those
+    // from the limit on into the sign's place.
+    using Bits = typename BitsOf<Real>::Type;
+    constexpr Bits sign = Bits(1) << (8 * sizeof(Real) - 1);
+    const Bits room = sign - __builtin_bit_cast(Bits, limit);
+    Bits beyond = 0;
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const Real before = v[i];
@@ -13,17 +31,20 @@ inline void leapfrog(int n, const Real* a, const Real* keep, const Real* gain, R
         v[i] = after;
         w[i] = Real(1.5) * after - Real(0.5) * before;
         x[i] += h * after;
+        beyond |= (__builtin_bit_cast(Bits, after) & (sign - 1)) + room;
     }
+    return (beyond & sign) == 0;
 }
 
 }  // namespace
 
-void leapfrogFloat(int n, const float* a, const float* keep, const float* gain, float h, float* x, float* v, float* w) {
-    leapfrog(n, a, keep, gain, h, x, v, w);
+bool leapfrogFloat(int n, const float* a, const float* keep, const float* gain, float h, float limit, float* x,
+                   float* v, float* w) {
+    return leapfrog(n, a, keep, gain, h, limit, x, v, w);
 }
-void leapfrogDouble(int n, const double* a, const double* keep, const double* gain, double h, double* x, double* v,
-                    double* w) {
-    leapfrog(n, a, keep, gain, h, x, v, w);
+bool leapfrogDouble(int n, const double* a, const double* keep, const double* gain, double h, double limit, double* x,
+                    double* v, double* w) {
+    return leapfrog(n, a, keep, gain, h, limit, x, v, w);
 }
 
 }  // namespace taut::ode::TAUT_ISA

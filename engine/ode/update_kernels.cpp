@@ -4,10 +4,10 @@
 
 namespace taut::ode {
 
-#define TAUT_DECLARE(isa)                                                                                     \
-    namespace isa {                                                                                           \
-    void leapfrogFloat(int, const float*, const float*, const float*, float, float*, float*, float*);         \
-    void leapfrogDouble(int, const double*, const double*, const double*, double, double*, double*, double*); \
+#define TAUT_DECLARE(isa)                                                                                             \
+    namespace isa {                                                                                                   \
+    bool leapfrogFloat(int, const float*, const float*, const float*, float, float, float*, float*, float*);          \
+    bool leapfrogDouble(int, const double*, const double*, const double*, double, double, double*, double*, double*); \
     }
 TAUT_DECLARE(sse2)
 TAUT_DECLARE(avx2)

@@ -5,10 +5,10 @@ namespace taut::ode {
 
 // One plane of a leap-frog update over n points:
 //   v⁺ = keep v⁻ + gain a,  w = 1.5 v⁺ - 0.5 v⁻ (velocity at the end of the step, extrapolated),  x += h v⁺
-// with keep = (1-b)/(1+b), gain = h/(1+b), b = γ h/2 for each point.
+// with keep = (1-b)/(1+b), gain = h/(1+b), b = γ h/2 for each point. True if all v⁺ are below the limit in size.
 template <class Real>
-using LeapfrogUpdate = void (*)(int n, const Real* a, const Real* keep, const Real* gain, Real h, Real* x, Real* v,
-                                Real* w);
+using LeapfrogUpdate = bool (*)(int n, const Real* a, const Real* keep, const Real* gain, Real h, Real limit, Real* x,
+                                Real* v, Real* w);
 
 template <class Real>
 struct UpdateKernels {

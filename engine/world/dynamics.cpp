@@ -78,9 +78,13 @@ class DynamicsOf final : public Dynamics {
         forEachPart([&](Real*, std::size_t n) { size += n; });
         keptSize_ = size;
     }
-    void step(double t) override { method_->step(system_, t, step_, state_); }
+    void step(double t) override {
+        method_->step(system_, t, step_, state_);
+        speeds_ = leads_ ? ode::Speeds::unknown : method_->speeds();
+    }
     void rememberPositions() override { std::copy(state_.x.begin(), state_.x.end(), before_.begin()); }
     void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) override {
+        speeds_ = ode::Speeds::unknown;
         for (const Body* body : plan_.bodies) {
             if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
             collision::MovingPoints<Real> points;
@@ -147,6 +151,7 @@ class DynamicsOf final : public Dynamics {
     }
     void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
     bool isBounded() const override {
+        if (speeds_ != ode::Speeds::unknown) return speeds_ == ode::Speeds::within;
         // Without their sign, numbers come in the order of their bits, infinity and NaN last. What is added carries
         // those from the limit on into the sign's place. Written so, a line of the cache at a time, it takes a tenth of
         // the time.
@@ -228,6 +233,7 @@ class DynamicsOf final : public Dynamics {
 
     // Points in a rigid grip go where the hand goes.
     void lead() {
+        leads_ = std::any_of(plan_.grips.begin(), plan_.grips.end(), [](const Grip& grip) { return grip.rigid; });
         for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
             if (!plan_.grips[g].rigid) continue;
             system_.lead({plan_.grips[g].points, [this, g](double t, std::span<dvec3> x, std::span<dvec3> v) {
@@ -273,6 +279,7 @@ class DynamicsOf final : public Dynamics {
         const SolverSpec& solver = plan_.solver;
         method_ = methodsOf(solver).make<Real>(solver.integrator,
                                                {solver.newtonSteps, solver.cgTolerance, solver.cgIterations, splits_});
+        method_->watch(static_cast<Real>(mechanics::speedLimit));
     }
 
     mechanics::Motion<Real> motion(double t) const { return system_.motion(t, state_.x.data(), state_.v.data()); }
@@ -316,8 +323,10 @@ class DynamicsOf final : public Dynamics {
     std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones
 
     std::unique_ptr<ode::Method<Real>> method_;
-    double step_ = 0;  // [s]
-    bool splits_ = false;
+    double step_ = 0;                            // [s]
+    bool splits_ = false;                        // the dashpots off
+    bool leads_ = false;                         // whether some grip is rigid
+    ode::Speeds speeds_ = ode::Speeds::unknown;  // of the state as it stands
     ode::State<Real> state_;
     // (moments) of the state, close together: of small islands a line of the cache or two
     std::array<std::vector<Real>, 2> kept_;

@@ -33,7 +33,7 @@ void printMachine() {
     std::string sets;
     for (const auto set : {core::InstructionSet::sse2, core::InstructionSet::avx2, core::InstructionSet::avx512})
         if (core::isSupported(set)) sets += fmt::format("{} ", core::nameOf(set));
-    printFact("simd", fmt::format("{}(in use: {})", sets, machine.simd));
+    printFact("simd", fmt::format("{}(in use: {}; {})", sets, machine.simd, machine.simdReason));
 }
 
 // Whether the folder is there; the program cannot do without its shaders.

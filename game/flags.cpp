@@ -5,7 +5,9 @@
 #include <charconv>
 #include <string_view>
 
+#include "game/command_line.h"
 #include "taut/core/error.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut::game {
 namespace {
@@ -47,6 +49,22 @@ Size pictureSize(const std::string& text) {
             return {*width, *height};
     }
     throw core::Error(core::ErrorKind::usage, "--size " + text + ": expected a size in pixels like 1280x720");
+}
+
+void addInstructionSetFlag(Options& options, std::string& isa) {
+    const std::string name = "--isa";
+    options
+        .value(name, isa,
+               "Vector instructions: sse2, avx2, avx512, or auto: the fastest here, by a short trial; same bits anyway")
+        .typeName("SET")
+        .check([name](const std::string& text) -> std::string {
+            try {
+                core::chooseInstructionSet(text, name);
+            } catch (const core::Error& error) {
+                return std::string(error.what()).substr(name.size() + 1);  // the flag is named before it
+            }
+            return "";
+        });
 }
 
 std::function<std::string(const std::string&)> numberWithin(double least, double most) {

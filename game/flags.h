@@ -27,6 +27,11 @@ Size pictureSize(const std::string& text);
 // lets neither nan nor numbers of hundreds of digits through.
 std::function<std::string(const std::string&)> numberWithin(double least, double most);
 
+class Options;
+
+// --isa, which fixes the instruction set of the kernels before anything asks for it. `isa` holds what was given.
+void addInstructionSetFlag(Options& options, std::string& isa);
+
 // What `--seconds` takes: more motion, or less, than anybody waits for is a slip of the hand.
 inline constexpr double leastSeconds = 1e-3, mostSeconds = 86400.0;  // [s]
 

@@ -15,7 +15,7 @@ namespace {
 
 struct PlayFlags {
     PlaySettings settings;
-    std::string size, quality = "normal", record;
+    std::string size, quality = "normal", record, isa;
 };
 
 struct Quality {
@@ -72,6 +72,7 @@ Action declarePlay(Options& options) {
         .check(numberWithin(leastSeconds, mostSeconds));
     options.value("--record", flags->record, "Record from the start into this scenario file").typeName("FILE");
     options.value("--threads", settings.threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addInstructionSetFlag(options, flags->isa);
     options.value("--set", settings.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
         .typeName("KEY=VALUE")
         .oneValue();

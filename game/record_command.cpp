@@ -24,7 +24,7 @@ namespace taut::game {
 namespace {
 
 struct RecordFlags {
-    std::string scene, output;
+    std::string scene, output, isa;
     std::vector<std::string> overrides;
     double seconds = 0.0;
     int threads = 0;
@@ -85,6 +85,7 @@ Action declareRecord(Options& options) {
     options.flag("--no-points", flags->noPoints, "Hashes of bodies only: a small tape that names no point");
     options.value("--seconds", flags->seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
     options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addInstructionSetFlag(options, flags->isa);
     options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
         .typeName("KEY=VALUE")
         .oneValue();

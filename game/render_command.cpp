@@ -43,7 +43,7 @@ namespace {
 struct RenderFlags {
     std::string scene;
     std::string output, video;
-    std::string frames, size, camera, gl, hashEvery = "frame", metricsOf;
+    std::string frames, size, camera, gl, isa, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
     std::vector<std::string> overrides;
@@ -263,8 +263,8 @@ int render(const RenderFlags& flags) {
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.yes;
     const std::string output = flags.noPictures ? "" : flags.output;
-    const std::vector<pipeline::RunLock> locks = locksOf(
-        output, states, keys, pipeline::frameCount(spec.run) - 1, options.checkpointEvery > 0, flags.scene);
+    const std::vector<pipeline::RunLock> locks =
+        locksOf(output, states, keys, pipeline::frameCount(spec.run) - 1, options.checkpointEvery > 0, flags.scene);
     pipeline::RecordLog records = goOn(continuation, states, keys, output, options, world);
     const std::size_t before = records.size();
 
@@ -345,6 +345,7 @@ Action declareRender(Options& options) {
     addPictureFlags(options, *flags);
     addContinuationFlags(options, flags->continuation);
     options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addInstructionSetFlag(options, flags->isa);
     options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
         .typeName("KEY=VALUE")
         .oneValue();

@@ -8,6 +8,7 @@
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/lab.h"
@@ -25,7 +26,7 @@ namespace taut::game {
 namespace {
 
 struct ReplayFlags {
-    std::string tape, other, scene;
+    std::string tape, other, scene, isa;
     int threads = 0;
     bool verify = false, quiet = false;
 };
@@ -146,6 +147,7 @@ Action declareReplay(Options& options) {
             .mayBeBare();
     options.value("--scene", flags->scene, "Simulate this scene instead of the one on the tape");
     options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addInstructionSetFlag(options, flags->isa);
     options.flag("--quiet", flags->quiet, "No progress");
     return [flags, verify] {
         flags->verify = verify.isGiven();

@@ -14,6 +14,7 @@
 #include "game/calibration_run.h"
 #include "game/command_line.h"
 #include "game/exit_code.h"
+#include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
 #include "game/live_line.h"
@@ -41,7 +42,7 @@ namespace {
 
 struct TestFlags {
     std::vector<std::string> paths, filters, updates;
-    std::string output = "out/test", goldens, junit, why, gl;
+    std::string output = "out/test", goldens, junit, why, gl, isa;
     int threads = 0;
     bool quiet = false, calibrate = false, requireGoldens = false, isConfined = false;
 };
@@ -363,6 +364,7 @@ Action declareTest(Options& options) {
     options.value("--why", flags->why, "The reason for an update, kept in the manifest").typeName("TEXT");
     options.value("--gl", flags->gl, "What draws; the first that works when not given").oneOf({"osmesa", "egl"});
     options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addInstructionSetFlag(options, flags->isa);
     options.flag("--calibrate", flags->calibrate,
                  "Measure what the thresholds of pictures let through: noise, and mistakes made on purpose");
     options.flag("--require-goldens", flags->requireGoldens,

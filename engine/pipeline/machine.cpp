@@ -38,6 +38,7 @@ Machine machine() {
         .processor = processorName(),
         .system = fmt::format("{} {} {}", name.sysname, name.release, name.machine),
         .simd = std::string(core::nameOf(core::instructionSet())),
+        .simdReason = core::instructionSetReason(),
         .threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency())),
         .memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE)),
     };

@@ -24,6 +24,7 @@ Json machineJson(const Machine& machine) {
             {"processor", machine.processor},
             {"system", machine.system},
             {"simd", machine.simd},
+            {"simd_by", machine.simdReason},
             {"machine_threads", machine.threads}};
 }
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <tuple>
 
-#include "taut/mechanics/builders.h"
 #include "mechanics_random_net.h"
+#include "taut/mechanics/builders.h"
 
 namespace taut::mechanics::test {
 namespace {
@@ -144,6 +144,22 @@ TEST_P(SpringNetworks, KnowHowFarBlocksAndChunksReach) {
     }
 }
 
+TEST_P(SpringNetworks, BundleRunsThatCoverTheSamePoints) {
+    for (const SpringBlock& block : network_.blocks)
+        for (int r = block.firstRun; r < block.lastRun;) {
+            const SpringRun<double>* bundle = &network_.runs[static_cast<std::size_t>(r)];
+            ASSERT_GE(bundle->together, 1);
+            ASSERT_LE(bundle->together, std::min(mostTogether, block.lastRun - r));
+            for (int i = 0; i < bundle->together; ++i) {
+                ASSERT_EQ(bundle[i].a, bundle->a);
+                ASSERT_EQ(bundle[i].count, bundle->count);
+                ASSERT_EQ(bundle[i].together, i == 0 ? bundle->together : 0);
+                ASSERT_LE(bundle[i].a + bundle[i].count - 1 + bundle[i].offset, block.reach - 1);
+            }
+            r += bundle->together;
+        }
+}
+
 TEST_P(SpringNetworks, DoNotDependOnTheOrderOfTheSprings) {
     std::mt19937 random(3);
     std::shuffle(case_.springs.begin(), case_.springs.end(), random);
@@ -169,7 +185,8 @@ TEST_P(SpringNetworks, TakeChangesWhereTheSpringsAre) {
     std::vector<Spring> changed = case_.springs;
     double factor = 1.0;
     for (Spring& s : changed)
-        for (double* number : {&s.stiffness, &s.restLength, &s.dampingTime}) *number = (*number + 1.0) * (factor += 1e-3);
+        for (double* number : {&s.stiffness, &s.restLength, &s.dampingTime})
+            *number = (*number + 1.0) * (factor += 1e-3);
     Network network = network_;
     network.setSprings(changed);
     EXPECT_EQ(linesOf(network, 0, network.blocks.size()), linesOf(changed));
@@ -190,6 +207,10 @@ TEST(SpringNetwork, OfAClothIsAlmostAllRunsWithFewTables) {
     const Network network = networkOf(cloth);
     // Six kinds of spring a row; what is left over are row ends: far below one in a hundred.
     EXPECT_LT(network.singles.size(), network.springCount / 100);
+    // All six in one sweep, but for the last rows, from which less goes on.
+    const auto isOfSix = [](const SpringRun<double>& run) { return run.together == 6; };
+    EXPECT_GE(std::count_if(network.runs.begin(), network.runs.end(), isOfSix),
+              static_cast<std::ptrdiff_t>(network.blocks.size()) - 2);
     // Rows are alike: tables for the first, the inner and the last ones, not one of its own for each spring.
     EXPECT_LT(static_cast<int>(network.stiffness.size()), network.springCount / 10);
 }

@@ -15,6 +15,7 @@ struct Pose {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // unit (w, x, y, z)
 };
 
+class CandidateRooms;
 class Form;
 
 // What a collider is made of: one form (form.h), which a row of the table of shapes makes, or several in their places.
@@ -53,6 +54,24 @@ struct Contact {
     glm::dvec3 position;  // [m] on the surface
     glm::dvec3 normal;    // unit, away from the collider
     double impulse;       // normal impulse per mass [m/s]
+};
+
+// Which of an island's points may touch which solids: Colliders::resolve() finds it when it has to, and goes by it for
+// as long as points and solids stay in the room that it gave them. Only what it costs depends on it, nothing that comes
+// out.
+class Candidates {
+  public:
+    Candidates();
+    ~Candidates();
+    Candidates(Candidates&&) noexcept;
+    Candidates& operator=(Candidates&&) noexcept;
+
+    // To be called when positions have changed by anything but a step and what resolve() made of it.
+    void drop();
+
+  private:
+    friend class Colliders;
+    std::unique_ptr<CandidateRooms> rooms_;
 };
 
 class Colliders {
@@ -96,6 +115,12 @@ class Colliders {
     // - Points that are not finite are left alone, for the caller to find.
     template <class Real>
     void resolve(const MovingPoints<Real>& points, double h, std::vector<Contact>& contacts) const;
+
+    // The same for all bodies of an island, always in the same order. Points that were touched are appended to
+    // `touched`, each once, and contacts only where they are asked for.
+    template <class Real>
+    void resolve(std::span<const MovingPoints<Real>> bodies, double h, Candidates& candidates,
+                 std::vector<int>& touched, std::vector<Contact>* contacts) const;
 
     // Signed distance [m] from a position to the nearest collider at its end-of-step pose; negative inside a solid or
     // a closed mesh. Infinite without colliders.

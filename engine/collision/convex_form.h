@@ -69,6 +69,10 @@ class ConvexForm final : public Form {
     bool sweep(const Path& path, Touch& touch, bool&) const override { return sweepConvex(shape_, path, touch); }
     std::optional<Box> bounds() const override { return shape_.bounds(); }
     bool isConvex() const override { return true; }
+    ClosedShape closed() const override {
+        if constexpr (requires { shape_.closed(); }) return shape_.closed();
+        return {};
+    }
 
   private:
     Closed shape_;

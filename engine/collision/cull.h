@@ -7,6 +7,10 @@
 
 namespace taut::collision {
 
+// Rounding of a coordinate of 1 m, some times over: of the state, and of the frames it is taken through.
+template <class Real>
+constexpr double skinPerMetre = sizeof(Real) == sizeof(float) ? 4.8e-7 : 4e-15;
+
 // The planes of one block: six rows, x y z of the start and x y z of the end of the step.
 template <class Real>
 struct BlockRows {
@@ -18,6 +22,10 @@ struct BlockRows {
 // The box of all paths; a coordinate that is not a number leaves it as it is.
 template <class Real>
 Box boundsOf(const BlockRows<Real>& rows);
+
+// Whether every path ends in the box; a coordinate that is not a number is taken to.
+template <class Real>
+bool staysIn(const BlockRows<Real>& rows, const Box& box);
 
 // Sets `bit` in the mask of every point whose path's box overlaps the given box.
 template <class Real>

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "taut/collision/closed_shape.h"
 #include "taut/collision/geometry.h"
 
 namespace taut::collision {
@@ -31,6 +32,9 @@ class Form {
 
     // A convex form presses a point once; any other perhaps from several sides.
     virtual bool isConvex() const { return false; }
+
+    // What loops over arrays of points may take a convex form for; none: its points are tried one by one.
+    virtual ClosedShape closed() const { return {}; }
 };
 
 // How near a path may come before it counts as touching: a start that is nearer than the thickness already must not

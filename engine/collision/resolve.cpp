@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
-#include <type_traits>
 
+#include "taut/collision/candidates.h"
+#include "taut/collision/contact_kernel.h"
 #include "taut/collision/cull.h"
 #include "taut/collision/impl.h"
 #include "taut/collision/response.h"
@@ -9,7 +11,6 @@ namespace taut::collision {
 
 namespace {
 
-constexpr int blockSize = 256;
 constexpr int mostAtOnce = 32;  // solids that a block of points is tried against: the bits of a mask
 constexpr int mostPasses = 4;   // over the solids that one point touches
 
@@ -17,49 +18,65 @@ constexpr int mostPasses = 4;   // over the solids that one point touches
 // bounce from less would end within the step that follows.
 constexpr double restSpeedPerSecond = 2.0 * 9.81;  // [m/s²]
 
-// Rounding of a coordinate of 1 m, some times over: of the state, and of the frames it is taken through.
-template <class Real>
-constexpr double skinPerMetre = std::is_same_v<Real, float> ? 4.8e-7 : 4e-15;
-
 template <class Real>
 class Resolver {
   public:
-    Resolver(const std::vector<Solid>& solids, const MovingPoints<Real>& points, double h,
-             std::vector<Contact>& contacts)
-        : solids_(solids), points_(points), h_(h), contacts_(contacts) {}
+    Resolver(const std::vector<Solid>& solids, const MovingPoints<Real>& points, double h, CandidateRooms& candidates,
+             std::size_t& block, std::vector<int>& touched, std::vector<Contact>& contacts, bool records)
+        : solids_(solids),
+          points_(points),
+          h_(h),
+          candidates_(candidates),
+          block_(block),
+          touched_(touched),
+          contacts_(contacts),
+          records_(records) {}
 
-    void resolveBlock(int first, int last) {
+    void resolveBody() {
+        for (int first = points_.first; first < points_.last; first += candidateBlock, ++block_) {
+            const int last = std::min(first + candidateBlock, points_.last);
+            Box box;
+            candidates_.look<Real>(solids_, block_, rowsOf(first, last), points_.thickness, box);
+            if (!candidates_.near().empty()) resolveBlock(first, last, box);
+        }
+    }
+
+  private:
+    using Near = std::array<const Solid*, mostAtOnce>;
+
+    BlockRows<Real> rowsOf(int first, int last) const {
         BlockRows<Real> rows;
         for (int k = 0; k < 3; ++k) {
             rows.before[k] = points_.xBefore + k * points_.stride + first;
             rows.after[k] = points_.x + k * points_.stride + first;
         }
         rows.count = last - first;
-        Box box = boundsOf(rows);
-        const dvec3 largest = glm::max(glm::abs(box.low), glm::abs(box.high));
-        const double margin = points_.thickness + 20.0 * skinPerMetre<Real> * (largest.x + largest.y + largest.z);
+        return rows;
+    }
 
-        std::array<const Solid*, mostAtOnce> near;
+    void resolveBlock(int first, int last, const Box& box) {
+        const BlockRows<Real> rows = rowsOf(first, last);
+        const double reach = reachOf<Real>(points_.thickness, box);
+        Near near;
         int count = 0;
-        for (const Solid& solid : solids_) {
-            if (!mayTouch(solid, box, margin)) continue;
+        for (const Solid* solid : candidates_.near()) {
+            if (!mayTouch(*solid, box, reach)) continue;
             if (count == mostAtOnce) {
                 if (last - first == 1) {  // one point within reach of more than 32 boxes: group after group
-                    resolveAgainst(first, rows, near, count, margin);
+                    resolveAgainst(first, rows, near, count, reach);
                     count = 0;
                 } else {
                     const int middle = first + (last - first) / 2;
-                    resolveBlock(first, middle);
-                    resolveBlock(middle, last);
+                    resolveBlock(first, middle, boundsOf(rowsOf(first, middle)));
+                    resolveBlock(middle, last, boundsOf(rowsOf(middle, last)));
                     return;
                 }
             }
-            near[static_cast<std::size_t>(count++)] = &solid;
+            near[static_cast<std::size_t>(count++)] = solid;
         }
-        if (count > 0) resolveAgainst(first, rows, near, count, margin);
+        if (count > 0) resolveAgainst(first, rows, near, count, reach);
     }
 
-  private:
     static bool mayTouch(const Solid& solid, const Box& box, double margin) {
         if (solid.bounded) {
             const dvec3 low = solid.bounds.low - margin;
@@ -72,10 +89,10 @@ class Resolver {
                solid.above.offset + margin;
     }
 
-    void resolveAgainst(int first, const BlockRows<Real>& rows, const std::array<const Solid*, mostAtOnce>& near,
-                        int count, double margin) {
-        std::array<std::uint32_t, blockSize> mask{};
-        for (int c = 0; c < count; ++c) {
+    void resolveAgainst(int first, const BlockRows<Real>& rows, const Near& near, int count, double margin) {
+        std::array<std::uint32_t, candidateBlock> mask{};
+        const bool isAlone = count == 1 && isForKernel(*near[0]);  // the kernel finds out by itself
+        for (int c = 0; c < count && !isAlone; ++c) {
             const Solid& solid = *near[static_cast<std::size_t>(c)];
             if (solid.bounded) {
                 Box box = solid.bounds;
@@ -85,13 +102,113 @@ class Resolver {
                 markUnderPlane(rows, solid.above.normal, solid.above.offset, margin, 1U << c, mask.data());
             }
         }
-        for (int i = 0; i < rows.count; ++i) {
-            const std::uint32_t bits = mask[static_cast<std::size_t>(i)];
-            if (bits != 0 && points_.inverseMass[first + i] != Real(0)) resolvePoint(first + i, bits, near);
+        for (int at = 0; at < rows.count; at += contactBatch) {
+            const int n = std::min(contactBatch, rows.count - at);
+            resolveBatch(first + at, n, near, isAlone ? nullptr : mask.data() + at);
         }
     }
 
-    void resolvePoint(int i, std::uint32_t bits, const std::array<const Solid*, mostAtOnce>& near) {
+    bool hasJumped(const Solid& solid) const { return solid.travel > fastestSurface * h_; }
+
+    bool isForKernel(const Solid& solid) const {
+        return solid.convex &&
+               (!solid.bounded || (solid.closed.kind != ClosedKind::none && (hasJumped(solid) || solid.turn.empty())));
+    }
+
+    // Points that may touch one solid only, of a shape that the kernel knows, by the kernel, all others one by one.
+    // Without masks, all points may touch the first solid.
+    void resolveBatch(int first, int n, const Near& near, const std::uint32_t* mask) {
+        std::array<Outcome, contactBatch> outcome{};
+        std::array<Contact, contactBatch> records;
+        std::uint32_t some = mask == nullptr ? 1U : 0U;
+        std::uint32_t singles = some;
+        if (mask != nullptr) {
+            for (int i = 0; i < n; ++i) {
+                const std::uint32_t bits = mask[i];
+                some |= bits;
+                singles |= (bits & (bits - 1)) == 0 ? bits : 0U;
+            }
+            if (some == 0) return;
+        }
+        std::uint32_t taken = 0;  // solids that the kernel has seen to
+        bool any = false;
+        for (std::uint32_t rest = singles; rest != 0; rest &= rest - 1) {
+            const auto c = static_cast<unsigned>(__builtin_ctz(rest));
+            const Solid& solid = *near[c];
+            if (!isForKernel(solid)) continue;
+            taken |= 1U << c;
+            ContactArgs<Real> args = argsFor(solid, first, n);
+            args.mask = mask;
+            args.bits = 1U << c;
+            if (kernel_(args, lanes_) == 0) continue;
+            any = true;
+            for (int i = 0; i < n; ++i) {
+                const auto k = static_cast<std::size_t>(i);
+                if (lanes_.outcome[i] == 0) continue;
+                outcome[k] = static_cast<Outcome>(lanes_.outcome[i]);
+                if (records_) records[k] = recordOf(first + i, solid.collider, i);
+            }
+        }
+        if (mask == nullptr && !any) return;
+
+        for (int i = 0; i < n; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            if (outcome[k] == Outcome::touched) {
+                touched_.push_back(first + i);
+                if (records_) contacts_.push_back(records[k]);
+                continue;
+            }
+            const std::uint32_t bits = mask == nullptr ? 1U : mask[i];
+            const bool isDone = (bits & (bits - 1)) == 0 && (bits & ~taken) == 0;
+            if (isDone && outcome[k] == Outcome::free) continue;
+            if (points_.inverseMass[first + i] != Real(0)) resolvePoint(first + i, bits, near);
+        }
+    }
+
+    Contact recordOf(int point, int collider, int lane) const {
+        return {point,
+                collider,
+                {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]},
+                {lanes_.normal[0][lane], lanes_.normal[1][lane], lanes_.normal[2][lane]},
+                lanes_.impulse[lane]};
+    }
+
+    static KernelFrame frameFor(const Frame& frame) {
+        KernelFrame plain;
+        for (int i = 0; i < 3; ++i) {
+            for (int k = 0; k < 3; ++k) plain.rotation[i][k] = frame.rotation[i][k];
+            plain.position[i] = frame.position[i];
+        }
+        plain.turned = frame.turned;
+        return plain;
+    }
+
+    ContactArgs<Real> argsFor(const Solid& solid, int first, int n) const {
+        ContactArgs<Real> args;
+        args.n = n;
+        for (int k = 0; k < 3; ++k) {
+            args.before[k] = points_.xBefore + k * points_.stride + first;
+            args.x[k] = points_.x + k * points_.stride + first;
+            args.v[k] = points_.v + k * points_.stride + first;
+            args.normal[k] = solid.above.normal[k];
+        }
+        args.inverseMass = points_.inverseMass + first;
+        args.shape = solid.bounded ? solid.closed : ClosedShape{};
+        args.offset = solid.above.offset;
+        args.to = frameFor(solid.to);
+        args.still = solid.still || hasJumped(solid);
+        args.from = args.still ? args.to : frameFor(solid.from);
+        args.thickness = points_.thickness;
+        args.skinPerMetre = skinPerMetre<Real>;
+        args.friction = solid.material.friction * points_.friction;
+        args.restitution = solid.material.restitution;
+        args.h = h_;
+        args.restSpeed = restSpeedPerSecond * h_;
+        args.fastest = fastestSurface;
+        return args;
+    }
+
+    void resolvePoint(int i, std::uint32_t bits, const Near& near) {
         const int s = points_.stride;
         const Real* const before = points_.xBefore + i;
         Real* const x = points_.x + i;
@@ -120,7 +237,9 @@ class Resolver {
             }
             if (!again) break;
         }
+        if (!records_) contacts_.clear();
         if (!touches) return;
+        touched_.push_back(i);
         for (int k = 0; k < 3; ++k) {
             x[k * s] = point.rests ? before[k * s] : static_cast<Real>(point.x[k]);
             v[k * s] = static_cast<Real>(point.v[k]);
@@ -128,7 +247,7 @@ class Resolver {
     }
 
     bool resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point, Impact& impact) const {
-        const bool jumped = solid.travel > fastestSurface * h_;
+        const bool jumped = hasJumped(solid);
         const Surface surface{solid.from,
                               solid.to,
                               jumped || solid.still,
@@ -195,18 +314,40 @@ class Resolver {
     const std::vector<Solid>& solids_;
     const MovingPoints<Real>& points_;
     const double h_;
+    CandidateRooms& candidates_;
+    std::size_t& block_;
+    std::vector<int>& touched_;
     std::vector<Contact>& contacts_;
+    const bool records_;  // else contacts are forgotten
+    const ContactKernel<Real> kernel_ = contactKernel<Real>();
+    ContactLanes lanes_;
 };
 
 }  // namespace
 
 template <class Real>
-void Colliders::resolve(const MovingPoints<Real>& points, double h, std::vector<Contact>& contacts) const {
-    Resolver<Real> resolver(impl_->solids, points, h, contacts);
-    for (int first = points.first; first < points.last; first += blockSize)
-        resolver.resolveBlock(first, first + blockSize < points.last ? first + blockSize : points.last);
+void Colliders::resolve(std::span<const MovingPoints<Real>> bodies, double h, Candidates& candidates,
+                        std::vector<int>& touched, std::vector<Contact>* contacts) const {
+    CandidateRooms& found = *candidates.rooms_;
+    found.follow(impl_->solids);
+    std::size_t block = 0;
+    for (const MovingPoints<Real>& points : bodies)
+        Resolver<Real>(impl_->solids, points, h, found, block, touched, contacts != nullptr ? *contacts : found.scratch,
+                       contacts != nullptr)
+            .resolveBody();
 }
 
+template <class Real>
+void Colliders::resolve(const MovingPoints<Real>& points, double h, std::vector<Contact>& contacts) const {
+    Candidates candidates;
+    std::vector<int> touched;
+    resolve(std::span(&points, 1), h, candidates, touched, &contacts);
+}
+
+template void Colliders::resolve(std::span<const MovingPoints<float>>, double, Candidates&, std::vector<int>&,
+                                 std::vector<Contact>*) const;
+template void Colliders::resolve(std::span<const MovingPoints<double>>, double, Candidates&, std::vector<int>&,
+                                 std::vector<Contact>*) const;
 template void Colliders::resolve(const MovingPoints<float>&, double, std::vector<Contact>&) const;
 template void Colliders::resolve(const MovingPoints<double>&, double, std::vector<Contact>&) const;
 

@@ -41,6 +41,7 @@ void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid
         solid.form = shape.form;
         solid.inCollider = inCollider;
         solid.convex = shape.form->isConvex();
+        solid.closed = shape.form->closed();
         solid.bounded = bounds.has_value();
         if (bounds) solid.localBounds = *bounds;
         return;

@@ -23,6 +23,7 @@ struct Solid {
     bool still = true;
     double travel = 0.0;  // [m] how far the collider's fastest corner goes during the step
     bool convex = true;
+    ClosedShape closed;
     bool bounded = true;  // false: a plane
     Touch above{};        // a plane's half-space in the world at the end of the step
     Box localBounds;      // [m] unless it is a plane

@@ -83,11 +83,12 @@ class DynamicsOf final : public Dynamics {
         speeds_ = leads_ ? ode::Speeds::unknown : method_->speeds();
     }
     void rememberPositions() override { std::copy(state_.x.begin(), state_.x.end(), before_.begin()); }
-    void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) override {
+    bool collide(const collision::Colliders& colliders, std::vector<collision::Contact>* contacts) override {
         speeds_ = ode::Speeds::unknown;
+        colliding_.clear();
         for (const Body* body : plan_.bodies) {
             if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
-            collision::MovingPoints<Real> points;
+            collision::MovingPoints<Real>& points = colliding_.emplace_back();
             points.first = body->firstPoint;
             points.last = body->lastPoint;
             points.stride = state_.layout.stride;
@@ -97,15 +98,16 @@ class DynamicsOf final : public Dynamics {
             points.inverseMass = system_.inverseMasses();
             points.thickness = body->spec->thickness;
             points.friction = body->spec->friction;
-            colliders.resolve(points, step_, contacts);
         }
         touched_.clear();
-        for (const collision::Contact& contact : contacts) touched_.push_back(contact.point);
+        colliders.resolve(std::span<const collision::MovingPoints<Real>>(colliding_), step_, candidates_, touched_,
+                          contacts);
         if (!touched_.empty()) method_->touch(state_, touched_);
+        return !touched_.empty();
     }
     void emerge(const collision::Colliders& colliders, std::vector<int>& inside) override {
         const double most = emergingSpeed * step_;
-        touched_.clear();
+        emerging_.clear();
         std::erase_if(inside, [&](int i) {
             if (system_.inverseMasses()[i] == Real(0)) return false;
             const dvec3 before = at(before_, i), way = at(state_.x, i) - before;
@@ -113,10 +115,10 @@ class DynamicsOf final : public Dynamics {
             if (!(length > most)) return colliders.inside(before + way).depth <= most;
             set(state_.x, i, before + way * (most / length));
             set(state_.v, i, way * (emergingSpeed / length));
-            touched_.push_back(i);
+            emerging_.push_back(i);
             return false;
         });
-        if (!touched_.empty()) method_->touch(state_, touched_);
+        if (!emerging_.empty()) method_->touch(state_, emerging_);
     }
     void keep(Since moment) override {
         std::vector<Real>& kept = kept_[static_cast<std::size_t>(moment)];
@@ -130,6 +132,7 @@ class DynamicsOf final : public Dynamics {
             std::copy_n(next, n, numbers);
             next += n;
         });
+        candidates_.drop();
     }
     void setStep(double h) override { step_ = h; }
     mechanics::FastestNow fastestNow() override {
@@ -166,6 +169,14 @@ class DynamicsOf final : public Dynamics {
                 for (int i = first; i < first + line; ++i) beyond |= (std::bit_cast<Bits>(v[i]) & (sign - 1)) + room;
         }
         return (beyond & sign) == 0;
+    }
+    bool isTouchedBounded() const override {
+        const auto limit = static_cast<Real>(mechanics::speedLimit);
+        return std::all_of(touched_.begin(), touched_.end(), [&](int i) {
+            bool isBelow = true;
+            for (int p = 0; p < 3; ++p) isBelow = isBelow && std::abs(state_.v[index(i, p)]) < limit;
+            return isBelow;
+        });
     }
     dvec3 position(int point) const override { return at(state_.x, point); }
     void positions(std::vector<dvec3>& x) const override {
@@ -209,6 +220,7 @@ class DynamicsOf final : public Dynamics {
         bytes.require(memory == state_.memory.size());
         for (auto& array : state_.memory) bytes.planes(array);
         if (!bytes.isReading()) return;
+        candidates_.drop();
         makeMethod();  // it has nothing of its own that the state does not have
         for (const Since moment : {Since::tick, Since::step}) keep(moment);
     }
@@ -333,7 +345,9 @@ class DynamicsOf final : public Dynamics {
     std::size_t keptSize_ = 0;
     mechanics::StateBound<Real> bound_;
     Planes before_, velocity_;  // scratch
-    std::vector<int> touched_;
+    std::vector<collision::MovingPoints<Real>> colliding_;  // bodies
+    collision::Candidates candidates_;
+    std::vector<int> touched_, emerging_;  // points
 };
 
 }  // namespace

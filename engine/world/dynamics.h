@@ -61,9 +61,10 @@ class Dynamics {
     // The method, from positions and velocities at t [s] on, in steps of h [s].
     virtual void start(double t, double h) = 0;
     virtual void step(double t) = 0;
-    // Brings the points that collide out of the colliders; where they were before the step has been remembered.
+    // Brings the points that collide out of the colliders; where they were before the step has been remembered. Returns
+    // whether any was touched; contacts are appended where they are asked for.
     virtual void rememberPositions() = 0;
-    virtual void collide(const collision::Colliders& colliders, std::vector<collision::Contact>& contacts) = 0;
+    virtual bool collide(const collision::Colliders& colliders, std::vector<collision::Contact>* contacts) = 0;
     // After that: points that began inside a collider go on their way out no faster than emergingSpeed; those that are
     // out leave the list.
     virtual void emerge(const collision::Colliders& colliders, std::vector<int>& inside) = 0;
@@ -82,8 +83,9 @@ class Dynamics {
     virtual std::vector<dvec3> velocitiesAt(double t) = 0;
     virtual void synchronise(double t) = 0;
     virtual void setVelocity(int point, const dvec3& v) = 0;
-    // Whether every velocity is a number below the limit.
+    // Whether every velocity is a number below the limit, and those of points that the last collide() touched.
     virtual bool isBounded() const = 0;
+    virtual bool isTouchedBounded() const = 0;
     virtual dvec3 position(int point) const = 0;
     virtual void positions(std::vector<dvec3>& x) const = 0;
 

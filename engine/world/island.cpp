@@ -111,6 +111,7 @@ void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
 }
 
 std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving) {
+    contacts_.clear();
     for (int s = 0; s < choice_.substeps; ++s) {
         const auto end = [&] { return time.at(s + 1, choice_.substeps); };
         if (mayFreeze_) dynamics_->keep(Since::step);
@@ -118,12 +119,12 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
         dynamics_->step(time.at(s, choice_.substeps));
         if (!dynamics_->isBounded()) return giveUp(end());
         if (mayCollide_) {
-            contacts_.clear();
             moveColliders(moving, s);
-            dynamics_->collide(colliders_, contacts_);
-            hasTouched_ = hasTouched_ || !contacts_.empty();
+            const bool isLast = s + 1 == choice_.substeps;
+            const bool touches = dynamics_->collide(colliders_, isLast ? &contacts_ : nullptr);
+            hasTouched_ = hasTouched_ || touches;
             if (!inside_.empty()) dynamics_->emerge(colliders_, inside_);
-            if (!contacts_.empty() && !dynamics_->isBounded()) return giveUp(end());
+            if (touches && !dynamics_->isTouchedBounded()) return giveUp(end());
         }
         if (!mayFreeze_) continue;
         if (const auto fault = overstrained(end())) return fault;

@@ -163,7 +163,7 @@ class Island {
     ode::Work workElsewhere_;  // of what ran before it was read, less that of what was only asked
     std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
-    std::vector<collision::Contact> contacts_;  // of the last step
+    std::vector<collision::Contact> contacts_;  // of the last tick's last step
     std::vector<int> inside_;                   // points that began inside a collider and have not been out yet
     std::vector<std::string> insideWarnings_;
     std::string stretchWarning_, collapseWarning_, limitWarning_;

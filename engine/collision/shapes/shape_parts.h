@@ -1,9 +1,10 @@
-// What the files of the shapes share: checks of sizes, and coordinates of what is round about y.
+// What the files of the shapes share: checks of sizes, and forms by a formula.
 #pragma once
 
+#include <memory>
 #include <string>
 
-#include "taut/collision/geometry.h"
+#include "taut/collision/convex_form.h"
 #include "taut/core/error.h"
 
 namespace taut::collision {
@@ -22,15 +23,27 @@ inline Box roundBounds(double radius, double halfHeight) {
     return {dvec3(-radius, -halfHeight, -radius), dvec3(radius, halfHeight, radius)};
 }
 
-// A direction away from the y axis; on the axis itself any will do, and it is always the same one.
-inline dvec3 awayFromAxis(const dvec3& p, double rho) {
-    return rho > 0.0 ? dvec3(p.x / rho, 0.0, p.z / rho) : dvec3(1.0, 0.0, 0.0);
-}
-inline double rhoOf(const dvec3& p) {
-    return std::sqrt(p.x * p.x + p.z * p.z);
-}
-inline double signOf(double a) {
-    return a < 0.0 ? -1.0 : 1.0;
+// A convex shape of which closed_shape.h has the distance.
+template <ClosedKind kind>
+struct ShapeByFormula {
+    ClosedShape shape;
+    Box filled;
+
+    Nearest nearest(const dvec3& p) const {
+        const ClosedDistance at = closedDistance<kind>(shape.size, p.x, p.y, p.z);
+        return {at.distance, {at.x, at.y, at.z}};
+    }
+    Box bounds() const { return filled; }
+    ClosedShape closed() const { return shape; }
+};
+
+struct FormulaSizes {
+    double a = 0.0, b = 0.0, c = 0.0;
+};
+template <ClosedKind kind>
+std::shared_ptr<const Form> byFormula(const FormulaSizes& sizes, const Box& filled) {
+    using Shape = ShapeByFormula<kind>;
+    return std::make_shared<ConvexForm<Shape>>(Shape{{kind, {sizes.a, sizes.b, sizes.c}}, filled});
 }
 
 }  // namespace taut::collision

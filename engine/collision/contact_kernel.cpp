@@ -1,0 +1,451 @@
+// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+//
+// What resolve.cpp and response.h do to one point, in their order of operations, in loops over a batch: where the path
+// ends, its distance there, then the response. Whether a path may have come through the solid is found here, where it
+// did is not: such points are left.
+#include "taut/collision/contact_kernel.h"
+
+#include "taut/core/vectorise.h"
+
+namespace taut::collision::TAUT_ISA {
+namespace {
+
+constexpr int most = contactBatch;
+using Row = double[most];
+using Rows = Row[3];
+
+// What is found out of a point on the way.
+constexpr long isLive = 4, isNear = 8, needsStart = 16;
+
+// Apart from the loops that find them: no compiler here vectorises those otherwise.
+inline long anyOf(const long (&outcome)[most], int n) {
+    long any = 0;
+    for (int i = 0; i < n; ++i) any |= outcome[i];
+    return any;
+}
+
+template <class Real, bool masked>
+inline void load(const ContactArgs<Real>& s, ContactLanes& lanes) {
+    const double thickness = s.thickness, skinPerMetre = s.skinPerMetre;
+    TAUT_INDEPENDENT
+    for (int i = 0; i < s.n; ++i) {
+        const double bx = static_cast<double>(s.before[0][i]);
+        const double by = static_cast<double>(s.before[1][i]);
+        const double bz = static_cast<double>(s.before[2][i]);
+        const double x = static_cast<double>(s.x[0][i]);
+        const double y = static_cast<double>(s.x[1][i]);
+        const double z = static_cast<double>(s.x[2][i]);
+        const double vx = static_cast<double>(s.v[0][i]);
+        const double vy = static_cast<double>(s.v[1][i]);
+        const double vz = static_cast<double>(s.v[2][i]);
+        const double sum = (bx + x + vx) + (by + y + vy) + (bz + z + vz);
+        bool live = (static_cast<double>(s.inverseMass[i]) != 0.0) & (sum - sum == 0.0);
+        if (masked) live &= s.mask[i] == s.bits;
+        lanes.start[0][i] = bx;
+        lanes.start[1][i] = by;
+        lanes.start[2][i] = bz;
+        lanes.end[0][i] = x;
+        lanes.end[1][i] = y;
+        lanes.end[2][i] = z;
+        lanes.v[0][i] = vx;
+        lanes.v[1][i] = vy;
+        lanes.v[2][i] = vz;
+        lanes.skin[i] = skinPerMetre * (__builtin_fabs(bx) + __builtin_fabs(by) + __builtin_fabs(bz) + thickness);
+        lanes.outcome[i] = live ? isLive : 0L;
+    }
+}
+
+inline void toLocal(const KernelFrame& frame, const Rows& in, Rows& out, int n) {
+    const double px = frame.position[0], py = frame.position[1], pz = frame.position[2];
+    const double(&r)[3][3] = frame.rotation;
+    const double xx = r[0][0], xy = r[0][1], xz = r[0][2];
+    const double yx = r[1][0], yy = r[1][1], yz = r[1][2];
+    const double zx = r[2][0], zy = r[2][1], zz = r[2][2];
+    if (frame.turned) {
+        TAUT_INDEPENDENT
+        for (int i = 0; i < n; ++i) {
+            const double x = in[0][i] - px, y = in[1][i] - py, z = in[2][i] - pz;
+            out[0][i] = xx * x + xy * y + xz * z;
+            out[1][i] = yx * x + yy * y + yz * z;
+            out[2][i] = zx * x + zy * y + zz * z;
+        }
+    } else {
+        TAUT_INDEPENDENT
+        for (int i = 0; i < n; ++i) {
+            out[0][i] = in[0][i] - px;
+            out[1][i] = in[1][i] - py;
+            out[2][i] = in[2][i] - pz;
+        }
+    }
+}
+
+// Of a turned frame; `in` and `out` may be the same.
+inline void turn(const KernelFrame& frame, const Rows& in, Rows& out, int n) {
+    const double(&r)[3][3] = frame.rotation;
+    const double xx = r[0][0], xy = r[0][1], xz = r[0][2];
+    const double yx = r[1][0], yy = r[1][1], yz = r[1][2];
+    const double zx = r[2][0], zy = r[2][1], zz = r[2][2];
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double x = in[0][i], y = in[1][i], z = in[2][i];
+        out[0][i] = xx * x + yx * y + zx * z;
+        out[1][i] = xy * x + yy * y + zy * z;
+        out[2][i] = xz * x + yz * y + zz * z;
+    }
+}
+
+inline void shift(const double (&by)[3], Rows& rows, int n) {
+    const double x = by[0], y = by[1], z = by[2];
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        rows[0][i] += x;
+        rows[1][i] += y;
+        rows[2][i] += z;
+    }
+}
+
+// `rows`, local, become places in the world.
+inline void toWorld(const KernelFrame& frame, Rows& rows, int n) {
+    if (frame.turned) turn(frame, rows, rows, n);
+    shift(frame.position, rows, n);
+}
+
+template <ClosedKind kind>
+inline void measure(const ClosedShape& shape, const Rows& places, Row& distance, Rows& normal, int n) {
+    const double size[3] = {shape.size[0], shape.size[1], shape.size[2]};
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const ClosedDistance at = closedDistance<kind>(size, places[0][i], places[1][i], places[2][i]);
+        distance[i] = at.distance;
+        normal[0][i] = at.x;
+        normal[1][i] = at.y;
+        normal[2][i] = at.z;
+    }
+}
+
+inline void measureAny(const ClosedShape& shape, const Rows& places, Row& distance, Rows& normal, int n) {
+    switch (shape.kind) {
+        case ClosedKind::sphere: return measure<ClosedKind::sphere>(shape, places, distance, normal, n);
+        case ClosedKind::box: return measure<ClosedKind::box>(shape, places, distance, normal, n);
+        case ClosedKind::capsule: return measure<ClosedKind::capsule>(shape, places, distance, normal, n);
+        case ClosedKind::cylinder: return measure<ClosedKind::cylinder>(shape, places, distance, normal, n);
+        case ClosedKind::cone: return measure<ClosedKind::cone>(shape, places, distance, normal, n);
+        case ClosedKind::none: return;
+    }
+}
+
+// sweepConvex, up to where it would search along the path.
+inline void classify(double thickness, ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double d = lanes.distance[i];
+        const double wx = lanes.localEnd[0][i] - lanes.localStart[0][i];
+        const double wy = lanes.localEnd[1][i] - lanes.localStart[1][i];
+        const double wz = lanes.localEnd[2][i] - lanes.localStart[2][i];
+        const double along = lanes.normal[0][i] * wx + lanes.normal[1][i] * wy + lanes.normal[2][i] * wz;
+        const bool live = lanes.outcome[i] != 0;
+        const bool near = !(d >= thickness + lanes.skin[i]);
+        const bool comesFromBehind = !(d - along >= thickness);
+        const bool isShort = (d > 0.0) & (wx * wx + wy * wy + wz * wz < d * d);
+        const long nearBits = isShort ? isNear : isNear | needsStart;
+        const long farBits = comesFromBehind ? anyLeft : 0L;
+        lanes.outcome[i] = live ? (near ? nearBits : farBits) : 0L;
+    }
+}
+
+// Leaves the points that start on another side than they end.
+inline void compareSides(ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double same = lanes.startNormal[0][i] * lanes.normal[0][i] +
+                            lanes.startNormal[1][i] * lanes.normal[1][i] + lanes.startNormal[2][i] * lanes.normal[2][i];
+        const bool isOther = (lanes.startDistance[i] > -lanes.skin[i]) & (same <= 0.0);
+        const long found = lanes.outcome[i];
+        lanes.outcome[i] = ((found & needsStart) != 0) & isOther ? anyLeft : found;
+    }
+}
+
+// The half-space in which paths have to end, into `normal` and `depth`, how far they end outside of it.
+inline void placeTouch(double thickness, const KernelFrame& to, ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double height = lanes.normal[0][i] * lanes.localEnd[0][i] + lanes.normal[1][i] * lanes.localEnd[1][i] +
+                              lanes.normal[2][i] * lanes.localEnd[2][i];
+        lanes.distance[i] = height - lanes.distance[i] + thickness;
+    }
+    if (to.turned) turn(to, lanes.normal, lanes.normal, n);
+    const double px = to.position[0], py = to.position[1], pz = to.position[2];
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
+        lanes.distance[i] += nx * px + ny * py + nz * pz;
+    }
+}
+
+inline void flatTouch(const double (&normal)[3], double offset, ContactLanes& lanes, int n) {
+    const double nx = normal[0], ny = normal[1], nz = normal[2];
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double depth = offset - (nx * lanes.end[0][i] + ny * lanes.end[1][i] + nz * lanes.end[2][i]);
+        const bool live = lanes.outcome[i] != 0;
+        const bool near = depth > -lanes.skin[i];
+        lanes.distance[i] = offset;
+        lanes.normal[0][i] = nx;
+        lanes.normal[1][i] = ny;
+        lanes.normal[2][i] = nz;
+        lanes.outcome[i] = live & near ? isNear : 0L;
+    }
+}
+
+// The place on the surface.
+inline void findPlaces(double thickness, ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
+        const double x = lanes.end[0][i], y = lanes.end[1][i], z = lanes.end[2][i];
+        const double depth = lanes.distance[i] - (nx * x + ny * y + nz * z);
+        const double out = depth > 0.0 ? depth : 0.0;
+        lanes.depth[i] = depth;
+        lanes.position[0][i] = x + (out - thickness) * nx;
+        lanes.position[1][i] = y + (out - thickness) * ny;
+        lanes.position[2][i] = z + (out - thickness) * nz;
+    }
+}
+
+// The velocity of the surface there. Leaves points of a surface that may be too fast.
+template <class Real>
+inline void findSpeeds(const ContactArgs<Real>& s, ContactLanes& lanes, Rows& velocity) {
+    toLocal(s.to, lanes.position, velocity, s.n);
+    toWorld(s.from, velocity, s.n);
+    const double h = s.h, limit = 0.99 * s.fastest * s.fastest;
+    TAUT_INDEPENDENT
+    for (int i = 0; i < s.n; ++i) {
+        const double x = (lanes.position[0][i] - velocity[0][i]) / h;
+        const double y = (lanes.position[1][i] - velocity[1][i]) / h;
+        const double z = (lanes.position[2][i] - velocity[2][i]) / h;
+        const bool isFast = !(x * x + y * y + z * z <= limit);
+        const long found = lanes.outcome[i];
+        velocity[0][i] = x;
+        velocity[1][i] = y;
+        velocity[2][i] = z;
+        lanes.outcome[i] = ((found & isNear) != 0) & isFast ? anyLeft : found;
+    }
+}
+
+// respond of response.h, which is cut where one condition would depend on another: compilers vectorise each of these
+// loops, and not all of them as one. `velocity` is the surface's.
+template <bool still>
+inline void findImpulses(double restitution, double restSpeed, const Rows& velocity, ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
+        const double ux = still ? lanes.v[0][i] : lanes.v[0][i] - velocity[0][i];
+        const double uy = still ? lanes.v[1][i] : lanes.v[1][i] - velocity[1][i];
+        const double uz = still ? lanes.v[2][i] : lanes.v[2][i] - velocity[2][i];
+        const double un = ux * nx + uy * ny + uz * nz;
+        const double bounce = un < -restSpeed ? restitution : 0.0;
+        const double impulse = -(1.0 + bounce) * un;
+        lanes.approach[i] = un;
+        lanes.bounce[i] = bounce;
+        lanes.impulse[i] = un < 0.0 ? impulse : 0.0;
+        lanes.slide[0][i] = ux - un * nx;
+        lanes.slide[1][i] = uy - un * ny;
+        lanes.slide[2][i] = uz - un * nz;
+    }
+}
+
+inline void findGrips(double friction, ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double sx = lanes.slide[0][i], sy = lanes.slide[1][i], sz = lanes.slide[2][i];
+        const double square = sx * sx + sy * sy + sz * sz;
+        const double grip = friction * lanes.impulse[i];
+        const double part = grip / __builtin_sqrt(square);
+        lanes.grip[i] = square <= grip * grip ? 1.0 : (grip > 0.0 ? part : 0.0);
+        lanes.sticks[i] = square <= grip * grip ? 1.0 : 0.0;
+    }
+}
+
+template <bool still>
+inline void slow(const Rows& velocity, ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double impulse = lanes.impulse[i], part = lanes.grip[i];
+        const double cx = still ? 0.0 : velocity[0][i];
+        const double cy = still ? 0.0 : velocity[1][i];
+        const double cz = still ? 0.0 : velocity[2][i];
+        const bool stops = (lanes.sticks[i] > 0.0) & (lanes.bounce[i] == 0.0) & (lanes.approach[i] < 0.0);
+        const double vx = lanes.v[0][i] + impulse * lanes.normal[0][i];
+        const double vy = lanes.v[1][i] + impulse * lanes.normal[1][i];
+        const double vz = lanes.v[2][i] + impulse * lanes.normal[2][i];
+        const double slowX = part > 0.0 ? vx - lanes.slide[0][i] * part : vx;
+        const double slowY = part > 0.0 ? vy - lanes.slide[1][i] * part : vy;
+        const double slowZ = part > 0.0 ? vz - lanes.slide[2][i] * part : vz;
+        lanes.slide[0][i] = stops ? cx : slowX;
+        lanes.slide[1][i] = stops ? cy : slowY;
+        lanes.slide[2][i] = stops ? cz : slowZ;
+    }
+}
+
+// `path` is the start of the path, carried along by the surface.
+inline void findPressed(const Rows& path, ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
+        const double wx = lanes.end[0][i] - path[0][i];
+        const double wy = lanes.end[1][i] - path[1][i];
+        const double wz = lanes.end[2][i] - path[2][i];
+        const double fall = -(wx * nx + wy * ny + wz * nz);
+        const double deep = lanes.depth[i] + lanes.skin[i];
+        const double least = deep < fall ? deep : fall;
+        const double pressed = least > 0.0 ? least : 0.0;
+        const double share = pressed / fall;
+        lanes.pressed[i] = pressed;
+        lanes.along[0][i] = (wx + fall * nx) * share;
+        lanes.along[1][i] = (wy + fall * ny) * share;
+        lanes.along[2][i] = (wz + fall * nz) * share;
+    }
+}
+
+inline void findHolds(double friction, ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double ax = lanes.along[0][i], ay = lanes.along[1][i], az = lanes.along[2][i];
+        const double square = ax * ax + ay * ay + az * az;
+        const double limit = friction * lanes.pressed[i] * (1.0 + lanes.bounce[i]);
+        const double part = limit / __builtin_sqrt(square);
+        lanes.back[i] = square <= limit * limit ? 1.0 : part;
+        lanes.holds[i] = square <= limit * limit ? 1.0 : 0.0;
+    }
+}
+
+// With friction, along is taken away as well.
+template <bool rough>
+inline void lift(ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double depth = lanes.depth[i], pressed = lanes.pressed[i];
+        const double up = (depth > 0.0 ? depth : 0.0) + lanes.bounce[i] * pressed;
+        const double back = rough ? lanes.back[i] : 0.0;
+        const double x = lanes.end[0][i] + up * lanes.normal[0][i];
+        const double y = lanes.end[1][i] + up * lanes.normal[1][i];
+        const double z = lanes.end[2][i] + up * lanes.normal[2][i];
+        const double heldX = x - lanes.along[0][i] * back;
+        const double heldY = y - lanes.along[1][i] * back;
+        const double heldZ = z - lanes.along[2][i] * back;
+        const bool rubs = rough & (pressed > 0.0);
+        lanes.along[0][i] = rubs ? heldX : x;
+        lanes.along[1][i] = rubs ? heldY : y;
+        lanes.along[2][i] = rubs ? heldZ : z;
+    }
+}
+
+// What held where it stood on a still surface stays to the bit.
+inline void rest(ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double x = lanes.start[0][i], y = lanes.start[1][i], z = lanes.start[2][i];
+        const double height =
+            lanes.normal[0][i] * x + lanes.normal[1][i] * y + lanes.normal[2][i] * z - lanes.distance[i];
+        const bool rests = (lanes.pressed[i] > 0.0) & (lanes.holds[i] * lanes.sticks[i] > 0.0) &
+                           (lanes.bounce[i] == 0.0) & (__builtin_fabs(height) <= lanes.skin[i]);
+        lanes.along[0][i] = rests ? x : lanes.along[0][i];
+        lanes.along[1][i] = rests ? y : lanes.along[1][i];
+        lanes.along[2][i] = rests ? z : lanes.along[2][i];
+    }
+}
+
+inline void take(ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double depth = lanes.depth[i], skin = lanes.skin[i];
+        const double arrival = depth > 0.0 ? -depth : lanes.approach[i];
+        const double press = depth > skin ? depth : lanes.impulse[i];
+        const long found = lanes.outcome[i];
+        const bool touched = ((found & isNear) != 0) & (depth > -skin) & (arrival < 0.0) & (press > 0.0);
+        lanes.end[0][i] = touched ? lanes.along[0][i] : lanes.end[0][i];
+        lanes.end[1][i] = touched ? lanes.along[1][i] : lanes.end[1][i];
+        lanes.end[2][i] = touched ? lanes.along[2][i] : lanes.end[2][i];
+        lanes.v[0][i] = touched ? lanes.slide[0][i] : lanes.v[0][i];
+        lanes.v[1][i] = touched ? lanes.slide[1][i] : lanes.v[1][i];
+        lanes.v[2][i] = touched ? lanes.slide[2][i] : lanes.v[2][i];
+        lanes.outcome[i] = touched ? anyTouched : (found & anyLeft);
+    }
+}
+
+template <class Real, bool still>
+inline void respond(const ContactArgs<Real>& s, ContactLanes& lanes, const Rows& path, const Rows& velocity) {
+    findImpulses<still>(s.restitution, s.restSpeed, velocity, lanes, s.n);
+    findGrips(s.friction, lanes, s.n);
+    slow<still>(velocity, lanes, s.n);
+    findPressed(path, lanes, s.n);
+    if (s.friction > 0.0) {
+        findHolds(s.friction, lanes, s.n);
+        lift<true>(lanes, s.n);
+        if (still) rest(lanes, s.n);
+    } else {
+        lift<false>(lanes, s.n);
+    }
+    take(lanes, s.n);
+}
+
+// Points that are not touched get what they had.
+template <class Real>
+inline void store(const ContactArgs<Real>& s, const ContactLanes& lanes) {
+    for (int k = 0; k < 3; ++k) {
+        Real *const x = s.x[k], *const v = s.v[k];
+        TAUT_INDEPENDENT
+        for (int i = 0; i < s.n; ++i) {
+            x[i] = static_cast<Real>(lanes.end[k][i]);
+            v[i] = static_cast<Real>(lanes.v[k][i]);
+        }
+    }
+}
+
+template <class Real>
+long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
+    const int n = s.n;
+    if (s.mask != nullptr)
+        load<Real, true>(s, lanes);
+    else
+        load<Real, false>(s, lanes);
+    if (s.shape.kind == ClosedKind::none) {
+        flatTouch(s.normal, s.offset + s.thickness, lanes, n);
+        if (anyOf(lanes.outcome, n) == 0) return 0;
+        if (!s.still) toLocal(s.from, lanes.start, lanes.localStart, n);
+    } else {
+        toLocal(s.to, lanes.end, lanes.localEnd, n);
+        toLocal(s.from, lanes.start, lanes.localStart, n);
+        measureAny(s.shape, lanes.localEnd, lanes.distance, lanes.normal, n);
+        classify(s.thickness, lanes, n);
+        const long found = anyOf(lanes.outcome, n);
+        if ((found & isNear) == 0) return found;
+        if ((found & needsStart) != 0) {
+            measureAny(s.shape, lanes.localStart, lanes.startDistance, lanes.startNormal, n);
+            compareSides(lanes, n);
+        }
+        placeTouch(s.thickness, s.to, lanes, n);
+    }
+    findPlaces(s.thickness, lanes, n);
+    if (s.still) {
+        respond<Real, true>(s, lanes, lanes.start, lanes.carried);
+    } else {
+        findSpeeds(s, lanes, lanes.carried);
+        toWorld(s.to, lanes.localStart, n);
+        respond<Real, false>(s, lanes, lanes.localStart, lanes.carried);
+    }
+    const long any = anyOf(lanes.outcome, n);
+    if ((any & anyTouched) != 0) store(s, lanes);
+    return any;
+}
+
+}  // namespace
+
+long contactFloat(const ContactArgs<float>& s, ContactLanes& lanes) {
+    return contact(s, lanes);
+}
+long contactDouble(const ContactArgs<double>& s, ContactLanes& lanes) {
+    return contact(s, lanes);
+}
+
+}  // namespace taut::collision::TAUT_ISA

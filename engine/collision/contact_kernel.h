@@ -1,0 +1,92 @@
+// Contact of a batch of points with one convex solid, one copy an instruction set; every copy gives the bits that the
+// points get one by one (resolve.cpp). Plain data only.
+#pragma once
+
+#include "taut/collision/closed_shape.h"
+
+namespace taut::collision {
+
+inline constexpr int contactBatch = 64;  // points at most: what is known of them stays in the first-level cache
+
+struct KernelFrame {
+    double rotation[3][3];  // columns
+    double position[3];     // [m]
+    bool turned;
+};
+
+template <class Real>
+struct ContactArgs {
+    int n;                    // points, at most contactBatch
+    const Real* before[3];    // (n) [m] at the start of the step
+    Real* x[3];               // (n) [m] at its end
+    Real* v[3];               // (n) [m/s]
+    const Real* inverseMass;  // (n) [1/kg]; 0: left alone
+    const unsigned* mask;     // (n) those of another mask than `bits` are left alone; nullptr: none are
+    unsigned bits;
+
+    ClosedShape shape;     // none: a half-space
+    double normal[3];      // of a half-space, in the world
+    double offset;         // [m] likewise
+    KernelFrame from, to;  // of the solid, at the start and the end of the step
+    bool still;            // from and to are the same
+    double thickness;      // [m] to be kept
+    double skinPerMetre;   // rounding of a coordinate
+    double friction;       // of point and surface [-]
+    double restitution;    // [-]
+    double h;              // [s]
+    double restSpeed;      // [m/s] slower arrivals do not bounce
+    double fastest;        // [m/s] limit of the surface's speed
+};
+
+// What the kernel makes of a point.
+enum class Outcome : long {
+    free,     // nothing
+    touched,  // out of the solid
+    left      // its path may lead through: nothing is done
+};
+
+// Of a batch: what the kernel works on, and its results.
+struct ContactLanes {
+    alignas(64) long outcome[contactBatch];        // an Outcome each
+    alignas(64) double impulse[contactBatch];      // of touched points, as in Contact
+    alignas(64) double position[3][contactBatch];  //
+    alignas(64) double normal[3][contactBatch];    //
+
+    alignas(64) double start[3][contactBatch];    // of the path, in the world
+    alignas(64) double carried[3][contactBatch];  // that start, carried along by the surface; its velocity
+    alignas(64) double end[3][contactBatch];
+    alignas(64) double v[3][contactBatch];
+    alignas(64) double localStart[3][contactBatch];
+    alignas(64) double localEnd[3][contactBatch];
+    alignas(64) double skin[contactBatch];
+    alignas(64) double distance[contactBatch];
+    alignas(64) double depth[contactBatch];
+    alignas(64) double startDistance[contactBatch];
+    alignas(64) double startNormal[3][contactBatch];
+    alignas(64) double approach[contactBatch];
+    alignas(64) double bounce[contactBatch];
+    alignas(64) double slide[3][contactBatch];  // then the velocity after the touch
+    alignas(64) double grip[contactBatch];
+    alignas(64) double sticks[contactBatch];
+    alignas(64) double pressed[contactBatch];
+    alignas(64) double along[3][contactBatch];  // then the end after the touch
+    alignas(64) double back[contactBatch];
+    alignas(64) double holds[contactBatch];
+};
+
+// Bits of what a call returns: whether any point was touched, or left.
+inline constexpr long anyTouched = 1;
+inline constexpr long anyLeft = 2;
+
+template <class Real>
+using ContactKernel = long (*)(const ContactArgs<Real>& args, ContactLanes& lanes);
+
+// For the instruction set in use.
+template <class Real>
+ContactKernel<Real> contactKernel();
+template <>
+ContactKernel<float> contactKernel();
+template <>
+ContactKernel<double> contactKernel();
+
+}  // namespace taut::collision

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "taut/collision/colliders.h"
+#include "taut/collision/contact_kernel.h"
 #include "taut/collision/cull.h"
 #include "taut/collision/solid.h"
 
 namespace taut::collision {
 
 // Points that are tried together.
-inline constexpr int candidateBlock = 256;
+inline constexpr int candidateBlock = contactBatch;
 
 // How near to a solid the points have to be to be tried at all: the distance that they keep, and roundings of the
 // largest coordinate in their box [m].

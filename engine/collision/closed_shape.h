@@ -5,7 +5,7 @@
 
 namespace taut::collision {
 
-enum class ClosedKind { none, sphere, box, capsule, cylinder, cone };
+enum class ClosedKind { none, halfSpace, sphere, box, capsule, cylinder, cone };
 
 struct ClosedShape {
     ClosedKind kind = ClosedKind::none;

@@ -130,7 +130,8 @@ inline void measureAny(const ClosedShape& shape, const Rows& places, Row& distan
         case ClosedKind::capsule: return measure<ClosedKind::capsule>(shape, places, distance, normal, n);
         case ClosedKind::cylinder: return measure<ClosedKind::cylinder>(shape, places, distance, normal, n);
         case ClosedKind::cone: return measure<ClosedKind::cone>(shape, places, distance, normal, n);
-        case ClosedKind::none: return;
+        case ClosedKind::none:
+        case ClosedKind::halfSpace: return;
     }
 }
 
@@ -254,27 +255,41 @@ inline void findImpulses(double restitution, double restSpeed, const Rows& veloc
     }
 }
 
-inline void findGrips(double friction, ContactLanes& lanes, int n) {
+// Marks the points that friction does not stop.
+inline void findSlips(double friction, ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const double sx = lanes.slide[0][i], sy = lanes.slide[1][i], sz = lanes.slide[2][i];
         const double square = sx * sx + sy * sy + sz * sz;
         const double grip = friction * lanes.impulse[i];
-        const double part = grip / __builtin_sqrt(square);
-        lanes.grip[i] = square <= grip * grip ? 1.0 : (grip > 0.0 ? part : 0.0);
-        lanes.sticks[i] = square <= grip * grip ? 1.0 : 0.0;
+        const bool slips = (lanes.outcome[i] != 0) & !(square <= grip * grip);
+        lanes.square[i] = square;
+        lanes.grip[i] = grip;
+        lanes.slips[i] = slips ? 1L : 0L;
     }
 }
 
-template <bool still>
+// The share of the sliding that friction takes.
+inline void findGrips(ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double grip = lanes.grip[i];
+        const double part = grip / __builtin_sqrt(lanes.square[i]);
+        lanes.grip[i] = lanes.slips[i] == 0 ? 1.0 : (grip > 0.0 ? part : 0.0);
+    }
+}
+
+template <bool still, bool slips>
 inline void slow(const Rows& velocity, ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
-        const double impulse = lanes.impulse[i], part = lanes.grip[i];
+        const double impulse = lanes.impulse[i];
+        const double part = slips ? lanes.grip[i] : 1.0;
+        const long slipping = slips ? lanes.slips[i] : 0L;
         const double cx = still ? 0.0 : velocity[0][i];
         const double cy = still ? 0.0 : velocity[1][i];
         const double cz = still ? 0.0 : velocity[2][i];
-        const bool stops = (lanes.sticks[i] > 0.0) & (lanes.bounce[i] == 0.0) & (lanes.approach[i] < 0.0);
+        const bool stops = (slipping == 0) & (lanes.bounce[i] == 0.0) & (lanes.approach[i] < 0.0);
         const double vx = lanes.v[0][i] + impulse * lanes.normal[0][i];
         const double vy = lanes.v[1][i] + impulse * lanes.normal[1][i];
         const double vz = lanes.v[2][i] + impulse * lanes.normal[2][i];
@@ -307,26 +322,36 @@ inline void findPressed(const Rows& path, ContactLanes& lanes, int n) {
     }
 }
 
-inline void findHolds(double friction, ContactLanes& lanes, int n) {
+// Marks the points whose way along the surface friction does not undo.
+inline void findCreeps(double friction, ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const double ax = lanes.along[0][i], ay = lanes.along[1][i], az = lanes.along[2][i];
         const double square = ax * ax + ay * ay + az * az;
         const double limit = friction * lanes.pressed[i] * (1.0 + lanes.bounce[i]);
-        const double part = limit / __builtin_sqrt(square);
-        lanes.back[i] = square <= limit * limit ? 1.0 : part;
-        lanes.holds[i] = square <= limit * limit ? 1.0 : 0.0;
+        const bool creeps = (lanes.outcome[i] != 0) & !(square <= limit * limit);
+        lanes.square[i] = square;
+        lanes.back[i] = limit;
+        lanes.creeps[i] = creeps ? 1L : 0L;
+    }
+}
+
+inline void findBacks(ContactLanes& lanes, int n) {
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double part = lanes.back[i] / __builtin_sqrt(lanes.square[i]);
+        lanes.back[i] = lanes.creeps[i] == 0 ? 1.0 : part;
     }
 }
 
 // With friction, along is taken away as well.
-template <bool rough>
+template <bool rough, bool creeps>
 inline void lift(ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const double depth = lanes.depth[i], pressed = lanes.pressed[i];
         const double up = (depth > 0.0 ? depth : 0.0) + lanes.bounce[i] * pressed;
-        const double back = rough ? lanes.back[i] : 0.0;
+        const double back = creeps ? lanes.back[i] : 1.0;
         const double x = lanes.end[0][i] + up * lanes.normal[0][i];
         const double y = lanes.end[1][i] + up * lanes.normal[1][i];
         const double z = lanes.end[2][i] + up * lanes.normal[2][i];
@@ -347,7 +372,7 @@ inline void rest(ContactLanes& lanes, int n) {
         const double x = lanes.start[0][i], y = lanes.start[1][i], z = lanes.start[2][i];
         const double height =
             lanes.normal[0][i] * x + lanes.normal[1][i] * y + lanes.normal[2][i] * z - lanes.distance[i];
-        const bool rests = (lanes.pressed[i] > 0.0) & (lanes.holds[i] * lanes.sticks[i] > 0.0) &
+        const bool rests = (lanes.pressed[i] > 0.0) & ((lanes.creeps[i] | lanes.slips[i]) == 0) &
                            (lanes.bounce[i] == 0.0) & (__builtin_fabs(height) <= lanes.skin[i]);
         lanes.along[0][i] = rests ? x : lanes.along[0][i];
         lanes.along[1][i] = rests ? y : lanes.along[1][i];
@@ -376,15 +401,25 @@ inline void take(ContactLanes& lanes, int n) {
 template <class Real, bool still>
 inline void respond(const ContactArgs<Real>& s, ContactLanes& lanes, const Rows& path, const Rows& velocity) {
     findImpulses<still>(s.restitution, s.restSpeed, velocity, lanes, s.n);
-    findGrips(s.friction, lanes, s.n);
-    slow<still>(velocity, lanes, s.n);
+    findSlips(s.friction, lanes, s.n);
+    if (anyOf(lanes.slips, s.n) != 0) {
+        findGrips(lanes, s.n);
+        slow<still, true>(velocity, lanes, s.n);
+    } else {
+        slow<still, false>(velocity, lanes, s.n);
+    }
     findPressed(path, lanes, s.n);
     if (s.friction > 0.0) {
-        findHolds(s.friction, lanes, s.n);
-        lift<true>(lanes, s.n);
+        findCreeps(s.friction, lanes, s.n);
+        if (anyOf(lanes.creeps, s.n) != 0) {
+            findBacks(lanes, s.n);
+            lift<true, true>(lanes, s.n);
+        } else {
+            lift<true, false>(lanes, s.n);
+        }
         if (still) rest(lanes, s.n);
     } else {
-        lift<false>(lanes, s.n);
+        lift<false, false>(lanes, s.n);
     }
     take(lanes, s.n);
 }
@@ -409,7 +444,7 @@ long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
         load<Real, true>(s, lanes);
     else
         load<Real, false>(s, lanes);
-    if (s.shape.kind == ClosedKind::none) {
+    if (s.shape.kind == ClosedKind::halfSpace) {
         flatTouch(s.normal, s.offset + s.thickness, lanes, n);
         if (anyOf(lanes.outcome, n) == 0) return 0;
         if (!s.still) toLocal(s.from, lanes.start, lanes.localStart, n);

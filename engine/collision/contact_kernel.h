@@ -24,7 +24,7 @@ struct ContactArgs {
     const unsigned* mask;     // (n) those of another mask than `bits` are left alone; nullptr: none are
     unsigned bits;
 
-    ClosedShape shape;     // none: a half-space
+    ClosedShape shape;
     double normal[3];      // of a half-space, in the world
     double offset;         // [m] likewise
     KernelFrame from, to;  // of the solid, at the start and the end of the step
@@ -67,11 +67,12 @@ struct ContactLanes {
     alignas(64) double bounce[contactBatch];
     alignas(64) double slide[3][contactBatch];  // then the velocity after the touch
     alignas(64) double grip[contactBatch];
-    alignas(64) double sticks[contactBatch];
+    alignas(64) long slips[contactBatch];
+    alignas(64) double square[contactBatch];
     alignas(64) double pressed[contactBatch];
     alignas(64) double along[3][contactBatch];  // then the end after the touch
     alignas(64) double back[contactBatch];
-    alignas(64) double holds[contactBatch];
+    alignas(64) long creeps[contactBatch];
 };
 
 // Bits of what a call returns: whether any point was touched, or left.

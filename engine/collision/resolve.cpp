@@ -90,9 +90,9 @@ class Resolver {
     }
 
     void resolveAgainst(int first, const BlockRows<Real>& rows, const Near& near, int count, double margin) {
+        if (count == 1 && isForKernel(*near[0])) return resolveBatch(first, rows.count, near);
         std::array<std::uint32_t, candidateBlock> mask{};
-        const bool isAlone = count == 1 && isForKernel(*near[0]);  // the kernel finds out by itself
-        for (int c = 0; c < count && !isAlone; ++c) {
+        for (int c = 0; c < count; ++c) {
             const Solid& solid = *near[static_cast<std::size_t>(c)];
             if (solid.bounded) {
                 Box box = solid.bounds;
@@ -102,36 +102,29 @@ class Resolver {
                 markUnderPlane(rows, solid.above.normal, solid.above.offset, margin, 1U << c, mask.data());
             }
         }
-        for (int at = 0; at < rows.count; at += contactBatch) {
-            const int n = std::min(contactBatch, rows.count - at);
-            resolveBatch(first + at, n, near, isAlone ? nullptr : mask.data() + at);
-        }
+        resolveBatch(first, rows.count, near, mask.data());
     }
 
     bool hasJumped(const Solid& solid) const { return solid.travel > fastestSurface * h_; }
 
     bool isForKernel(const Solid& solid) const {
-        return solid.convex &&
-               (!solid.bounded || (solid.closed.kind != ClosedKind::none && (hasJumped(solid) || solid.turn.empty())));
+        return solid.convex && solid.closed.kind != ClosedKind::none &&
+               (!solid.bounded || hasJumped(solid) || solid.turn.empty());
     }
 
     // Points that may touch one solid only, of a shape that the kernel knows, by the kernel, all others one by one.
-    // Without masks, all points may touch the first solid.
     void resolveBatch(int first, int n, const Near& near, const std::uint32_t* mask) {
+        std::uint32_t some = 0;
+        std::uint32_t singles = 0;
+        for (int i = 0; i < n; ++i) {
+            const std::uint32_t bits = mask[i];
+            some |= bits;
+            singles |= (bits & (bits - 1)) == 0 ? bits : 0U;
+        }
+        if (some == 0) return;
         std::array<Outcome, contactBatch> outcome{};
         std::array<Contact, contactBatch> records;
-        std::uint32_t some = mask == nullptr ? 1U : 0U;
-        std::uint32_t singles = some;
-        if (mask != nullptr) {
-            for (int i = 0; i < n; ++i) {
-                const std::uint32_t bits = mask[i];
-                some |= bits;
-                singles |= (bits & (bits - 1)) == 0 ? bits : 0U;
-            }
-            if (some == 0) return;
-        }
         std::uint32_t taken = 0;  // solids that the kernel has seen to
-        bool any = false;
         for (std::uint32_t rest = singles; rest != 0; rest &= rest - 1) {
             const auto c = static_cast<unsigned>(__builtin_ctz(rest));
             const Solid& solid = *near[c];
@@ -141,7 +134,6 @@ class Resolver {
             args.mask = mask;
             args.bits = 1U << c;
             if (kernel_(args, lanes_) == 0) continue;
-            any = true;
             for (int i = 0; i < n; ++i) {
                 const auto k = static_cast<std::size_t>(i);
                 if (lanes_.outcome[i] == 0) continue;
@@ -149,8 +141,6 @@ class Resolver {
                 if (records_) records[k] = recordOf(first + i, solid.collider, i);
             }
         }
-        if (mask == nullptr && !any) return;
-
         for (int i = 0; i < n; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (outcome[k] == Outcome::touched) {
@@ -158,10 +148,31 @@ class Resolver {
                 if (records_) contacts_.push_back(records[k]);
                 continue;
             }
-            const std::uint32_t bits = mask == nullptr ? 1U : mask[i];
-            const bool isDone = (bits & (bits - 1)) == 0 && (bits & ~taken) == 0;
+            const bool isDone = (mask[i] & (mask[i] - 1)) == 0 && (mask[i] & ~taken) == 0;
             if (isDone && outcome[k] == Outcome::free) continue;
-            if (points_.inverseMass[first + i] != Real(0)) resolvePoint(first + i, bits, near);
+            if (points_.inverseMass[first + i] != Real(0)) resolvePoint(first + i, mask[i], near);
+        }
+    }
+
+    // All points against one solid of a shape that the kernel knows.
+    void resolveBatch(int first, int n, const Near& near) {
+        const long found = kernel_(argsFor(*near[0], first, n), lanes_);
+        if (found == anyTouched && !records_) {
+            std::array<int, contactBatch> touched;
+            std::size_t count = 0;
+            for (int i = 0; i < n; ++i) {
+                touched[count] = first + i;
+                count += lanes_.outcome[i] != 0 ? 1U : 0U;
+            }
+            touched_.insert(touched_.end(), touched.begin(), touched.begin() + static_cast<std::ptrdiff_t>(count));
+        } else if (found != 0) {
+            for (int i = 0; i < n; ++i) {
+                const auto outcome = static_cast<Outcome>(lanes_.outcome[i]);
+                if (outcome == Outcome::left) resolvePoint(first + i, 1U, near);
+                if (outcome != Outcome::touched) continue;
+                touched_.push_back(first + i);
+                if (records_) contacts_.push_back(recordOf(first + i, near[0]->collider, i));
+            }
         }
     }
 
@@ -193,7 +204,9 @@ class Resolver {
             args.normal[k] = solid.above.normal[k];
         }
         args.inverseMass = points_.inverseMass + first;
-        args.shape = solid.bounded ? solid.closed : ClosedShape{};
+        args.mask = nullptr;
+        args.bits = 0;
+        args.shape = solid.closed;
         args.offset = solid.above.offset;
         args.to = frameFor(solid.to);
         args.still = solid.still || hasJumped(solid);

@@ -13,6 +13,7 @@ struct PlaneForm {
 
     Nearest nearest(const dvec3& p) const { return {glm::dot(normal, p), normal}; }
     std::optional<Box> bounds() const { return std::nullopt; }
+    ClosedShape closed() const { return {ClosedKind::halfSpace}; }
 };
 
 std::shared_ptr<const Form> makePlane(const ShapeSizes& sizes) {

@@ -10,15 +10,20 @@
 namespace taut::collision::TAUT_ISA {
 namespace {
 
-constexpr int most = contactBatch;
-using Row = double[most];
+using Row = double[contactRow];
 using Rows = Row[3];
 
 // What is found out of a point on the way.
 constexpr long isLive = 4, isNear = 8, needsStart = 16;
 
+// a where all bits of `mask` are set, b where none are. Unlike a selection it reads both, always: compilers make masked
+// reads and writes of selections, which some processors take long over.
+inline double choose(long mask, double a, double b) {
+    return __builtin_bit_cast(double, (mask & __builtin_bit_cast(long, a)) | (~mask & __builtin_bit_cast(long, b)));
+}
+
 // Apart from the loops that find them: no compiler here vectorises those otherwise.
-inline long anyOf(const long (&outcome)[most], int n) {
+inline long anyOf(const long (&outcome)[contactRow], int n) {
     long any = 0;
     for (int i = 0; i < n; ++i) any |= outcome[i];
     return any;
@@ -183,6 +188,55 @@ inline void placeTouch(double thickness, const KernelFrame& to, ContactLanes& la
     }
 }
 
+// All of that in one loop, for a solid that is not turned: its frame differs by a shift.
+template <ClosedKind kind>
+inline void meetLevel(const ClosedShape& shape, double thickness, const double (&fromPlace)[3],
+                      const double (&toPlace)[3], ContactLanes& lanes, int n) {
+    const double size[3] = {shape.size[0], shape.size[1], shape.size[2]};
+    const double ax = fromPlace[0], ay = fromPlace[1], az = fromPlace[2];
+    const double px = toPlace[0], py = toPlace[1], pz = toPlace[2];
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double x = lanes.end[0][i] - px, y = lanes.end[1][i] - py, z = lanes.end[2][i] - pz;
+        const ClosedDistance at = closedDistance<kind>(size, x, y, z);
+        const double height = at.x * x + at.y * y + at.z * z;
+        const double wx = x - (lanes.start[0][i] - ax);
+        const double wy = y - (lanes.start[1][i] - ay);
+        const double wz = z - (lanes.start[2][i] - az);
+        lanes.localEnd[0][i] = at.distance;
+        lanes.localEnd[1][i] = at.x * wx + at.y * wy + at.z * wz;
+        lanes.localEnd[2][i] = wx * wx + wy * wy + wz * wz;
+        lanes.distance[i] = height - at.distance + thickness + (at.x * px + at.y * py + at.z * pz);
+        lanes.normal[0][i] = at.x;
+        lanes.normal[1][i] = at.y;
+        lanes.normal[2][i] = at.z;
+    }
+    TAUT_INDEPENDENT
+    for (int i = 0; i < n; ++i) {
+        const double d = lanes.localEnd[0][i];
+        const bool live = lanes.outcome[i] != 0;
+        const bool near = !(d >= thickness + lanes.skin[i]);
+        const bool comesFromBehind = !(d - lanes.localEnd[1][i] >= thickness);
+        const bool isShort = (d > 0.0) & (lanes.localEnd[2][i] < d * d);
+        const long nearBits = isShort ? isNear : isNear | needsStart;
+        const long farBits = comesFromBehind ? anyLeft : 0L;
+        lanes.outcome[i] = live ? (near ? nearBits : farBits) : 0L;
+    }
+}
+
+inline void meetLevelAny(const ClosedShape& shape, double thickness, const double (&from)[3], const double (&to)[3],
+                         ContactLanes& lanes, int n) {
+    switch (shape.kind) {
+        case ClosedKind::sphere: return meetLevel<ClosedKind::sphere>(shape, thickness, from, to, lanes, n);
+        case ClosedKind::box: return meetLevel<ClosedKind::box>(shape, thickness, from, to, lanes, n);
+        case ClosedKind::capsule: return meetLevel<ClosedKind::capsule>(shape, thickness, from, to, lanes, n);
+        case ClosedKind::cylinder: return meetLevel<ClosedKind::cylinder>(shape, thickness, from, to, lanes, n);
+        case ClosedKind::cone: return meetLevel<ClosedKind::cone>(shape, thickness, from, to, lanes, n);
+        case ClosedKind::none:
+        case ClosedKind::halfSpace: return;
+    }
+}
+
 inline void flatTouch(const double (&normal)[3], double offset, ContactLanes& lanes, int n) {
     const double nx = normal[0], ny = normal[1], nz = normal[2];
     TAUT_INDEPENDENT
@@ -206,7 +260,6 @@ inline void findPlaces(double thickness, ContactLanes& lanes, int n) {
         const double x = lanes.end[0][i], y = lanes.end[1][i], z = lanes.end[2][i];
         const double depth = lanes.distance[i] - (nx * x + ny * y + nz * z);
         const double out = depth > 0.0 ? depth : 0.0;
-        lanes.depth[i] = depth;
         lanes.position[0][i] = x + (out - thickness) * nx;
         lanes.position[1][i] = y + (out - thickness) * ny;
         lanes.position[2][i] = z + (out - thickness) * nz;
@@ -235,8 +288,11 @@ inline void findSpeeds(const ContactArgs<Real>& s, ContactLanes& lanes, Rows& ve
 
 // respond of response.h, which is cut where one condition would depend on another: compilers vectorise each of these
 // loops, and not all of them as one. `velocity` is the surface's.
+// What the normal impulse and friction would do to each point. `path` is the start of the path, carried along by the
+// surface.
 template <bool still>
-inline void findImpulses(double restitution, double restSpeed, const Rows& velocity, ContactLanes& lanes, int n) {
+inline void press(double friction, double restitution, double restSpeed, const Rows& path, const Rows& velocity,
+                  ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
@@ -245,27 +301,42 @@ inline void findImpulses(double restitution, double restSpeed, const Rows& veloc
         const double uz = still ? lanes.v[2][i] : lanes.v[2][i] - velocity[2][i];
         const double un = ux * nx + uy * ny + uz * nz;
         const double bounce = un < -restSpeed ? restitution : 0.0;
-        const double impulse = -(1.0 + bounce) * un;
+        const double push = -(1.0 + bounce) * un;
+        const double impulse = un < 0.0 ? push : 0.0;
+        const double sx = ux - un * nx, sy = uy - un * ny, sz = uz - un * nz;
+        const double slideSquare = sx * sx + sy * sy + sz * sz;
+        const double grip = friction * impulse;
+
+        const double x = lanes.end[0][i], y = lanes.end[1][i], z = lanes.end[2][i];
+        const double wx = x - path[0][i], wy = y - path[1][i], wz = z - path[2][i];
+        const double depth = lanes.distance[i] - (nx * x + ny * y + nz * z);
+        const double fall = -(wx * nx + wy * ny + wz * nz);
+        const double deep = depth + lanes.skin[i];
+        const double least = deep < fall ? deep : fall;
+        const double pressed = least > 0.0 ? least : 0.0;
+        const double share = pressed / fall;
+        const double ax = (wx + fall * nx) * share, ay = (wy + fall * ny) * share, az = (wz + fall * nz) * share;
+        const double square = ax * ax + ay * ay + az * az;
+        const double limit = friction * pressed * (1.0 + bounce);
+
+        lanes.depth[i] = depth;
         lanes.approach[i] = un;
         lanes.bounce[i] = bounce;
-        lanes.impulse[i] = un < 0.0 ? impulse : 0.0;
-        lanes.slide[0][i] = ux - un * nx;
-        lanes.slide[1][i] = uy - un * ny;
-        lanes.slide[2][i] = uz - un * nz;
-    }
-}
-
-// Marks the points that friction does not stop.
-inline void findSlips(double friction, ContactLanes& lanes, int n) {
-    TAUT_INDEPENDENT
-    for (int i = 0; i < n; ++i) {
-        const double sx = lanes.slide[0][i], sy = lanes.slide[1][i], sz = lanes.slide[2][i];
-        const double square = sx * sx + sy * sy + sz * sz;
-        const double grip = friction * lanes.impulse[i];
-        const bool slips = (lanes.outcome[i] != 0) & !(square <= grip * grip);
-        lanes.square[i] = square;
+        lanes.impulse[i] = impulse;
+        lanes.slide[0][i] = sx;
+        lanes.slide[1][i] = sy;
+        lanes.slide[2][i] = sz;
+        lanes.slideSquare[i] = slideSquare;
         lanes.grip[i] = grip;
-        lanes.slips[i] = slips ? 1L : 0L;
+        lanes.pressed[i] = pressed;
+        lanes.along[0][i] = ax;
+        lanes.along[1][i] = ay;
+        lanes.along[2][i] = az;
+        lanes.square[i] = square;
+        lanes.back[i] = limit;
+        const long found = lanes.outcome[i];
+        lanes.slips[i] = slideSquare <= grip * grip ? 0L : found;  // friction does not stop it
+        lanes.creeps[i] = square <= limit * limit ? 0L : found;    // nor undo all of its way
     }
 }
 
@@ -274,7 +345,7 @@ inline void findGrips(ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
         const double grip = lanes.grip[i];
-        const double part = grip / __builtin_sqrt(lanes.square[i]);
+        const double part = grip / __builtin_sqrt(lanes.slideSquare[i]);
         lanes.grip[i] = lanes.slips[i] == 0 ? 1.0 : (grip > 0.0 ? part : 0.0);
     }
 }
@@ -302,40 +373,6 @@ inline void slow(const Rows& velocity, ContactLanes& lanes, int n) {
     }
 }
 
-// `path` is the start of the path, carried along by the surface.
-inline void findPressed(const Rows& path, ContactLanes& lanes, int n) {
-    TAUT_INDEPENDENT
-    for (int i = 0; i < n; ++i) {
-        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
-        const double wx = lanes.end[0][i] - path[0][i];
-        const double wy = lanes.end[1][i] - path[1][i];
-        const double wz = lanes.end[2][i] - path[2][i];
-        const double fall = -(wx * nx + wy * ny + wz * nz);
-        const double deep = lanes.depth[i] + lanes.skin[i];
-        const double least = deep < fall ? deep : fall;
-        const double pressed = least > 0.0 ? least : 0.0;
-        const double share = pressed / fall;
-        lanes.pressed[i] = pressed;
-        lanes.along[0][i] = (wx + fall * nx) * share;
-        lanes.along[1][i] = (wy + fall * ny) * share;
-        lanes.along[2][i] = (wz + fall * nz) * share;
-    }
-}
-
-// Marks the points whose way along the surface friction does not undo.
-inline void findCreeps(double friction, ContactLanes& lanes, int n) {
-    TAUT_INDEPENDENT
-    for (int i = 0; i < n; ++i) {
-        const double ax = lanes.along[0][i], ay = lanes.along[1][i], az = lanes.along[2][i];
-        const double square = ax * ax + ay * ay + az * az;
-        const double limit = friction * lanes.pressed[i] * (1.0 + lanes.bounce[i]);
-        const bool creeps = (lanes.outcome[i] != 0) & !(square <= limit * limit);
-        lanes.square[i] = square;
-        lanes.back[i] = limit;
-        lanes.creeps[i] = creeps ? 1L : 0L;
-    }
-}
-
 inline void findBacks(ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -344,82 +381,84 @@ inline void findBacks(ContactLanes& lanes, int n) {
     }
 }
 
-// With friction, along is taken away as well.
-template <bool rough, bool creeps>
+// With friction, along is taken away as well; and what held where it stood on a still surface stays to the bit.
+template <bool still, bool rough, bool creeps>
 inline void lift(ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
-        const double depth = lanes.depth[i], pressed = lanes.pressed[i];
-        const double up = (depth > 0.0 ? depth : 0.0) + lanes.bounce[i] * pressed;
+        const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
+        const double depth = lanes.depth[i], pressed = lanes.pressed[i], bounce = lanes.bounce[i];
+        const double up = (depth > 0.0 ? depth : 0.0) + bounce * pressed;
         const double back = creeps ? lanes.back[i] : 1.0;
-        const double x = lanes.end[0][i] + up * lanes.normal[0][i];
-        const double y = lanes.end[1][i] + up * lanes.normal[1][i];
-        const double z = lanes.end[2][i] + up * lanes.normal[2][i];
-        const double heldX = x - lanes.along[0][i] * back;
-        const double heldY = y - lanes.along[1][i] * back;
-        const double heldZ = z - lanes.along[2][i] * back;
+        const double x = lanes.end[0][i] + up * nx;
+        const double y = lanes.end[1][i] + up * ny;
+        const double z = lanes.end[2][i] + up * nz;
         const bool rubs = rough & (pressed > 0.0);
-        lanes.along[0][i] = rubs ? heldX : x;
-        lanes.along[1][i] = rubs ? heldY : y;
-        lanes.along[2][i] = rubs ? heldZ : z;
-    }
-}
-
-// What held where it stood on a still surface stays to the bit.
-inline void rest(ContactLanes& lanes, int n) {
-    TAUT_INDEPENDENT
-    for (int i = 0; i < n; ++i) {
-        const double x = lanes.start[0][i], y = lanes.start[1][i], z = lanes.start[2][i];
-        const double height =
-            lanes.normal[0][i] * x + lanes.normal[1][i] * y + lanes.normal[2][i] * z - lanes.distance[i];
-        const bool rests = (lanes.pressed[i] > 0.0) & ((lanes.creeps[i] | lanes.slips[i]) == 0) &
-                           (lanes.bounce[i] == 0.0) & (__builtin_fabs(height) <= lanes.skin[i]);
-        lanes.along[0][i] = rests ? x : lanes.along[0][i];
-        lanes.along[1][i] = rests ? y : lanes.along[1][i];
-        lanes.along[2][i] = rests ? z : lanes.along[2][i];
+        const double backX = x - lanes.along[0][i] * back;
+        const double backY = y - lanes.along[1][i] * back;
+        const double backZ = z - lanes.along[2][i] * back;
+        const double heldX = rubs ? backX : x;
+        const double heldY = rubs ? backY : y;
+        const double heldZ = rubs ? backZ : z;
+        if (still && rough) {
+            const double fromX = lanes.start[0][i], fromY = lanes.start[1][i], fromZ = lanes.start[2][i];
+            const double height = nx * fromX + ny * fromY + nz * fromZ - lanes.distance[i];
+            const long moves = lanes.creeps[i] | lanes.slips[i];
+            const double skin = lanes.skin[i];
+            const bool rests = (pressed > 0.0) & (moves == 0) & (bounce == 0.0) & (__builtin_fabs(height) <= skin);
+            const long mask = rests ? -1L : 0L;
+            lanes.along[0][i] = choose(mask, fromX, heldX);
+            lanes.along[1][i] = choose(mask, fromY, heldY);
+            lanes.along[2][i] = choose(mask, fromZ, heldZ);
+        } else {
+            lanes.along[0][i] = heldX;
+            lanes.along[1][i] = heldY;
+            lanes.along[2][i] = heldZ;
+        }
     }
 }
 
 inline void take(ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
-        const double depth = lanes.depth[i], skin = lanes.skin[i];
-        const double arrival = depth > 0.0 ? -depth : lanes.approach[i];
-        const double press = depth > skin ? depth : lanes.impulse[i];
+        const double depth = lanes.depth[i], skin = lanes.skin[i], approach = lanes.approach[i];
+        const double impulse = lanes.impulse[i];
+        const double x = lanes.end[0][i], y = lanes.end[1][i], z = lanes.end[2][i];
+        const double vx = lanes.v[0][i], vy = lanes.v[1][i], vz = lanes.v[2][i];
+        const double newX = lanes.along[0][i], newY = lanes.along[1][i], newZ = lanes.along[2][i];
+        const double newVx = lanes.slide[0][i], newVy = lanes.slide[1][i], newVz = lanes.slide[2][i];
+        const double arrival = depth > 0.0 ? -depth : approach;
+        const double rise = depth > skin ? depth : impulse;
         const long found = lanes.outcome[i];
-        const bool touched = ((found & isNear) != 0) & (depth > -skin) & (arrival < 0.0) & (press > 0.0);
-        lanes.end[0][i] = touched ? lanes.along[0][i] : lanes.end[0][i];
-        lanes.end[1][i] = touched ? lanes.along[1][i] : lanes.end[1][i];
-        lanes.end[2][i] = touched ? lanes.along[2][i] : lanes.end[2][i];
-        lanes.v[0][i] = touched ? lanes.slide[0][i] : lanes.v[0][i];
-        lanes.v[1][i] = touched ? lanes.slide[1][i] : lanes.v[1][i];
-        lanes.v[2][i] = touched ? lanes.slide[2][i] : lanes.v[2][i];
-        lanes.outcome[i] = touched ? anyTouched : (found & anyLeft);
+        const bool touched = ((found & isNear) != 0) & (depth > -skin) & (arrival < 0.0) & (rise > 0.0);
+        const long mask = touched ? -1L : 0L;
+        lanes.end[0][i] = choose(mask, newX, x);
+        lanes.end[1][i] = choose(mask, newY, y);
+        lanes.end[2][i] = choose(mask, newZ, z);
+        lanes.v[0][i] = choose(mask, newVx, vx);
+        lanes.v[1][i] = choose(mask, newVy, vy);
+        lanes.v[2][i] = choose(mask, newVz, vz);
+        lanes.outcome[i] = (mask & anyTouched) | (~mask & found & anyLeft);
     }
 }
 
 template <class Real, bool still>
 inline void respond(const ContactArgs<Real>& s, ContactLanes& lanes, const Rows& path, const Rows& velocity) {
-    findImpulses<still>(s.restitution, s.restSpeed, velocity, lanes, s.n);
-    findSlips(s.friction, lanes, s.n);
-    if (anyOf(lanes.slips, s.n) != 0) {
+    press<still>(s.friction, s.restitution, s.restSpeed, path, velocity, lanes, s.n);
+    const bool slips = anyOf(lanes.slips, s.n) != 0, creeps = anyOf(lanes.creeps, s.n) != 0;
+    if (slips) {
         findGrips(lanes, s.n);
         slow<still, true>(velocity, lanes, s.n);
     } else {
         slow<still, false>(velocity, lanes, s.n);
     }
-    findPressed(path, lanes, s.n);
-    if (s.friction > 0.0) {
-        findCreeps(s.friction, lanes, s.n);
-        if (anyOf(lanes.creeps, s.n) != 0) {
-            findBacks(lanes, s.n);
-            lift<true, true>(lanes, s.n);
-        } else {
-            lift<true, false>(lanes, s.n);
-        }
-        if (still) rest(lanes, s.n);
+    if (!(s.friction > 0.0)) {
+        lift<still, false, false>(lanes, s.n);
+    } else if (creeps) {
+        findBacks(lanes, s.n);
+        lift<still, true, true>(lanes, s.n);
     } else {
-        lift<false, false>(lanes, s.n);
+        lift<still, true, false>(lanes, s.n);
     }
     take(lanes, s.n);
 }
@@ -449,22 +488,29 @@ long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
         if (anyOf(lanes.outcome, n) == 0) return 0;
         if (!s.still) toLocal(s.from, lanes.start, lanes.localStart, n);
     } else {
-        toLocal(s.to, lanes.end, lanes.localEnd, n);
-        toLocal(s.from, lanes.start, lanes.localStart, n);
-        measureAny(s.shape, lanes.localEnd, lanes.distance, lanes.normal, n);
-        classify(s.thickness, lanes, n);
+        const bool isLevel = !s.from.turned && !s.to.turned;
+        if (isLevel) {
+            meetLevelAny(s.shape, s.thickness, s.from.position, s.to.position, lanes, n);
+        } else {
+            toLocal(s.to, lanes.end, lanes.localEnd, n);
+            toLocal(s.from, lanes.start, lanes.localStart, n);
+            measureAny(s.shape, lanes.localEnd, lanes.distance, lanes.normal, n);
+            classify(s.thickness, lanes, n);
+        }
         const long found = anyOf(lanes.outcome, n);
         if ((found & isNear) == 0) return found;
+        if (isLevel && ((found & needsStart) != 0 || !s.still)) toLocal(s.from, lanes.start, lanes.localStart, n);
         if ((found & needsStart) != 0) {
             measureAny(s.shape, lanes.localStart, lanes.startDistance, lanes.startNormal, n);
             compareSides(lanes, n);
         }
-        placeTouch(s.thickness, s.to, lanes, n);
+        if (!isLevel) placeTouch(s.thickness, s.to, lanes, n);
     }
-    findPlaces(s.thickness, lanes, n);
     if (s.still) {
+        if (s.records) findPlaces(s.thickness, lanes, n);
         respond<Real, true>(s, lanes, lanes.start, lanes.carried);
     } else {
+        findPlaces(s.thickness, lanes, n);
         findSpeeds(s, lanes, lanes.carried);
         toWorld(s.to, lanes.localStart, n);
         respond<Real, false>(s, lanes, lanes.localStart, lanes.carried);

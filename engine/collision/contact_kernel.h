@@ -8,6 +8,9 @@ namespace taut::collision {
 
 inline constexpr int contactBatch = 64;  // points at most: what is known of them stays in the first-level cache
 
+// Room for them in a row, and for a line of the cache more: rows a page apart would get in each other's way.
+inline constexpr int contactRow = contactBatch + 8;
+
 struct KernelFrame {
     double rotation[3][3];  // columns
     double position[3];     // [m]
@@ -23,6 +26,7 @@ struct ContactArgs {
     const Real* inverseMass;  // (n) [1/kg]; 0: left alone
     const unsigned* mask;     // (n) those of another mask than `bits` are left alone; nullptr: none are
     unsigned bits;
+    bool records;  // whether positions of touched points are wanted
 
     ClosedShape shape;
     double normal[3];      // of a half-space, in the world
@@ -47,32 +51,33 @@ enum class Outcome : long {
 
 // Of a batch: what the kernel works on, and its results.
 struct ContactLanes {
-    alignas(64) long outcome[contactBatch];        // an Outcome each
-    alignas(64) double impulse[contactBatch];      // of touched points, as in Contact
-    alignas(64) double position[3][contactBatch];  //
-    alignas(64) double normal[3][contactBatch];    //
+    alignas(64) long outcome[contactRow];        // an Outcome each
+    alignas(64) double impulse[contactRow];      // of touched points, as in Contact
+    alignas(64) double position[3][contactRow];  //
+    alignas(64) double normal[3][contactRow];    //
 
-    alignas(64) double start[3][contactBatch];    // of the path, in the world
-    alignas(64) double carried[3][contactBatch];  // that start, carried along by the surface; its velocity
-    alignas(64) double end[3][contactBatch];
-    alignas(64) double v[3][contactBatch];
-    alignas(64) double localStart[3][contactBatch];
-    alignas(64) double localEnd[3][contactBatch];
-    alignas(64) double skin[contactBatch];
-    alignas(64) double distance[contactBatch];
-    alignas(64) double depth[contactBatch];
-    alignas(64) double startDistance[contactBatch];
-    alignas(64) double startNormal[3][contactBatch];
-    alignas(64) double approach[contactBatch];
-    alignas(64) double bounce[contactBatch];
-    alignas(64) double slide[3][contactBatch];  // then the velocity after the touch
-    alignas(64) double grip[contactBatch];
-    alignas(64) long slips[contactBatch];
-    alignas(64) double square[contactBatch];
-    alignas(64) double pressed[contactBatch];
-    alignas(64) double along[3][contactBatch];  // then the end after the touch
-    alignas(64) double back[contactBatch];
-    alignas(64) long creeps[contactBatch];
+    alignas(64) double start[3][contactRow];    // of the path, in the world
+    alignas(64) double carried[3][contactRow];  // that start, carried along by the surface; its velocity
+    alignas(64) double end[3][contactRow];
+    alignas(64) double v[3][contactRow];
+    alignas(64) double localStart[3][contactRow];
+    alignas(64) double localEnd[3][contactRow];
+    alignas(64) double skin[contactRow];
+    alignas(64) double distance[contactRow];
+    alignas(64) double depth[contactRow];
+    alignas(64) double startDistance[contactRow];
+    alignas(64) double startNormal[3][contactRow];
+    alignas(64) double approach[contactRow];
+    alignas(64) double bounce[contactRow];
+    alignas(64) double slide[3][contactRow];  // then the velocity after the touch
+    alignas(64) double grip[contactRow];
+    alignas(64) long slips[contactRow];
+    alignas(64) double slideSquare[contactRow];
+    alignas(64) double square[contactRow];
+    alignas(64) double pressed[contactRow];
+    alignas(64) double along[3][contactRow];  // then the end after the touch
+    alignas(64) double back[contactRow];
+    alignas(64) long creeps[contactRow];
 };
 
 // Bits of what a call returns: whether any point was touched, or left.

@@ -206,6 +206,7 @@ class Resolver {
         args.inverseMass = points_.inverseMass + first;
         args.mask = nullptr;
         args.bits = 0;
+        args.records = records_;
         args.shape = solid.closed;
         args.offset = solid.above.offset;
         args.to = frameFor(solid.to);

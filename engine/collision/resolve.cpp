@@ -12,6 +12,7 @@ namespace taut::collision {
 namespace {
 
 constexpr int mostAtOnce = 32;  // solids that a block of points is tried against: the bits of a mask
+constexpr int smallBlock = 16;  // points that may be near to several solids and are not cut further
 constexpr int mostPasses = 4;   // over the solids that one point touches
 
 // What free fall adds to a speed in two steps: a resting point arrives with about one step's worth each time, and a
@@ -62,19 +63,21 @@ class Resolver {
         for (const Solid* solid : candidates_.near()) {
             if (!mayTouch(*solid, box, reach)) continue;
             if (count == mostAtOnce) {
-                if (last - first == 1) {  // one point within reach of more than 32 boxes: group after group
-                    resolveAgainst(first, rows, near, count, reach);
-                    count = 0;
-                } else {
-                    const int middle = first + (last - first) / 2;
-                    resolveBlock(first, middle, boundsOf(rowsOf(first, middle)));
-                    resolveBlock(middle, last, boundsOf(rowsOf(middle, last)));
-                    return;
-                }
+                if (last - first > 1) return halve(first, last);
+                resolveAgainst(first, rows, near, count, reach);  // one point within reach of more: group after group
+                count = 0;
             }
             near[static_cast<std::size_t>(count++)] = solid;
         }
+        // Of the parts of a block most are near to one solid, and those cost least.
+        if (count > 1 && last - first > smallBlock) return halve(first, last);
         if (count > 0) resolveAgainst(first, rows, near, count, reach);
+    }
+
+    void halve(int first, int last) {
+        const int middle = first + (last - first) / 2;
+        resolveBlock(first, middle, boundsOf(rowsOf(first, middle)));
+        resolveBlock(middle, last, boundsOf(rowsOf(middle, last)));
     }
 
     static bool mayTouch(const Solid& solid, const Box& box, double margin) {

@@ -48,7 +48,7 @@ static inline ClosedDistance distanceToBox(const double* size, double x, double 
     const double face = isY ? qy : (isX ? qx : qz);
     const double nx = isX ? sx : 0.0;
     const double ny = isY ? sy : 0.0;
-    const double nz = isX | isY ? 0.0 : sz;
+    const double nz = (isX | isY) ? 0.0 : sz;
     return {isAtEdge ? d : face, isAtEdge ? ox * sx * scale : nx, isAtEdge ? oy * sy * scale : ny,
             isAtEdge ? oz * sz * scale : nz};
 }

@@ -149,7 +149,7 @@ inline void compareSides(ContactLanes& lanes, int n) {
                             lanes.startNormal[1][i] * lanes.normal[1][i] + lanes.startNormal[2][i] * lanes.normal[2][i];
         const bool isOther = (lanes.startDistance[i] > -lanes.skin[i]) & (same <= 0.0);
         const long found = lanes.outcome[i];
-        lanes.outcome[i] = ((found & needsStart) != 0) & isOther ? anyLeft : found;
+        lanes.outcome[i] = (((found & needsStart) != 0) & isOther) ? anyLeft : found;
     }
 }
 
@@ -230,7 +230,7 @@ inline void flatTouch(const double (&normal)[3], double offset, ContactLanes& la
         lanes.normal[0][i] = nx;
         lanes.normal[1][i] = ny;
         lanes.normal[2][i] = nz;
-        lanes.outcome[i] = live & near ? isNear : 0L;
+        lanes.outcome[i] = (live & near) ? isNear : 0L;
     }
 }
 
@@ -264,7 +264,7 @@ inline void findSpeeds(const ContactArgs<Real>& s, ContactLanes& lanes, Rows& ve
         velocity[0][i] = x;
         velocity[1][i] = y;
         velocity[2][i] = z;
-        lanes.outcome[i] = ((found & isNear) != 0) & isFast ? anyLeft : found;
+        lanes.outcome[i] = (((found & isNear) != 0) & isFast) ? anyLeft : found;
     }
 }
 

@@ -74,6 +74,7 @@ class DynamicsOf final : public Dynamics {
         if (!method_) makeMethod();
         step_ = h;
         method_->start(system_, t, h, state_);
+        candidates_.drop();
         std::size_t size = 0;
         forEachPart([&](Real*, std::size_t n) { size += n; });
         keptSize_ = size;

@@ -57,13 +57,13 @@ struct ContactLanes {
     alignas(64) double normal[3][contactRow];    //
 
     alignas(64) double start[3][contactRow];    // of the path, in the world
-    alignas(64) double carried[3][contactRow];  // that start, carried along by the surface; its velocity
+    alignas(64) double carried[3][contactRow];  // velocity of the surface at `position`
     alignas(64) double end[3][contactRow];
     alignas(64) double v[3][contactRow];
-    alignas(64) double localStart[3][contactRow];
+    alignas(64) double localStart[3][contactRow];  // then, of a moving solid, the start carried along by it
     alignas(64) double localEnd[3][contactRow];
     alignas(64) double skin[contactRow];
-    alignas(64) double distance[contactRow];
+    alignas(64) double distance[contactRow];  // at the end; then the offset of the half-space to end in
     alignas(64) double depth[contactRow];
     alignas(64) double startDistance[contactRow];
     alignas(64) double startNormal[3][contactRow];

@@ -5,16 +5,19 @@
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace taut::collision {
 
-MeshTree::MeshTree(std::span<const dvec3> vertices, std::span<const std::uint32_t> triangles) {
+MeshTree::MeshTree(std::span<const dvec3> corners) {
     std::vector<double> places;
-    for (const dvec3& v : vertices) places.insert(places.end(), {v.x, v.y, v.z});
-    std::vector<int> corners(triangles.begin(), triangles.end());
-    const int count = static_cast<int>(triangles.size() / 3);
-    btTriangleIndexVertexArray arrays(count, corners.data(), 3 * static_cast<int>(sizeof(int)),
-                                      static_cast<int>(vertices.size()), places.data(),
+    places.reserve(3 * corners.size());
+    for (const dvec3& corner : corners) places.insert(places.end(), {corner.x, corner.y, corner.z});
+    std::vector<int> numbers(corners.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    const int count = static_cast<int>(corners.size() / 3);
+    btTriangleIndexVertexArray arrays(count, numbers.data(), 3 * static_cast<int>(sizeof(int)),
+                                      static_cast<int>(corners.size()), places.data(),
                                       3 * static_cast<int>(sizeof(double)));
     btBvhTriangleMeshShape shape(&arrays, true);
     const auto& built = shape.getOptimizedBvh()->getQuantizedNodeArray();
@@ -28,7 +31,7 @@ MeshTree::MeshTree(std::span<const dvec3> vertices, std::span<const std::uint32_
             node.triangle = built[i].getTriangleIndex();
             node.skip = 1;
             Box box;
-            for (int k = 0; k < 3; ++k) box.add(vertices[triangles[static_cast<std::size_t>(3 * node.triangle + k)]]);
+            for (int k = 0; k < 3; ++k) box.add(corners[static_cast<std::size_t>(3 * node.triangle + k)]);
             const dvec3 largest = glm::max(glm::abs(box.low), glm::abs(box.high));
             box.grow(1e-6 * (largest.x + largest.y + largest.z) + 1e-30);
             for (int k = 0; k < 3; ++k) {

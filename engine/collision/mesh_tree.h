@@ -2,8 +2,9 @@
 // writes a global counter, which bodies that are resolved side by side would share. Knows boxes only.
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "taut/collision/geometry.h"
@@ -13,7 +14,7 @@ namespace taut::collision {
 class MeshTree {
   public:
     MeshTree() = default;
-    MeshTree(std::span<const dvec3> vertices, std::span<const std::uint32_t> triangles);
+    explicit MeshTree(std::span<const dvec3> corners);  // (3 · triangles)
 
     // Calls see(triangle) for every triangle whose box overlaps the given one, always in the same order.
     template <class Visit>
@@ -38,12 +39,54 @@ class MeshTree {
         }
     }
 
+    // Calls see(triangle) for every triangle whose box may be nearer to p than `square` [m²], which see() lowers, near
+    // ones first; what is nearer by less than the factor 1 / shrink of the squares may be left out.
+    template <class See>
+    void closest(const dvec3& p, double shrink, const double& square, const See& see) const {
+        struct Open {
+            const Node* node;
+            double square;
+        };
+        std::array<Open, 64> open;  // Bullet's splits leave either side a third, at least
+        std::size_t count = 0;
+        Open now{nodes_.data(), squareTo(nodes_[0], p)};
+        for (;;) {
+            if (now.square * shrink <= square * (1.0 + 1e-9)) {
+                if (now.node->triangle < 0) {
+                    const Node* const left = now.node + 1;
+                    const Node* const right = left + left->skip;
+                    now = {left, squareTo(*left, p)};
+                    Open other{right, squareTo(*right, p)};
+                    if (other.square < now.square) std::swap(now, other);
+                    open[count++] = other;
+                    continue;
+                }
+                see(now.node->triangle);
+            }
+            if (count == 0) return;
+            now = open[--count];
+        }
+    }
+
   private:
     struct Node {
         float low[3], high[3];  // [m] a little larger than what they hold, so that float is enough
         int triangle;           // below 0: an inner node
         int skip;               // nodes from here to the next that is not below this one
     };
+
+    // [m²] from p to a box.
+    static double squareTo(const Node& node, const dvec3& p) {
+        double sum = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            const double below = node.low[k] - p[k];
+            const double above = p[k] - node.high[k];
+            const double out = below > above ? below : above;
+            sum += out > 0.0 ? out * out : 0.0;
+        }
+        return sum;
+    }
+
     std::vector<Node> nodes_;  // depth first
 };
 

@@ -2,91 +2,10 @@
 
 namespace taut::collision {
 
-namespace {
-
-// The nearest point of a triangle: by the sign of the barycentric coordinates the regions of its corners and edges
-// are told apart (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
-dvec3 nearestOnTriangle(const dvec3& p, const dvec3& a, const dvec3& ab, const dvec3& ac) {
-    const dvec3 ap = p - a;
-    const double d1 = glm::dot(ab, ap);
-    const double d2 = glm::dot(ac, ap);
-    if (d1 <= 0.0 && d2 <= 0.0) return a;
-    const dvec3 bp = ap - ab;
-    const double d3 = glm::dot(ab, bp);
-    const double d4 = glm::dot(ac, bp);
-    if (d3 >= 0.0 && d4 <= d3) return a + ab;
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + ab * (d1 / (d1 - d3));
-    const dvec3 cp = ap - ac;
-    const double d5 = glm::dot(ab, cp);
-    const double d6 = glm::dot(ac, cp);
-    if (d6 >= 0.0 && d5 <= d6) return a + ac;
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + ac * (d2 / (d2 - d6));
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-        return a + ab + (ac - ab) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    const double whole = 1.0 / (va + vb + vc);
-    return a + ab * (vb * whole) + ac * (vc * whole);
-}
-
-}  // namespace
-
-void TriangleMesh::updateFoot(const dvec3& p, int triangle, Foot& foot) const {
-    const Triangle& t = triangles_[static_cast<std::size_t>(triangle)];
-    const dvec3 q = nearestOnTriangle(p, t.corner, t.ab, t.ac);
-    const dvec3 apart = p - q;
-    const double square = glm::dot(apart, apart);
-    const double tie = 1e-11 * foot.square;
-    if (square > foot.square + tie) return;
-    const double facing = std::abs(glm::dot(apart, t.normal));
-    if (square < foot.square - tie || facing > foot.facing * (1.0 + 1e-9) ||
-        (facing >= foot.facing * (1.0 - 1e-9) && triangle < foot.triangle))
-        foot = {square, facing, q, triangle};
-}
-
-TriangleMesh::Foot TriangleMesh::footWithin(const dvec3& p, double radius) const {
-    Foot foot;
-    Box box{p, p};
-    box.grow(radius);
-    tree_.visit(box, [&](int triangle) { updateFoot(p, triangle, foot); });
-    return foot;
-}
-
-Nearest TriangleMesh::nearestFrom(const dvec3& p, const Foot& foot) const {
-    const dvec3& normal = triangles_[static_cast<std::size_t>(foot.triangle)].normal;
-    const dvec3 apart = p - foot.point;
-    const double distance = std::sqrt(foot.square);
-    const bool inside = closed_ && glm::dot(apart, normal) < 0.0;
-    if (!(distance > 0.0)) return {0.0, normal};
-    return {inside ? -distance : distance, apart * ((inside ? -1.0 : 1.0) / distance)};
-}
-
-Nearest TriangleMesh::nearest(const dvec3& p) const {
-    // The radius grows by a little so that rounding cannot leave out the one triangle that is that far.
-    const Foot foot = footWithin(p, guess(p).most * (1.0 + 1e-6) + 1e-9 * cellSize_);
-    if (foot.triangle < 0) return {std::numeric_limits<double>::infinity(), {0.0, 1.0, 0.0}};
-    return nearestFrom(p, foot);
-}
-
-TriangleMesh::Guess TriangleMesh::guess(const dvec3& p) const {
-    glm::ivec3 cell;
-    for (int k = 0; k < 3; ++k) {
-        const double place = (p[k] - bounds_.low[k]) / cellSize_;
-        const int last = cellCount_[k] - 1;
-        cell[k] = place >= last ? last : (place > 0.0 ? static_cast<int>(place) : 0);
-    }
-    const double atMiddle = cells_[static_cast<std::size_t>((cell.z * cellCount_.y + cell.y) * cellCount_.x + cell.x)];
-    const dvec3 off = p - (bounds_.low + (dvec3(cell) + 0.5) * cellSize_);
-    const double away = std::sqrt(glm::dot(off, off));
-    // A distance changes by no more than the way that is walked.
-    return {std::abs(atMiddle) - away, std::abs(atMiddle) + away, atMiddle < 0.0};
-}
-
-bool TriangleMesh::findWayOut(const Path& path, Touch& touch) const {
-    const Nearest end = nearest(path.to);
-    if (end.distance >= path.thickness + path.skin) return false;
-    touch = {end.normal, glm::dot(end.normal, path.to) - end.distance + path.thickness};
+bool TriangleMesh::findWayOut(const Path& path, const Foot& end, Touch& touch) const {
+    const Nearest near = finder_.nearestFrom(path.to, end);
+    if (near.distance >= path.thickness + path.skin) return false;
+    touch = {near.normal, glm::dot(near.normal, path.to) - near.distance + path.thickness};
     return true;
 }
 
@@ -95,38 +14,18 @@ bool TriangleMesh::isInFront(const Path& path, const Triangle& t) {
     return glm::dot(path.from - t.corner, t.normal) > -path.skin;
 }
 
-bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
-    crossed = false;
-    const double reach = path.thickness + path.skin;
+// The triangle that the path crosses first, -1: none.
+int TriangleMesh::firstCrossing(const Path& path) const {
     const dvec3 whole = path.to - path.from;
-
-    const Guess end = guess(path.to);
-    if (end.least > reach + std::sqrt(glm::dot(whole, whole)))  // no triangle near the whole path
-        return closed_ && end.inside && findWayOut(path, touch);
-
-    // One walk through the tree: the first crossing, the nearest place to the end and, where the mesh is closed and
-    // the cells leave it open, the nearest place to the start, which tells whether the point starts inside.
-    const Guess start = guess(path.from);
-    const bool asksStart = closed_ && start.least <= 0.0;
     Box box;
     box.add(path.from);
     box.add(path.to);
-    box.grow(reach);
-    if (asksStart) {
-        Box around{path.from, path.from};
-        around.grow(start.most * (1.0 + 1e-6) + 1e-9 * cellSize_);
-        box.add(around.low);
-        box.add(around.high);
-    }
-    Foot startFoot;
-    Foot endFoot;
+    box.grow(path.thickness + path.skin);
     double first = 2.0;      // fraction of the path
     double steepest = -1.0;  // [m] how much of the path runs along the crossed triangle's normal
     int crossing = -1;
-    tree_.visit(box, [&](int index) {
-        updateFoot(path.to, index, endFoot);
-        if (asksStart) updateFoot(path.from, index, startFoot);
-        const Triangle& t = triangles_[static_cast<std::size_t>(index)];
+    finder_.tree().visit(box, [&](int index) {
+        const Triangle& t = finder_.triangle(index);
         const double fromHeight = glm::dot(path.from - t.corner, t.normal);
         const double toHeight = glm::dot(path.to - t.corner, t.normal);
         const bool front = isInFront(path, t);
@@ -146,28 +45,50 @@ bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
         steepest = steep;
         crossing = index;
     });
+    return crossing;
+}
 
-    const bool startsInside = asksStart ? startFoot.triangle >= 0 && nearestFrom(path.from, startFoot).distance < 0.0
-                                        : closed_ && start.inside;
-    if (startsInside) return findWayOut(path, touch);
-    if (crossing >= 0) {
-        const Triangle& t = triangles_[static_cast<std::size_t>(crossing)];
-        const dvec3 normal = isInFront(path, t) ? t.normal : -t.normal;
-        touch = {normal, glm::dot(normal, t.corner) + path.thickness};
-        crossed = true;
-        return true;
-    }
-    if (endFoot.triangle < 0 || !(endFoot.square < reach * reach)) return false;
+// At the end of a path that crosses nothing.
+bool TriangleMesh::touchNear(const Path& path, const Foot& end, Touch& touch) const {
+    const double reach = path.thickness + path.skin;
+    if (!(end.square < reach * reach)) return false;
     // Off the middle of a triangle the direction is its normal, which is exact however near the point is.
-    const double distance = std::sqrt(endFoot.square);
-    const Triangle& t = triangles_[static_cast<std::size_t>(endFoot.triangle)];
-    const dvec3 apart = path.to - endFoot.point;
+    const double distance = std::sqrt(end.square);
+    const Triangle& t = finder_.triangle(end.triangle);
+    const dvec3 apart = path.to - end.point;
     dvec3 normal = apart * (1.0 / distance);
     if (!(distance > path.skin))
         normal = isInFront(path, t) ? t.normal : -t.normal;
-    else if (endFoot.square - endFoot.facing * endFoot.facing <= path.skin * path.skin)
+    else if (end.square - end.facing * end.facing <= path.skin * path.skin)
         normal = glm::dot(apart, t.normal) > 0.0 ? t.normal : -t.normal;
-    touch = {normal, glm::dot(normal, endFoot.point) + path.thickness};
+    touch = {normal, glm::dot(normal, end.point) + path.thickness};
+    return true;
+}
+
+bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
+    crossed = false;
+    const bool closed = finder_.isClosed();
+    const dvec3 whole = path.to - path.from;
+    const double length = std::sqrt(glm::dot(whole, whole));
+
+    const FootFinder::Place near = finder_.place(path.to);
+    if (near.least > path.thickness + path.skin + length && !(closed && near.inside))
+        return false;  // no triangle near the whole path
+
+    const Foot end = finder_.foot(path.to, near);
+    if (end.triangle < 0) return false;
+    // Shorter than the way to the surface: it crosses nothing and starts on the side where it ends.
+    const double clear = length + path.skin + 1e-8 * (length + std::abs(near.most));
+    if (end.square > clear * clear)
+        return finder_.isInside(path.to, end) ? findWayOut(path, end, touch) : touchNear(path, end, touch);
+
+    if (closed && finder_.nearest(path.from).distance < 0.0) return findWayOut(path, end, touch);
+    const int crossing = firstCrossing(path);
+    if (crossing < 0) return touchNear(path, end, touch);
+    const Triangle& t = finder_.triangle(crossing);
+    const dvec3 normal = isInFront(path, t) ? t.normal : -t.normal;
+    touch = {normal, glm::dot(normal, t.corner) + path.thickness};
+    crossed = true;
     return true;
 }
 

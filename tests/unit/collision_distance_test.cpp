@@ -209,6 +209,7 @@ TEST(CollisionDistance, HullOfARealModelAgreesWithBullet) {
     }
     bullet.setMargin(0.0);
     const double size = glm::length(high - low);
+    const auto form = builtInShapes().find("hull")->form(shape);
     Numbers numbers;
     double worst = 0.0;
     for (int i = 0; i < 2000; ++i) {
@@ -216,9 +217,14 @@ TEST(CollisionDistance, HullOfARealModelAgreesWithBullet) {
         const double ours = colliders.distance(p);
         const double theirs = bulletDistance(bullet, p, 0.0);
         worst = std::max(worst, std::abs(ours - theirs));
+        // No plane with the vertices behind it is higher under the point than the one at its nearest place: duality.
+        // 1e-11: the vertices are rounded to 1e-12 of the size when the corners are found.
+        const Nearest near = form->nearest(p);
+        double support = -1e300;
+        for (const glm::dvec3& v : shape.vertices) support = std::max(support, glm::dot(near.normal, v));
+        ASSERT_NEAR(near.distance, glm::dot(near.normal, p) - support, 1e-11 * size) << i;
     }
-    // Bullet decides which vertices span a face on coordinates rounded to 1/10216 of the size.
-    EXPECT_LT(worst, 1e-4 * size);
+    EXPECT_LT(worst, 1e-6 * size);  // what Bullet's GJK and EPA leave
     // Every vertex lies inside or on the surface.
     for (const glm::dvec3& v : shape.vertices) ASSERT_LT(colliders.distance(v), 1e-9 * size);
 }

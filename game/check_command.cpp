@@ -37,6 +37,7 @@ int check(const CheckFlags& flags) {
     for (const std::string& argument : flags.scenes) {
         try {
             const world::SceneSpec spec = readScene(argument, flags.overrides, flags.isConfined);
+            notePreparation(spec);
             const world::Rehearsal rehearsal = world::rehearse(spec);
             printWarnings(rehearsal.warnings);
             printAdvice(rehearsal.advice);

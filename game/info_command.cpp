@@ -80,6 +80,7 @@ struct Facts {
 Facts gatherFacts(const InfoFlags& flags) {
     Facts facts;
     facts.spec = readScene(flags.scene, flags.overrides);
+    notePreparation(facts.spec);
     world::World world(facts.spec);
     facts.islands = world.islands();
     facts.joints = world.joints();

@@ -50,7 +50,9 @@ void LivePlay::rebuild(std::vector<std::string> changes, const std::string& said
     overrides.insert(overrides.end(), changes.begin(), changes.end());
     std::string kept;  // of the recording so far, which is not to be lost
     try {
-        auto session = std::make_unique<live::Session>(readScene(settings_.scene, overrides), settings_.threads);
+        world::SceneSpec spec = readScene(settings_.scene, overrides);
+        if (!settings_.isQuiet) notePreparation(spec);
+        auto session = std::make_unique<live::Session>(std::move(spec), settings_.threads);
         if (session_ && isRecording_ && session_->tick() > 0) kept = savedRecording(true) + "; ";
         session_ = std::move(session);
     } catch (const core::Error& error) {

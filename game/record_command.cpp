@@ -57,6 +57,7 @@ int record(const RecordFlags& flags) {
     core::prepareFolderOf(output);
 
     const Interruption interruption;
+    if (!flags.quiet) notePreparation(spec);
     const core::ThreadLimit limit(flags.threads);
     world::World world(spec, {.threads = flags.threads});
     const std::int64_t last = (pipeline::frameCount(spec.run) - 1) * world.ticksPerFrame();

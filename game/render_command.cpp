@@ -253,6 +253,7 @@ int render(const RenderFlags& flags) {
     const std::string large =
         largeRunText(options.lastFrame - options.firstFrame + 1, spec.picture.size.x, spec.picture.size.y);
     if (!large.empty() && !flags.noPictures && !flags.quiet) printNote("note: {}\n", large);
+    if (!flags.quiet) notePreparation(spec);
     const core::ThreadLimit threads(flags.threads);
     world::World world(spec, {.threads = flags.threads});
     const std::vector<std::string> foreseen = world.warnings();

@@ -62,6 +62,22 @@ scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<s
     return loaded;
 }
 
+std::string preparationText(const world::SceneSpec& spec) {
+    constexpr std::size_t many = 40'000;  // triangles, of which a processor prepares some 150 000 in a second
+    std::vector<std::string> large;
+    const auto look = [&](const world::ColliderSpec& collider, const std::string& name, const auto& self) -> void {
+        for (const world::ColliderSpec& part : collider.parts) self(part, name, self);
+        if (collider.meshData != nullptr && collider.meshData->triangles.size() >= many)
+            large.push_back(fmt::format("{}: {} triangles", name, collider.meshData->triangles.size()));
+    };
+    for (const world::ColliderSpec& collider : spec.colliders) look(collider, "collider." + collider.name, look);
+    return large.empty() ? "" : fmt::format("preparing {}", fmt::join(large, ", "));
+}
+
+void notePreparation(const world::SceneSpec& spec) {
+    if (const std::string text = preparationText(spec); !text.empty()) printNote("note: {}\n", text);
+}
+
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content) {
     if (core::fileContent(file) != expected)
         throw core::Error(

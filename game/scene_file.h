@@ -28,6 +28,10 @@ world::SceneSpec readScene(const std::string& argument, const std::vector<std::s
 scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides,
                                 bool isConfined = false);
 
+// Says which colliders of a scene take a second or so to prepare; a world that is made of it is silent.
+std::string preparationText(const world::SceneSpec& spec);
+void notePreparation(const world::SceneSpec& spec);
+
 // Puts `content` in the place of a scene file that still holds `expected`; a link stays one, permissions stay. Throws
 // core::Error(inputOutput), also when someone else has changed the file meanwhile.
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content);

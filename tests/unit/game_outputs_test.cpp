@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "game/scene_file.h"
 #include "image_support.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/image/video_writer.h"
@@ -52,6 +53,23 @@ TEST(Outputs, VeryManyPicturesAreSaidAndLookedForAtOnce) {
     EXPECT_EQ(largeRunText(1000, 640, 360), "");
     EXPECT_EQ(largeRunText(360000, 1000, 1000),
               "360000 pictures of 1000 x 1000 pixels: about 180 GB of PNG files, and 1 hours at 100 pictures a second");
+}
+
+TEST(Outputs, CollidersThatTakeLongToPrepareAreSaid) {
+    const auto meshOf = [](std::size_t triangles) {
+        world::MeshData data;
+        data.triangles.resize(triangles);
+        world::ColliderSpec collider;
+        collider.meshData = std::make_shared<world::MeshData>(data);
+        return collider;
+    };
+    world::SceneSpec scene;
+    scene.colliders = {meshOf(39'999)};
+    EXPECT_EQ(preparationText(scene), "");
+    scene.colliders.push_back({});
+    scene.colliders.back().name = "hares";
+    scene.colliders.back().parts = {meshOf(70'000), meshOf(12), meshOf(40'000)};
+    EXPECT_EQ(preparationText(scene), "preparing collider.hares: 70000 triangles, collider.hares: 40000 triangles");
 }
 
 TEST(Outputs, ExistingVideoIsNotOverwrittenUnasked) {

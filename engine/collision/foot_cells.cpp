@@ -208,7 +208,7 @@ void FootFinder::fillCell(std::size_t index, const dvec3& middle, double half, i
     for (std::size_t i = 0; i < among.size(); ++i)
         if (lowest[i] <= limit && mayBeNearest(middle, half, among[i])) list.push_back(among[i]);
 
-    if (list.size() > fewTriangles && depth < deepest && distance <= 2.0 * halfDiagonal) {
+    if (list.size() > fewTriangles && depth < deepest && distance <= halfDiagonal) {
         cell.first = static_cast<std::uint32_t>(slab.cells.size());
         cell.count = -1;
         slab.cells[index] = cell;

@@ -67,7 +67,11 @@ void build(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(builtInShapes().find(subject.kind)->form(sizes));
     state.SetLabel(nameOf(subject, sizes));
 }
-BENCHMARK(build)->DenseRange(1, std::size(subjects) - 1)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(build)
+    ->DenseRange(1, std::size(subjects) - 1)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 // 71 × 71 points over the upper half, row after row as those of a cloth, that keep 5 mm.
 template <class Real>

@@ -52,6 +52,7 @@ void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real*
     h_ = h;
     g_.clear();
     firstOf_.clear();
+    isStiff_.clear();
     isBetween_.clear();
     hasBetween_ = false;
     double step = 0.5 * h;
@@ -61,10 +62,10 @@ void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real*
     };
     for (const SpringRun<Real>& run : network.runs) {
         double most = 0;
-        if (run.offset == chainOffset)
-            forEachOf(network, run, w,
-                      [&](Real k, Real tau, Real wa, Real wb) { most = std::max(most, pairRate(k, tau, wa, wb)); });
-        isBetween_.push_back(0.5 * h * most > strong);
+        forEachOf(network, run, w,
+                  [&](Real k, Real tau, Real wa, Real wb) { most = std::max(most, pairRate(k, tau, wa, wb)); });
+        isStiff_.push_back(0.5 * h * most > strong);
+        isBetween_.push_back(isStiff_.back() && run.offset == chainOffset);
         hasBetween_ = hasBetween_ || isBetween_.back();
         step = isBetween_.back() ? h : 0.5 * h;
         firstOf_.push_back(static_cast<int>(g_.size()));
@@ -126,7 +127,7 @@ void DashpotSweep<Real>::damp(const SpringNetwork<Real>& network, const Points& 
             const SpringRun<Real>& run = network.runs[r];
             if (isBetween_[r] != isBetween) continue;
             run_({run.count, run.offset, stride, x + run.a, felt + run.a, v + run.a, w + run.a, g_.data() + firstOf_[r],
-                  isForwards, isBetween});
+                  isForwards, isStiff_[r]});
         }
     };
     const auto dampSingles = [&](const SpringBlock& block) {

@@ -49,6 +49,7 @@ class DashpotSweep {
     double h_ = 0;                      // [s] that the tables are for; 0: none
     std::vector<Real> g_;               // of the springs of all runs, then of the single ones
     std::vector<int> firstOf_;          // (runs) where theirs begin
+    std::vector<bool> isStiff_;         // (runs)
     std::vector<bool> isBetween_;       // (runs)
     bool hasBetween_ = false;           // any
     core::AlignedArray<Real> earlier_;  // (3 · stride) velocities before the kick, then their mean with those after it

@@ -168,7 +168,7 @@ TEST(AutomaticStep, HoldsTheFlagInTheWindForSeconds) {
 
 // The step that forgets the dashpots, 0.9 · 2/Ω, is what the bound is for.
 TEST(AutomaticStep, IsShorterThanTheOneThatForgetsDashpots) {
-    world::World found(flag());
+    world::World found(flag(), {.keepsSteps = true});
     const world::IslandInfo info = found.islands().front();
     EXPECT_LT(info.step, 0.9 * info.stepLimit * (1.0 + 1e-9));
     EXPECT_GT(info.step, 0.9 * info.stepLimit * 0.9);  // rounded up to whole substeps, some 70 of them

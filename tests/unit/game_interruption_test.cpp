@@ -105,6 +105,7 @@ TEST(Interrupted, TestSaysHowFarItCame) {
     const pid_t process =
         started({"test", endlessScene(folder).string(), "-o", (folder / "out").string()}, folder / "messages");
     EXPECT_TRUE(comesTrue([&] { return std::filesystem::exists(folder / "out"); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the folder is there a little before the first tick
     ::kill(process, SIGINT);
     EXPECT_EQ(exitCodeOf(process), 130);
     const std::string said = test::contentOf(folder / "messages");

@@ -1,4 +1,5 @@
 list(APPEND TAUT_UNIT_TESTS
+  mechanics_dashpot_sweep_test.cpp
   mechanics_implicit_products_test.cpp
   mechanics_mass_spring_system_test.cpp
   mechanics_spring_kernel_test.cpp

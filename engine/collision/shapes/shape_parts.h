@@ -42,8 +42,8 @@ struct FormulaSizes {
 };
 template <ClosedKind kind>
 std::shared_ptr<const Form> byFormula(const FormulaSizes& sizes, const Box& filled) {
-    using Shape = ShapeByFormula<kind>;
-    return std::make_shared<ConvexForm<Shape>>(Shape{{kind, {sizes.a, sizes.b, sizes.c}}, filled});
+    using Formula = ShapeByFormula<kind>;
+    return std::make_shared<ConvexForm<Formula>>(Formula{{kind, {sizes.a, sizes.b, sizes.c}}, filled});
 }
 
 }  // namespace taut::collision

@@ -84,7 +84,7 @@ void VolumePreservation<Real>::setBulkModuli(std::span<const VolumeCell> cells) 
 }
 
 template <class Real>
-VolumeReport VolumePreservation<Real>::inspect(const Motion<Real>& motion) const {
+VolumeReport VolumePreservation<Real>::inspect(const Motion<Real>& motion, bool stretches) const {
     VolumeReport report;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         const Corners now = cornersOf(cells_[c], motion.x, motion.stride);
@@ -96,7 +96,7 @@ VolumeReport VolumePreservation<Real>::inspect(const Motion<Real>& motion) const
         if (ratio < 0.1) ++report.collapsed;
         if (ratio <= 0.0) ++report.inverted;
         // Rounding of the positions must not count as a stretch.
-        if (isBeyond(rest_[c], now, ratio, workingStretch_ * (1.0 + 1e-4))) ++report.overstretched;
+        if (stretches && isBeyond(rest_[c], now, ratio, workingStretch_ * (1.0 + 1e-4))) ++report.overstretched;
     }
     return report;
 }

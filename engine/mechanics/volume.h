@@ -38,7 +38,8 @@ class VolumePreservation final : public ForceGenerator<Real> {
     double workingStretch() const { return workingStretch_; }
     // Takes the bulk moduli of the cells, which are those that it was made with.
     void setBulkModuli(std::span<const VolumeCell> cells);
-    VolumeReport inspect(const Motion<Real>& motion) const;
+    // Without `stretches` none is counted as overstretched.
+    VolumeReport inspect(const Motion<Real>& motion, bool stretches = true) const;
 
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
     double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;

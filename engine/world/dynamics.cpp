@@ -204,9 +204,9 @@ class DynamicsOf final : public Dynamics {
             generator->addStiffnessProduct(motion(0.0), in.data(), sum.data());
         for (std::size_t i = 0; i < u.size(); ++i) out[i] += at(sum, static_cast<int>(i));
     }
-    std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t) const override {
+    std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t, bool stretches) const override {
         std::vector<std::pair<const Body*, mechanics::VolumeReport>> all;
-        for (const auto& [body, volume] : volumes_) all.emplace_back(body, volume->inspect(motion(t)));
+        for (const auto& [body, volume] : volumes_) all.emplace_back(body, volume->inspect(motion(t), stretches));
         return all;
     }
 
@@ -347,7 +347,7 @@ class DynamicsOf final : public Dynamics {
     std::array<std::vector<Real>, 2> kept_;
     std::size_t keptSize_ = 0;
     mechanics::StateBound<Real> bound_;
-    Planes before_, velocity_;  // scratch
+    Planes before_, velocity_;                              // scratch
     std::vector<collision::MovingPoints<Real>> colliding_;  // bodies
     collision::Candidates candidates_;
     std::vector<int> touched_, emerging_;  // points

@@ -93,8 +93,8 @@ class Dynamics {
     virtual mechanics::StabilityShare stabilityShare(double t) const = 0;
     virtual void addEnergies(double t, const std::vector<bool>& only, double& uniform, double& other) const = 0;
     virtual void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const = 0;
-    virtual std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(
-        double t) const = 0;  // that have cells
+    // Of the bodies that have cells.
+    virtual std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t, bool stretches) const = 0;
 
     // x and the stored v of points.
     virtual void addToHash(std::span<const int> points, core::Hash& hash) const = 0;

@@ -181,12 +181,13 @@ std::optional<Fault> Island::overstrained(double t) {
     return fault;
 }
 
-// Beyond the working stretch the step may not hold, and a collapsed cell may not come back: each said once.
+// Beyond the working stretch a step that stays may not hold, and a collapsed cell may not come back: each said once.
 void Island::watchVolumes(double t) {
-    if (!stretchWarning_.empty() && !collapseWarning_.empty()) return;
+    const bool stretches = !choice_.need && stretchWarning_.empty();
+    if (!stretches && !collapseWarning_.empty()) return;
     char text[200];
-    for (const auto& [body, report] : dynamics_->volumes(t)) {
-        if (report.overstretched > 0 && stretchWarning_.empty()) {
+    for (const auto& [body, report] : dynamics_->volumes(t, stretches)) {
+        if (report.overstretched > 0) {
             std::snprintf(text, sizeof text,
                           ": stretched beyond working_stretch at %.3f s; raise it if the block diverges", t);
             stretchWarning_ = plan_.bodies.front()->fullName() + text;

@@ -16,7 +16,7 @@ void Island::addMetrics(const TickTime& time, const std::function<bool(const Bod
     dynamics_->positions(x_);
     addPoints(counts, time, metrics);
     addSprings(counts, metrics);
-    for (const auto& [body, report] : dynamics_->volumes(time.start())) {
+    for (const auto& [body, report] : dynamics_->volumes(time.start(), false)) {
         if (!wanted(*body)) continue;
         metrics.minVolumeRatio = std::min(metrics.minVolumeRatio, report.smallestRatio);
         metrics.invertedCells += report.inverted;

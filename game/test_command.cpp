@@ -130,8 +130,9 @@ void refuseLinks(const std::filesystem::path& goldens) {
     std::error_code none;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(goldens, none))
         if (entry.is_symlink())
-            throw core::Error(core::ErrorKind::badContent,
-                              fmt::format("{} is a link; goldens of confined scenarios hold none", entry.path().string()));
+            throw core::Error(
+                core::ErrorKind::badContent,
+                fmt::format("{} is a link; goldens of confined scenarios hold none", entry.path().string()));
 }
 
 Run prepare(const TestFlags& flags) {

@@ -20,12 +20,8 @@ std::string hex(std::uint64_t hash) {
 }
 
 Json machineJson(const Machine& machine) {
-    return {{"compiler", machine.compiler},
-            {"processor", machine.processor},
-            {"system", machine.system},
-            {"simd", machine.simd},
-            {"simd_by", machine.simdReason},
-            {"machine_threads", machine.threads}};
+    return {{"compiler", machine.compiler}, {"processor", machine.processor}, {"system", machine.system},
+            {"simd", machine.simd},         {"simd_by", machine.simdReason},  {"machine_threads", machine.threads}};
 }
 
 Json rendererJson(const std::optional<render::RendererInfo>& info) {

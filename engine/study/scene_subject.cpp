@@ -95,7 +95,8 @@ class SceneSubject final : public Subject {
     }
 
     double stepLimit(const ode::MethodInfo& method) const override {
-        const world::World world(played(spec_, method.name, Precision::double_, tick_, 0.0), {.threads = 1, .keepsSteps = true});
+        const world::World world(played(spec_, method.name, Precision::double_, tick_, 0.0),
+                                 {.threads = 1, .keepsSteps = true});
         double limit = HUGE_VAL;
         for (const world::IslandInfo& island : world.islands()) limit = std::min(limit, island.stepLimit);
         return limit;

@@ -69,8 +69,8 @@ double automaticStep(const ode::MethodInfo& method, double leastTauShare, ode::F
     return std::min(most, method.automaticStep(mode));
 }
 
-// Of a method that splits the dashpots off: one after the other they drag velocities along over y springs, and above y = 1
-// (half of it before a kick, half after) they would turn them round.
+// Of a method that splits the dashpots off: one after the other they drag velocities along over y springs, and above y
+// = 1 (half of it before a kick, half after) they would turn them round.
 double longestSplit(const ode::MethodInfo& method, const ode::FastestMode& undamped, double pairs) {
     constexpr double mostOfLimit = 0.98, mostY = 1.0;
     const double limit = mostOfLimit * method.automaticStep(undamped);

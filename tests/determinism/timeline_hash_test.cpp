@@ -2,8 +2,8 @@
 // threads, every instruction set and, through the recorded hashes, every compiler.
 #include <gtest/gtest.h>
 
-#include "taut/core/instruction_set.h"
 #include "support/timelines.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut {
 namespace {
@@ -33,9 +33,7 @@ TEST_P(TimelineHash, IsTheSameForOneTwoAndSevenThreads) {
 TEST_P(TimelineHash, IsTheSameForEveryInstructionSet) {
     const auto sse2 = hashes(GetParam(), 2, core::InstructionSet::sse2);
     for (core::InstructionSet set : {core::InstructionSet::avx2, core::InstructionSet::avx512})
-        if (core::isSupported(set)) {
-            EXPECT_EQ(sse2, hashes(GetParam(), 2, set)) << nameOf(set);
-        }
+        if (core::isSupported(set)) EXPECT_EQ(sse2, hashes(GetParam(), 2, set)) << nameOf(set);
 }
 
 // Recorded with g++ 12. They change with the scene of tests/support/timelines.h, and with the bits of results (2: steps

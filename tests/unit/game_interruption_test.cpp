@@ -48,13 +48,15 @@ int exitCodeOf(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-// A million pictures of a spring: it ends because it is asked to.
+// More than half a million pictures of a spring in short steps: it ends because it is asked to.
 std::filesystem::path endlessScene(const TemporaryFolder& folder) {
     const auto path = folder / "endless.toml";
     test::writeText(path, R"(schema = 1
 [run]
 fps = 60
 seconds = 10000
+[solver]
+dt = 1e-5
 [picture]
 size = [64, 48]
 samples = 1

@@ -17,7 +17,8 @@ list(APPEND TAUT_PHYSICS_TESTS
   oscillator_damping_test.cpp
   oscillator_energy_test.cpp
   oscillator_limits_test.cpp
-  precision_test.cpp)
+  precision_test.cpp
+  step_following_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode Boost::headers)
 list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::scene)

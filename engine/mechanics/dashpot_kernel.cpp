@@ -50,7 +50,7 @@ inline void dampApart(const DashpotRun<Real>& s, int first, int n) {
 // length.
 template <class Real>
 inline void impulses(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b) {
-    const Ends<const Real> x(s.x + first, s.stride, s.offset), u(s.u + first, s.stride, s.offset);
+    const Ends<const Real> x(s.x + first, s.stride, s.offset), u(s.v + first, s.stride, s.offset);
     const Real* g = s.g + first;
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -126,7 +126,7 @@ inline void apply(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b) {
 
 template <class Real>
 inline void dampSlice(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b) {
-    if (s.offset >= n && s.u == s.v) return dampApart(s, first, n);
+    if (s.offset >= n) return dampApart(s, first, n);
     impulses(s, first, n, b);
     if (s.offset < n) couplings(s, first, n, b);
     if (s.offset < n && s.isStiff)

@@ -15,8 +15,7 @@ struct DashpotRun {
     int offset;       // > 0: dashpot i joins points i and i + offset
     int stride;       // of x and v
     const Real* x;    // planes at the run's first point [m]
-    const Real* u;    // likewise: velocities that they feel …
-    Real* v;          // … and those that they change; may be the same [m/s]
+    Real* v;          // likewise, changed [m/s]
     const Real* w;    // (points) at the run's first [1/kg]
     const Real* g;    // (n) [kg]
     bool isForwards;  // else the last come first

@@ -1,6 +1,9 @@
 #include "taut/mechanics/dashpot_sweep.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "taut/core/instruction_set.h"
 #include "taut/core/parallel.h"
@@ -55,23 +58,45 @@ void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real*
     isStiff_.clear();
     isBetween_.clear();
     hasBetween_ = false;
-    double step = 0.5 * h;
+    const double step = 0.5 * h;
     const auto add = [&](Real k, Real tau, Real wa, Real wb) {
         g_.push_back(static_cast<Real>(step * static_cast<double>(k) * static_cast<double>(tau) /
                                        (1.0 + step * pairRate(k, tau, wa, wb))));
     };
-    for (const SpringRun<Real>& run : network.runs) {
+    if (chains_.empty()) findChains(network);
+    const auto mostOf = [&](const SpringRun<Real>& run) {
         double most = 0;
         forEachOf(network, run, w,
                   [&](Real k, Real tau, Real wa, Real wb) { most = std::max(most, pairRate(k, tau, wa, wb)); });
-        isStiff_.push_back(0.5 * h * most > strong);
-        isBetween_.push_back(isStiff_.back() && run.offset == chainOffset);
-        hasBetween_ = hasBetween_ || isBetween_.back();
-        step = isBetween_.back() ? h : 0.5 * h;
+        return most;
+    };
+    for (const SpringRun<Real>& run : network.runs) {
+        isStiff_.push_back(0.5 * h * mostOf(run) > strong);
+        isBetween_.push_back(false);
         firstOf_.push_back(static_cast<int>(g_.size()));
         forEachOf(network, run, w, add);
     }
-    step = 0.5 * h;
+    chainG_.clear();
+    for (Chain& chain : chains_) {
+        chain.isBetween = chain.isAlone &&
+                          std::any_of(chain.runs.begin(), chain.runs.end(), [&](std::size_t r) { return isStiff_[r]; });
+        if (!chain.isBetween) continue;
+        hasBetween_ = true;
+        chain.firstG = chainG_.size();
+        chainG_.resize(chain.firstG + static_cast<std::size_t>(chain.count));
+        for (const std::size_t r : chain.runs) {
+            isBetween_[r] = true;
+            const SpringRun<Real>& run = network.runs[r];
+            int at = run.a - chain.a;
+            forEachOf(network, run, w, [&](Real k, Real tau, Real wa, Real wb) {
+                // Of what fills a run up some may lie before or after the chain.
+                if (at >= 0 && at < chain.count && k > Real(0))
+                    chainG_[chain.firstG + static_cast<std::size_t>(at)] = static_cast<Real>(
+                        h * static_cast<double>(k) * static_cast<double>(tau) / (1.0 + h * pairRate(k, tau, wa, wb)));
+                ++at;
+            });
+        }
+    }
     firstSingle_ = g_.size();
     const SpringSingles<Real>& s = network.singles;
     for (std::size_t i = 0; i < s.a.size(); ++i) add(s.k[i], s.tau[i], w[s.a[i]], w[s.b[i]]);
@@ -84,8 +109,12 @@ double DashpotSweep<Real>::largestPairRate(const SpringNetwork<Real>& network, c
     const auto look = [&](Real k, Real tau, Real wa, Real wb) {
         pairRate_ = std::max(pairRate_, pairRate(k, tau, wa, wb));
     };
-    for (const SpringRun<Real>& run : network.runs)
-        if (run.offset != chainOffset) forEachOf(network, run, w, look);
+    if (chains_.empty()) findChains(network);
+    std::vector<bool> isInChain(network.runs.size(), false);
+    for (const Chain& chain : chains_)
+        for (const std::size_t r : chain.runs) isInChain[r] = chain.isAlone;
+    for (std::size_t r = 0; r < network.runs.size(); ++r)
+        if (!isInChain[r]) forEachOf(network, network.runs[r], w, look);
     const SpringSingles<Real>& s = network.singles;
     for (std::size_t i = 0; i < s.a.size(); ++i) look(s.k[i], s.tau[i], w[s.a[i]], w[s.b[i]]);
     return pairRate_;
@@ -102,10 +131,88 @@ void DashpotSweep<Real>::before(const SpringNetwork<Real>& network, const Points
 }
 
 template <class Real>
-void DashpotSweep<Real>::between(const SpringNetwork<Real>& network, const Points& points, double) {
+void DashpotSweep<Real>::between(const SpringNetwork<Real>&, const Points& points, double) {
     if (!hasBetween_) return;
     for (std::size_t i = 0; i < earlier_.size(); ++i) earlier_[i] = Real(0.5) * (earlier_[i] + points.v[i]);
-    damp(network, points, Part::between);
+    for (const Chain& chain : chains_)
+        if (chain.isBetween) dampChain(chain, points);
+}
+
+// Runs of neighbours, less what fills them up, put end to end.
+template <class Real>
+void DashpotSweep<Real>::findChains(const SpringNetwork<Real>& network) {
+    std::vector<Chain> found;
+    for (std::size_t r = 0; r < network.runs.size(); ++r) {
+        const SpringRun<Real>& run = network.runs[r];
+        if (run.offset != chainOffset) continue;
+        const Real* k = network.stiffness.data() + run.table;
+        int first = 0, last = run.count;
+        while (first < last && !(k[first] > Real(0))) ++first;
+        while (last > first && !(k[last - 1] > Real(0))) --last;
+        if (first == last) continue;
+        Chain& chain = found.emplace_back();
+        chain.a = run.a + first;
+        chain.count = last - first;
+        chain.runs = {r};
+    }
+    std::sort(found.begin(), found.end(), [](const Chain& x, const Chain& y) { return x.a < y.a; });
+    for (Chain& next : found) {
+        Chain* last = chains_.empty() ? nullptr : &chains_.back();
+        if (last != nullptr && next.a <= last->a + last->count) {
+            last->isAlone = last->isAlone && next.a == last->a + last->count;
+            last->count = std::max(last->count, next.a + next.count - last->a);
+            last->runs.insert(last->runs.end(), next.runs.begin(), next.runs.end());
+        } else {
+            chains_.push_back(std::move(next));
+        }
+    }
+}
+
+// All impulses p of the chain at once, by elimination:
+//   p_i = g_i (m_b - m_a)·n + ½ g_i [w_a (n_{i-1}·n_i) p_{i-1} + w_b (n_i·n_{i+1}) p_{i+1}],
+// m the mean of the velocities before the kick and after it.
+template <class Real>
+void DashpotSweep<Real>::dampChain(const Chain& chain, const Points& points) {
+    const auto count = static_cast<std::size_t>(chain.count);
+    for (auto* list : {&p_, &up_, &down_, &pivot_}) list->resize(count);
+    const std::ptrdiff_t stride = points.stride;
+    const auto at = [&](const Real* planes, std::size_t i) {
+        const Real* from = planes + chain.a + static_cast<std::ptrdiff_t>(i);
+        return glm::dvec3(from[0], from[stride], from[2 * stride]);
+    };
+    const auto way = [&](std::size_t i) {
+        const glm::dvec3 d = at(points.x, i + 1) - at(points.x, i);
+        const double square = glm::dot(d, d);
+        return square > 0 ? d / std::sqrt(square) : glm::dvec3(0.0);
+    };
+    const Real* w = points.w + chain.a;
+    const Real* g = chainG_.data() + chain.firstG;
+    glm::dvec3 before(0.0), n = way(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 next = i + 1 < count ? way(i + 1) : glm::dvec3(0.0);
+        const auto own = static_cast<double>(g[i]);
+        p_[i] = own * glm::dot(at(earlier_.data(), i + 1) - at(earlier_.data(), i), n);
+        down_[i] = 0.5 * own * static_cast<double>(w[i]) * glm::dot(before, n);
+        up_[i] = 0.5 * own * static_cast<double>(w[i + 1]) * glm::dot(n, next);
+        before = n;
+        n = next;
+    }
+    pivot_[0] = 1.0;
+    for (std::size_t i = 1; i < count; ++i) {
+        const double factor = down_[i] / pivot_[i - 1];
+        pivot_[i] = 1.0 - factor * up_[i - 1];
+        p_[i] += factor * p_[i - 1];
+    }
+    p_[count - 1] /= pivot_[count - 1];
+    for (std::size_t i = count - 1; i-- > 0;) p_[i] = (p_[i] + up_[i] * p_[i + 1]) / pivot_[i];
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 impulse = p_[i] * way(i);
+        for (int axis = 0; axis < 3; ++axis) {
+            Real* v = points.v + chain.a + static_cast<std::ptrdiff_t>(i) + axis * stride;
+            v[0] = static_cast<Real>(static_cast<double>(v[0]) + static_cast<double>(w[i]) * impulse[axis]);
+            v[1] = static_cast<Real>(static_cast<double>(v[1]) - static_cast<double>(w[i + 1]) * impulse[axis]);
+        }
+    }
 }
 
 template <class Real>
@@ -119,19 +226,18 @@ void DashpotSweep<Real>::damp(const SpringNetwork<Real>& network, const Points& 
     const int stride = points.stride;
     const Real *w = points.w, *x = points.x;
     Real* v = points.v;
-    const bool isForwards = part != Part::after, isBetween = part == Part::between;
-    const Real* felt = isBetween ? earlier_.data() : v;
+    const bool isForwards = part == Part::before;
     const auto dampRuns = [&](const SpringBlock& block) {
         for (int i = block.firstRun; i < block.lastRun; ++i) {
             const auto r = static_cast<std::size_t>(isForwards ? i : block.lastRun - 1 - (i - block.firstRun));
             const SpringRun<Real>& run = network.runs[r];
-            if (isBetween_[r] != isBetween) continue;
-            run_({run.count, run.offset, stride, x + run.a, felt + run.a, v + run.a, w + run.a, g_.data() + firstOf_[r],
-                  isForwards, isStiff_[r]});
+            if (isBetween_[r]) continue;
+            run_({run.count, run.offset, stride, x + run.a, v + run.a, w + run.a, g_.data() + firstOf_[r], isForwards,
+                  isStiff_[r]});
         }
     };
     const auto dampSingles = [&](const SpringBlock& block) {
-        if (block.firstSingle == block.lastSingle || isBetween) return;
+        if (block.firstSingle == block.lastSingle) return;
         const SpringSingles<Real>& s = network.singles;
         const int at = block.firstSingle;
         list_({block.lastSingle - at, stride, x, v, w, s.a.data() + at, s.b.data() + at,

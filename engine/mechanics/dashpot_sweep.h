@@ -17,6 +17,7 @@ class DashpotSweep {
     // To be called when springs or masses have changed.
     void forget() {
         h_ = 0;
+        chains_.clear();
         pairRate_ = -1;
     }
 
@@ -39,19 +40,33 @@ class DashpotSweep {
     double largestPairRate(const SpringNetwork<Real>& network, const Real* w);
 
   private:
-    enum class Part { before, between, after };
+    // Springs between points a, a + 1, …, a + count that share no other spring of the kind: one run, or runs end to
+    // end.
+    struct Chain {
+        int a = 0, count = 0;
+        bool isAlone = true;  // else its points are in other such runs, too
+        bool isBetween = false;
+        std::size_t firstG = 0;  // into chainG_
+        std::vector<std::size_t> runs;
+    };
+    void findChains(const SpringNetwork<Real>& network);
+    void dampChain(const Chain& chain, const Points& points);
+    enum class Part { before, after };
     void prepare(const SpringNetwork<Real>& network, const Real* w, double h);
     void damp(const SpringNetwork<Real>& network, const Points& points, Part part);
 
     void (*run_)(const DashpotRun<Real>&);
     void (*list_)(const DashpotList<Real>&);
-    double pairRate_ = -1;              // [1/s]; below 0: not known
-    double h_ = 0;                      // [s] that the tables are for; 0: none
-    std::vector<Real> g_;               // of the springs of all runs, then of the single ones
-    std::vector<int> firstOf_;          // (runs) where theirs begin
-    std::vector<bool> isStiff_;         // (runs)
-    std::vector<bool> isBetween_;       // (runs)
-    bool hasBetween_ = false;           // any
+    std::vector<Chain> chains_;                  // of the network, once found
+    std::vector<double> p_, up_, down_, pivot_;  // scratch
+    double pairRate_ = -1;                       // [1/s]; below 0: not known
+    double h_ = 0;                               // [s] that the tables are for; 0: none
+    std::vector<Real> g_;                        // of the springs of all runs, then of the single ones
+    std::vector<int> firstOf_;                   // (runs) where theirs begin
+    std::vector<bool> isStiff_;                  // (runs)
+    std::vector<bool> isBetween_;                // (runs)
+    std::vector<Real> chainG_;                   // of the springs of the chains that are damped between
+    bool hasBetween_ = false;                    // any
     core::AlignedArray<Real> earlier_;  // (3 · stride) velocities before the kick, then their mean with those after it
     std::size_t firstSingle_ = 0;
 };

@@ -263,9 +263,13 @@ void MassSpringSystem<Real>::setSprings(std::span<const Spring> springs) {
 }
 
 template <class Real>
-void MassSpringSystem<Real>::split() {
-    if (isSplit_) return;
-    isSplit_ = true;
+void MassSpringSystem<Real>::split(bool isSplit) {
+    if (isSplit_ == isSplit) return;
+    isSplit_ = isSplit;
+    if (!isSplit) {
+        network_ = damped_;
+        return;
+    }
     damped_ = network_;
     network_.takeUndamped(damped_);
 }

@@ -76,7 +76,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
 
     // The dashpots, one after the other; see dashpot_sweep.h.
     ode::SplitSystem<Real>* splitPart() override { return this; }
-    void split() override;
+    void split(bool isSplit) override;
     void dampBefore(double h, const Real* x, Real* v) override { sweep_.before(damped_, points(x, v), h); }
     void dampBetween(double h, const Real* x, Real* v) override { sweep_.between(damped_, points(x, v), h); }
     void dampAfter(double h, const Real* x, Real* v) override { sweep_.after(damped_, points(x, v), h); }

@@ -56,16 +56,19 @@ inline Real largestRoot(Real r) {
 // (Smith 1961).
 template <class Real>
 inline Real largestEigenvalue(Real xx, Real xy, Real xz, Real yy, Real yz, Real zz) {
-    const Real mean = (xx + yy + zz) * Real(1.0 / 3.0);
-    xx -= mean;
-    yy -= mean;
-    zz -= mean;
+    const Real mean = (xx + yy + zz) * Real(1.0 / 3.0), scale = mean > Real(0) ? Real(1) / mean : Real(0);
+    xx = xx * scale - Real(1);  // of its size, so that no power is too large for single precision
+    yy = yy * scale - Real(1);
+    zz = zz * scale - Real(1);
+    xy *= scale;
+    xz *= scale;
+    yz *= scale;
     const Real square = (xx * xx + yy * yy + zz * zz + Real(2) * (xy * xy + xz * xz + yz * yz)) * Real(1.0 / 6.0);
     const Real spread = std::sqrt(square);
     const Real determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
     const Real cube = square * spread;
     const Real skewness = cube > Real(0) ? Real(0.5) * determinant / cube : Real(1);
-    return mean + spread * largestRoot(skewness);
+    return mean * (Real(1) + spread * largestRoot(skewness));
 }
 
 }  // namespace
@@ -81,6 +84,7 @@ StateBound<Real>::StateBound(int points, int stride)
 template <class Real>
 void StateBound<Real>::setCells(std::span<const VolumeCell> cells) {
     cells_.assign(cells.begin(), cells.end());
+    looks_.resize(cells_.size());
     edges_.clear();
     edgesOf_.clear();
     std::map<std::pair<int, int>, int> numbers;
@@ -163,9 +167,18 @@ void StateBound<Real>::sumSprings(const SpringNetwork<Real>& network, const Real
 }
 
 template <class Real>
-void StateBound<Real>::sumCells(const Real* x, const Real* weights) {
-    for (const VolumeCell& cell : cells_) {
-        const CellCorners g = gradientsOf(cornersOf(cell, x, stride_));
+void StateBound<Real>::lookAtCells(const Real* x) {
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        looks_[c].corners = cornersOf(cells_[c], x, stride_);
+        looks_[c].gradients = gradientsOf(looks_[c].corners);
+    }
+}
+
+template <class Real>
+void StateBound<Real>::sumCells(const Real* weights) {
+    for (std::size_t number = 0; number < cells_.size(); ++number) {
+        const VolumeCell& cell = cells_[number];
+        const CellCorners& g = looks_[number].gradients;
         double factor = cell.bulkModulus / cell.restVolume;
         if (weights != nullptr) {
             double weight = 0;
@@ -227,12 +240,12 @@ double StateBound<Real>::largestOfCells(const Real* a) const {
 }
 
 template <class Real>
-double StateBound<Real>::largestRow(const Real* x, const Real* inverseMass) {
+double StateBound<Real>::largestRow(const Real* inverseMass) {
     std::fill(pressed_.begin(), pressed_.end(), glm::dvec3(0.0));
     std::fill(rows_.begin(), rows_.end(), 0.0);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         const VolumeCell& cell = cells_[c];
-        const CellCorners p = cornersOf(cell, x, stride_);
+        const CellCorners& p = looks_[c].corners;
         const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0) / 6.0;
         for (std::size_t e = 0; e < cellEdges.size(); ++e) {
             const CellEdge& edge = cellEdges[e];
@@ -270,17 +283,18 @@ FastestNow StateBound<Real>::operator()(const SpringNetwork<Real>& network, cons
     if (network.isTauUniform) now.damping = static_cast<double>(network.largestTau) * now.omega2;
     if (cells_.empty()) return now;
 
-    sumCells(x, nullptr);
+    lookAtCells(x);
+    sumCells(nullptr);
     takeRates(inverseMass, a_);
     now.omega2 = std::max(largestOfSprings(network, a_.data()), largestOfCells(a_.data()));
     clear();
     sumSprings(network, x, Of::stiffness, a_.data());
-    sumCells(x, a_.data());
+    sumCells(a_.data());
     takeRates(inverseMass, b_);
     Real most = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(points_); ++i)
         if (a_[i] > Real(0)) most = std::max(most, b_[i] / a_[i]);
-    now.omega2 = std::min(now.omega2, static_cast<double>(most)) + largestRow(x, inverseMass);
+    now.omega2 = std::min(now.omega2, static_cast<double>(most)) + largestRow(inverseMass);
     return now;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "taut/core/aligned_array.h"
+#include "taut/mechanics/cell_shape.h"
 #include "taut/mechanics/model.h"
 #include "taut/mechanics/spring_network.h"
 
@@ -37,18 +38,23 @@ class StateBound {
     enum class Of { stiffness, dashpots };
 
     void sumSprings(const SpringNetwork<Real>& network, const Real* x, Of what, const Real* weights);
-    void sumCells(const Real* x, const Real* weights);
+    void lookAtCells(const Real* x);
+    void sumCells(const Real* weights);
     // a (points) from the sums: w λ_max.
     void takeRates(const Real* inverseMass, core::AlignedArray<Real>& a) const;
     double largestOfSprings(const SpringNetwork<Real>& network, const Real* a) const;
     double largestOfCells(const Real* a) const;
-    double largestRow(const Real* x, const Real* inverseMass);
+    double largestRow(const Real* inverseMass);
     Real* plane(int p) { return sum_.data() + static_cast<std::ptrdiff_t>(p) * stride_; }
 
     int points_, stride_;
     core::AlignedArray<Real> sum_;    // (6 · stride) xx xy xz yy yz zz
     core::AlignedArray<Real> a_, b_;  // (stride)
     std::vector<VolumeCell> cells_;
+    struct Look {
+        CellCorners corners, gradients;
+    };
+    std::vector<Look> looks_;  // (cells) as they are now
     struct Edge {
         int a, b;
     };

@@ -17,7 +17,7 @@ template <class Real>
 class SplitLeapfrog final : public Method<Real> {
   public:
     void start(SecondOrderSystem<Real>& system, double t, double, State<Real>& state) override {
-        system.splitPart()->split();
+        system.splitPart()->split(true);
         system.prescribe(t, state.x.data(), state.v.data());
         state.memory.resize(2);
         state.memory[0] = state.v;

@@ -8,8 +8,8 @@ template <class Real>
 class SplitSystem {
   public:
     virtual ~SplitSystem() = default;
-    // From now on accelerate() gives r alone.
-    virtual void split() = 0;
+    // From now on accelerate() gives r alone; or both again.
+    virtual void split(bool isSplit) = 0;
     // What d does to velocities in h [s] at fixed places, in three parts, the kick of all other forces between the
     // first and the second: h/2 of some dashpots, then h of the others, which see the mean of the velocities before and
     // after the kick and themselves, then h/2 of the first ones in the opposite order. However strong they are they add

@@ -20,9 +20,10 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
 
 std::string explainDivergence(const Divergence& d, const Fault& fault, const StepChoice& choice, const IslandPlan& plan,
                               std::string_view methodTitle) {
-    const std::string why = fault.strain > 0 ? format("has a spring with a strain of %.3g", fault.strain)
-                            : fault.isNumber ? "moves faster than 3000 m/s"
-                                             : "has a velocity that is not a number";
+    const std::string why = fault.isTooStiff   ? "has become too stiff for a million steps a tick"
+                            : fault.strain > 0 ? format("has a spring with a strain of %.3g", fault.strain)
+                            : fault.isNumber   ? "moves faster than 3000 m/s"
+                                               : "has a velocity that is not a number";
     std::string text = format("%s diverged at t = %.4f s (tick %lld): point %d %s\n", d.body.c_str(), d.time,
                               static_cast<long long>(d.tick), d.point, why.c_str());
     if (!d.spring.empty()) text += "  stiffest there: " + d.spring + "\n";

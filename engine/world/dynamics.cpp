@@ -141,7 +141,11 @@ class DynamicsOf final : public Dynamics {
         now.pairs = system_.largestPairRate();
         return now;
     }
-    void split() override { splits_ = true; }
+    void split(bool splits) override {
+        splits_ = splits;
+        system_.split(splits);
+        method_.reset();
+    }
     ode::Work work() const override { return method_->work(); }
 
     std::vector<dvec3> velocities() const override { return list(state_.v); }

@@ -56,8 +56,8 @@ class Dynamics {
     // The path of a grip is another.
     virtual void leadGrip(std::size_t grip) = 0;
 
-    // That the method splits the dashpots off, to be said before start().
-    virtual void split() = 0;
+    // Whether the method splits the dashpots off, to be said before start().
+    virtual void split(bool splits) = 0;
     // The method, from positions and velocities at t [s] on, in steps of h [s].
     virtual void start(double t, double h) = 0;
     virtual void step(double t) = 0;

@@ -34,7 +34,7 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
         keepsStep ? nullptr : &now);
     if (choice_.need)
         following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
-    if (choice_.splits) dynamics_->split();
+    if (choice_.splits) dynamics_->split(true);
     dynamics_->start(t, choice_.step);
     for (const Since moment : {Since::tick, Since::step}) dynamics_->keep(moment);
     watchPlasticity();
@@ -78,7 +78,9 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
     hasMoved_ = true;
     if (!choice_.need) {
         dynamics_->keep(Since::tick);
-        return takeSubsteps(time, moving);
+        const auto fault = takeSubsteps(time, moving);
+        if (!fault && hasCells_) watchVolumes(time.at(1, 1));
+        return fault;
     }
     if (following_.substeps() != choice_.substeps) {
         dynamics_->synchronise(time.start());
@@ -86,14 +88,20 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
     }
     const std::vector<int> inside = inside_;
     const bool hadTouched = hasTouched_;
-    for (;;) {
+    constexpr int mostRescues = 3;  // of a tick that diverges, perhaps because the state has stiffened within it
+    for (int rescues = 0;;) {
         dynamics_->keep(Since::tick);
-        if (const auto fault = takeSubsteps(time, moving)) return fault;
-        const double need = (*choice_.need)(dynamics_->fastestNow());
-        if (!following_.isExceededBy(need)) {
-            following_.lengthenIfCalm(need);
-            return std::nullopt;
+        const auto fault = takeSubsteps(time, moving);
+        double need = 2.0 * choice_.substeps;
+        if (!fault) {
+            need = (*choice_.need)(dynamics_->fastestNow());
+            if (!following_.isExceededBy(need)) {
+                following_.lengthenIfCalm(need);
+                break;
+            }
         }
+        if (fault && (!fault->isNumber || ++rescues > mostRescues || need > mostSubsteps)) return fault;
+        if (!(need <= mostSubsteps)) return Fault{.point = 0, .time = time.at(1, 1), .isTooStiff = true};
         following_.shorten(need);
         dynamics_->goBack(Since::tick);
         inside_ = inside;
@@ -101,6 +109,8 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
         dynamics_->synchronise(time.start());
         startWith(time, following_.substeps(), true);
     }
+    if (hasCells_) watchVolumes(time.at(1, 1));
+    return std::nullopt;
 }
 
 void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
@@ -129,7 +139,6 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
         if (!mayFreeze_) continue;
         if (const auto fault = overstrained(end())) return fault;
     }
-    if (hasCells_) watchVolumes(time.at(choice_.substeps, choice_.substeps));
     return std::nullopt;
 }
 

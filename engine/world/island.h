@@ -36,10 +36,11 @@ struct TickTime {
 
 // Why an island stopped: the point whose velocity, or a spring of which, left all bounds, and when.
 struct Fault {
-    int point = -1;        // in the island
-    double time = 0;       // [s]
-    bool isNumber = true;  // false: NaN or infinite
-    double strain = 0;     // above 0: of a spring at the point, over the one at which to freeze
+    int point = -1;           // in the island
+    double time = 0;          // [s]
+    bool isNumber = true;     // false: NaN or infinite
+    bool isTooStiff = false;  // for a million steps a tick
+    double strain = 0;        // above 0: of a spring at the point, over the one at which to freeze
 };
 
 // The way of a moving collider during a tick.
@@ -145,16 +146,17 @@ class Island {
 
     // What every tick looks at stands close together.
     std::unique_ptr<Dynamics> dynamics_;
-    bool isOpen_ = false;      // v is at the time of x, and the method not started from there
-    bool mayCollide_ = false;  // there are colliders, and bodies for them
-    bool mayGiveWay_ = false;  // there are springs that yield or break
-    bool mayFreeze_ = false;   // after a fault
-    bool hasCells_ = false;    // to watch
-    bool hasMoved_ = false;    // any tick yet
-    bool hasTouched_ = false;  // a contact yet
-    bool hasLooked_ = false;   // which points stand inside colliders
-    bool isChanged_ = false;   // the plan is not as it was built
-    Changes changes_;          // of the plan, that the dynamics know nothing of yet
+    bool isOpen_ = false;            // v is at the time of x, and the method not started from there
+    bool mayCollide_ = false;        // there are colliders, and bodies for them
+    bool mayGiveWay_ = false;        // there are springs that yield or break
+    bool mayFreeze_ = false;         // after a fault
+    bool hasCells_ = false;          // to watch
+    bool hasMoved_ = false;          // any tick yet
+    bool hasTouched_ = false;        // a contact yet
+    bool hasLooked_ = false;         // which points stand inside colliders
+    bool isChanged_ = false;         // the plan is not as it was built
+    bool haveForcesJumped_ = false;  // since the island was opened
+    Changes changes_;                // of the plan, that the dynamics know nothing of yet
     StepChoice choice_;
     StepFollowing following_;              // where choice_.need is
     std::vector<StepChange> stepChanges_;  // so far

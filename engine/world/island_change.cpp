@@ -16,15 +16,17 @@ void Island::close(const TickTime& time) {
     if (changes_.any()) {
         dynamics_->take(changes_, forces_);
         watchPlasticity();
-        if (choice_.need) choice_.need->raise(dynamics_->stabilityShare(time.start()), inverseMassesOf(plan_));
         watchLimit(time.start());
     }
     if (choice_.need) {
+        if (changes_.any() || haveForcesJumped_)
+            choice_.need->raise(dynamics_->stabilityShare(time.start()), inverseMassesOf(plan_));
         const double need = (*choice_.need)(dynamics_->fastestNow());
         if (following_.isExceededBy(need)) following_.shorten(need);
     }
     startWith(time, choice_.need ? following_.substeps() : choice_.substeps, false);
     changes_.reset();
+    haveForcesJumped_ = false;
     isOpen_ = false;
 }
 
@@ -61,6 +63,7 @@ void Island::setForces(const TickTime& time, const ForceList& forces) {
     if (frozen_) return;
     const bool jumps = !goesOn(forces_, forces);
     if (jumps) open(time);  // on the forces so far
+    haveForcesJumped_ = haveForcesJumped_ || jumps;
     forces_ = forces;
     if (jumps)
         dynamics_->setForces(forces_);

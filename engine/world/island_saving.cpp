@@ -123,7 +123,7 @@ void Island::visitStep(StateBytes& bytes) {
     bytes(follows);
     bytes(splits);
     bytes(substeps);
-    if (follows != choice_.need.has_value() || splits != choice_.splits || (!follows && substeps != choice_.substeps))
+    if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && substeps != choice_.substeps))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
     if (!follows) return;
     double safety = choice_.need->safety;
@@ -138,12 +138,20 @@ void Island::visitStep(StateBytes& bytes) {
         bytes(change.from);
         bytes(change.to);
         bytes(change.isRepeated);
+        bytes.require(change.from > 0 && change.from <= mostSubsteps && change.to > 0 && change.to <= mostSubsteps);
     });
-    bytes.require(substeps > 0 && substeps <= mostSubsteps && following_.isSound(mostSubsteps));
+    bytes.require(substeps > 0 && substeps <= mostSubsteps && following_.isSound());
     if (!bytes.isReading()) return;
     choice_.substeps = substeps;
     choice_.step = choice_.need->tickSeconds / substeps;
+    // Decided when the island was made, of springs that may have been others then.
+    const bool isOther = splits != choice_.splits;
+    choice_.splits = choice_.need->splits = splits;
     dynamics_->setStep(choice_.step);
+    if (!isOther) return;
+    bytes.require(plan_.solver.integrator == "leapfrog");
+    dynamics_->split(splits);
+    dynamics_->start(0.0, choice_.step);
 }
 
 void Island::visit(StateBytes& bytes) {

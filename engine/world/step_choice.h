@@ -12,10 +12,9 @@
 #include "taut/mechanics/state_bound.h"
 #include "taut/ode/method.h"
 #include "taut/world/envelope.h"
+#include "taut/world/step_following.h"
 
 namespace taut::world {
-
-inline constexpr int mostSubsteps = 1'000'000;  // a tick
 
 // How many substeps a tick needs, at the chosen share of the longest stable step, as the bound of the state asks.
 struct StepNeed {

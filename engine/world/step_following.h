@@ -11,6 +11,8 @@
 
 namespace taut::world {
 
+inline constexpr int mostSubsteps = 1'000'000;  // a tick
+
 class StepFollowing {
   public:
     StepFollowing() = default;
@@ -36,8 +38,9 @@ class StepFollowing {
         startAnew();
     }
 
-    bool isSound(int most) const {
-        return substeps_ > 0 && substeps_ <= most && calmTicks_ >= 0 && calmTicks_ <= patience_ && most_ >= 0;
+    bool isSound() const {
+        return substeps_ > 0 && substeps_ <= mostSubsteps && most_ <= mostSubsteps && calmTicks_ >= 0 &&
+               calmTicks_ <= patience_ && most_ >= 0;
     }
     // What a checkpoint holds of it.
     template <class Visit>
@@ -49,7 +52,10 @@ class StepFollowing {
 
   private:
     // A hair less, so that a step of exactly a tick's part is not cut once more.
-    static int enough(double need) { return std::max(1, static_cast<int>(std::ceil(need * (1 - 1e-12)))); }
+    static int enough(double need) {
+        const double steps = std::ceil(need * (1 - 1e-12));
+        return steps < mostSubsteps ? std::max(1, static_cast<int>(steps)) : mostSubsteps;
+    }
     void startAnew() {
         calmTicks_ = 0;
         most_ = 0;

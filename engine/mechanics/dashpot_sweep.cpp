@@ -131,7 +131,7 @@ void DashpotSweep<Real>::before(const SpringNetwork<Real>& network, const Points
 }
 
 template <class Real>
-void DashpotSweep<Real>::between(const SpringNetwork<Real>&, const Points& points, double) {
+void DashpotSweep<Real>::between(const Points& points) {
     if (!hasBetween_) return;
     for (std::size_t i = 0; i < earlier_.size(); ++i) earlier_[i] = Real(0.5) * (earlier_[i] + points.v[i]);
     for (const Chain& chain : chains_)
@@ -216,7 +216,7 @@ void DashpotSweep<Real>::dampChain(const Chain& chain, const Points& points) {
 }
 
 template <class Real>
-void DashpotSweep<Real>::after(const SpringNetwork<Real>& network, const Points& points, double) {
+void DashpotSweep<Real>::after(const SpringNetwork<Real>& network, const Points& points) {
     damp(network, points, Part::after);
 }
 

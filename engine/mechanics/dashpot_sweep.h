@@ -32,8 +32,9 @@ class DashpotSweep {
     // whole; all others before and after, in the order of the network and in the opposite one. The same bits for any
     // number of threads.
     void before(const SpringNetwork<Real>& network, const Points& points, double h);
-    void between(const SpringNetwork<Real>& network, const Points& points, double h);
-    void after(const SpringNetwork<Real>& network, const Points& points, double h);
+    // Of the same step, after before().
+    void between(const Points& points);
+    void after(const SpringNetwork<Real>& network, const Points& points);
 
     // The largest ½ c (w_a + w_b) [1/s] of dashpots that may not be damped between; times h/2 it is y of
     // dashpot_kernel.h, above ½ of which they would turn velocities round.

@@ -78,8 +78,8 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     ode::SplitSystem<Real>* splitPart() override { return this; }
     void split(bool isSplit) override;
     void dampBefore(double h, const Real* x, Real* v) override { sweep_.before(damped_, points(x, v), h); }
-    void dampBetween(double h, const Real* x, Real* v) override { sweep_.between(damped_, points(x, v), h); }
-    void dampAfter(double h, const Real* x, Real* v) override { sweep_.after(damped_, points(x, v), h); }
+    void dampBetween(const Real* x, Real* v) override { sweep_.between(points(x, v)); }
+    void dampAfter(const Real* x, Real* v) override { sweep_.after(damped_, points(x, v)); }
     double largestPairRate() { return sweep_.largestPairRate(network(), inverseMass_.data()); }
 
     // What generators are told: x and v (layout().size()) [m], [m/s] as they are passed in, not copied.

@@ -9,15 +9,12 @@
 #include <algorithm>
 #include <atomic>
 
+#include "taut/ode/leapfrog_parts.h"
 #include "taut/ode/method.h"
 #include "taut/ode/step_limits.h"
 #include "taut/ode/update_kernels.h"
 
 namespace taut::ode {
-
-template <class Real>
-std::unique_ptr<Method<Real>> makeSplitLeapfrog();
-
 namespace {
 
 template <class Real>
@@ -52,14 +49,7 @@ class Leapfrog final : public Method<Real> {
         ++this->work_.evaluations;
     }
 
-    // After a contact nothing is known of the velocity half a step ahead: the new one stands for it.
-    void touch(State<Real>& state, std::span<const int> points) override {
-        for (int p = 0; p < state.layout.planes; ++p) {
-            const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(p) * state.layout.stride;
-            for (int i : points)
-                state.memory[0][static_cast<std::size_t>(plane + i)] = state.v[static_cast<std::size_t>(plane + i)];
-        }
-    }
+    void touch(State<Real>& state, std::span<const int> points) override { takeAsPredicted(state, points); }
 
   private:
     void prepare(SecondOrderSystem<Real>& system, double h, Layout layout) {

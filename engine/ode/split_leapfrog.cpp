@@ -7,6 +7,7 @@
 // then on v lags by half a step, as in leap-frog.
 #include <algorithm>
 
+#include "taut/ode/leapfrog_parts.h"
 #include "taut/ode/method.h"
 #include "taut/ode/split_system.h"
 
@@ -46,14 +47,7 @@ class SplitLeapfrog final : public Method<Real> {
         ++this->work_.evaluations;
     }
 
-    // After a contact nothing is known of the velocity half a step ahead: the new one stands for it.
-    void touch(State<Real>& state, std::span<const int> points) override {
-        for (int p = 0; p < state.layout.planes; ++p) {
-            const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(p) * state.layout.stride;
-            for (int i : points)
-                state.memory[0][static_cast<std::size_t>(plane + i)] = state.v[static_cast<std::size_t>(plane + i)];
-        }
-    }
+    void touch(State<Real>& state, std::span<const int> points) override { takeAsPredicted(state, points); }
 
   private:
     static bool isAtStart(const State<Real>& state) { return state.memory[1][0] != Real(0); }
@@ -81,8 +75,8 @@ class SplitLeapfrog final : public Method<Real> {
         Rest rest(state.layout, system.dragRates(), static_cast<Real>(h), v);
         split.dampBefore(h, state.x.data(), v);
         system.accelerate(t, state.x.data(), state.memory[0].data(), rest);
-        split.dampBetween(h, state.x.data(), v);
-        split.dampAfter(h, state.x.data(), v);
+        split.dampBetween(state.x.data(), v);
+        split.dampAfter(state.x.data(), v);
     }
 
     // ahead: of a whole kick's change, by which v has to be led to be that at the end of the step.

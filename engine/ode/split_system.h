@@ -15,8 +15,8 @@ class SplitSystem {
     // after the kick and themselves, then h/2 of the first ones in the opposite order. However strong they are they add
     // no energy.
     virtual void dampBefore(double h, const Real* x, Real* v) = 0;
-    virtual void dampBetween(double h, const Real* x, Real* v) = 0;
-    virtual void dampAfter(double h, const Real* x, Real* v) = 0;
+    virtual void dampBetween(const Real* x, Real* v) = 0;
+    virtual void dampAfter(const Real* x, Real* v) = 0;
 };
 
 }  // namespace taut::ode

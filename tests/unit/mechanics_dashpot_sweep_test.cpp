@@ -38,8 +38,8 @@ void damp(DashpotSweep<Real>& sweep, const SpringNetwork<Real>& network, PlanarS
     const typename DashpotSweep<Real>::Points points{state.stride, state.inverseMass.data(), state.x.data(),
                                                      state.v.data()};
     sweep.before(network, points, h);
-    sweep.between(network, points, h);
-    sweep.after(network, points, h);
+    sweep.between(points);
+    sweep.after(network, points);
 }
 
 Model sheet(int cells, double tau) {

@@ -1,0 +1,24 @@
+// What leap-frog and its form with dashpots split off share.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "taut/ode/method.h"
+
+namespace taut::ode {
+
+template <class Real>
+std::unique_ptr<Method<Real>> makeSplitLeapfrog();
+
+// After a contact nothing is known of the velocity half a step ahead, memory[0]: the new one stands for it.
+template <class Real>
+void takeAsPredicted(State<Real>& state, std::span<const int> points) {
+    for (int p = 0; p < state.layout.planes; ++p) {
+        const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(p) * state.layout.stride;
+        for (int i : points)
+            state.memory[0][static_cast<std::size_t>(plane + i)] = state.v[static_cast<std::size_t>(plane + i)];
+    }
+}
+
+}  // namespace taut::ode

@@ -29,6 +29,8 @@ set(TAUT_UNITY 8 CACHE STRING "How many files of a folder are compiled together"
 if(TAUT_UNITY GREATER 1)
   set(CMAKE_UNITY_BUILD ON)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE ${TAUT_UNITY})
+  # clang, unlike g++, then takes a local name for one that hides that of another file.
+  target_compile_options(taut_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-shadow>)
 endif()
 
 # The folders where a scene's time goes.

@@ -5,6 +5,7 @@
 // by lanes without an element; kernels give those no weight. The order depends on the list of elements alone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -38,9 +39,14 @@ class IndexRuns {
             sources_.insert(sources_.end(), chain.sources.begin(), chain.sources.end());
         }
         looseLane_ = static_cast<int>(sources_.size());
+        for (int s : left)
+            loosePoints_.insert(loosePoints_.end(), elements[std::size_t(s)].begin(), elements[std::size_t(s)].end());
+        std::sort(loosePoints_.begin(), loosePoints_.end());
+        loosePoints_.erase(std::unique(loosePoints_.begin(), loosePoints_.end()), loosePoints_.end());
         for (int s : left) {
             sources_.push_back(s);
-            for (std::size_t c = 0; c < Corners; ++c) loose_[c].push_back(elements[static_cast<std::size_t>(s)][c]);
+            for (std::size_t c = 0; c < Corners; ++c)
+                loose_[c].push_back(placeOf(elements[static_cast<std::size_t>(s)][c]));
         }
     }
 
@@ -51,6 +57,8 @@ class IndexRuns {
         CornerLanes<Corners> lanes{};
         lanes.runs = runs_.data();
         lanes.runCount = static_cast<int>(runs_.size());
+        lanes.loosePoints = loosePoints_.data();
+        lanes.loosePointCount = static_cast<int>(loosePoints_.size());
         for (std::size_t c = 0; c < Corners; ++c) lanes.loose[c] = loose_[c].data();
         lanes.looseCount = static_cast<int>(loose_[0].size());
         lanes.looseLane = looseLane_;
@@ -90,7 +98,13 @@ class IndexRuns {
         return chains;
     }
 
+    int placeOf(int loosePoint) const {
+        return static_cast<int>(std::lower_bound(loosePoints_.begin(), loosePoints_.end(), loosePoint) -
+                                loosePoints_.begin());
+    }
+
     std::vector<CornerRun<Corners>> runs_;
+    std::vector<int> loosePoints_;                 // ascending
     std::array<std::vector<int>, Corners> loose_;  // (corners)(loose elements)
     int looseLane_ = 0;
     std::vector<int> sources_;

@@ -20,7 +20,9 @@ template <int Corners>
 struct CornerLanes {
     const CornerRun<Corners>* runs;
     int runCount;
-    const int* loose[Corners];  // (looseCount) points
+    const int* loosePoints;  // (loosePointCount) points of loose elements, each once
+    int loosePointCount;
+    const int* loose[Corners];  // (looseCount) places in loosePoints
     int looseCount;
     int looseLane;  // lane of the first loose element
 };

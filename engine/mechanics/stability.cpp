@@ -17,7 +17,10 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 
 // Largest eigenvalue of a symmetric 3×3 matrix by cyclic Jacobi rotations, which need no trigonometry.
 double largestEigenvalue(Matrix m) {
-    for (int sweep = 0; sweep < 12; ++sweep)
+    for (int sweep = 0; sweep < 12; ++sweep) {
+        // Off by no more than the square of that by the size of the largest.
+        const double off = m[0][1] * m[0][1] + m[0][2] * m[0][2] + m[1][2] * m[1][2];
+        if (off <= 1e-32 * (m[0][0] * m[0][0] + m[1][1] * m[1][1] + m[2][2] * m[2][2])) break;
         for (int p = 0; p < 2; ++p)
             for (int q = p + 1; q < 3; ++q) {
                 const auto i = static_cast<std::size_t>(p), j = static_cast<std::size_t>(q);
@@ -36,6 +39,7 @@ double largestEigenvalue(Matrix m) {
                     m[j][k] = s * a + c * b;
                 }
             }
+    }
     return std::max({m[0][0], m[1][1], m[2][2]});
 }
 

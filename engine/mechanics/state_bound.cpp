@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "taut/core/error.h"
 #include "taut/core/vectorise.h"
 #include "taut/mechanics/cell_shape.h"
 
@@ -78,11 +79,18 @@ StateBound<Real>::StateBound(int points, int stride)
     : points_(points),
       stride_(stride),
       sum_(6 * static_cast<std::size_t>(stride)),
-      a_(static_cast<std::size_t>(stride)),
-      b_(static_cast<std::size_t>(stride)) {}
+      a_(static_cast<std::size_t>(stride)) {}
 
 template <class Real>
-void StateBound<Real>::setCells(std::span<const VolumeCell> cells) {
+void StateBound<Real>::setCells(std::span<const VolumeCell> cells, std::span<const glm::dvec3> restPositions) {
+    TAUT_EXPECTS(restPositions.size() == static_cast<std::size_t>(points_));
+    areWeightsKnown_ = false;
+    rest_ = core::AlignedArray<Real>(3 * static_cast<std::size_t>(stride_));
+    weights_ = core::AlignedArray<Real>(static_cast<std::size_t>(stride_));
+    for (int axis = 0; axis < 3; ++axis)
+        for (int i = 0; i < points_; ++i)
+            rest_[static_cast<std::size_t>(axis * stride_ + i)] =
+                static_cast<Real>(restPositions[static_cast<std::size_t>(i)][axis]);
     cells_.assign(cells.begin(), cells.end());
     looks_.resize(cells_.size());
     edges_.clear();
@@ -228,14 +236,23 @@ double StateBound<Real>::largestOfSprings(const SpringNetwork<Real>& network, co
     return static_cast<double>(*std::max_element(most, most + lanes));
 }
 
+// The a_i of the first sweep of stability.h, at rest.
 template <class Real>
-double StateBound<Real>::largestOfCells(const Real* a) const {
+void StateBound<Real>::findWeights(const SpringNetwork<Real>& network, const Real* inverseMass) {
+    std::fill(sum_.begin(), sum_.end(), Real(0));
+    sumSprings(network, rest_.data(), Of::stiffness, nullptr);
+    lookAtCells(rest_.data());
+    sumCells(nullptr);
+    takeRates(inverseMass, weights_);
+    areWeightsKnown_ = true;
+}
+
+// The largest of what the points have in the weighted sums, by their weights.
+template <class Real>
+double StateBound<Real>::largestShare() const {
     Real most = 0;
-    for (const VolumeCell& cell : cells_) {
-        Real sum = 0;
-        for (int i : cell.points) sum += a[i];
-        most = std::max(most, sum);
-    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(points_); ++i)
+        if (weights_[i] > Real(0)) most = std::max(most, a_[i] / weights_[i]);
     return static_cast<double>(most);
 }
 
@@ -276,25 +293,20 @@ FastestNow StateBound<Real>::operator()(const SpringNetwork<Real>& network, cons
         takeRates(inverseMass, a_);
         now.damping = largestOfSprings(network, a_.data());
     }
+    const bool isWeighted = !cells_.empty();
+    if (isWeighted && !areWeightsKnown_) findWeights(network, inverseMass);
     clear();
-    sumSprings(network, x, Of::stiffness, nullptr);
-    takeRates(inverseMass, a_);
-    now.omega2 = largestOfSprings(network, a_.data());
-    if (network.isTauUniform) now.damping = static_cast<double>(network.largestTau) * now.omega2;
-    if (cells_.empty()) return now;
-
+    sumSprings(network, x, Of::stiffness, isWeighted ? weights_.data() : nullptr);
+    if (network.isTauUniform || !isWeighted) {
+        takeRates(inverseMass, a_);
+        now.omega2 = isWeighted ? largestShare() : largestOfSprings(network, a_.data());
+        if (network.isTauUniform) now.damping = static_cast<double>(network.largestTau) * now.omega2;
+    }
+    if (!isWeighted) return now;
     lookAtCells(x);
-    sumCells(nullptr);
+    sumCells(weights_.data());
     takeRates(inverseMass, a_);
-    now.omega2 = std::max(largestOfSprings(network, a_.data()), largestOfCells(a_.data()));
-    clear();
-    sumSprings(network, x, Of::stiffness, a_.data());
-    sumCells(a_.data());
-    takeRates(inverseMass, b_);
-    Real most = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(points_); ++i)
-        if (a_[i] > Real(0)) most = std::max(most, b_[i] / a_[i]);
-    now.omega2 = std::min(now.omega2, static_cast<double>(most)) + largestRow(inverseMass);
+    now.omega2 = largestShare() + largestRow(inverseMass);
     return now;
 }
 

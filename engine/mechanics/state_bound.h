@@ -1,5 +1,8 @@
 // The bound of a state's frequencies, B2 of stability.h, over a network as it is laid out for speed: cheap enough to be
 // asked for every tick.
+//
+// With cells each element is weighed with what its points are good for at rest, not now: any positive weights bound the
+// state (stability.h), those at rest nearly as tightly as its own, and they cost no sweep of their own.
 #pragma once
 
 #include <array>
@@ -27,8 +30,10 @@ class StateBound {
     // Of points in planes of `stride`.
     StateBound(int points, int stride);
 
-    // Cells by the points of the network.
-    void setCells(std::span<const VolumeCell> cells);
+    // Cells by the points of the network; restPositions (points) [m], up to a rigid motion of each body.
+    void setCells(std::span<const VolumeCell> cells, std::span<const glm::dvec3> restPositions);
+    // To be called when masses or springs have changed: the weights are found again.
+    void forgetWeights() { areWeightsKnown_ = false; }
 
     // x (3 · stride) [m], inverseMass (stride) [1/kg], 0 if held. Same bits on every machine; single precision may come
     // out low by a ten-thousandth.
@@ -37,19 +42,22 @@ class StateBound {
   private:
     enum class Of { stiffness, dashpots };
 
+    void findWeights(const SpringNetwork<Real>& network, const Real* inverseMass);
+    double largestShare() const;
     void sumSprings(const SpringNetwork<Real>& network, const Real* x, Of what, const Real* weights);
     void lookAtCells(const Real* x);
     void sumCells(const Real* weights);
     // a (points) from the sums: w λ_max.
     void takeRates(const Real* inverseMass, core::AlignedArray<Real>& a) const;
     double largestOfSprings(const SpringNetwork<Real>& network, const Real* a) const;
-    double largestOfCells(const Real* a) const;
     double largestRow(const Real* inverseMass);
     Real* plane(int p) { return sum_.data() + static_cast<std::ptrdiff_t>(p) * stride_; }
 
     int points_, stride_;
-    core::AlignedArray<Real> sum_;    // (6 · stride) xx xy xz yy yz zz
-    core::AlignedArray<Real> a_, b_;  // (stride)
+    core::AlignedArray<Real> sum_;             // (6 · stride) xx xy xz yy yz zz
+    core::AlignedArray<Real> a_;               // (stride)
+    core::AlignedArray<Real> rest_, weights_;  // (3 · stride) [m], (stride) [1/s²]; of networks with cells
+    bool areWeightsKnown_ = false;
     std::vector<VolumeCell> cells_;
     struct Look {
         CellCorners corners, gradients;

@@ -56,6 +56,7 @@ VolumePreservation<Real>::VolumePreservation(std::span<const VolumeCell> cells,
       runs_(pointsOf(cells)),
       sixthOfBulk_(runs_.sources().size()),
       inverseRestSixth_(runs_.sources().size()),
+      packed_(8 * static_cast<std::size_t>(runs_.lanes().loosePointCount)),
       addBatch_(volumeKernel<Real>()) {
     TAUT_EXPECTS(workingStretch >= 1.0);
     for (const VolumeCell& cell : cells_) {
@@ -111,6 +112,7 @@ void VolumePreservation<Real>::addForces(const Motion<Real>& motion, int first, 
     batch.stride = motion.stride;
     batch.x = motion.x;
     batch.f = f;
+    batch.packed = packed_.data();
     addBatch_(batch);
 }
 

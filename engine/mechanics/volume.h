@@ -62,6 +62,7 @@ class VolumePreservation final : public ForceGenerator<Real> {
     double workingStretch_;
     IndexRuns<4> runs_;
     core::AlignedArray<Real> sixthOfBulk_, inverseRestSixth_;  // (lanes)
+    mutable core::AlignedArray<Real> packed_;                  // the kernel's room
     void (*addBatch_)(const VolumeBatch<Real>&);
     std::vector<std::array<Real, 12>> slopes_;  // (cells) √(s K/V0) g, corner by corner
 };

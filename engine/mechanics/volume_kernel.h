@@ -14,6 +14,7 @@ struct VolumeBatch {
     int stride;
     const Real* x;  // (3 · stride) [m]
     Real* f;        // (3 · stride) [N], added to
+    Real* packed;   // (8 · loosePointCount) room for x and forces of points of loose tetrahedra
 };
 
 namespace sse2 {

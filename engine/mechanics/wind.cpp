@@ -35,6 +35,24 @@ Wind<Real>::Wind(std::span<const Triangle> triangles, const LinearPath& velocity
       addBatch_(windKernel<Real>()) {
     for (std::size_t lane = 0; lane < weight_.size(); ++lane)
         weight_[lane] = runs_.sources()[lane] >= 0 ? Real(1) : Real(0);
+    if (triangles_.empty()) return;
+    firstPoint_ = triangles_[0][0];
+    int last = firstPoint_;
+    for (const Triangle& triangle : triangles_)
+        for (int point : triangle) {
+            firstPoint_ = std::min(firstPoint_, point);
+            last = std::max(last, point);
+        }
+    pointCount_ = last + 1 - firstPoint_;
+    packed_ = core::AlignedArray<Real>(12 * static_cast<std::size_t>(runs_.lanes().loosePointCount));
+    setSettings(settings);
+}
+
+template <class Real>
+void Wind<Real>::setSettings(const WindSettings& settings) {
+    settings_ = settings;
+    if (settings_.gust.amplitude > 0.0 && slip_.empty())
+        slip_ = core::AlignedArray<Real>(3 * static_cast<std::size_t>(pointCount_));
 }
 
 template <class Real>
@@ -65,7 +83,11 @@ void Wind<Real>::addForces(const Motion<Real>& motion, int first, int last, Real
     for (int axis = 0; axis < 3; ++axis) batch.flow[axis] = static_cast<Real>(flow[axis]);
     batch.drag = static_cast<Real>(settings_.airDensity * settings_.drag / 12.0);
     batch.lift = static_cast<Real>(settings_.airDensity * settings_.lift / 12.0);
+    batch.packed = packed_.data();
     if (settings_.gust.amplitude > 0.0) {
+        batch.firstPoint = firstPoint_;
+        batch.pointCount = pointCount_;
+        batch.slip = slip_.data();
         gust = gustWaves<Real>(settings_.gust, motion.t);
         batch.gust = &gust;
     }

@@ -1,6 +1,6 @@
 // Air that moves past triangles: drag and lift, steady or in gusts. Knows neither cloth nor the rest of the scene.
 //
-// With u the air's velocity relative to a triangle's mean point velocity, n its normal turned along u, A its area:
+// With u the mean of the air's velocities relative to a triangle's points, n its normal turned along u, A its area:
 //
 //   F = ½ρA (u·n) [ C_D u + C_L (|u| n - (u·n)/|u| u) ],       a third to each corner.
 //
@@ -54,7 +54,7 @@ class Wind final : public ForceGenerator<Real> {
         velocity_ = {from, to, t0, t1};
     }
     void setVelocity(const LinearPath& velocity) { velocity_ = velocity; }
-    void setSettings(const WindSettings& settings) { settings_ = settings; }
+    void setSettings(const WindSettings& settings);
     const WindSettings& settings() const { return settings_; }
 
     glm::dvec3 airVelocity(const glm::dvec3& x, double t) const;  // [m/s], gust included
@@ -78,6 +78,8 @@ class Wind final : public ForceGenerator<Real> {
     std::vector<Triangle> triangles_;
     IndexRuns<3> runs_;
     core::AlignedArray<Real> weight_;  // (lanes) 1, or 0 for a lane without a triangle
+    int firstPoint_ = 0, pointCount_ = 0;
+    mutable core::AlignedArray<Real> slip_, packed_;  // the kernel's room
     LinearPath velocity_;
     WindSettings settings_;
     void (*addBatch_)(const WindBatch<Real>&);

@@ -1,17 +1,14 @@
 // Compiled once per instruction set (engine/taut.cmake). Only + - * / and square roots, no sum across lanes:
 // the same bits for every width.
 #include "taut/mechanics/wind_kernel.h"
+
 #include "taut/core/vectorise.h"
+#include "taut/mechanics/packed_points.h"
 
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-inline float root(float x) {
-    return __builtin_sqrtf(x);
-}
-inline double root(double x) {
-    return __builtin_sqrt(x);
-}
+using core::TAUT_ISA::root;
 
 // Adding and taking away 1.5 · 2^23 (2^52) rounds to the nearest whole number.
 inline float nearestWhole(float x) {
@@ -23,23 +20,62 @@ inline double nearestWhole(double x) {
 
 template <class Real>
 struct Block {
-    alignas(64) Real air[3][kernelBlock];     // air relative to the triangle [m/s]
-    alignas(64) Real centre[3][kernelBlock];  // [m]
-    alignas(64) Real gust[3][kernelBlock];    // [m/s]
-    alignas(64) Real force[3][kernelBlock];   // a third of the triangle's [N]
+    alignas(64) Real air[3][kernelBlock];    // air relative to the triangle [m/s]
+    alignas(64) Real force[3][kernelBlock];  // a third of the triangle's [N]
 };
 
-// Three corners' planes of positions or velocities: [corner][axis].
+// Planes of a vector at the three corners: [corner][axis].
 template <class Real>
 struct Corners {
     const Real* of[3][3];
 };
 
+// The velocities of the points less the gust there: the waves' sum g, bent to g/√(1 + g²/limit²).
 template <class Real>
-inline void findRelativeAir(const Corners<Real>& v, const Real* flow, int count, Block<Real>& block) {
+inline void findSlip(const WindBatch<Real>& batch) {
+    const GustWaves<Real>& waves = *batch.gust;
+    const Real w0 = Real(gustWaveShape[0]), w1 = Real(gustWaveShape[1]), w2 = Real(gustWaveShape[2]);
+    const Real inverse = waves.inverseLimitSquared;
+    alignas(64) Real gust[3][kernelBlock];
+    Real *gx = gust[0], *gy = gust[1], *gz = gust[2];
+    for (int start = 0; start < batch.pointCount; start += kernelBlock) {
+        const int count = batch.pointCount - start < kernelBlock ? batch.pointCount - start : kernelBlock;
+        const long stride = batch.stride;
+        const Real *x = batch.x + batch.firstPoint + start, *y = x + stride, *z = y + stride;
+        for (int l = 0; l < kernelBlock; ++l) gx[l] = gy[l] = gz[l] = Real(0);
+        for (int w = 0; w < gustWaveCount; ++w) {
+            const Real kx = waves.wavenumber[0][w], ky = waves.wavenumber[1][w], kz = waves.wavenumber[2][w];
+            const Real sx = waves.strength[0][w], sy = waves.strength[1][w], sz = waves.strength[2][w];
+            const Real phase = waves.phase[w];
+            TAUT_INDEPENDENT
+            for (int l = 0; l < count; ++l) {
+                const Real turns = kx * x[l] + ky * y[l] + kz * z[l] + phase;
+                const Real r = turns - nearestWhole(turns);
+                const Real r2 = r * r;
+                const Real wave = r * (w0 + r2 * (w1 + r2 * w2));
+                gx[l] += sx * wave;
+                gy[l] += sy * wave;
+                gz[l] += sz * wave;
+            }
+        }
+        const Real *vx = batch.v + batch.firstPoint + start, *vy = vx + stride, *vz = vy + stride;
+        Real *ux = batch.slip + start, *uy = ux + batch.pointCount, *uz = uy + batch.pointCount;
+        TAUT_INDEPENDENT
+        for (int l = 0; l < count; ++l) {
+            const Real squared = gx[l] * gx[l] + gy[l] * gy[l] + gz[l] * gz[l];
+            const Real bend = Real(1) / root(Real(1) + squared * inverse);
+            ux[l] = vx[l] - gx[l] * bend;
+            uy[l] = vy[l] - gy[l] * bend;
+            uz[l] = vz[l] - gz[l] * bend;
+        }
+    }
+}
+
+template <class Real>
+inline void findRelativeAir(const Corners<Real>& slip, const Real* flow, int count, Block<Real>& block) {
     const Real third = Real(1.0 / 3.0);
     for (int axis = 0; axis < 3; ++axis) {
-        const Real *a = v.of[0][axis], *b = v.of[1][axis], *c = v.of[2][axis];
+        const Real *a = slip.of[0][axis], *b = slip.of[1][axis], *c = slip.of[2][axis];
         const Real steady = flow[axis];
         Real* air = block.air[axis];
         TAUT_INDEPENDENT
@@ -47,52 +83,9 @@ inline void findRelativeAir(const Corners<Real>& v, const Real* flow, int count,
     }
 }
 
-// The waves' sum g, bent to g/√(1 + g²/limit²).
-template <class Real>
-inline void addGust(const Corners<Real>& x, const GustWaves<Real>& waves, int count, Block<Real>& block) {
-    const Real third = Real(1.0 / 3.0);
-    const Real w0 = Real(gustWaveShape[0]), w1 = Real(gustWaveShape[1]), w2 = Real(gustWaveShape[2]);
-    for (int axis = 0; axis < 3; ++axis) {
-        const Real *a = x.of[0][axis], *b = x.of[1][axis], *c = x.of[2][axis];
-        Real *centre = block.centre[axis], *gust = block.gust[axis];
-        TAUT_INDEPENDENT
-        for (int l = 0; l < count; ++l) {
-            centre[l] = (a[l] + b[l] + c[l]) * third;
-            gust[l] = Real(0);
-        }
-    }
-    const Real *cx = block.centre[0], *cy = block.centre[1], *cz = block.centre[2];
-    Real *gx = block.gust[0], *gy = block.gust[1], *gz = block.gust[2];
-    for (int w = 0; w < gustWaveCount; ++w) {
-        const Real kx = waves.wavenumber[0][w], ky = waves.wavenumber[1][w], kz = waves.wavenumber[2][w];
-        const Real sx = waves.strength[0][w], sy = waves.strength[1][w], sz = waves.strength[2][w];
-        const Real phase = waves.phase[w];
-        TAUT_INDEPENDENT
-        for (int l = 0; l < count; ++l) {
-            const Real turns = kx * cx[l] + ky * cy[l] + kz * cz[l] + phase;
-            const Real r = turns - nearestWhole(turns);
-            const Real r2 = r * r;
-            const Real wave = r * (w0 + r2 * (w1 + r2 * w2));
-            gx[l] += sx * wave;
-            gy[l] += sy * wave;
-            gz[l] += sz * wave;
-        }
-    }
-    Real *ax = block.air[0], *ay = block.air[1], *az = block.air[2];
-    const Real inverse = waves.inverseLimitSquared;
-    TAUT_INDEPENDENT
-    for (int l = 0; l < count; ++l) {
-        const Real squared = gx[l] * gx[l] + gy[l] * gy[l] + gz[l] * gz[l];
-        const Real bend = Real(1) / root(Real(1) + squared * inverse);
-        ax[l] += gx[l] * bend;
-        ay[l] += gy[l] * bend;
-        az[l] += gz[l] * bend;
-    }
-}
-
 // With N = e1 × e2 = 2 A n and q = u·N the force ½ρA (C_D |u·n| u + C_L (u·n) (|u| n - (u·n)/|u| u)) is
 //   ¼ρ (C_D |q| u + C_L (q/|N|) (|u| N - (q/|u|) u)).
-// The smallest lengths added to |N| and |u| make 0/0 a 0: no area or no wind, no force.
+// A trifle added to |N| and |u| makes 0/0 a 0: no area or no wind, no force.
 template <class Real>
 inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Real lift, int count,
                        Block<Real>& block) {
@@ -101,7 +94,7 @@ inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Re
     const Real *xc = x.of[2][0], *yc = x.of[2][1], *zc = x.of[2][2];
     const Real *ax = block.air[0], *ay = block.air[1], *az = block.air[2];
     Real *fx = block.force[0], *fy = block.force[1], *fz = block.force[2];
-    const Real tiny = Real(1e-30);
+    const Real tiny = Real(1e-18);
     TAUT_INDEPENDENT
     for (int l = 0; l < count; ++l) {
         const Real e1x = xb[l] - xa[l], e1y = yb[l] - ya[l], e1z = zb[l] - za[l];
@@ -111,9 +104,10 @@ inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Re
         const Real q = ux * nx + uy * ny + uz * nz;
         const Real speed = root(ux * ux + uy * uy + uz * uz) + tiny;
         const Real size = root(nx * nx + ny * ny + nz * nz) + tiny;
-        const Real s = lift * weight[l] * (q / size);
+        const Real share = q / (speed * size);  // u·n/|u|
+        const Real s = lift * weight[l] * share * speed;
         const Real alongNormal = s * speed;
-        const Real alongAir = drag * weight[l] * (q < Real(0) ? -q : q) - s * (q / speed);
+        const Real alongAir = drag * weight[l] * (q < Real(0) ? -q : q) - s * share * size;
         fx[l] = alongAir * ux + alongNormal * nx;
         fy[l] = alongAir * uy + alongNormal * ny;
         fz[l] = alongAir * uz + alongNormal * nz;
@@ -121,26 +115,32 @@ inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Re
 }
 
 template <class Real>
-inline void findBlock(const WindBatch<Real>& batch, const Corners<Real>& x, const Corners<Real>& v, int lane, int count,
-                      Block<Real>& block) {
-    findRelativeAir(v, batch.flow, count, block);
-    if (batch.gust != nullptr) addGust(x, *batch.gust, count, block);
+inline void findBlock(const WindBatch<Real>& batch, const Corners<Real>& x, const Corners<Real>& slip, int lane,
+                      int count, Block<Real>& block) {
+    findRelativeAir(slip, batch.flow, count, block);
     findForces(x, batch.weight + lane, batch.drag, batch.lift, count, block);
 }
 
+// Planes that begin at point 0.
 template <class Real>
-void addRun(const WindBatch<Real>& batch, const CornerRun<3>& run) {
+struct Planes {
+    const Real* data;
+    long stride;
+};
+
+template <class Real>
+void addRun(const WindBatch<Real>& batch, const Planes<Real>& slip, const CornerRun<3>& run) {
     Block<Real> block;
     for (int start = 0; start < run.count; start += kernelBlock) {
         const int count = run.count - start < kernelBlock ? run.count - start : kernelBlock;
-        Corners<Real> x, v;
+        Corners<Real> x, u;
         for (int corner = 0; corner < 3; ++corner)
             for (int axis = 0; axis < 3; ++axis) {
-                const long offset = static_cast<long>(axis) * batch.stride + run.first[corner] + start;
-                x.of[corner][axis] = batch.x + offset;
-                v.of[corner][axis] = batch.v + offset;
+                const long first = run.first[corner] + start;
+                x.of[corner][axis] = batch.x + axis * static_cast<long>(batch.stride) + first;
+                u.of[corner][axis] = slip.data + axis * slip.stride + first;
             }
-        findBlock(batch, x, v, run.lane + start, count, block);
+        findBlock(batch, x, u, run.lane + start, count, block);
         for (int corner = 0; corner < 3; ++corner)
             for (int axis = 0; axis < 3; ++axis) {
                 Real* f = batch.f + static_cast<long>(axis) * batch.stride + run.first[corner] + start;
@@ -151,45 +151,71 @@ void addRun(const WindBatch<Real>& batch, const CornerRun<3>& run) {
     }
 }
 
+// Moved so that corner a is the origin, and with the sum of all slips at corner a: the same forces.
 template <class Real>
-void addLoose(const WindBatch<Real>& batch) {
+void addLoose(const WindBatch<Real>& batch, const Planes<Real>& slip) {
+    const CornerLanes<3>& lanes = batch.lanes;
+    const int points = lanes.loosePointCount;
+    Real *packed = batch.packed, *forces = packed + 8L * points;
+    pack(batch.x, batch.stride, lanes.loosePoints, points, packed, 2);
+    pack(slip.data, slip.stride, lanes.loosePoints, points, packed + 4, 2);
+    __builtin_memset(forces, 0, sizeof(Real) * 4UL * static_cast<unsigned long>(points));
+
     Block<Real> block;
-    alignas(64) Real gathered[2][3][3][kernelBlock];
-    Corners<Real> x, v;
-    for (int corner = 0; corner < 3; ++corner)
-        for (int axis = 0; axis < 3; ++axis) {
-            x.of[corner][axis] = gathered[0][corner][axis];
-            v.of[corner][axis] = gathered[1][corner][axis];
-        }
-    const long stride = batch.stride;
-    for (int start = 0; start < batch.lanes.looseCount; start += kernelBlock) {
-        const int left = batch.lanes.looseCount - start;
-        const int count = left < kernelBlock ? left : kernelBlock;
-        for (int corner = 0; corner < 3; ++corner) {
-            const int* points = batch.lanes.loose[corner] + start;
-            for (int axis = 0; axis < 3; ++axis) {
-                const Real *xs = batch.x + axis * stride, *vs = batch.v + axis * stride;
-                Real *toX = gathered[0][corner][axis], *toV = gathered[1][corner][axis];
-                for (int l = 0; l < count; ++l) toX[l] = xs[points[l]];
-                for (int l = 0; l < count; ++l) toV[l] = vs[points[l]];
-            }
-        }
-        findBlock(batch, x, v, batch.lanes.looseLane + start, count, block);
-        // One triangle after the other: neighbours share points.
-        for (int l = 0; l < count; ++l)
-            for (int corner = 0; corner < 3; ++corner) {
-                Real* f = batch.f + batch.lanes.loose[corner][start + l];
-                f[0] += block.force[0][l];
-                f[stride] += block.force[1][l];
-                f[2 * stride] += block.force[2][l];
-            }
+    alignas(64) Real zero[kernelBlock] = {}, b[3][kernelBlock], c[3][kernelBlock], sum[3][kernelBlock];
+    Corners<Real> x, u;
+    for (int axis = 0; axis < 3; ++axis) {
+        x.of[0][axis] = u.of[1][axis] = u.of[2][axis] = zero;
+        x.of[1][axis] = b[axis];
+        x.of[2][axis] = c[axis];
+        u.of[0][axis] = sum[axis];
     }
+    for (int start = 0; start < lanes.looseCount; start += kernelBlock) {
+        const int count = lanes.looseCount - start < kernelBlock ? lanes.looseCount - start : kernelBlock;
+        const int *pa = lanes.loose[0] + start, *pb = lanes.loose[1] + start, *pc = lanes.loose[2] + start;
+        for (int l = 0; l < count; l += 4) {
+            Four<Real> e1[4], e2[4], slips[4];
+            for (int i = 0; i < 4; ++i) {
+                const int t = l + i < count ? l + i : count - 1;
+                const Real *atA = packed + 8L * pa[t], *atB = packed + 8L * pb[t], *atC = packed + 8L * pc[t];
+                Four<Real> origin;
+                fetch(atA, origin);
+                fetch(atB, e1[i]);
+                e1[i] -= origin;
+                fetch(atC, e2[i]);
+                e2[i] -= origin;
+                Four<Real> slipB, slipC;
+                fetch(atA + 4, slips[i]);
+                fetch(atB + 4, slipB);
+                fetch(atC + 4, slipC);
+                slips[i] = slips[i] + slipB + slipC;
+            }
+            spread(e1, b, l);
+            spread(e2, c, l);
+            spread(slips, sum, l);
+        }
+        findBlock(batch, x, u, lanes.looseLane + start, count, block);
+        // One triangle after the other: neighbours share points.
+        for (int l = 0; l < count; l += 4) {
+            Four<Real> force[4];
+            collect(block.force, l, force);
+            for (int i = 0; i < 4 && l + i < count; ++i)
+                for (int corner = 0; corner < 3; ++corner)
+                    addTo(forces + 4L * lanes.loose[corner][start + l + i], force[i]);
+        }
+    }
+    addPacked(forces, lanes.loosePoints, points, batch.f, batch.stride);
 }
 
 template <class Real>
 void addAll(const WindBatch<Real>& batch) {
-    for (int r = 0; r < batch.lanes.runCount; ++r) addRun(batch, batch.lanes.runs[r]);
-    addLoose(batch);
+    Planes<Real> slip{batch.v, batch.stride};
+    if (batch.gust != nullptr) {
+        findSlip(batch);
+        slip = {batch.slip - batch.firstPoint, batch.pointCount};
+    }
+    for (int r = 0; r < batch.lanes.runCount; ++r) addRun(batch, slip, batch.lanes.runs[r]);
+    if (batch.lanes.looseCount > 0) addLoose(batch, slip);
 }
 
 }  // namespace

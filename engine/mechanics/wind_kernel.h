@@ -20,6 +20,7 @@ struct GustWaves {
     Real inverseLimitSquared;           // 1/limit² [s²/m²]
 };
 
+// Wind on triangles. With gusts the kernel finds their air at the points first, into `air`.
 template <class Real>
 struct WindBatch {
     CornerLanes<3> lanes;
@@ -31,6 +32,9 @@ struct WindBatch {
     Real flow[3];                 // steady part of the air's velocity [m/s]
     Real drag, lift;              // ρ C_D / 12, ρ C_L / 12 [kg/m³]
     const GustWaves<Real>* gust;  // null: steady
+    int firstPoint, pointCount;   // all triangles' points are among these
+    Real* slip;                   // (3 · pointCount) room for the velocities of the points less the gust there
+    Real* packed;                 // (12 · loosePointCount) room for x, slip and forces of points of loose triangles
 };
 
 namespace sse2 {

@@ -32,6 +32,7 @@ class DynamicsOf final : public Dynamics {
 
     void take(const Changes& changes, const ForceList& forces) override {
         const bool isMaterial = changes.has(Change::material), isShape = changes.has(Change::shape);
+        bound_.forgetWeights();
         if (isMaterial || isShape || changes.has(Change::lengths)) system_.setSprings(plan_.springs);
         if (isMaterial || isShape || changes.has(Change::points) || changes.has(Change::grips)) {
             system_.setPoints(massesOf(plan_));
@@ -40,7 +41,7 @@ class DynamicsOf final : public Dynamics {
         if (isShape) return setForces(forces);
         if (isMaterial)
             for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
-        if (isMaterial && !volumes_.empty()) bound_.setCells(cellsOf(plan_));
+        if (isMaterial && !volumes_.empty()) bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
         if (changes.has(Change::grips)) addGrips();
     }
 
@@ -250,6 +251,15 @@ class DynamicsOf final : public Dynamics {
         return points;
     }
 
+    // (points) [m]
+    static std::vector<dvec3> restPositionsOf(const IslandPlan& plan) {
+        std::vector<dvec3> rest(plan.points.size(), dvec3(0.0));
+        for (const Body* body : plan.bodies)
+            for (std::size_t i = 0; i < body->pointOf.size(); ++i)
+                rest[static_cast<std::size_t>(body->pointOf[i])] = body->model.positions[i];
+        return rest;
+    }
+
     // Points in a rigid grip go where the hand goes.
     void lead() {
         leads_ = std::any_of(plan_.grips.begin(), plan_.grips.end(), [](const Grip& grip) { return grip.rigid; });
@@ -291,7 +301,7 @@ class DynamicsOf final : public Dynamics {
             volumes_.emplace_back(body, volume.get());
             system_.add(std::move(volume));
         }
-        bound_.setCells(cellsOf(plan_));
+        bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
     }
 
     void makeMethod() {

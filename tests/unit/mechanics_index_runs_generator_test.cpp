@@ -31,7 +31,7 @@ std::vector<std::array<int, Corners>> cornersByElement(const IndexRuns<Corners>&
             store(lanes.runs[r].lane + l, corners);
         }
     for (int l = 0; l < lanes.looseCount; ++l) {
-        for (std::size_t c = 0; c < Corners; ++c) corners[c] = lanes.loose[c][l];
+        for (std::size_t c = 0; c < Corners; ++c) corners[c] = lanes.loosePoints[lanes.loose[c][l]];
         store(lanes.looseLane + l, corners);
     }
     return found;

@@ -33,7 +33,7 @@ void expectBothAlike(const Model& model, double tolerance) {
     const SpringNetwork<Real> network(
         state.count, std::vector<PointRange>{{0, model.grid[0] > 0 ? model.grid[0] + 1 : 0}}, model.springs);
     StateBound<Real> bound(state.count, state.stride);
-    bound.setCells(model.cells);
+    bound.setCells(model.cells, model.positions);
     const FastestNow now = bound(network, state.x.data(), state.inverseMass.data());
     const double plain = boundHere({model.springs, inverseMasses, model.cells}, {}, model.positions).omega;
     EXPECT_GE(now.omega2, plain * plain * (1 - tolerance));

@@ -1,8 +1,8 @@
 // Sorts the elements of a mesh (triangles, tetrahedra) into runs and loose ones. Knows nothing of forces.
 //
 // Builders number points row by row, so that the triangles of a row, and its tetrahedra of one kind, follow each
-// other with all corners one point further. Rows are joined over small gaps (the last point of a row starts no cell)
-// by lanes without an element; kernels give those no weight. The order depends on the list of elements alone.
+// other with all corners one point further. Rows and layers are joined over small gaps (a row's last point starts no
+// cell) by lanes without an element; kernels give those no weight. The order depends on the list of elements alone.
 #pragma once
 
 #include <algorithm>
@@ -66,12 +66,14 @@ class IndexRuns {
     }
 
   private:
-    static constexpr int widestGap = 4;             // lanes
+    static constexpr int widestGap = 8;             // lanes, and at most a third of the elements before it, or 1
     static constexpr std::size_t shortestRun = 16;  // lanes; below, gathering costs no more
 
     struct Chain {
         Element first{};
         std::vector<int> sources;
+        int elements = 0;
+        int gapAllowed() const { return std::max(1, elements / 3); }
     };
 
     static Element moved(Element element, int by) {
@@ -86,13 +88,14 @@ class IndexRuns {
             std::size_t chain = chains.size();
             for (int gap = 0; gap <= widestGap && chain == chains.size(); ++gap) {
                 const auto found = chainThatExpects.find(moved(elements[e], -gap));
-                if (found == chainThatExpects.end()) continue;
+                if (found == chainThatExpects.end() || gap > chains[found->second].gapAllowed()) continue;
                 chain = found->second;
                 chainThatExpects.erase(found);
                 chains[chain].sources.insert(chains[chain].sources.end(), static_cast<std::size_t>(gap), -1);
             }
             if (chain == chains.size()) chains.push_back({elements[e], {}});
             chains[chain].sources.push_back(static_cast<int>(e));
+            ++chains[chain].elements;
             chainThatExpects.emplace(moved(elements[e], 1), chain);
         }
         return chains;

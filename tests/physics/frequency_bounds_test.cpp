@@ -191,7 +191,8 @@ class FrequencyBoundsOfBlocks : public testing::TestWithParam<Lattice> {
         std::vector<double> x;
         for (int p = 0; p < 3; ++p)
             for (const dvec3& position : positions) x.push_back(position[p]);
-        const mechanics::SpringNetwork<double> network(n, {}, model_.springs);
+        const std::vector<mechanics::PointRange> whole{{0, 0}};
+        const mechanics::SpringNetwork<double> network(n, whole, model_.springs);
         return std::sqrt(bound(network, x.data(), inverseMasses_.data()).omega2);
     }
     std::vector<dvec3> deformed(const glm::dmat3& by) const {

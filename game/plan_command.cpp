@@ -29,7 +29,7 @@ namespace {
 struct PlanFlags {
     std::string scene, json;
     std::vector<std::string> overrides;
-    double effort = 3.0;
+    double effort = 20.0;
     bool write = false, quiet = false;
 };
 
@@ -101,7 +101,7 @@ Action declarePlan(Options& options) {
         .required();
     options.value("-o,--json", flags->json, "Everything that was found, as JSON").typeName("FILE");
     options.flag("--write", flags->write, "Write the changed values into the scene file; the rest of it stays");
-    options.value("--effort", flags->effort, "Spring evaluations that one run may cost, in 1e9").within(1e-3, 1e6);
+    options.value("--effort", flags->effort, "What all runs together may cost, in 1e9 evaluations times springs and points").within(1e-3, 1e6);
     options.value("--set", flags->overrides, "Override a field of the scene; repeatable")
         .typeName("KEY=VALUE")
         .oneValue();

@@ -8,13 +8,20 @@
 #include "taut/study/errors.h"
 
 namespace taut::study {
+namespace {
+constexpr double mostSteps = 1e7;
+}
 
 Horizon findHorizon(const Subject& subject, double duration, double shift) {
     RunPlan plan;
-    plan.method = "rk4";
     plan.grid = subject.grid(duration, duration / 12);  // some 120 looks
-    const double limit = subject.stepLimit(*ode::findMethod("rk4"));
-    plan.stepsPerSample = stepsPerSample(subject, plan.grid, std::min(limit / 4, duration / 500));
+    for (const char* method : {"rk4", "implicit-euler"}) {
+        plan.method = method;
+        const double step = std::min(subject.stepLimit(*ode::findMethod(method)) / 4, duration / 500);
+        if (duration / step > mostSteps) continue;
+        plan.stepsPerSample = stepsPerSample(subject, plan.grid, step);
+        break;
+    }
 
     const std::unique_ptr<Trial> plain = subject.begin(plan);
     plan.perturbation = shift;

@@ -17,7 +17,8 @@ struct Horizon {
     double growth = 0;       // largest that was seen, of the RMS difference
 };
 
-// Integrates by RK4 in double precision at a quarter of its stability limit. A shift [m] that is lost in the rounding
+// Integrates by RK4 in double precision at a quarter of its stability limit, or where that is too short by a method
+// without one. A shift [m] that is lost in the rounding
 // of the coordinates, or moves nothing, has no horizon: its growth counts as 1.
 Horizon findHorizon(const Subject& subject, double duration, double shift = perturbation);
 

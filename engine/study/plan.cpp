@@ -7,6 +7,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
+#include "taut/ode/method_table.h"
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_search.h"
 #include "taut/study/scene_subject.h"
@@ -14,8 +15,9 @@
 namespace taut::study {
 namespace {
 
-constexpr double stricter = 0.75;        // a target after a verification that failed
-constexpr double generatorShare = 0.25;  // of the target, that all generators left out may change together
+constexpr double stricter = 0.75;          // a target after a verification that failed
+constexpr double generatorShare = 0.25;    // of the target, that all generators left out may change together
+constexpr double shareOfGenerators = 0.2;  // of the effort
 
 Candidate plainCandidate(const PlanContext& context) {
     Candidate candidate;
@@ -27,26 +29,35 @@ Candidate plainCandidate(const PlanContext& context) {
 PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     checkNeed(context.spec);
     const double asked = resolvedNeed(context.spec, {1.0, 1.0}).horizon;
-    const world::SceneSpec model = modelOf(context.spec, context.resolution, plainCandidate(context));
-    const std::unique_ptr<Subject> subject = makeSceneSubject(model, plan.name);
     context.tell("scene as it is", 0.02);
     context.grid = planGrid(context.spec, asked);
-    PlanRun base = play(model, context.resolution, context.grid, {0, true});
+    world::SceneSpec model = modelOf(context.spec, context.resolution, plainCandidate(context));
+    PlanRun base = play(model, context.resolution, context.grid, {.withScales = true});
+    std::string failure = base.failure;
+    // Where leap-frog cannot, another method may.
+    for (const ode::MethodInfo& method : ode::methods()) {
+        if (base.isWhole()) break;
+        model.solver.integrator = method.name;
+        base = play(model, context.resolution, context.grid, {.withScales = true});
+    }
     if (!base.isWhole())
         throw core::Error(core::ErrorKind::diverged,
-                          fmt::format("{}: leap-frog with the step found for it: {}", plan.name, base.failure));
+                          fmt::format("{}: leap-frog with the step found for it: {}", plan.name, failure));
+    context.spent += static_cast<std::int64_t>(base.effort);
+    context.plainMethod = model.solver.integrator;
     plan.need = resolvedNeed(context.spec, base.scales);
     context.target = plan.need.target;
 
     context.tell("horizon", 0.08);
     plan.perturbation = context.target / horizonGrowth;
     const double tick = context.grid.tick;
+    const std::unique_ptr<Subject> subject = makeSceneSubject(model, plan.name);
     const Horizon horizon = findHorizon(*subject, std::max(asked, 10 * tick), plan.perturbation);
     plan.isChaotic = horizon.isReached && horizon.seconds < asked * (1 - 1e-9);
     plan.seconds = plan.isChaotic ? horizon.seconds : context.grid.seconds();
     if (plan.isChaotic) {
         context.grid = planGrid(context.spec, std::max(horizon.seconds, tick));
-        base = play(model, context.resolution, context.grid);
+        base = context.run(model);
     }
     return base;
 }
@@ -54,11 +65,15 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
 // Leaves out, in the order of their effect, what together changes less than its share of the target.
 std::vector<Generator> generatorsToDrop(const PlanContext& context, const PlanRun& base, Plan& plan) {
     const std::vector<Generator> all = generatorsOf(context.spec);
+    const double most = context.left(shareOfGenerators) / static_cast<double>(all.size() + 1);
     const auto changeWithout = [&](const std::vector<Generator>& without) {
         Candidate candidate = plainCandidate(context);
         candidate.without = without;
-        return difference(base,
-                          play(modelOf(context.spec, context.resolution, candidate), context.resolution, context.grid));
+        candidate.method = context.plainMethod;
+        const PlanRun run = play(modelOf(context.spec, context.resolution, candidate), context.resolution, context.grid,
+                                 {.effort = most});
+        context.spent += static_cast<std::int64_t>(run.effort);
+        return difference(base, run);
     };
     context.tell("force generators", 0.18);
     std::vector<double> change(all.size());
@@ -70,16 +85,16 @@ std::vector<Generator> generatorsToDrop(const PlanContext& context, const PlanRu
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return change[a] < change[b]; });
 
-    const double most = generatorShare * context.target;
+    const double mostChange = generatorShare * context.target;
     std::vector<Generator> without;
     for (const std::size_t i : order) {
         GeneratorTrial trial{all[i].name, change[i], false, ""};
-        if (change[i] >= most) {
+        if (change[i] >= mostChange) {
             trial.verdict = "needed: it changes more than a quarter of the target";
         } else {
             context.tell("force generators", 0.25);
             without.push_back(all[i]);
-            trial.isLeftOut = without.size() == 1 || changeWithout(without) < most;
+            trial.isLeftOut = without.size() == 1 || changeWithout(without) < mostChange;
             trial.verdict = trial.isLeftOut ? "left out" : "needed: with the ones above it changes more than a quarter";
             if (!trial.isLeftOut) without.pop_back();
         }
@@ -108,9 +123,9 @@ void verify(const PlanContext& context, Plan& plan) {
     };
     const world::SceneSpec model = trial.isAsWritten ? withoutJitter(context.spec) : sceneOf(context, trial.candidate);
     context.tell("verification", 0.9);
-    PlanRun chosen = play(model, context.resolution, context.grid);
+    PlanRun chosen = context.run(model);
     std::vector<double> seconds{chosen.seconds};
-    for (int i = 0; i < 2; ++i) seconds.push_back(play(model, context.resolution, context.grid).seconds);
+    for (int i = 0; i < 2; ++i) seconds.push_back(context.run(model).seconds);
     std::sort(seconds.begin(), seconds.end());
     plan.trials[*plan.chosen].milliseconds = 1e3 * seconds[1] / context.grid.frames();
     plan.secondsAnEvaluation =
@@ -121,7 +136,7 @@ void verify(const PlanContext& context, Plan& plan) {
     quarter.substeps = 4 * chosen.substeps;
     quarter = withFinerSteps(quarter);
     context.tell("verification, a quarter of the step", 0.92);
-    plan.verification.step = difference(chosen, play(sceneOf(context, quarter), context.resolution, context.grid));
+    plan.verification.step = difference(chosen, context.run(sceneOf(context, quarter)));
     plan.verification.isPassed = plan.verification.step <= plan.need.target;
     if (context.resolution.count == 0) return;
 
@@ -131,7 +146,7 @@ void verify(const PlanContext& context, Plan& plan) {
     twice = withFinerSteps(twice);
     plan.verification.count = twice.count;
     context.tell("verification, twice the resolution", 0.94);
-    plan.verification.finer = difference(chosen, play(sceneOf(context, twice), context.resolution, context.grid));
+    plan.verification.finer = difference(chosen, context.run(sceneOf(context, twice)));
     plan.verification.isPassed = plan.verification.isPassed && plan.verification.finer <= plan.need.target;
 }
 
@@ -167,6 +182,7 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
+    if (plan.isCutShort) add("The effort was used up before all was tried: a larger --effort may find a cheaper way.");
     if (reference.error > context.target / 2)
         add(fmt::format(
             "The finest motion that the effort allows is itself known to {} only; a larger --effort would tell more.",
@@ -179,7 +195,7 @@ Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
     checkNeed(spec);
     Plan plan;
     plan.name = spec.title.empty() ? spec.file : spec.title;
-    PlanContext context{spec, settings, resolutionOf(spec), {}, 0};
+    PlanContext context{spec, settings, resolutionOf(spec), {}, 0, "leapfrog"};
     plan.resolution = context.resolution;
     plan.runSeconds = spec.run.seconds;
     const PlanRun base = resolveNeed(context, plan);

@@ -17,7 +17,7 @@
 namespace taut::study {
 
 struct PlanSettings {
-    double effort = 3e9;  // spring evaluations that a single run may cost
+    double effort = 2e10;  // all runs together: evaluations times springs and points, and what takes as long
     std::function<void(const Progress&)> progress;
     const std::atomic<bool>* stop = nullptr;
 };
@@ -45,7 +45,7 @@ struct PlanTrial {
     bool isAsWritten = false;
     double error = unset;         // [m] RMS against the reference, the reference's own error added
     double step = unset;          // [s]
-    double cost = unset;          // spring evaluations a frame; of one not run to its end, a lower bound
+    double cost = unset;          // a frame, see PlanRun; of one not run to its end, a lower bound
     double milliseconds = unset;  // a frame, on one thread; of a run to its end only
     double springs = 0;
     double evaluations = unset;  // of the forces, solver products included, a frame
@@ -66,6 +66,7 @@ struct Plan {
     std::string name;
     Need need;
     double seconds = 0;       // [s] that the promise holds for: the horizon asked for, or less
+    bool isCutShort = false;  // by the effort, before all was tried
     bool isChaotic = false;   // the motion cannot be predicted for as long as was asked
     double perturbation = 0;  // [m] of the start, by which that was tried; see makePlan
     double runSeconds = 0;    // [s] of the whole run

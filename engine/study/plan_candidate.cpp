@@ -24,6 +24,7 @@ using world::SceneSpec;
 constexpr int leastCells = 2;  // of a cloth or rope: a spring across two cells must fit in
 constexpr double leastSafety = 0.01;
 constexpr double springsACell = 5;  // a volume cell takes the time of so many springs (measured: 20 ns against 4)
+constexpr double splitting = 2.2;   // what a step that splits the dashpots off costs, of one that does not
 
 bool namesPlaces(const std::string& selector) {
     return selector.find_first_of("#%(") != std::string::npos;
@@ -115,6 +116,10 @@ Resolution resolutionOf(const SceneSpec& spec) {
     return resolution;
 }
 
+double costOf(const world::IslandInfo& island) {
+    return (island.springs + island.points + springsACell * island.cells) * (island.splitsDashpots ? splitting : 1.0);
+}
+
 SceneSpec withoutJitter(SceneSpec spec) {
     for (world::BodySpec& body : spec.bodies) body.jitter = 0.0;
     return spec;
@@ -140,15 +145,15 @@ SceneSpec modelOf(const SceneSpec& spec, const Resolution& resolution, const Can
 StepFacts stepFacts(const SceneSpec& model) {
     StepFacts facts;
     try {
-        const world::World world(model, {.threads = 1, .keepsSteps = true});
+        const world::World world(model, {.threads = 1});
         facts.tick = world.tickSeconds();
         facts.islands = 0;
         facts.leastSubsteps = 0;
         for (const world::IslandInfo& island : world.islands()) {
             ++facts.islands;
             facts.springs += island.springs;
-            facts.springSteps += static_cast<double>(island.springs) * island.substeps;
-            facts.weightedSteps += (island.springs + springsACell * island.cells) * island.substeps;
+            facts.cost += costOf(island);
+            facts.stepCost += costOf(island) * island.substeps;
             if (island.substeps <= facts.leastSubsteps) continue;
             facts.leastSubsteps = island.substeps;
             facts.limit = island.stepLimit;
@@ -163,8 +168,9 @@ StepFacts stepFacts(const SceneSpec& model) {
 void setSubsteps(SceneSpec& model, const StepFacts& facts, int substeps) {
     if (substeps == 0 || substeps == facts.leastSubsteps) return;
     const double step = facts.tick / substeps;
-    const double safety = step / facts.limit;
-    if (facts.islands > 1 && std::isfinite(facts.limit) && safety > leastSafety && safety <= 1)
+    const double safety = model.solver.safety * facts.leastSubsteps / substeps;
+    const bool isStableByHand = step <= model.solver.safety * facts.limit;
+    if ((facts.islands > 1 || !isStableByHand) && std::isfinite(facts.limit) && safety > leastSafety && safety <= 1)
         model.solver.safety = roundedUp(safety);
     else
         model.solver.dt = roundedUp(step);

@@ -9,6 +9,10 @@
 
 #include "taut/world/spec.h"
 
+namespace taut::world {
+struct IslandInfo;
+}
+
 namespace taut::study {
 
 // What can be left out of a scene.
@@ -34,17 +38,21 @@ struct Candidate {
     std::vector<Generator> without;  // left out
     std::string method = "leapfrog";
     world::Precision precision = world::Precision::double_;
-    int substeps = 0;  // of the island that needs most; 0: as many as stability asks for
+    int substeps = 0;  // of the island that needs most, as it starts; 0: as many as dt = "auto" finds
 };
 
-// How the steps of a scene are chosen.
+// What an evaluation of an island's forces, and what goes with it, costs: its springs and points, and what takes as
+// long as so many of them.
+double costOf(const world::IslandInfo& island);
+
+// What dt = "auto" finds for a scene.
 struct StepFacts {
-    int leastSubsteps = 1;     // of the island that needs most
-    double limit = 0;          // [s] its largest stable step
-    bool isPossible = true;    // false: every step is unstable, or more than a million a tick
-    double springs = 0;        // of all islands
-    double springSteps = 0;    // Σ springs · substeps a tick with the fewest substeps
-    double weightedSteps = 0;  // the same with the time that volume cells take
+    int leastSubsteps = 1;   // of the island that needs most, as it starts
+    double limit = 0;        // [s] its largest stable step wherever it goes: of a dt by hand
+    bool isPossible = true;  // false: every step is unstable, or more than a million a tick
+    double springs = 0;      // of all islands
+    double cost = 0;         // of an evaluation of each
+    double stepCost = 0;     // Σ cost · substeps a tick
     int islands = 1;
     double tick = 0;  // [s]
 };
@@ -58,8 +66,9 @@ world::SceneSpec modelOf(const world::SceneSpec& spec, const Resolution& resolut
 
 StepFacts stepFacts(const world::SceneSpec& model);
 
-// The model with its step set so that the slowest island makes `substeps` of them a tick; 0 leaves "auto".
-// A single island, and a method without limit, get dt, the others `safety`, so that all steps shrink by the same share.
+// The model with its step set so that the slowest island begins with `substeps` of them a tick; 0 leaves "auto".
+// A single island gets dt where a dt by hand is stable wherever it goes; else `safety`, so that all steps shrink by the
+// same share and still follow the state.
 void setSubsteps(world::SceneSpec& model, const StepFacts& facts, int substeps);
 
 }  // namespace taut::study

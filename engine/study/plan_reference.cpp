@@ -6,33 +6,41 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/ode/method_table.h"
+#include "taut/study/plan_search.h"
 
 namespace taut::study {
 namespace {
 
-constexpr double share = 5;        // the reference's own error is to be so many times below the target
-constexpr double longestRun = 25;  // [s] of wall time
+constexpr double share = 5;          // the reference's own error is to be so many times below the target
+constexpr double shareOfSteps = 20;  // and that of its steps
+constexpr double shareOfReference = 0.5;
 constexpr int mostTimesFiner = 8;  // than the scene as written
 // Orders between which a measured one is believed: sagging cloth has about 1 to 1.5, theory ends at 2.
 constexpr double leastOrder = 0.5, mostOrder = 2.0;
 
-Candidate exactCandidate(int count) {
+struct ExactMethod {
     Candidate candidate;
-    candidate.count = count;
-    candidate.method = "rk4";
-    return candidate;
-}
+    StepFacts facts;
+    double evaluations = 0;  // a step
+};
 
-PlanRun exactRunAt(const PlanContext& context, int count, int finer) {
-    world::SceneSpec model = modelOf(context.spec, context.resolution, exactCandidate(count));
-    const StepFacts facts = stepFacts(model);
-    setSubsteps(model, facts, finer * facts.leastSubsteps);
-    PlanRun run = play(model, context.resolution, context.grid);
-    if (!run.isWhole())
-        throw core::Error(
-            core::ErrorKind::diverged,
-            context.spec.file + ": even the reference, RK4 with a step far below its limit: " + run.failure);
-    return run;
+// RK4, unless its largest stable step makes it many times as dear as others, which need more steps to be as exact.
+ExactMethod exactMethod(const PlanContext& context, int count) {
+    ExactMethod best;
+    double least = HUGE_VAL;
+    for (const auto& [method, handicap] : {std::pair{"rk4", 1.0}, {"leapfrog", 30.0}, {"implicit-euler", 1e6}}) {
+        ExactMethod exact;
+        exact.candidate.count = count;
+        exact.candidate.method = method;
+        exact.facts = stepFacts(modelOf(context.spec, context.resolution, exact.candidate));
+        exact.evaluations = ode::findMethod(method)->evaluations;
+        const double cost = handicap * exact.evaluations * exact.facts.stepCost;
+        if (!exact.facts.isPossible || cost >= least) continue;
+        least = cost;
+        best = exact;
+    }
+    return best;
 }
 
 // Cells along the longest edge, from two on, each about twice the one before, the scene's own among them.
@@ -48,11 +56,12 @@ std::vector<int> ladder(int count) {
     return counts;
 }
 
-PlanReference referenceOfOneResolution(const PlanContext& context) {
-    PlanReference reference;
-    reference.run = exactRunAt(context, context.resolution.count, 4);
-    reference.error = difference(exactRunAt(context, context.resolution.count, 2), reference.run);
-    return reference;
+void expectWhole(const PlanContext& context, const ExactRun& exact) {
+    if (exact.run.isTooDear)
+        throw core::Error(core::ErrorKind::usage,
+                          context.spec.file + ": the effort does not suffice for a single run: a larger --effort");
+    if (!exact.run.isWhole())
+        throw core::Error(core::ErrorKind::diverged, context.spec.file + ": even the reference: " + exact.run.failure);
 }
 
 }  // namespace
@@ -63,53 +72,85 @@ void PlanContext::tell(const std::string& doing, double done) const {
     if (settings.progress) settings.progress({doing, done});
 }
 
-double exactCost(const PlanContext& context, int count) {
-    const StepFacts facts = stepFacts(modelOf(context.spec, context.resolution, exactCandidate(count)));
-    return facts.isPossible ? facts.weightedSteps * 2 * 4 * context.grid.ticks() : HUGE_VAL;
+PlanRun PlanContext::run(const world::SceneSpec& model, double most) const {
+    PlanRun run = play(model, resolution, grid, {.cost = most, .effort = std::max(left(), 0.0)});
+    spent.fetch_add(static_cast<std::int64_t>(run.effort), std::memory_order_relaxed);
+    return run;
 }
 
-PlanRun exactRun(const PlanContext& context, int count) {
-    return exactRunAt(context, count, 2);
+double exactEffort(const PlanContext& context, int count) {
+    const ExactMethod exact = exactMethod(context, count);
+    return exact.evaluations > 0 ? 3 * exact.evaluations * exact.facts.stepCost * context.grid.ticks() : HUGE_VAL;
+}
+
+ExactRun exactRun(const PlanContext& context, int count, double effortShare) {
+    const ExactMethod exact = exactMethod(context, count);
+    const auto runAt = [&](int finer) {
+        Candidate candidate = exact.candidate;
+        candidate.substeps = finer * exact.facts.leastSubsteps;
+        return context.run(sceneOf(context, candidate));
+    };
+    ExactRun result{runAt(1)};
+    double before = 0;
+    for (int finer = 2;; finer *= 2) {
+        if (finer > 2 && context.left(effortShare) < 3 * result.run.effort) break;
+        PlanRun next = runAt(finer);
+        if (!next.isWhole()) break;
+        const double change = difference(result.run, next);
+        // Halving shrinks the error by 2 to 16, as the order is 1 to 4: as the last halvings have shown, or as little
+        // as may be.
+        const double shrinks = before > 0 ? std::clamp(before / std::max(change, 1e-300), 2.0, 16.0) : 2.0;
+        result.run = std::move(next);
+        result.error = change / (shrinks - 1);
+        before = change;
+        if (result.error < context.target / shareOfSteps) break;
+    }
+    return result;
 }
 
 PlanReference makePlanReference(const PlanContext& context) {
-    if (context.resolution.count == 0) return referenceOfOneResolution(context);
     PlanReference reference;
-    double before = 0, costBefore = 0;
+    if (context.resolution.count == 0) {
+        ExactRun exact = exactRun(context, 0, shareOfReference);
+        expectWhole(context, exact);
+        reference.run = std::move(exact.run);
+        reference.error = exact.error;
+        return reference;
+    }
+    double before = 0, ofResolution = HUGE_VAL;
     for (const int count : ladder(context.resolution.count)) {
         const bool isFirst = reference.count == 0;
-        const double cost = exactCost(context, count);
-        // Contacts and what else takes time are seen from the resolution before.
-        const double expected = isFirst ? 0.0 : reference.run.seconds * cost / costBefore;
-        if (!isFirst && (cost > context.settings.effort || expected > longestRun)) break;
-        costBefore = cost;
+        if (!isFirst && 2 * exactEffort(context, count) > context.left(shareOfReference)) break;
         context.tell(fmt::format("reference, {} cells", count),
                      0.3 + 0.03 * static_cast<double>(reference.runs.size()));
-        PlanRun run = exactRun(context, count);
+        ExactRun exact = exactRun(context, count, shareOfReference);
+        if (isFirst) expectWhole(context, exact);
+        if (!exact.run.isWhole()) break;
         if (!isFirst) {
-            const double apart = difference(reference.run, run);
+            const double apart = difference(reference.run, exact.run);
             const double ratio = std::log(static_cast<double>(count) / reference.count);
             if (before > 0) reference.order = std::log(before / std::max(apart, 1e-300)) / ratio;
             const double order = std::clamp(before > 0 ? reference.order : 1.0, leastOrder, mostOrder);
-            reference.error = apart / (std::exp(order * ratio) - 1);
+            ofResolution = apart / (std::exp(order * ratio) - 1);
             before = apart;
         }
-        reference.runs[count] = run;
-        reference.run = std::move(run);
+        reference.runs[count] = exact.run;
+        reference.run = std::move(exact.run);
         reference.count = count;
+        reference.error = ofResolution + exact.error;
         // Three resolutions at least: with two there is no order.
         if (reference.runs.size() > 3 && reference.error < context.target / share) break;
     }
-    if (reference.runs.size() == 1) reference.error = HUGE_VAL;
     return reference;
 }
 
 std::optional<int> leastCount(const PlanContext& context, PlanReference& reference) {
+    if (reference.runs.empty()) return std::nullopt;
     const auto isEnough = [&](int count) {
         const auto found = reference.runs.find(count);
         if (found == reference.runs.end()) {
             context.tell(fmt::format("{} cells", count), 0.55);
-            reference.runs[count] = exactRun(context, count);
+            reference.runs[count] = exactRun(context, count, shareOfReference).run;
         }
         return reference.errorOf(reference.runs[count]) <= context.target;
     };

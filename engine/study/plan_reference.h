@@ -2,6 +2,9 @@
 // small, and the errors of the resolutions on the way there.
 #pragma once
 
+#include <atomic>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 
@@ -16,19 +19,34 @@ struct PlanContext {
     const PlanSettings& settings;
     Resolution resolution;
     PlanGrid grid;
-    double target = 0;                                       // [m]
+    double target = 0;                            // [m]
+    std::string plainMethod = "leapfrog";         // that plays the scene at a step found for it
+    mutable std::atomic<std::int64_t> spent = 0;  // of the effort
+
     void tell(const std::string& doing, double done) const;  // throws core::Error when it is to stop
+    // Runs a model of the scene within the effort that is left, and counts what it takes. Not beyond `most` cost.
+    PlanRun run(const world::SceneSpec& model, double most = HUGE_VAL) const;
+    // Of a share of the effort, less what was spent.
+    double left(double share = 1.0) const {
+        return share * settings.effort - static_cast<double>(spent.load(std::memory_order_relaxed));
+    }
 };
 
-// RK4 in double precision, all generators, half of its stable step.
-PlanRun exactRun(const PlanContext& context, int count);
-// What that would cost, in spring evaluations and what takes as long.
-double exactCost(const PlanContext& context, int count);
+// The motion at a resolution, in double precision with all generators: by RK4, or leap-frog where RK4 has no step, at
+// ever shorter steps until halving them tells no more.
+struct ExactRun {
+    PlanRun run;
+    double error = HUGE_VAL;  // [m] estimated from what the last halvings changed
+};
+// Spends no more than that share of the effort, beyond the first two runs.
+ExactRun exactRun(const PlanContext& context, int count, double share);
+// What its first two runs would take of the effort.
+double exactEffort(const PlanContext& context, int count);
 
 struct PlanReference {
     PlanRun run;
     int count = 0;
-    double error = 0;                 // [m] of the reference, by Richardson's extrapolation
+    double error = 0;                 // [m] of the reference: by Richardson's extrapolation, and that of its steps
     double order = PlanTrial::unset;  // measured over three resolutions
     std::map<int, PlanRun> runs;      // by count
     double errorOf(const PlanRun& other) const { return difference(other, run) + error; }

@@ -2,6 +2,7 @@
 // of the material, by interpolation between points, so that they can be compared.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
@@ -29,12 +30,13 @@ PlanGrid planGrid(const world::SceneSpec& spec, double horizon);
 using Sight = std::vector<glm::dvec3>;
 
 struct PlanRun {
-    std::string failure;           // why there is none or no end of it; empty: it ran to the end
-    bool isTooDear = false;        // stopped because it cost more than asked for
-    std::vector<Sight> at;         // (samples)
-    ode::Work work;                // the start's too
-    double springEvaluations = 0;  // springs times evaluations of the forces, products of a solver counted as such;
-                                   // without the start's, which are made once however long the run
+    std::string failure;     // why there is none or no end of it; empty: it ran to the end
+    bool isTooDear = false;  // stopped because it cost more than asked for
+    std::vector<Sight> at;   // (samples)
+    ode::Work work;          // the start's too
+    double cost = 0;    // evaluations of the forces, products of a solver counted as such, times what one costs, see
+                        // costOf(); without the start's, which are made once however long the run
+    double effort = 0;  // the same with the start's, and with what a call costs besides
     double springs = 0;
     double seconds = 0;  // of wall time, on one thread
     int substeps = 0;    // a tick, of the island that makes most
@@ -46,11 +48,12 @@ struct PlanRun {
 };
 
 struct RunLimits {
-    double springEvaluations = 0;  // stop beyond; 0: never
+    double cost = HUGE_VAL, effort = HUGE_VAL;  // stop beyond
     bool withScales = false;
 };
 
-// Never throws for what the scene does: a divergence is a failure.
+// As a user runs the model: steps follow the state where dt is "auto". Never throws for what the scene does: a
+// divergence is a failure.
 PlanRun play(const world::SceneSpec& model, const Resolution& resolution, const PlanGrid& grid,
              const RunLimits& limits = {});
 

@@ -13,7 +13,8 @@ namespace {
 constexpr int moreCounts = 4;           // resolutions above the coarsest that are tried too
 constexpr double stepPrecision = 1.04;  // the number of steps is found to this factor
 constexpr double clearly = 0.99;        // cheaper by less than that is no reason to change anything
-constexpr int mostRuns = 16;            // of one method at one resolution
+constexpr int mostRuns = 20;            // of one method at one resolution
+constexpr double shareToSearch = 0.9;   // the rest is for the verification
 
 class Search {
   public:
@@ -29,7 +30,7 @@ class Search {
         trial.candidate.count = context_.resolution.count;
         trial.candidate.method = model.solver.integrator;
         trial.candidate.precision = model.solver.precision;
-        const PlanRun run = play(model, context_.resolution, context_.grid, {10 * context_.settings.effort, false});
+        const PlanRun run = context_.run(model);
         trial.candidate.substeps = run.substeps;
         note(trial, run);
     }
@@ -113,7 +114,7 @@ class Search {
         trial.wasRun = true;
         trial.springs = run.springs;
         trial.step = run.step;
-        trial.cost = perFrame(run.springEvaluations);
+        trial.cost = perFrame(run.cost);
         trial.wasStopped = run.isTooDear;
         if (!run.failure.empty()) {
             trial.verdict = run.failure;
@@ -135,8 +136,7 @@ class Search {
         context_.tell(fmt::format("{}, {}", trial.candidate.method, std::string(nameOf(trial.candidate.precision))),
                       std::min(0.88, 0.6 + 0.012 * static_cast<double>(plan_.trials.size())));
         const double most = bestCost() * context_.grid.frames() * 1.0001;
-        const RunLimits limits{std::isfinite(most) ? most : 10 * context_.settings.effort, false};
-        note(trial, play(sceneOf(context_, trial.candidate), context_.resolution, context_.grid, limits));
+        note(trial, context_.run(sceneOf(context_, trial.candidate), most));
     }
 
     void reject(PlanTrial trial, const std::string& verdict) {
@@ -157,20 +157,22 @@ class Search {
         // An implicit step has at least an evaluation and a product.
         const double each = std::isfinite(facts.limit) ? method.evaluations : std::max(2, method.evaluations);
         const auto leastCost = [&](double substeps) {
-            return perFrame(facts.springSteps * substeps / facts.leastSubsteps * each * context_.grid.ticks());
+            return perFrame(facts.stepCost * substeps / facts.leastSubsteps * each * context_.grid.ticks());
         };
         const auto cannotWin = [&](double substeps) { return leastCost(substeps) >= clearly * bestCost(); };
 
         int tooFew = 0, substeps = facts.leastSubsteps;
         for (int runs = 0; runs < mostRuns; ++runs) {
-            if (cannotWin(substeps) || leastCost(substeps) * context_.grid.frames() > context_.settings.effort) {
+            const bool isTooDear = leastCost(substeps) * context_.grid.frames() > context_.left(shareToSearch);
+            plan_.isCutShort = plan_.isCutShort || (isTooDear && !cannotWin(substeps));
+            if (cannotWin(substeps) || isTooDear) {
                 trial.candidate.substeps = substeps;
                 trial.step = facts.tick / substeps;
                 trial.springs = facts.springs;
                 trial.cost = leastCost(substeps);
                 if (tooFew > 0 || isToldWhenSkipped)
-                    reject(trial, fmt::format("needs {} {} steps a tick: cannot be cheaper",
-                                              tooFew > 0 ? "about" : "at least", substeps));
+                    reject(trial, fmt::format("needs {} {} steps a tick", tooFew > 0 ? "about" : "at least", substeps) +
+                                      (cannotWin(substeps) ? ": cannot be cheaper" : ": more than the effort left"));
                 return;
             }
             trial.candidate.substeps = substeps == facts.leastSubsteps ? 0 : substeps;

@@ -15,26 +15,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/error.h"
-#include "taut/ode/conjugate_gradient.h"
-#include "taut/ode/implicit_system.h"
-#include "taut/ode/method.h"
+#include "taut/ode/implicit_solve.h"
 
 namespace taut::ode {
 namespace {
 
+constexpr std::string_view implicitEulerTitle = "implicit Euler";
+
 template <class Real>
 class ImplicitEuler final : public Method<Real> {
   public:
-    explicit ImplicitEuler(const MethodOptions& options) : options_(options), solver_(0) {
-        TAUT_EXPECTS(options.newtonSteps >= 1 && options.tolerance > 0.0 && options.maxIterations >= 1);
-        constexpr double finest = sizeof(Real) < sizeof(double) ? 1e-6 : 1e-14;
-        tolerance_ = std::max(options.tolerance, finest);
-        newtonTolerance_ = std::max(10.0 * options.tolerance, 100.0 * finest);
-    }
+    explicit ImplicitEuler(const MethodOptions& options)
+        : newtonSteps_(options.newtonSteps),
+          newtonTolerance_(std::max(10.0 * options.tolerance, 100.0 * ImplicitMatrix<Real>::finest)),
+          matrix_(options) {}
 
     void start(SecondOrderSystem<Real>& system, double t, double, State<Real>& state) override {
-        linearOf(system);
+        implicitPartOf(system, implicitEulerTitle);
         prepare(state.layout);
         state.memory.assign(1, core::AlignedArray<Real>(state.layout.size()));
         system.prescribe(t, state.x.data(), state.v.data());
@@ -42,15 +39,15 @@ class ImplicitEuler final : public Method<Real> {
 
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
         if (change_.size() != state.layout.size()) prepare(state.layout);  // a state that another one started
-        Step now{system, linearOf(system), t + h, h, state};
+        Step now{system, implicitPartOf(system, implicitEulerTitle), t + h, h, state};
         const double scale = firstNewtonStep(now);
-        if (options_.newtonSteps > 1) refine(now, scale);
+        if (newtonSteps_ > 1) refine(now, scale);
         for (std::size_t i = 0; i < state.v.size(); ++i) {
             state.memory[0][i] = u_[i] - state.v[i];
             state.v[i] = u_[i];
         }
         const Real* inverseMass = now.linear.inverseMasses();
-        forEach(state.layout, [&](std::size_t at, std::size_t i) {
+        forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
             if (inverseMass[i] > Real(0)) state.x[at] += static_cast<Real>(h) * u_[at];
         });
         system.prescribe(t + h, state.x.data(), state.v.data());
@@ -74,72 +71,22 @@ class ImplicitEuler final : public Method<Real> {
         const State<Real>& state;
     };
 
-    class Store final : public AccelerationSink<Real> {
-      public:
-        Store(Layout layout, Real* out) : layout_(layout), out_(out) {}
-        void take(int first, int last, const Real* const* a) override {
-            for (int p = 0; p < layout_.planes; ++p)
-                std::copy_n(a[p], last - first, out_ + static_cast<std::ptrdiff_t>(p) * layout_.stride + first);
-        }
-
-      private:
-        Layout layout_;
-        Real* out_;
-    };
-
-    template <class F>
-    static void forEach(Layout layout, F&& f) {
-        for (int p = 0; p < layout.planes; ++p)
-            for (int i = 0; i < layout.count; ++i)
-                f(static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * layout.stride + i),
-                  static_cast<std::size_t>(i));
-    }
-
-    static ImplicitSystem<Real>& linearOf(SecondOrderSystem<Real>& system) {
-        if (ImplicitSystem<Real>* linear = system.implicitPart()) return *linear;
-        throw core::Error(core::ErrorKind::usage,
-                          "implicit Euler needs a system that gives masses and the derivatives of its forces");
-    }
-
     void prepare(Layout layout) {
         const std::size_t n = layout.size();
-        change_ = b_ = inverse_ = u_ = trial_ = place_ = acceleration_ = scratch_ = core::AlignedArray<Real>(n);
-        solver_ = ConjugateGradient<Real>(n);
+        change_ = b_ = u_ = trial_ = place_ = acceleration_ = scratch_ = core::AlignedArray<Real>(n);
+        matrix_.resize(n);
     }
 
     void accelerate(const Step& now, const Real* x, const Real* v) {
-        Store store(now.state.layout, acceleration_.data());
+        StoreAccelerations<Real> store(now.state.layout, acceleration_.data());
         now.system.accelerate(now.end, x, v, store);
         ++this->work_.evaluations;
     }
 
     // Solves A change_ = b_, A = M + hΓ + hC + h²K at (x, v), from the given guess.
-    Solution solve(const Step& now, const Real* x, const Real* v) {
-        const double h = now.h;
-        const Layout layout = now.state.layout;
-        const Real *mass = now.linear.masses(), *inverseMass = now.linear.inverseMasses(),
-                   *drag = now.system.dragRates();
-        now.linear.linearise(now.end, x, v, h * h, h);
-        std::fill(inverse_.begin(), inverse_.end(), Real(0));
-        now.linear.addDiagonal(inverse_.data());
-        const Real step = static_cast<Real>(h);
-        forEach(
-            layout,
-            [&](std::size_t at, std::size_t i) {
-                const Real own = mass[i] * (Real(1) + step * drag[i]);
-                inverse_[at] = inverseMass[i] > Real(0) ? Real(1) / (inverse_[at] + own) : Real(0);
-            });
-        const auto multiply = [&](const Real* in, Real* out) {
-            std::fill_n(out, layout.size(), Real(0));
-            forEach(layout,
-                    [&](std::size_t at, std::size_t i) { out[at] = mass[i] * (Real(1) + step * drag[i]) * in[at]; });
-            now.linear.addProduct(in, out);
-        };
-        const Solution solution =
-            solver_.solve(multiply, inverse_.data(), b_.data(), tolerance_, options_.maxIterations, change_.data());
-        this->work_.iterations += solution.products;
-        if (!solution.converged) ++this->work_.unconverged;
-        return solution;
+    void solve(const Step& now, const Real* x, const Real* v) {
+        matrix_.fix(now.system, now.end, x, v, now.h);
+        matrix_.solve(b_.data(), change_.data(), this->work_);
     }
 
     // Baraff and Witkin's step into u_; the norm of its right-hand side.
@@ -158,7 +105,7 @@ class ImplicitEuler final : public Method<Real> {
         trial_ = state.v;
         now.system.prescribe(now.end, place_.data(), trial_.data());
         std::fill(b_.begin(), b_.end(), Real(0));
-        forEach(state.layout, [&](std::size_t at, std::size_t i) {
+        forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
             if (inverseMass[i] > Real(0)) {
                 b_[at] = h * (mass[i] * acceleration_[at] - mass[i] * drag[i] * state.v[at]) - scratch_[at];
                 change_[at] = state.memory[0][at];
@@ -167,29 +114,16 @@ class ImplicitEuler final : public Method<Real> {
             }
         });
         const double scale = massNorm(now, b_.data());
-        if (!passOnWhatIsNoNumber()) solve(now, state.x.data(), state.v.data());
+        if (!passOnWhatIsNoNumber(b_, change_, this->work_)) solve(now, state.x.data(), state.v.data());
         for (std::size_t i = 0; i < u_.size(); ++i) u_[i] = state.v[i] + change_[i];
         return scale;
-    }
-
-    // A force that is not a number cannot be solved for, and the solver would leave all where it is, unseen: it goes
-    // into the velocity of its point, where whoever looks at the state finds it.
-    bool passOnWhatIsNoNumber() {
-        bool isThere = false;
-        for (std::size_t i = 0; i < b_.size(); ++i)
-            if (!std::isfinite(b_[i])) {
-                change_[i] = b_[i];
-                isThere = true;
-            }
-        if (isThere) ++this->work_.unconverged;
-        return isThere;
     }
 
     // Newton steps on from u_ until the residual is small against the scale, or what the first step has left.
     void refine(const Step& now, double scale) {
         double norm = residual(now, u_.data());
         const double target = newtonTolerance_ * std::max(scale, norm);
-        for (int n = 1; n < options_.newtonSteps && norm > target; ++n) {
+        for (int n = 1; n < newtonSteps_ && norm > target; ++n) {
             std::fill(change_.begin(), change_.end(), Real(0));
             solve(now, place_.data(), u_.data());
             double part = 1.0, next = norm;
@@ -215,7 +149,7 @@ class ImplicitEuler final : public Method<Real> {
         now.system.prescribe(now.end, place_.data(), nullptr);
         accelerate(now, place_.data(), u);
         std::fill(b_.begin(), b_.end(), Real(0));
-        forEach(state.layout, [&](std::size_t at, std::size_t i) {
+        forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
             if (!(inverseMass[i] > Real(0))) return;
             b_[at] = mass[i] * (state.v[at] - u[at] + h * (acceleration_[at] - drag[i] * u[at]));
         });
@@ -232,13 +166,12 @@ class ImplicitEuler final : public Method<Real> {
         return std::sqrt(sum);
     }
 
-    MethodOptions options_;
-    double tolerance_, newtonTolerance_;
-    ConjugateGradient<Real> solver_;
-    core::AlignedArray<Real> change_;       // Δv, unknown of the solve
-    core::AlignedArray<Real> b_, inverse_;  // right-hand side; inverse of the diagonal, 0 for held points
-    core::AlignedArray<Real> u_, trial_;    // v', and the one in question
-    core::AlignedArray<Real> place_;        // x + h u
+    int newtonSteps_;
+    double newtonTolerance_;
+    ImplicitMatrix<Real> matrix_;
+    core::AlignedArray<Real> change_, b_;  // Δv, unknown of the solve; right-hand side
+    core::AlignedArray<Real> u_, trial_;   // v', and the one in question
+    core::AlignedArray<Real> place_;       // x + h u
     core::AlignedArray<Real> acceleration_, scratch_;
 };
 
@@ -255,7 +188,7 @@ double implicitEulerLargestStep(const FastestMode&) {
 
 MethodInfo implicitEuler() {
     return {.name = "implicit-euler",
-            .title = "implicit Euler",
+            .title = implicitEulerTitle,
             .order = 1,
             .evaluations = 1,
             .storedArrays = 12,

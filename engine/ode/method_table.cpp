@@ -14,7 +14,9 @@
     METHOD(rungeKutta4)      \
     METHOD(velocityVerlet)   \
     METHOD(leapfrog)         \
-    METHOD(implicitEuler)
+    METHOD(blanesMoan)       \
+    METHOD(implicitEuler)    \
+    METHOD(rosenbrock)
 
 namespace taut::ode {
 

@@ -19,8 +19,8 @@ Style style(const char* colour, Mark mark, bool isFilled, Dash dash) {
 
 // Hues after Okabe and Ito (2008), darkened where a thin line on white needs it. What is close in method is close in
 // hue and differs in mark, filling and dashes.
-const std::array<Named, 8>& named() {
-    static const std::array<Named, 8> all = {{
+const std::array<Named, 10>& named() {
+    static const std::array<Named, 10> all = {{
         {"leapfrog", style("#d55e00", Mark::circle, true, Dash::solid)},
         {"velocity-verlet", style("#e69f00", Mark::circle, false, Dash::dashed)},
         {"symplectic-euler", style("#b5539c", Mark::diamond, true, Dash::solid)},
@@ -28,7 +28,9 @@ const std::array<Named, 8>& named() {
         {"heun", style("#0072b2", Mark::triangle, true, Dash::solid)},
         {"midpoint", style("#56b4e9", Mark::triangle, false, Dash::dashed)},
         {"rk4", style("#101010", Mark::square, true, Dash::solid)},
+        {"blanes-moan", style("#8c1d2f", Mark::star, true, Dash::solid)},
         {"implicit-euler", style("#009e73", Mark::pentagon, true, Dash::solid)},
+        {"rosenbrock", style("#5aa05a", Mark::pentagon, false, Dash::dashed)},
     }};
     return all;
 }

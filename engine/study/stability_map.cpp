@@ -121,7 +121,8 @@ class Measurement {
         Boundary& boundary = panel.boundaries[static_cast<std::size_t>(b)];
         boundary.zeta = map_.mostZeta * b / (static_cast<double>(panel.boundaries.size()) - 1);
         boundary.predicted = predictedLimit(*ode::findMethod(panel.method), boundary.zeta, panel.damping);
-        boundary.measured = measuredLimit(panel.method, boundary.zeta, panel.damping, map_.mostMeasured);
+        boundary.measured =
+            measuredLimit(panel.method, boundary.zeta, panel.damping, map_.mostMeasured, boundary.predicted);
         tell();
     }
 
@@ -190,12 +191,15 @@ double predictedLimit(const ode::MethodInfo& method, double zeta, Damping dampin
     return method.largestStep(mode);
 }
 
-double measuredLimit(std::string_view method, double zeta, Damping damping, double most) {
+double measuredLimit(std::string_view method, double zeta, Damping damping, double most, double suspected) {
     // Up to the first step that grows, then between it and the one before.
-    constexpr double stride = 0.2;
+    constexpr double stride = 0.2, justAbove = 1.004;
     double low = 0, high = 0;
-    for (int i = 1; high < most && low == high; ++i) {
-        high = std::min(stride * i, most);
+    for (int i = 1; high < most && low == high;) {
+        const double next = std::min(stride * i, most), special = justAbove * suspected;
+        const bool isSpecial = low < special && special < next;
+        high = isSpecial ? special : next;
+        if (!isSpecial) ++i;
         if (stands(method, zeta, damping, high)) low = high;
     }
     if (low == high) return none;

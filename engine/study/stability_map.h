@@ -23,7 +23,8 @@ double measuredGrowth(std::string_view method, double zeta, Damping damping, dou
 double predictedLimit(const ode::MethodInfo& method, double zeta, Damping damping);
 
 // The smallest z at which growth above 1 is measured, up to `most`; infinite when there is none.
-double measuredLimit(std::string_view method, double zeta, Damping damping, double most);
+double measuredLimit(std::string_view method, double zeta, Damping damping, double most,
+                     double suspected = std::numeric_limits<double>::infinity());
 
 inline constexpr double growthTolerance = 1e-9;  // a step: less than that counts as none
 inline constexpr int limitSteps = 2000;          // with which a boundary is measured

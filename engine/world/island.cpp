@@ -165,7 +165,8 @@ Fault Island::giveUp(double t) const {
     double most = -1;
     for (int i = 0; i < static_cast<int>(v.size()); ++i) {
         const double speed = glm::length(v[static_cast<std::size_t>(i)]);
-        if (!std::isfinite(speed)) return {.point = i, .time = t, .isNumber = false};
+        const bool isHeld = plan_.points[static_cast<std::size_t>(i)].held;  // 0 times what is infinite
+        if (!std::isfinite(speed) && !isHeld) return {.point = i, .time = t, .isNumber = false};
         if (speed > most) fastest = i;
         most = std::max(most, speed);
     }

@@ -49,7 +49,10 @@ TEST(PretensionedSpring, HasTheSameLimitAsAtRest) {
             const Model model = between(k, restLength, {1e-6, 2e-6, 0});
             const double limit = method.largestStep(mode);
             const double stable = std::isfinite(limit) ? 0.99 * limit : 100.0 / mode.omega;
-            const double unstable = limit > 0.0 ? 1.01 * limit : 1.0 / mode.omega;
+            // What grows in Blanes and Moan's method from 3.13 on does so slowly, and not beyond 3.16.
+            const double unstable = method.name == "blanes-moan" ? 6.4 / mode.omega
+                                    : limit > 0.0                ? 1.01 * limit
+                                                                 : 1.0 / mode.omega;
             if (limit > 0.0) {
                 Network calm(model, method.name, stable);
                 calm.step(20000);
@@ -353,7 +356,7 @@ TEST(NotANumber, ThatAppearsInMidRunStopsItInThatTickAndKeepsTheRest) {
 // Within one tick from sound numbers to none: an anchor that overflows single precision.
 TEST(NotANumber, ByOverflowKeepsTheLastGoodState) {
     for (const ode::MethodInfo& method : ode::methods()) {
-        if (method.name == "implicit-euler") continue;  // no step is too long for it: the point stays where it is
+        if (std::isinf(method.largestStep({1.0}))) continue;  // no step is too long for it: the point stays where it is
         SCOPED_TRACE(method.name);
         world::SceneSpec scene = exactScene(0.01, std::string(method.name));
         scene.solver.precision = world::Precision::single_;

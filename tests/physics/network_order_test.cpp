@@ -98,11 +98,16 @@ TEST(ClothOrder, IsThatOfTheMethodWithDashpotsDragAndWind) {
             if (c.air == Air::blowing && method.order == 4) continue;  // the test below
             SCOPED_TRACE(std::string(method.name) + ", τ = " + std::to_string(c.tau) + ", drag " +
                          std::to_string(c.drag) + ", air " + std::to_string(static_cast<int>(c.air)));
-            const int steps = method.order == 1 ? 4800 : method.order == 2 ? 600 : 150;
+            const int steps = method.order == 1 ? 4800 : method.order == 2 ? 600 : method.evaluations == 6 ? 75 : 150;
             const auto [x1, v1] = errorOf(model, c.air, method.name, steps, ought);
             const auto [x2, v2] = errorOf(model, c.air, method.name, 2 * steps, ought);
-            EXPECT_NEAR(std::log2(x1 / x2), method.order, 0.1);
-            EXPECT_NEAR(std::log2(v1 / v2), method.order, 0.1);
+            // With dashpots the leading term of Blanes and Moan's method is so small that the next one shows until
+            // rounding does: from below its order stands as that of the others, from above half of one more.
+            const double above = method.evaluations == 6 ? 0.5 : 0.1;
+            for (const double order : {std::log2(x1 / x2), std::log2(v1 / v2)}) {
+                EXPECT_GT(order, method.order - 0.1);
+                EXPECT_LT(order, method.order + above);
+            }
             EXPECT_LT(x1, 1e-3);
             EXPECT_GT(x2, 1e-11);  // above the reference's own error, 1e-14 by its 4000 steps
         }

@@ -107,12 +107,57 @@ TEST(RungeKutta4Limit, IsTheEdgeOfItsStabilityRegion) {
     EXPECT_NEAR(rk4Limit(0.0) * omega, 2.0 * std::sqrt(2.0), 2e-5);  // the step of the search
 }
 
-TEST(ImplicitEulerLimit, IsNone) {
-    for (double zeta : zetas)
-        for (double z : {0.1, 2.0, 100.0, 1e6}) {
-            // The amplitude falls by 1/√(1 + z²) a step at least; the start may be enlarged once.
-            EXPECT_LT(largestAmplitude("implicit-euler", damped(0.0, zeta), z / omega), 2.0) << zeta << ", " << z;
-            EXPECT_TRUE(std::isinf(ode::findMethod("implicit-euler")->largestStep({omega, 2.0 * zeta / omega})));
+TEST(ImplicitLimit, IsNone) {
+    for (const char* method : {"implicit-euler", "rosenbrock"})
+        for (double zeta : zetas)
+            for (double z : {0.1, 2.0, 100.0, 1e6}) {
+                // The amplitude falls at every step; the start may be enlarged once.
+                EXPECT_LT(largestAmplitude(method, damped(0.0, zeta), z / omega), 2.0) << zeta << ", " << z;
+                EXPECT_TRUE(std::isinf(ode::findMethod(method)->largestStep({omega, 2.0 * zeta / omega})));
+            }
+}
+
+// Half the trace of a step of S6 on undamped motion, from the coefficients alone: at -1 it first leaves the range in
+// which the roots lie on the unit circle.
+double halfTrace(double z) {
+    const long double a[] = {0.0792036964311957L, 0.353172906049774L, -0.0420650803577195L},
+                      b[] = {0.209515106613362L, -0.143851773179818L};
+    const long double middle = 1 - 2 * (a[0] + a[1] + a[2]), third = 0.5L - b[0] - b[1];
+    const long double kicks[] = {a[0], a[1], a[2], middle, a[2], a[1], a[0]};
+    const long double drifts[] = {b[0], b[1], third, third, b[1], b[0], 0};
+    long double trace = 0;
+    for (int column = 0; column < 2; ++column) {
+        long double x = 1 - column, v = column;
+        for (int i = 0; i < 7; ++i) v -= kicks[i] * z * x, x += drifts[i] * z * v;
+        trace += column == 0 ? x : v;
+    }
+    return static_cast<double>(trace / 2);
+}
+
+TEST(BlanesMoanLimit, IsTheTraceOfItsStepUndamped) {
+    const ode::MethodInfo& method = *ode::findMethod("blanes-moan");
+    const double limit = method.largestStep({omega}) * omega;
+    EXPECT_NEAR(halfTrace(limit), -1.0, 1e-10);  // the conditions grant rounding 1e-11
+    EXPECT_LT(halfTrace(limit + 1e-4), -1.0);
+    for (double z = 0.01; z < limit - 1e-6; z += 0.01) ASSERT_GT(halfTrace(z), -1.0) << z;
+    // What grows there grows slowly, and not beyond 3.16: below and above by 0.4 % each, over 2e5 steps.
+    EXPECT_LT(largestAmplitude("blanes-moan", damped(0.0, 0.0), 0.996 * limit / omega), 100.0);
+    EXPECT_GT(largestAmplitude("blanes-moan", damped(0.0, 0.0), 1.004 * limit / omega), 1e11);
+    EXPECT_NEAR(method.automaticStep({omega}) / method.largestStep({omega}), 1.0, 1e-8);  // its constant's digits
+}
+
+// With damping of either kind the first root that leaves the circle, measured.
+TEST(BlanesMoanLimit, FollowsDampingFromBothSidesAndAutoDoesNotRiseByIt) {
+    const ode::MethodInfo& method = *ode::findMethod("blanes-moan");
+    for (double zeta : {0.02, 0.1, 0.3, 0.5, 1.0, 1.19, 1.3, 2.0, 5.0, 50.0})
+        for (double share : {0.0, 0.5, 1.0}) {
+            SCOPED_TRACE("ζ = " + std::to_string(zeta) + ", dashpot share " + std::to_string(share));
+            const ode::FastestMode mode{omega, 2 * zeta * share / omega, 0.0, 2 * zeta * (1 - share) * omega,
+                                        2 * zeta * (1 - share) * omega};
+            const double limit = method.largestStep(mode);
+            expectLimit("blanes-moan", damped(zeta * (1.0 - share), zeta * share), limit);
+            EXPECT_LE(method.automaticStep(mode), std::min(limit, method.largestStep({omega})) * (1 + 1e-9));
+            EXPECT_GE(method.automaticStep(mode), std::min(limit, method.largestStep({omega})) * (1 - 1e-6));
         }
 }
 
@@ -123,7 +168,8 @@ TEST(DashpotAtFiveTimesCritical, IsStableWithinTheLimitOnly) {
     expectLimit("euler", damped(0.0, 5.0), eulerLimit(5.0));
     for (const char* method : {"heun", "midpoint"}) expectLimit(method, damped(0.0, 5.0), heunLimit(5.0));
     expectLimit("rk4", damped(0.0, 5.0), rk4Limit(5.0));
-    EXPECT_LT(largestAmplitude("implicit-euler", damped(0.0, 5.0), 1e3 / omega), 2.0);
+    for (const char* method : {"implicit-euler", "rosenbrock"})
+        EXPECT_LT(largestAmplitude(method, damped(0.0, 5.0), 1e3 / omega), 2.0);
 }
 
 // Formulas on both sides: 1e-12 is rounding.
@@ -187,10 +233,9 @@ TEST(LargestStep, OfAFreePointIsSetByItsDampingAlone) {
         // v' = -c v: the position drifts by v0/c; growth beyond the limit is by 1.01 a step at least.
         const double limit = method.largestStep(damper);
         if (method.name == "symplectic-euler") EXPECT_DOUBLE_EQ(limit, 0.25);
-        if (method.name == "implicit-euler") {
-            EXPECT_TRUE(std::isinf(limit));
-            continue;
-        }
+        const bool isImplicit = method.name == "implicit-euler" || method.name == "rosenbrock";
+        EXPECT_EQ(std::isinf(limit), isImplicit);
+        if (isImplicit) continue;
         const Oscillator::Values values{0.0, 8.0, 0.0, 0.0, 0.0};
         Oscillator below(values), above(values);
         Integration<double> calm = integrate(below, method.name, 0.99 * limit, {0.0, 1.0});

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "support/oscillator.h"
 #include "taut/core/error.h"
 #include "taut/ode/conjugate_gradient.h"
-#include "support/oscillator.h"
 
 namespace taut::test {
 namespace {
@@ -38,9 +38,7 @@ TEST(ConjugateGradient, SolvesAChainWithinItsTolerance) {
             b2 += b[i] * b[i];
         }
         EXPECT_LE(std::sqrt(r2 / b2), tolerance * (1.0 + 1e-3));  // the residual is carried along: rounding
-        if (tolerance < 1e-3) {
-            EXPECT_GT(std::sqrt(r2 / b2), 1e-17);
-        }
+        if (tolerance < 1e-3) EXPECT_GT(std::sqrt(r2 / b2), 1e-17);
     }
 }
 
@@ -110,7 +108,7 @@ TEST(EveryMethod, CountsItsEvaluations) {
         run.synchronisedVelocities();
         EXPECT_EQ(run.method().work().evaluations, oscillator.evaluations);
         EXPECT_EQ(run.method().work().unconverged, 0);
-        EXPECT_EQ(run.method().work().iterations > 0, info.name == "implicit-euler");
+        EXPECT_EQ(run.method().work().iterations > 0, std::isinf(info.largestStep({1.0})));
     }
 }
 

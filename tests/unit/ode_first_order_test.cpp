@@ -5,14 +5,15 @@
 #include <cmath>
 #include <string>
 
-#include "taut/core/error.h"
 #include "support/oscillator.h"
+#include "taut/core/error.h"
 
 namespace taut::test {
 namespace {
 
 constexpr const char* firstOrderMethods[] = {"euler", "heun", "midpoint", "rk4"};
-constexpr const char* secondOrderMethods[] = {"symplectic-euler", "velocity-verlet", "leapfrog", "implicit-euler"};
+constexpr const char* secondOrderMethods[] = {"symplectic-euler", "velocity-verlet", "leapfrog",
+                                              "blanes-moan",      "implicit-euler",  "rosenbrock"};
 
 // y' = y, exact: e^t.
 class Growth final : public ode::System<double> {

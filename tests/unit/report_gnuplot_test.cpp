@@ -8,12 +8,12 @@
 #include <functional>
 #include <set>
 
+#include "image_support.h"
+#include "support/text.h"
 #include "taut/core/error.h"
 #include "taut/image/read.h"
-#include "image_support.h"
 #include "taut/report/layout.h"
 #include "taut/report/palette.h"
-#include "support/text.h"
 
 namespace taut::report {
 namespace {
@@ -170,15 +170,15 @@ TEST(ReportGnuplot, WhenItFailsTheErrorTellsWhatItSaid) {
 
 TEST(ReportPalette, MethodsAreToldApartByMoreThanColour) {
     std::set<std::string> colours, looks;
-    const char* names[] = {"euler", "symplectic-euler", "heun",     "midpoint",
-                           "rk4",   "velocity-verlet",  "leapfrog", "implicit-euler"};
+    const char* names[] = {"euler",           "symplectic-euler", "heun",        "midpoint",       "rk4",
+                           "velocity-verlet", "leapfrog",         "blanes-moan", "implicit-euler", "rosenbrock"};
     for (const char* name : names) {
         const Style style = styleOf(name);
         colours.insert(style.colour);
         looks.insert(std::to_string(static_cast<int>(style.mark)) + (style.isFilled ? "f" : "o"));
     }
-    EXPECT_EQ(colours.size(), 8U);
-    EXPECT_EQ(looks.size(), 8U);
+    EXPECT_EQ(colours.size(), std::size(names));
+    EXPECT_EQ(looks.size(), std::size(names));
     EXPECT_EQ(styleOf("a new one").colour, styleOf("a new one").colour);
     EXPECT_FALSE(colours.contains(styleOf("a new one").colour));
 }

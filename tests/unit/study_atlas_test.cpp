@@ -41,7 +41,9 @@ double theory(const std::string& method, double zeta, Damping damping) {
     if (method == "symplectic-euler") return 2 * (std::sqrt(1 + zeta * zeta) + (isDrag ? zeta : -zeta));
     if (method == "heun" || method == "midpoint") return zeta < 1 ? rootOf(0, 3, heunCubic, zeta) : overdamped(zeta, 2);
     if (method == "rk4") return zeta < 1 ? rootOf(2.5, 3.5, rk4Excess, zeta) : overdamped(zeta, 2.785294);
-    if (method == "implicit-euler") return HUGE_VAL;
+    if (method == "implicit-euler" || method == "rosenbrock") return HUGE_VAL;
+    // Undamped the root of its trace; with damping there is no theory but the roots themselves.
+    if (method == "blanes-moan") return zeta == 0 ? 3.1328233 : predictedLimit(*ode::findMethod(method), zeta, damping);
     return isDrag ? 2 : 2 * (std::sqrt(1 + 4 * zeta * zeta) - 2 * zeta);
 }
 
@@ -53,7 +55,7 @@ TEST(Atlas, PredictsAndMeasuresTheBoundariesOfTheTheory) {
                 SCOPED_TRACE(method + ", ζ = " + std::to_string(zeta) +
                              (damping == Damping::drag ? ", drag" : ", dashpot"));
                 const double exact = theory(method, zeta, damping), predicted = predictedLimit(info, zeta, damping);
-                const double measured = measuredLimit(method, zeta, damping, 7);
+                const double measured = measuredLimit(method, zeta, damping, 7, predicted);
                 if (std::isinf(exact)) {
                     EXPECT_TRUE(std::isinf(predicted));
                     EXPECT_TRUE(std::isinf(measured));
@@ -62,7 +64,9 @@ TEST(Atlas, PredictsAndMeasuresTheBoundariesOfTheTheory) {
                 EXPECT_NEAR(predicted, exact, 1e-6);  // the constant of RK4 is given with six digits
                 // Undamped, Euler grows by z²/2 a step and Heun by z⁴/8: 1e-9 is passed at 4.5e-5 and 0.0095. Else
                 // bisection ends 0.2/2^18 from the boundary; 1e-4 leaves room for growth that sets in slowly.
-                EXPECT_NEAR(measured, exact, zeta == 0 && exact == 0 ? 0.0096 : 1e-4);
+                // Roots that meet at -1, slowly and to part again, beat on the way for longer than is measured.
+                const bool beats = method == "blanes-moan" && zeta == 0;
+                EXPECT_NEAR(measured, exact, zeta == 0 && exact == 0 ? 0.0096 : beats ? 5e-4 : 1e-4);
             }
 }
 
@@ -109,11 +113,10 @@ TEST(Atlas, MapsGrowthWhereDampingMakesADifferenceTwice) {
             for (int column = 0; column < map.columns; ++column) {
                 const double limit = theory(panel.method, map.zetaAt(column), panel.damping), z = map.zAt(row);
                 const double growth = panel.growth[static_cast<std::size_t>(row * map.columns + column)];
-                if (z < 0.98 * limit) {
+                if (z < 0.98 * limit)
                     EXPECT_LT(growth, 1 + 1e-4);  // undamped leap-frog is 1: swings over 400 steps
-                } else if (z > 1.02 * limit) {
+                else if (z > 1.02 * limit)
                     EXPECT_GT(growth, 1.01);  // the flattest: RK4 at 2.83 rises by 0.02 for each hundredth of z
-                }
             }
     }
     EXPECT_EQ(maps, 3);

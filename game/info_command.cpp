@@ -253,9 +253,11 @@ void printMethods() {
                     m.evaluations, m.storedArrays, yes(m.symplectic), yes(m.reversible), yes(m.isFirstOrder()),
                     undampedLimit(m), m.limit);
     printResult(
-        "\nevals: force evaluations a step, besides the solve of implicit Euler. arrays: kept besides positions and "
+        "\nevals: force evaluations a step, besides the solves of implicit methods. arrays: kept besides positions and "
         "velocities, of their size. y'=f: takes "
-        "any\nfirst-order system, not x'' = a alone. limit: of ωh without damping; 0 is unstable at every step.\n");
+        "any\nfirst-order system, not x'' = a alone. limit: of ωh without damping; 0 is unstable at every "
+        "step.\norder: with dashpots and drag too; contacts lower any to 1, and the drag of wind, where air moves "
+        "along a triangle,\nthose of order 4 to 2.\n");
 }
 
 int info(const InfoFlags& flags) {

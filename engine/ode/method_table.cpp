@@ -16,7 +16,7 @@
     METHOD(leapfrog)         \
     METHOD(blanesMoan)       \
     METHOD(implicitEuler)    \
-    METHOD(rosenbrock)
+    METHOD(sdirk2)
 
 namespace taut::ode {
 

@@ -30,7 +30,7 @@ const std::array<Named, 10>& named() {
         {"rk4", style("#101010", Mark::square, true, Dash::solid)},
         {"blanes-moan", style("#8c1d2f", Mark::star, true, Dash::solid)},
         {"implicit-euler", style("#009e73", Mark::pentagon, true, Dash::solid)},
-        {"rosenbrock", style("#5aa05a", Mark::pentagon, false, Dash::dashed)},
+        {"sdirk2", style("#5aa05a", Mark::pentagon, false, Dash::dashed)},
     }};
     return all;
 }

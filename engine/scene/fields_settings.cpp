@@ -96,10 +96,11 @@ SceneSection solverSection() {
             .choice("precision", &SolverSpec::precision, {"single", "double"}, "Precision of the computed numbers.")
             .whole("newton_steps", &SolverSpec::newtonSteps, "", Range{1, 100},
                    "Of implicit Euler: Newton steps a step, at most; 1 solves the linearised equations only.")
-            .number("cg_tolerance", &SolverSpec::cgTolerance, "", Range{1e-12, 0.1},
-                    "Of implicit Euler: residual over right-hand side at which a solve ends; 1e-6 at least in single.")
+            .number(
+                "cg_tolerance", &SolverSpec::cgTolerance, "", Range{1e-12, 0.1},
+                "Of implicit methods: residual over right-hand side at which a solve ends; 1e-6 at least in single.")
             .whole("cg_iterations", &SolverSpec::cgIterations, "", Range{1, 1e6},
-                   "Of implicit Euler: conjugate-gradient iterations of a solve, at most.")
+                   "Of implicit methods: conjugate-gradient iterations of a solve, at most.")
             .choice("on_divergence", &SolverSpec::onDivergence, {"stop", "freeze"},
                     "Whether a body that diverges stops the run, or is kept as it last was and marked in the picture.")
             .number("freeze_strain", &SolverSpec::freezeStrain, "", Range{0.01, 1e6},

@@ -25,8 +25,8 @@ struct SolverSpec {
     Precision precision = Precision::single_;
     Dashpots dashpots = Dashpots::automatic;  // whichever takes less time; extrapolated where dt is given
     int newtonSteps = 1;                      // of implicit Euler: linear solves a step, at most
-    double cgTolerance = 1e-5;                // of implicit Euler: residual over right-hand side at which a solve ends
-    int cgIterations = 1000;                  // of implicit Euler: at most, a solve
+    double cgTolerance = 1e-5;  // of implicit methods: residual over right-hand side at which a solve ends
+    int cgIterations = 1000;    // of implicit methods: at most, a solve
     OnDivergence onDivergence = OnDivergence::stop;
     double freezeStrain = 1.0;  // |l - L|/L of a spring (but of bending) at which freezing takes a body to diverge
     std::shared_ptr<const ode::Methods> methods;  // that integrators are names of; none: the engine's own

@@ -1,5 +1,6 @@
 find_package(Boost REQUIRED)  # headers of odeint; imported, so the compiler takes them for the system's
 list(APPEND TAUT_PHYSICS_TESTS
+  blanes_moan_test.cpp
   block_recovery_test.cpp
   contact_test.cpp
   float_floor_test.cpp
@@ -18,6 +19,7 @@ list(APPEND TAUT_PHYSICS_TESTS
   oscillator_energy_test.cpp
   oscillator_limits_test.cpp
   precision_test.cpp
+  sdirk2_test.cpp
   step_following_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode Boost::headers)
 list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp)

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* firstOrderMethods[] = {"euler", "heun", "midpoint", "rk4"};
 constexpr const char* secondOrderMethods[] = {"symplectic-euler", "velocity-verlet", "leapfrog",
-                                              "blanes-moan",      "implicit-euler",  "rosenbrock"};
+                                              "blanes-moan",      "implicit-euler",  "sdirk2"};
 
 // y' = y, exact: e^t.
 class Growth final : public ode::System<double> {

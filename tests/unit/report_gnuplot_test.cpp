@@ -171,7 +171,7 @@ TEST(ReportGnuplot, WhenItFailsTheErrorTellsWhatItSaid) {
 TEST(ReportPalette, MethodsAreToldApartByMoreThanColour) {
     std::set<std::string> colours, looks;
     const char* names[] = {"euler",           "symplectic-euler", "heun",        "midpoint",       "rk4",
-                           "velocity-verlet", "leapfrog",         "blanes-moan", "implicit-euler", "rosenbrock"};
+                           "velocity-verlet", "leapfrog",         "blanes-moan", "implicit-euler", "sdirk2"};
     for (const char* name : names) {
         const Style style = styleOf(name);
         colours.insert(style.colour);

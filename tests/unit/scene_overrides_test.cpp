@@ -65,7 +65,7 @@ TEST(SceneOverrides, FaultsAreNamedByTheirKey) {
         {"schema.x=3", "--set schema.x: error: schema is 1: it has no \"x\""},
         {"solver.integrator=leapforg",
          "--set solver.integrator: error: integrator must be one of euler, symplectic-euler, heun, midpoint, rk4, "
-         "velocity-verlet, leapfrog, blanes-moan, implicit-euler, rosenbrock, not "
+         "velocity-verlet, leapfrog, blanes-moan, implicit-euler, sdirk2, not "
          "\"leapforg\"; "
          "did you mean \"leapfrog\"?"},
         {"cloth.flag.material=none",

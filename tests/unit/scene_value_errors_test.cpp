@@ -118,7 +118,7 @@ TEST(SceneErrors, ValuesOfTheWrongTypeAreReported) {
          "[solver]\n"
          "integrator = \"leapforg\"\n",
          "s.toml:3:14: error: integrator must be one of euler, symplectic-euler, heun, midpoint, rk4, "
-         "velocity-verlet, leapfrog, blanes-moan, implicit-euler, rosenbrock, not \"leapforg\"\n"
+         "velocity-verlet, leapfrog, blanes-moan, implicit-euler, sdirk2, not \"leapforg\"\n"
          "  integrator = \"leapforg\"\n"
          "               ^ did you mean \"leapfrog\"?"},
         {"a choice that is a number",

@@ -41,7 +41,7 @@ double theory(const std::string& method, double zeta, Damping damping) {
     if (method == "symplectic-euler") return 2 * (std::sqrt(1 + zeta * zeta) + (isDrag ? zeta : -zeta));
     if (method == "heun" || method == "midpoint") return zeta < 1 ? rootOf(0, 3, heunCubic, zeta) : overdamped(zeta, 2);
     if (method == "rk4") return zeta < 1 ? rootOf(2.5, 3.5, rk4Excess, zeta) : overdamped(zeta, 2.785294);
-    if (method == "implicit-euler" || method == "rosenbrock") return HUGE_VAL;
+    if (method == "implicit-euler" || method == "sdirk2") return HUGE_VAL;
     // Undamped the root of its trace; with damping there is no theory but the roots themselves.
     if (method == "blanes-moan") return zeta == 0 ? 3.1328233 : predictedLimit(*ode::findMethod(method), zeta, damping);
     return isDrag ? 2 : 2 * (std::sqrt(1 + 4 * zeta * zeta) - 2 * zeta);

@@ -119,7 +119,7 @@ TEST(Hands, ARigidHandIsFollowedExactly) {
 class EveryMethodLetsGo : public testing::TestWithParam<std::string_view> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethodLetsGo,
                          testing::Values("euler", "symplectic-euler", "heun", "midpoint", "rk4", "velocity-verlet",
-                                         "leapfrog", "blanes-moan", "implicit-euler", "rosenbrock"),
+                                         "leapfrog", "blanes-moan", "implicit-euler", "sdirk2"),
                          [](const testing::TestParamInfo<std::string_view>& parameter) {
                              std::string name(parameter.param);
                              for (char& c : name)
@@ -185,7 +185,7 @@ class OrderThroughEvents : public testing::TestWithParam<std::pair<std::string_v
 INSTANTIATE_TEST_SUITE_P(Methods, OrderThroughEvents,
                          testing::Values(std::pair{"leapfrog", 2}, std::pair{"velocity-verlet", 2},
                                          std::pair{"midpoint", 2}, std::pair{"heun", 2}, std::pair{"rk4", 4},
-                                         std::pair{"blanes-moan", 4}, std::pair{"rosenbrock", 2}),
+                                         std::pair{"blanes-moan", 4}, std::pair{"sdirk2", 2}),
                          [](const testing::TestParamInfo<std::pair<std::string_view, int>>& parameter) {
                              std::string name(parameter.param.first);
                              for (char& c : name)

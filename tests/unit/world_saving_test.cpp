@@ -81,7 +81,7 @@ std::string nameOfCase(const testing::TestParamInfo<std::tuple<std::string_view,
 
 INSTANTIATE_TEST_SUITE_P(EveryMethod, Saving,
                          testing::Combine(testing::Values("euler", "symplectic-euler", "heun", "midpoint", "rk4",
-                                                          "velocity-verlet", "leapfrog", "blanes-moan", "implicit-euler", "rosenbrock"),
+                                                          "velocity-verlet", "leapfrog", "blanes-moan", "implicit-euler", "sdirk2"),
                                           testing::Bool()),
                          nameOfCase);
 

@@ -1,0 +1,152 @@
+// SDIRK2, the singly diagonally implicit Runge-Kutta method of order 2 that is L-stable (Alexander 1977), for
+// y = (x, v), y' = f(t, y), with γ = 1 - 1/√2:
+//
+//   y1 = y + γh f(t + γh, y1),   y' = y + (1 - γ)h f(t + γh, y1) + γh f(t + h, y')
+//
+// It stands any step on linear problems, and what is too fast for the step dies out. Either stage is a step of implicit
+// Euler by s = γh, the second one from y + (1/γ - 1)(y1 - y). Of
+//
+//   G(u) = M (u - v) - s [F(x + s u, u) - Γ u],   Γ the drag m γ
+//
+// one Newton step is made from u_0, the velocity at hand, v or that of the first stage, with the forces at
+// X = x + s u_0 and a velocity w that the last slope predicts:
+//
+//   [M + sΓ + sC + s²K] Δu = M (v - u_0) + s [F(X, w) - Γ u_0 - C (u_0 - w)]
+//
+// K and C, at (X, w), lack what is not positive in them, and C of wind more (ImplicitSystem); F does not, so that the
+// order is 2 nonetheless: of Δu = O(h) what K lacks leaves s² of it, and of u - w = O(h²) what C lacks s. A stage that
+// starts from the forces where the points will be also undoes most of what motion across a spring has stretched it,
+// which keeps very stiff ones calm; predicted by a slope, places would be further off than what they are to mend.
+#include <algorithm>
+#include <cmath>
+
+#include "taut/ode/implicit_solve.h"
+
+namespace taut::ode {
+namespace {
+
+constexpr std::string_view sdirk2Title = "SDIRK2";
+
+template <class Real>
+class Sdirk2 final : public Method<Real> {
+    static constexpr double gamma = 0.29289321881345248;  // 1 - 1/√2
+    using Planes = core::AlignedArray<Real>;
+
+  public:
+    explicit Sdirk2(const MethodOptions& options) : matrix_(options) {}
+
+    void start(SecondOrderSystem<Real>& system, double t, double, State<Real>& state) override {
+        implicitPartOf(system, sdirk2Title);
+        state.memory.assign(1, Planes(state.layout.size()));  // the last slope; 0: not known
+        system.prescribe(t, state.x.data(), state.v.data());
+    }
+
+    void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
+        if (matrix_.size() != state.layout.size()) prepare(state.layout);  // a state that another one started
+        implicitPartOf(system, sdirk2Title);
+        u_ = state.v;
+        for (std::size_t i = 0; i < u_.size(); ++i)
+            seen_[i] = state.v[i] + static_cast<Real>(gamma * h) * state.memory[0][i];
+        stage(system, t + gamma * h, gamma * h, state.x, state.v);
+        const Real ahead = static_cast<Real>(1 / gamma - 1);
+        for (std::size_t i = 0; i < u_.size(); ++i) {
+            const Real change = u_[i] - state.v[i];
+            x_[i] = state.x[i] + ahead * (place_[i] - state.x[i]);
+            v_[i] = state.v[i] + ahead * change;
+            seen_[i] = u_[i] + ahead * change;
+        }
+        stage(system, t + h, gamma * h, x_, v_);
+        const Real* inverseMass = system.implicitPart()->inverseMasses();
+        forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
+            if (!(inverseMass[i] > Real(0))) return;
+            state.memory[0][at] = (u_[at] - v_[at]) / static_cast<Real>(gamma * h);
+            state.x[at] = place_[at];
+            state.v[at] = u_[at];
+        });
+        system.prescribe(t + h, state.x.data(), state.v.data());
+    }
+
+    void synchronise(SecondOrderSystem<Real>&, double, double, const State<Real>& state, Real* v) override {
+        std::copy(state.v.begin(), state.v.end(), v);
+    }
+
+    void touch(State<Real>& state, std::span<const int> points) override {
+        for (int p = 0; p < state.layout.planes; ++p)
+            for (int i : points)
+                state.memory[0][static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) * state.layout.stride + i)] = 0;
+    }
+
+  private:
+    void prepare(Layout layout) {
+        matrix_.resize(layout.size());
+        x_ = v_ = u_ = seen_ = place_ = force_ = b_ = change_ = Planes(layout.size());
+    }
+
+    // u_ and place_ = x + s u_ at t, from the guess u_.
+    void stage(SecondOrderSystem<Real>& system, double t, double s, const Planes& x, const Planes& v) {
+        const Real step = static_cast<Real>(s);
+        const Layout layout = system.layout();
+        for (std::size_t i = 0; i < u_.size(); ++i) place_[i] = x[i] + step * u_[i];
+        system.prescribe(t, place_.data(), u_.data());
+        system.prescribe(t, nullptr, seen_.data());
+        StoreAccelerations<Real> store(layout, force_.data());
+        system.accelerate(t, place_.data(), seen_.data(), store);
+        ++this->work_.evaluations;
+
+        ImplicitSystem<Real>& implicit = *system.implicitPart();
+        const Real *mass = implicit.masses(), *inverseMass = implicit.inverseMasses(), *drag = system.dragRates();
+        for (std::size_t i = 0; i < u_.size(); ++i) change_[i] = u_[i] - seen_[i];
+        std::fill(b_.begin(), b_.end(), Real(0));
+        implicit.linearise(t, place_.data(), seen_.data(), 0.0, s);
+        implicit.addProduct(change_.data(), b_.data());
+        ++this->work_.iterations;
+        std::fill(change_.begin(), change_.end(), Real(0));
+        forEachNumber(layout, [&](std::size_t at, std::size_t i) {
+            const Real pull = v[at] - u_[at] + step * (force_[at] - drag[i] * u_[at]);
+            b_[at] = inverseMass[i] > Real(0) ? mass[i] * pull - b_[at] : Real(0);
+        });
+        if (!passOnWhatIsNoNumber(b_, change_, this->work_)) {
+            matrix_.fix(system, t, place_.data(), seen_.data(), s);
+            matrix_.solve(b_.data(), change_.data(), this->work_);
+        }
+        for (std::size_t i = 0; i < u_.size(); ++i) {
+            u_[i] += change_[i];
+            place_[i] += step * change_[i];
+        }
+    }
+
+    ImplicitMatrix<Real> matrix_;
+    Planes x_, v_;       // from which the second stage starts
+    Planes u_, seen_;    // velocities of a stage, and w
+    Planes place_;       // x + s u
+    Planes force_;       // over mass
+    Planes b_, change_;  // -G, Δu
+};
+
+template <class Real>
+std::unique_ptr<Method<Real>> makeSdirk2(const MethodOptions& options) {
+    return std::make_unique<Sdirk2<Real>>(options);
+}
+
+double sdirk2LargestStep(const FastestMode&) {
+    return HUGE_VAL;
+}
+
+}  // namespace
+
+MethodInfo sdirk2() {
+    return {.name = "sdirk2",
+            .title = sdirk2Title,
+            .order = 2,
+            .evaluations = 2,
+            .storedArrays = 13,
+            .symplectic = false,
+            .reversible = false,
+            .limit = "none on linear problems; two solves a step, and what is too fast for it dies out",
+            .caution = "",
+            .largestStep = sdirk2LargestStep,
+            .automaticStep = sdirk2LargestStep,
+            .make = {makeSdirk2<float>, makeSdirk2<double>}};
+}
+
+}  // namespace taut::ode

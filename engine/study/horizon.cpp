@@ -15,7 +15,7 @@ constexpr double mostSteps = 1e7;
 Horizon findHorizon(const Subject& subject, double duration, double shift) {
     RunPlan plan;
     plan.grid = subject.grid(duration, duration / 12);  // some 120 looks
-    for (const char* method : {"rk4", "implicit-euler"}) {
+    for (const char* method : {"rk4", "sdirk2"}) {
         plan.method = method;
         const double step = std::min(subject.stepLimit(*ode::findMethod(method)) / 4, duration / 500);
         if (duration / step > mostSteps) continue;

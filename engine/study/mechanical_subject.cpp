@@ -7,6 +7,7 @@
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/mechanics/stability.h"
 #include "taut/ode/method_table.h"
+#include "taut/study/fehlberg78.h"
 #include "taut/study/perturbation.h"
 
 namespace taut::study {
@@ -23,7 +24,7 @@ class MechanicalTrial final : public Trial {
         : problem_(problem),
           plan_(plan),
           system_(problem.model),
-          method_(ode::makeMethod<Real>(plan.method)),
+          method_(methodOf(plan)),
           state_(system_.layout()),
           velocity_(system_.layout().size()) {
         system_.add(std::make_unique<mechanics::Gravity<Real>>(problem.gravity));
@@ -70,6 +71,11 @@ class MechanicalTrial final : public Trial {
     ode::Work work() const override { return method_->work(); }
 
   private:
+    static std::unique_ptr<ode::Method<Real>> methodOf(const RunPlan& plan) {
+        ode::MethodOptions options;
+        if (plan.tolerance > 0) options.tolerance = plan.tolerance;
+        return referenceMethods()->make<Real>(plan.method, options);
+    }
     std::size_t index(int point, int plane) const {
         return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(plane) * state_.layout.stride + point);
     }

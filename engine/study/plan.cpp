@@ -106,6 +106,7 @@ std::vector<Generator> generatorsToDrop(const PlanContext& context, const PlanRu
 void listResolutions(const PlanContext& context, const PlanReference& reference, Plan& plan) {
     plan.order = reference.order;
     plan.referenceError = reference.error;
+    plan.referenceMethod = reference.method;
     plan.referenceCount = reference.count;
     for (const auto& [count, run] : reference.runs) {
         const double error = reference.errorOf(run);
@@ -181,6 +182,8 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     for (const world::BodySpec& body : context.spec.bodies) hasJitter = hasJitter || body.jitter > 0;
     if (hasJitter) add("jitter_m is taken as 0 in all runs: every resolution would be shaken in another way.");
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
+    add(fmt::format("The reference is {}; its own error, cells included, is about {}.", plan.referenceMethod,
+                    lengthText(reference.error)));
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
     if (plan.isCutShort) add("The effort was used up before all was tried: a larger --effort may find a cheaper way.");
     if (reference.error > context.target / 2)

@@ -75,6 +75,7 @@ struct Plan {
     std::vector<ResolutionTrial> resolutions;  // by count
     double order = PlanTrial::unset;           // of convergence with the resolution, as measured
     double referenceError = 0;                 // [m]
+    std::string referenceMethod;               // of its steps, in words
     int referenceCount = 0;
     std::vector<PlanTrial> trials;      // in the order of trying
     std::optional<std::size_t> chosen;  // of trials

@@ -7,6 +7,7 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/study/fehlberg78.h"
 #include "taut/study/plan_search.h"
 
 namespace taut::study {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double share = 5;          // the reference's own error is to be so many times below the target
 constexpr double shareOfSteps = 20;  // and that of its steps
+constexpr double leastShare = 1e-3;  // of the target: the tolerance of a method that controls its error
 constexpr double shareOfReference = 0.5;
 constexpr int mostTimesFiner = 8;  // than the scene as written
 // Orders between which a measured one is believed: sagging cloth has about 1 to 1.5, theory ends at 2.
@@ -29,7 +31,7 @@ struct ExactMethod {
 ExactMethod exactMethod(const PlanContext& context, int count) {
     ExactMethod best;
     double least = HUGE_VAL;
-    for (const auto& [method, handicap] : {std::pair{"rk4", 1.0}, {"leapfrog", 30.0}, {"implicit-euler", 1e6}}) {
+    for (const auto& [method, handicap] : {std::pair{"rk4", 1.0}, {"leapfrog", 30.0}, {"sdirk2", 1e6}}) {
         ExactMethod exact;
         exact.candidate.count = count;
         exact.candidate.method = method;
@@ -54,6 +56,54 @@ std::vector<int> ladder(int count) {
     std::reverse(counts.begin(), counts.end());
     for (int c = 2 * count; c <= mostTimesFiner * count; c *= 2) counts.push_back(c);
     return counts;
+}
+
+// [m/s]
+double toleranceOf(const PlanContext& context) {
+    return leastShare * context.target / std::max(context.grid.seconds(), context.grid.tick);
+}
+
+// By a method that controls its own error, at two tolerances of which one is a hundredth of the other.
+ExactRun controlledRun(const PlanContext& context, int count) {
+    Candidate candidate;
+    candidate.count = count;
+    candidate.method = fehlberg78;
+    world::SceneSpec model = modelOf(context.spec, context.resolution, candidate);
+    model.solver.methods = referenceMethods();
+    model.solver.cgTolerance = 100 * toleranceOf(context);
+    const PlanRun coarse = context.run(model);
+    model.solver.cgTolerance = toleranceOf(context);
+    ExactRun result{context.run(model), HUGE_VAL,
+                    fmt::format("Fehlberg 7(8) at a tolerance of {:.2g} m/s", toleranceOf(context))};
+    // What the finer run errs by is a hundredth of that; ten times more is room for what the motion makes of it.
+    result.error = difference(coarse, result.run) / 10;
+    return result;
+}
+
+// At ever shorter steps until halving them tells no more.
+ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double effortShare) {
+    const auto runAt = [&](int finer) {
+        Candidate candidate = exact.candidate;
+        candidate.substeps = finer * exact.facts.leastSubsteps;
+        return context.run(sceneOf(context, candidate));
+    };
+    ExactRun result{runAt(1), HUGE_VAL, ""};
+    double before = 0;
+    for (int finer = 2;; finer *= 2) {
+        if (finer > 2 && context.left(effortShare) < 3 * result.run.effort) break;
+        PlanRun next = runAt(finer);
+        if (!next.isWhole()) break;
+        const double change = difference(result.run, next);
+        // Halving shrinks the error by 2 to 16, as the order is 1 to 4: as the last halvings have shown, or as little
+        // as may be.
+        const double shrinks = before > 0 ? std::clamp(before / std::max(change, 1e-300), 2.0, 16.0) : 2.0;
+        result.run = std::move(next);
+        result.error = change / (shrinks - 1);
+        result.method = fmt::format("{} at steps of {:.3g} s", exact.candidate.method, result.run.step);
+        before = change;
+        if (result.error < context.target / shareOfSteps) break;
+    }
+    return result;
 }
 
 void expectWhole(const PlanContext& context, const ExactRun& exact) {
@@ -85,27 +135,8 @@ double exactEffort(const PlanContext& context, int count) {
 
 ExactRun exactRun(const PlanContext& context, int count, double effortShare) {
     const ExactMethod exact = exactMethod(context, count);
-    const auto runAt = [&](int finer) {
-        Candidate candidate = exact.candidate;
-        candidate.substeps = finer * exact.facts.leastSubsteps;
-        return context.run(sceneOf(context, candidate));
-    };
-    ExactRun result{runAt(1)};
-    double before = 0;
-    for (int finer = 2;; finer *= 2) {
-        if (finer > 2 && context.left(effortShare) < 3 * result.run.effort) break;
-        PlanRun next = runAt(finer);
-        if (!next.isWhole()) break;
-        const double change = difference(result.run, next);
-        // Halving shrinks the error by 2 to 16, as the order is 1 to 4: as the last halvings have shown, or as little
-        // as may be.
-        const double shrinks = before > 0 ? std::clamp(before / std::max(change, 1e-300), 2.0, 16.0) : 2.0;
-        result.run = std::move(next);
-        result.error = change / (shrinks - 1);
-        before = change;
-        if (result.error < context.target / shareOfSteps) break;
-    }
-    return result;
+    const bool isControlled = exact.candidate.method == "rk4" && context.spec.colliders.empty();
+    return isControlled ? controlledRun(context, count) : steppedRun(context, exact, effortShare);
 }
 
 PlanReference makePlanReference(const PlanContext& context) {
@@ -115,6 +146,7 @@ PlanReference makePlanReference(const PlanContext& context) {
         expectWhole(context, exact);
         reference.run = std::move(exact.run);
         reference.error = exact.error;
+        reference.method = exact.method;
         return reference;
     }
     double before = 0, ofResolution = HUGE_VAL;
@@ -138,6 +170,7 @@ PlanReference makePlanReference(const PlanContext& context) {
         reference.run = std::move(exact.run);
         reference.count = count;
         reference.error = ofResolution + exact.error;
+        reference.method = exact.method;
         // Three resolutions at least: with two there is no order.
         if (reference.runs.size() > 3 && reference.error < context.target / share) break;
     }

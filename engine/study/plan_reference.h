@@ -32,11 +32,13 @@ struct PlanContext {
     }
 };
 
-// The motion at a resolution, in double precision with all generators: by RK4, or leap-frog where RK4 has no step, at
-// ever shorter steps until halving them tells no more.
+// The motion at a resolution, in double precision with all generators: by Fehlberg's method of order 8, which controls
+// its own error. Where there is something to touch, contact is of order 1 whatever the method: there by RK4, and where
+// explicit steps are far too dear by another, at ever shorter steps until halving them tells no more.
 struct ExactRun {
     PlanRun run;
-    double error = HUGE_VAL;  // [m] estimated from what the last halvings changed
+    double error = HUGE_VAL;  // [m] of its steps, estimated from coarser ones
+    std::string method;       // in words
 };
 // Spends no more than that share of the effort, beyond the first two runs.
 ExactRun exactRun(const PlanContext& context, int count, double share);
@@ -48,6 +50,7 @@ struct PlanReference {
     int count = 0;
     double error = 0;                 // [m] of the reference: by Richardson's extrapolation, and that of its steps
     double order = PlanTrial::unset;  // measured over three resolutions
+    std::string method;               // of its steps, in words
     std::map<int, PlanRun> runs;      // by count
     double errorOf(const PlanRun& other) const { return difference(other, run) + error; }
 };

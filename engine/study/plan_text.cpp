@@ -185,7 +185,10 @@ std::string planJson(const Plan& plan, const MachineFacts& machine) {
     json["verdict"] = planVerdict(plan);
     json["generators"] = report::jsonOf<Json>(generatorColumns(), plan.generators);
     json["resolutions"] = report::jsonOf<Json>(resolutionColumns(), plan.resolutions);
-    json["reference"] = {{"cells", plan.referenceCount}, {"error_m", plan.referenceError}, {"order", plan.order}};
+    json["reference"] = {{"cells", plan.referenceCount},
+                         {"error_m", plan.referenceError},
+                         {"order", plan.order},
+                         {"method", plan.referenceMethod}};
     json["candidates"] = report::jsonOf<Json>(trialColumns(plan), plan.trials);
     json["verification"] = {{"change_at_quarter_step_m", plan.verification.step},
                             {"change_at_twice_resolution_m", plan.verification.finer},

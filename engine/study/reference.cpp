@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <utility>
 
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/errors.h"
+#include "taut/study/fehlberg78.h"
 
 namespace taut::study {
 namespace {
@@ -16,16 +19,31 @@ constexpr double selfCheck = 100;  // a charted error is to be so many times lar
 // RK4 errs by (ωh)⁴/120 a radian: at limit/2048, ωh = 1.4e-3, below the rounding of double.
 constexpr int finest = 2048;
 
+// Two runs of one motion, the second one finer.
+struct Pair {
+    std::vector<Observation> coarse, fine;
+};
+
+bool hasTouched(const std::vector<Observation>& seen) {
+    return std::any_of(
+        seen.begin(), seen.end(), [](const Observation& one) { return one.hasTouched; });
+}
+
+// Empty when it diverged.
 std::vector<Observation> play(const Subject& subject, const RunPlan& plan) {
     const std::unique_ptr<Trial> trial = subject.begin(plan);
     std::vector<Observation> seen;
     for (int i = 0; i < plan.grid.samples; ++i) {
-        if (!trial->advance())
-            throw core::Error(core::ErrorKind::diverged,
-                              subject.name() + ": even the reference, RK4 with a step far below its limit, diverged");
+        if (!trial->advance()) return {};
         seen.push_back(trial->observe());
     }
     return seen;
+}
+
+Pair playBoth(const Subject& subject, const RunPlan& coarse, const RunPlan& fine) {
+    Pair runs;
+    core::parallelFor(2, [&](int i) { (i == 0 ? runs.fine : runs.coarse) = play(subject, i == 0 ? fine : coarse); });
+    return runs;
 }
 
 double secondsOf(const Subject& subject, RunPlan plan) {
@@ -52,7 +70,51 @@ void measureScales(const Subject& subject, Reference& reference) {
     reference.extent = std::sqrt(square);
 }
 
+Pair controlledRuns(const Subject& subject, const Grid& grid, double seconds, Reference& reference) {
+    constexpr double usual = 1e-12, loose = 1e-9;  // [unit/s]
+    RunPlan fine;
+    fine.method = fehlberg78;
+    fine.grid = grid;
+    fine.stepsPerSample = subject.quantum(grid);
+    fine.tolerance = usual;
+    if (secondsOf(subject, fine) > seconds) fine.tolerance = loose;
+    RunPlan coarse = fine;
+    coarse.tolerance *= 100;
+    reference.tolerance = fine.tolerance;
+    return playBoth(subject, coarse, fine);
+}
+
+Pair steppedRuns(const Subject& subject, const Grid& grid, double seconds, Reference& reference) {
+    RunPlan coarse;
+    coarse.method = "rk4";
+    coarse.grid = grid;
+    const double limit = std::min(subject.stepLimit(*ode::findMethod("rk4")), grid.spacing / 4);
+    coarse.stepsPerSample = stepsPerSample(subject, grid, limit / 4);
+    const double once = secondsOf(subject, coarse);
+    for (int finer = 8; finer < finest && once * finer / 4 < seconds; finer *= 2) coarse.stepsPerSample *= 2;
+    RunPlan fine = coarse;
+    fine.stepsPerSample *= 2;
+    reference.step = fine.step();
+    Pair runs = playBoth(subject, coarse, fine);
+    if (runs.fine.empty() || runs.coarse.empty())
+        throw core::Error(core::ErrorKind::diverged,
+                          subject.name() + ": even the reference, RK4 with a step far below its limit, diverged");
+    return runs;
+}
+
 }  // namespace
+
+std::string methodOf(const Reference& reference, const std::string& unit) {
+    if (reference.isExact) return "exact";
+    const auto pair = [](const char* pattern, double coarse, double fine) {
+        char text[96];
+        std::snprintf(text, sizeof text, pattern, coarse, fine);
+        return std::string(text);
+    };
+    if (!reference.isControlled) return pair("RK4 at steps of %.3g and %.3g s", 2 * reference.step, reference.step);
+    return pair("Fehlberg 7(8) at tolerances of %.3g and %.3g ", 100 * reference.tolerance, reference.tolerance) +
+           unit + "/s";
+}
 
 Reference makeReference(const Subject& subject, const Grid& grid, int window, double seconds) {
     Reference reference;
@@ -62,29 +124,23 @@ Reference makeReference(const Subject& subject, const Grid& grid, int window, do
         measureScales(subject, reference);
         return reference;
     }
-    RunPlan plan;
-    plan.method = "rk4";
-    plan.grid = grid;
-    const double limit = std::min(subject.stepLimit(*ode::findMethod("rk4")), grid.spacing / 4);
-    plan.stepsPerSample = stepsPerSample(subject, grid, limit / 4);
-    const double once = secondsOf(subject, plan);
-    for (int finer = 8; finer < finest && once * finer / 4 < seconds; finer *= 2) plan.stepsPerSample *= 2;
-    RunPlan half = plan;
-    half.stepsPerSample *= 2;
-    std::vector<Observation> coarse;
-    core::parallelFor(2, [&](int i) { (i == 0 ? reference.at : coarse) = play(subject, i == 0 ? half : plan); });
-    reference.step = half.step();
+    Pair runs = controlledRuns(subject, grid, seconds, reference);
+    reference.isControlled = !runs.fine.empty() && !runs.coarse.empty() && !hasTouched(runs.coarse);
+    if (!reference.isControlled) runs = steppedRuns(subject, grid, seconds, reference);
     double square = 0;
-    for (std::size_t i = 0; i < reference.at.size(); ++i) {
+    for (std::size_t i = 0; i < runs.fine.size(); ++i) {
         reference.energyDifference =
-            std::max(reference.energyDifference, std::abs(reference.at[i].energy - coarse[i].energy));
+            std::max(reference.energyDifference, std::abs(runs.fine[i].energy - runs.coarse[i].energy));
         if (i >= static_cast<std::size_t>(window)) continue;
-        const double rms = rmsDifference(reference.at[i].values, coarse[i].values, subject.dimensions());
+        const double rms = rmsDifference(runs.fine[i].values, runs.coarse[i].values, subject.dimensions());
         square += rms * rms;
     }
+    const double share = reference.isControlled ? 0.1 : 1.0;
     reference.difference = std::sqrt(square / window);
-    reference.floor = selfCheck * reference.difference;
-    reference.energyFloor = selfCheck * reference.energyDifference;
+    reference.error = share * reference.difference;
+    reference.floor = selfCheck * reference.error;
+    reference.energyFloor = selfCheck * share * reference.energyDifference;
+    reference.at = std::move(runs.fine);
     measureScales(subject, reference);
     return reference;
 }

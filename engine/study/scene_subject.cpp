@@ -5,6 +5,7 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/study/fehlberg78.h"
 #include "taut/study/one_method.h"
 #include "taut/world/components.h"
 #include "taut/world/world.h"
@@ -90,8 +91,10 @@ class SceneSubject final : public Subject {
     long long quantum(const Grid& grid) const override { return std::llround(grid.spacing / tick_); }
 
     std::unique_ptr<Trial> begin(const RunPlan& plan) const override {
-        return std::make_unique<SceneTrial>(played(spec_, plan.method, plan.precision, plan.step(), plan.perturbation),
-                                            quantum(plan.grid));
+        world::SceneSpec scene = played(spec_, plan.method, plan.precision, plan.step(), plan.perturbation);
+        scene.solver.methods = referenceMethods();
+        if (plan.tolerance > 0) scene.solver.cgTolerance = plan.tolerance;
+        return std::make_unique<SceneTrial>(scene, quantum(plan.grid));
     }
 
     double stepLimit(const ode::MethodInfo& method) const override {

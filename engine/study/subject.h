@@ -31,6 +31,7 @@ struct RunPlan {
     Precision precision = Precision::double_;
     Grid grid;
     long long stepsPerSample = 1;
+    double tolerance = 0;     // [unit/s] of a method that controls its error; of the others 0
     double perturbation = 0;  // [m] largest shift of each coordinate of the start; repeats exactly
     double step() const { return grid.spacing / static_cast<double>(stepsPerSample); }  // [s]
     long long steps() const { return stepsPerSample * grid.samples; }

@@ -218,6 +218,10 @@ void addRemarks(const Subject& subject, WorkPrecision& study) {
         return std::string(text);
     };
     const double duration = study.grid.duration();
+    if (!study.reference.isExact)
+        study.remarks.push_back("Errors are taken against " + methodOf(study.reference, study.unit) +
+                                ": its own error, as the two runs tell, is about " + number(study.reference.error) +
+                                (study.unit.empty() ? "." : " " + study.unit + "."));
     if (study.horizon.isReached)
         study.remarks.push_back("Chaotic: a shift of 1e-9 m grows a thousandfold within " +
                                 number(study.horizon.seconds) + " s. Errors of positions are taken over the first " +
@@ -228,9 +232,8 @@ void addRemarks(const Subject& subject, WorkPrecision& study) {
     const bool anyAtFloor =
         std::any_of(study.points.begin(), study.points.end(), [](const RunPoint& point) { return point.isAtFloor; });
     if (anyAtFloor)
-        study.remarks.push_back("The reference, RK4 at two steps, agrees with itself to " +
-                                number(study.reference.difference) + " only; errors below " +
-                                number(study.reference.floor) + " are marked, they are not resolved.");
+        study.remarks.push_back("Errors below " + number(study.reference.floor) +
+                                ", 100 times the reference's own, are marked: they are not resolved.");
     if (study.hasContacts) study.remarks.push_back("There are contacts. " + subject.caution());
     if (study.isInterrupted) study.remarks.push_back("Interrupted: curves are missing.");
 }

@@ -99,9 +99,14 @@ std::string workPrecisionJson(const WorkPrecision& study, const std::vector<Grow
                        {"is_reached", study.horizon.isReached},
                        {"seconds", study.horizon.seconds},
                        {"largest_growth", study.horizon.growth}};
-    json["reference"] = {{"kind", study.reference.isExact ? "exact" : "rk4 at two steps"},
+    json["reference"] = {{"kind", study.reference.isExact        ? "exact"
+                                  : study.reference.isControlled ? "fehlberg 7(8) at two tolerances"
+                                                                 : "rk4 at two steps"},
+                         {"method", methodOf(study.reference, study.unit)},
+                         {"tolerance_per_s", study.reference.tolerance},
                          {"step_s", study.reference.step},
                          {"rms_difference", study.reference.difference},
+                         {"rms_error", study.reference.error},
                          {"floor", study.reference.floor},
                          {"extent", study.reference.extent},
                          {"largest_kinetic_energy_J", study.reference.kinetic}};

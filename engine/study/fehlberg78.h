@@ -1,0 +1,21 @@
+// Fehlberg's Runge-Kutta method of order 8 with an error estimate of order 7, which finds its own steps: what the
+// references of studies are computed with. It is no row of the engine's table: no tick has time for it.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "taut/ode/method_table.h"
+
+namespace taut::study {
+
+inline constexpr std::string_view fehlberg78 = "fehlberg-7(8)";
+
+// The engine's own methods and this one. A step of it goes from t to t + h in as many inner steps as keep the estimate
+// of their errors, RMS over the coordinates [m] and over velocities times the inner step [m], below
+// MethodOptions::tolerance [m/s] times its length: what they add up to is about the tolerance times the time, and what the motion makes of it. Where forces
+// have kinks the order is that of the kink and the steps are short. After 10000 inner steps it gives up control, and
+// counts as not converged.
+const std::shared_ptr<const ode::Methods>& referenceMethods();
+
+}  // namespace taut::study

@@ -17,7 +17,8 @@ constexpr double share = 5;          // the reference's own error is to be so ma
 constexpr double shareOfSteps = 20;  // and that of its steps
 constexpr double leastShare = 1e-3;  // of the target: the tolerance of a method that controls its error
 constexpr double shareOfReference = 0.5;
-constexpr int mostTimesFiner = 8;  // than the scene as written
+constexpr int leastFinerOfContacts = 32;  // times finer than the step that "auto" finds
+constexpr int mostTimesFiner = 8;         // than the scene as written
 // Orders between which a measured one is believed: sagging cloth has about 1 to 1.5, theory ends at 2.
 constexpr double leastOrder = 0.5, mostOrder = 2.0;
 
@@ -95,13 +96,14 @@ ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double
         if (!next.isWhole()) break;
         const double change = difference(result.run, next);
         // Halving shrinks the error by 2 to 16, as the order is 1 to 4: as the last halvings have shown, or as little
-        // as may be.
+        // as may be. Where points touch something two runs may agree by chance: the halving before has a say.
         const double shrinks = before > 0 ? std::clamp(before / std::max(change, 1e-300), 2.0, 16.0) : 2.0;
         result.run = std::move(next);
-        result.error = change / (shrinks - 1);
+        result.error = std::max(change / (shrinks - 1), result.run.hasContacts ? before / 2 : 0.0);
         result.method = fmt::format("{} at steps of {:.3g} s", exact.candidate.method, result.run.step);
         before = change;
-        if (result.error < context.target / shareOfSteps) break;
+        const int least = result.run.hasContacts ? leastFinerOfContacts : 2;
+        if (finer >= least && result.error < context.target / shareOfSteps) break;
     }
     return result;
 }
@@ -136,7 +138,11 @@ double exactEffort(const PlanContext& context, int count) {
 ExactRun exactRun(const PlanContext& context, int count, double effortShare) {
     const ExactMethod exact = exactMethod(context, count);
     const bool isControlled = exact.candidate.method == "rk4" && context.spec.colliders.empty();
-    return isControlled ? controlledRun(context, count) : steppedRun(context, exact, effortShare);
+    if (isControlled) {
+        ExactRun run = controlledRun(context, count);
+        if (run.run.isWhole() && run.run.work.unconverged == 0) return run;
+    }
+    return steppedRun(context, exact, effortShare);
 }
 
 PlanReference makePlanReference(const PlanContext& context) {

@@ -186,16 +186,22 @@ class Search {
         }
     }
 
-    // At least twice as many, or as many as the method's order promises; none when only the resolution can help.
+    // As many as the method's order promises, or the order that the last two errors show if that is less; none when
+    // only the resolution can help.
     int nextSubsteps(int substeps, double error, int order) {
         const double most = 1e6;
         if (!std::isfinite(error)) return 2.0 * substeps < most ? 2 * substeps : 0;
-        const bool isLevel = std::isfinite(lastError_) && error > 0.98 * lastError_ && error < 1.02 * lastError_;
-        lastError_ = isLevel ? PlanTrial::unset : error;
-        if (isLevel) return 0;
+        double shown = order;
+        if (std::isfinite(lastError_)) {
+            if (error > 0.98 * lastError_ && error < 1.02 * lastError_) return 0;
+            shown = std::clamp(std::log(lastError_ / error) / std::log(static_cast<double>(substeps) / lastSubsteps_),
+                               0.5, static_cast<double>(order));
+        }
+        lastError_ = error;
+        lastSubsteps_ = substeps;
         const double room = std::max(context_.target - reference_.error, 0.1 * context_.target);
-        const double wanted = 0.7 * substeps * std::pow(error / room, 1.0 / order);
-        const double next = std::clamp(wanted, 2.0 * substeps, 64.0 * substeps);
+        const double wanted = 1.02 * substeps * std::pow(error / room, 1.0 / shown);
+        const double next = std::clamp(std::ceil(wanted), substeps + 1.0, 64.0 * substeps);
         return next < most ? static_cast<int>(next) : 0;
     }
 
@@ -215,7 +221,8 @@ class Search {
     const PlanReference& reference_;
     const std::vector<Generator>& without_;
     Plan& plan_;
-    double lastError_ = PlanTrial::unset;
+    double lastError_ = PlanTrial::unset;  // of the method that is tried, and at how many substeps
+    int lastSubsteps_ = 0;
     std::size_t preferred_ = 1;  // methods at the front of the list
 };
 

@@ -50,13 +50,18 @@ class FieldList {
             });
     }
     // A number of a part of the struct.
-    template <class Part, class Base>
-    FieldList& number(const char* key, Part Base::*part, std::optional<double> Part::*member, const char* unit,
-                      Range range, const char* help) {
+    template <class Number, class Part, class Base>  // double or std::optional<double>
+    FieldList& number(const char* key, Part Base::*part, Number Part::*member, const char* unit, Range range,
+                      const char* help) {
         return add(
             key, FieldKind::number, unit, range, help,
             [=](Spec& s, const Value& value) { (s.*part).*member = std::get<double>(value); },
-            [=](const Spec& s) -> Value { return (s.*part).*member ? Value(*((s.*part).*member)) : Value(); });
+            [=](const Spec& s) -> Value {
+                if constexpr (std::is_same_v<Number, double>)
+                    return (s.*part).*member;
+                else
+                    return (s.*part).*member ? Value(*((s.*part).*member)) : Value();
+            });
     }
     // A number among others that are told apart by their keys; `standard` is what is not given.
     template <class Numbers, class Base>

@@ -263,6 +263,17 @@ void MassSpringSystem<Real>::setSprings(std::span<const Spring> springs) {
 }
 
 template <class Real>
+void MassSpringSystem<Real>::changeSprings(std::span<const int> which, std::span<const Spring> springs) {
+    bool isOther = false;
+    for (const int s : which) {
+        const Spring& now = springs[static_cast<std::size_t>(s)];
+        if (isSplit_) damped_.setSpring(s, now);
+        isOther = network_.setSpring(s, now) || isOther;
+    }
+    if (isOther) sweep_.forget();
+}
+
+template <class Real>
 void MassSpringSystem<Real>::split(bool isSplit) {
     if (isSplit_ == isSplit) return;
     isSplit_ = isSplit;
@@ -299,7 +310,8 @@ std::uint64_t MassSpringSystem<Real>::bytes() const {
         reals += lane.window.f.size() + lane.waiting.f.size() + lane.state.size() + lane.force.size();
     const std::uint64_t single = 2 * sizeof(int) + 3 * sizeof(Real);
     return reals * sizeof(Real) + network_.runs.size() * sizeof(SpringRun<Real>) + network_.singles.a.size() * single +
-           network_.blocks.size() * sizeof(SpringBlock) + network_.order.size() * sizeof(int) + products_.bytes();
+           network_.blocks.size() * sizeof(SpringBlock) +
+           (network_.order.size() + network_.places.size()) * sizeof(int) + products_.bytes();
 }
 
 template class MassSpringSystem<float>;

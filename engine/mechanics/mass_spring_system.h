@@ -59,6 +59,8 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     // lets go of points that are led.
     void setPoints(std::span<const PointMass> points);
     void setSprings(std::span<const Spring> springs);
+    // Of these alone stiffness and rest length, from the next evaluation on; springs as for setSprings().
+    void changeSprings(std::span<const int> which, std::span<const Spring> springs);
 
     // Expects points that are held, each led once. Takes effect when the method is started, or started again.
     void lead(LedPoints led);

@@ -190,6 +190,11 @@ class Builder {
 template <class Real>
 SpringNetwork<Real>::SpringNetwork(int points, std::span<const Body> bodies, std::span<const Spring> springs) {
     Builder<Real>(*this, points, bodies, springs);
+    places.assign(springs.size(), -1);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        if (order[i] >= 0) places[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+    firstPlaces.push_back(0);
+    for (const SpringRun<Real>& run : runs) firstPlaces.push_back(firstPlaces.back() + run.count);
     setSprings(springs);
 }
 
@@ -204,6 +209,7 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
     }
     stiffness.clear();
     mixed.clear();
+    isOwn.assign(runs.size(), false);
     std::map<std::vector<Real>, int> tables;
     std::vector<Real> k, lengths, taus;
     const int* next = order.data();
@@ -240,6 +246,41 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
         singles.restLength[i] = static_cast<Real>(s.restLength);
         singles.tau[i] = static_cast<Real>(s.dampingTime);
     }
+}
+
+template <class Real>
+bool SpringNetwork<Real>::setSpring(int spring, const Spring& now) {
+    const int place = placeOf(spring);
+    const auto k = static_cast<Real>(now.stiffness), restLength = static_cast<Real>(now.restLength);
+    if (place >= placeOfSingles()) {
+        const auto i = static_cast<std::size_t>(place - placeOfSingles());
+        singles.restLength[i] = restLength;
+        return std::exchange(singles.k[i], k) != k;
+    }
+    const auto r = static_cast<std::size_t>(std::upper_bound(firstPlaces.begin(), firstPlaces.end(), place) -
+                                            firstPlaces.begin() - 1);
+    SpringRun<Real>& run = runs[r];
+    const int i = place - firstPlaces[r];
+    const bool isOther = stiffness[static_cast<std::size_t>(run.table + i)] != k;
+    if (isOther) {
+        if (!isOwn[r]) {
+            const auto from = static_cast<std::size_t>(run.table);
+            run.table = static_cast<int>(stiffness.size());
+            stiffness.resize(stiffness.size() + static_cast<std::size_t>(run.count));
+            std::copy_n(stiffness.begin() + static_cast<std::ptrdiff_t>(from), run.count,
+                        stiffness.begin() + run.table);
+            isOwn[r] = true;
+        }
+        stiffness[static_cast<std::size_t>(run.table + i)] = k;
+    }
+    if (run.mixed < 0 && run.restLength == restLength) return isOther;
+    if (run.mixed < 0) {
+        run.mixed = static_cast<int>(mixed.size());
+        mixed.insert(mixed.end(), static_cast<std::size_t>(run.count), run.restLength);
+        mixed.insert(mixed.end(), static_cast<std::size_t>(run.count), run.tau);
+    }
+    mixed[static_cast<std::size_t>(run.mixed + i)] = restLength;
+    return isOther;
 }
 
 template <class Real>

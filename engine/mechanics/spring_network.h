@@ -58,6 +58,14 @@ struct SpringNetwork {
     // Takes stiffness, rest length and damping time over. Expects the springs it was made of, between the same points.
     void setSprings(std::span<const Spring> springs);
 
+    // Takes over one of them, whose damping time stays. Returns whether its stiffness is another.
+    bool setSpring(int spring, const Spring& now);
+
+    // Where springs stand in `order`.
+    int placeOf(int spring) const { return places[static_cast<std::size_t>(spring)]; }
+    int placeOfRun(int run) const { return firstPlaces[static_cast<std::size_t>(run)]; }
+    int placeOfSingles() const { return firstPlaces.back(); }
+
     // The springs of a network of the same, without their dashpots.
     void takeUndamped(const SpringNetwork& damped);
 
@@ -69,6 +77,9 @@ struct SpringNetwork {
     SpringSingles<Real> singles;
     std::vector<int>
         order;  // which spring stands where: those of the runs, -1 where there is none, then the single ones
+    std::vector<int> places;       // (springs) in `order`
+    std::vector<int> firstPlaces;  // (runs + 1)
+    std::vector<bool> isOwn;       // (runs) whether no other run has its table of stiffnesses
     int springCount = 0;
     Real largestTau = 0;       // [s] of all springs
     bool isTauUniform = true;  // all have it

@@ -25,6 +25,7 @@ class BodyDrawing;
 struct PlasticitySpec {
     std::optional<double> yieldStrain;  // |l - L|/L beyond which a spring's rest length gives way; none: never
     std::optional<double> breakStrain;  // (l - L)/L beyond which a spring is gone; none: never
+    double breakCell = 0.02;            // [m] cell for which that is stated, where it matters: at the tip of a tear
 };
 
 struct MaterialSpec {             // of cloth, per metre of material

@@ -37,7 +37,10 @@ fields::FieldList<Spec> withPlasticity(fields::FieldList<Spec> list) {
     list.number("yield_strain", &Spec::plasticity, &PlasticitySpec::yieldStrain, "", strainRange,
                 "Strain beyond which springs keep part of it for good; never if not given.");
     list.number("break_strain", &Spec::plasticity, &PlasticitySpec::breakStrain, "", strainRange,
-                "Strain of a stretched spring at which it tears; never if not given.");
+                "Strain of a stretched spring at which it tears; never if not given.")
+        .number("break_cell_m", &Spec::plasticity, &PlasticitySpec::breakCell, "m", lengthRange,
+                "Size of the cells for which break_strain holds at the tip of a tear; with others it goes by their "
+                "square root, so that a tear takes the same load to run.");
     return list;
 }
 

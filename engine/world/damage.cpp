@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <set>
+#include <utility>
 
 namespace taut::world {
 namespace {
@@ -31,47 +30,81 @@ double Damage::share(int a, int b) const {
     return a < b ? found->second : 1.0 - found->second;
 }
 
+// What meets at each point of a model.
+struct Damage::Index {
+    struct Way {
+        int to;
+        mechanics::SpringKind kind;
+    };
+    std::vector<std::vector<Way>> springs;  // (points) in the order of the model
+    std::vector<std::vector<std::size_t>> triangles, cells;
+
+    explicit Index(const mechanics::Model& model)
+        : springs(model.positions.size()), triangles(springs.size()), cells(springs.size()) {
+        const auto at = [](int point) { return static_cast<std::size_t>(point); };
+        for (const mechanics::Spring& s : model.springs) {
+            springs[at(s.a)].push_back({s.b, s.kind});
+            springs[at(s.b)].push_back({s.a, s.kind});
+        }
+        for (std::size_t t = 0; t < model.triangles.size(); ++t)
+            for (const int i : model.triangles[t]) triangles[at(i)].push_back(t);
+        for (std::size_t c = 0; c < model.cells.size(); ++c)
+            for (const int i : model.cells[c].points) cells[at(i)].push_back(c);
+    }
+    const std::vector<Way>& from(int point) const { return springs[static_cast<std::size_t>(point)]; }
+    // Whether a spring joins them that is none of bending.
+    bool areJoined(int a, int b) const {
+        return std::any_of(
+            from(a).begin(), from(a).end(),
+            [&](const Way& way) { return way.to == b && way.kind != mechanics::SpringKind::bend; });
+    }
+    bool areNeighbours(int a, int b) const {
+        return std::any_of(
+            from(a).begin(), from(a).end(),
+            [&](const Way& way) { return way.to == b && way.kind == mechanics::SpringKind::structural; });
+    }
+};
+
 void Damage::sever(int a, int b, double share) {
-    edges_.try_emplace(edgeOf(a, b), a < b ? share : 1.0 - share);
+    if (edges_.try_emplace(edgeOf(a, b), a < b ? share : 1.0 - share).second) fresh_.push_back(edgeOf(a, b));
 }
 
-void Damage::assess(const mechanics::Model& model) {
-    if (edges_.empty()) return;
-    std::set<Edge> springs;
-    std::vector<std::vector<int>> neighbours(model.positions.size());  // along structural springs
-    for (const mechanics::Spring& s : model.springs) {
-        if (s.kind == mechanics::SpringKind::bend) continue;
-        springs.insert(edgeOf(s.a, s.b));
-        if (s.kind != mechanics::SpringKind::structural) continue;
-        neighbours[static_cast<std::size_t>(s.a)].push_back(s.b);
-        neighbours[static_cast<std::size_t>(s.b)].push_back(s.a);
-    }
-    for (auto& list : neighbours) std::sort(list.begin(), list.end());
+Damage::Assessed Damage::assess(const mechanics::Model& model) {
+    Assessed assessed;
+    if (fresh_.empty()) return assessed;
+    if (!index_) index_ = std::make_shared<const Index>(model);
+    triangles_.resize(model.triangles.size(), false);
+    cells_.resize(model.cells.size(), false);
+    const Index& index = *index_;
     // A bending spring goes when no point is left between its ends that is tied to both.
-    for (const mechanics::Spring& s : model.springs) {
-        if (s.kind != mechanics::SpringKind::bend || isSevered(s.a, s.b)) continue;
-        const std::vector<int>&from = neighbours[static_cast<std::size_t>(s.a)],
-              &to = neighbours[static_cast<std::size_t>(s.b)];
-        std::vector<int> between;
-        std::set_intersection(from.begin(), from.end(), to.begin(), to.end(), std::back_inserter(between));
-        const bool holds = between.empty() || std::any_of(between.begin(), between.end(), [&](int m) {
-                               return !isSevered(s.a, m) && !isSevered(m, s.b);
-                           });
-        if (!holds) sever(s.a, s.b, 0.5);
-    }
-    const auto holds = [&](int a, int b) { return springs.count(edgeOf(a, b)) > 0 && !isSevered(a, b); };
-    const auto touched = [&](const auto& corners) {
-        for (int a : corners)
-            for (int b : corners)
-                if (a < b && isSevered(a, b)) return true;
-        return false;
+    const auto isLoose = [&](int a, int b) {
+        bool isBetween = false;
+        for (const Index::Way& way : index.from(a)) {
+            if (way.kind != mechanics::SpringKind::structural || !index.areNeighbours(way.to, b)) continue;
+            if (!isSevered(a, way.to) && !isSevered(way.to, b)) return false;
+            isBetween = true;
+        }
+        return isBetween;
     };
-    triangles_.assign(model.triangles.size(), false);
-    for (std::size_t t = 0; t < model.triangles.size(); ++t)
-        triangles_[t] = touched(model.triangles[t]) && !isConnected(model.triangles[t], holds);
-    cells_.assign(model.cells.size(), false);
-    for (std::size_t c = 0; c < model.cells.size(); ++c)
-        cells_[c] = touched(model.cells[c].points) && !isConnected(model.cells[c].points, holds);
+    const std::size_t torn = fresh_.size();
+    for (std::size_t i = 0; i < torn; ++i)
+        for (const int a : {fresh_[i].first, fresh_[i].second})
+            for (const Index::Way& way : index.from(a))
+                if (way.kind == mechanics::SpringKind::bend && !isSevered(a, way.to) && isLoose(a, way.to))
+                    sever(a, way.to, 0.5);
+    const auto holds = [&](int a, int b) { return index.areJoined(a, b) && !isSevered(a, b); };
+    const auto look = [&](const auto& corners, std::vector<bool>& gone, std::size_t number, int b) {
+        if (gone[number] || std::find(corners.begin(), corners.end(), b) == corners.end()) return;
+        gone[number] = !isConnected(corners, holds);
+        assessed.isSurfaceLess = assessed.isSurfaceLess || gone[number];
+    };
+    for (const auto& [a, b] : fresh_) {
+        for (const std::size_t t : index.triangles[static_cast<std::size_t>(a)])
+            look(model.triangles[t], triangles_, t, b);
+        for (const std::size_t c : index.cells[static_cast<std::size_t>(a)]) look(model.cells[c].points, cells_, c, b);
+    }
+    assessed.severed = std::exchange(fresh_, {});
+    return assessed;
 }
 
 }  // namespace taut::world

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -25,12 +26,20 @@ class Damage {
 
     // Share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
     void sever(int a, int b, double share);
+    struct Assessed {
+        std::vector<Edge> severed;   // since the last time
+        bool isSurfaceLess = false;  // triangles or tetrahedra have gone
+    };
     // After severing: bending springs follow the springs that they lie along, and triangles and tetrahedra go whose
-    // corners no spring holds together any more.
-    void assess(const mechanics::Model& model);
+    // corners no spring holds together any more. Always of the same model; its cost is that of what is new.
+    Assessed assess(const mechanics::Model& model);
 
   private:
+    struct Index;  // of the model
+
     std::map<Edge, double> edges_;
+    std::vector<Edge> fresh_;              // not assessed yet
+    std::shared_ptr<const Index> index_;   // once it is needed
     std::vector<bool> triangles_, cells_;  // (of the model) gone; empty while nothing is severed
 };
 

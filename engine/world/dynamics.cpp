@@ -45,6 +45,17 @@ class DynamicsOf final : public Dynamics {
         if (changes.has(Change::grips)) addGrips();
     }
 
+    void changeSprings(std::span<const int> springs) override { system_.changeSprings(springs, plan_.springs); }
+    void watchLengths(std::span<const mechanics::LengthLimits> limits) override {
+        watch_.set(system_.network(), limits);
+    }
+    void watchLength(int spring, const mechanics::LengthLimits& limits) override {
+        watch_.change(system_.network(), spring, limits);
+    }
+    void findBeyond(std::vector<int>& springs) const override {
+        watch_.find(system_.network(), state_.layout.stride, state_.x.data(), springs);
+    }
+
     void setForces(const ForceList& forces) override {
         system_.removeGenerators();
         volumes_.clear();
@@ -361,6 +372,7 @@ class DynamicsOf final : public Dynamics {
     std::array<std::vector<Real>, 2> kept_;
     std::size_t keptSize_ = 0;
     mechanics::StateBound<Real> bound_;
+    mechanics::SpringWatch<Real> watch_;
     Planes before_, velocity_;                              // scratch
     std::vector<collision::MovingPoints<Real>> colliding_;  // bodies
     collision::Candidates candidates_;

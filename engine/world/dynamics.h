@@ -9,6 +9,7 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/core/hash.h"
+#include "taut/mechanics/spring_watch.h"
 #include "taut/mechanics/state_bound.h"
 #include "taut/mechanics/volume.h"
 #include "taut/ode/method.h"
@@ -49,6 +50,13 @@ class Dynamics {
 
     // Takes over from the plan what has changed of it, in place: points and springs stay as many and where they are.
     virtual void take(const Changes& changes, const ForceList& forces) = 0;
+    // Of these springs alone stiffness and rest length, while the method goes on.
+    virtual void changeSprings(std::span<const int> springs) = 0;
+    // Limits to be looked at (springs); of one of them, which had some before.
+    virtual void watchLengths(std::span<const mechanics::LengthLimits> limits) = 0;
+    virtual void watchLength(int spring, const mechanics::LengthLimits& limits) = 0;
+    // Appends the springs that are beyond them.
+    virtual void findBeyond(std::vector<int>& springs) const = 0;
     // Makes the generators of all forces anew.
     virtual void setForces(const ForceList& forces) = 0;
     // Where all of them go on from those before.

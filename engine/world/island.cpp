@@ -73,6 +73,7 @@ void Island::findInside(std::span<const std::string> names) {
 }
 
 std::optional<Fault> Island::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
+    keepGiven();
     if (mayFreeze_ && frozen_) return std::nullopt;
     TAUT_EXPECTS(!isOpen_);
     hasMoved_ = true;
@@ -103,7 +104,7 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
         if (fault && (!fault->isNumber || ++rescues > mostRescues || need > mostSubsteps)) return fault;
         if (!(need <= mostSubsteps)) return Fault{.point = 0, .time = time.at(1, 1), .isTooStiff = true};
         following_.shorten(need);
-        dynamics_->goBack(Since::tick);
+        undoTick();
         inside_ = inside;
         hasTouched_ = hadTouched;
         dynamics_->synchronise(time.start());
@@ -136,6 +137,7 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
             if (!inside_.empty()) dynamics_->emerge(colliders_, inside_);
             if (touches && !dynamics_->isTouchedBounded()) return giveUp(end());
         }
+        if (mayGiveWay_) settle();
         if (!mayFreeze_) continue;
         if (const auto fault = overstrained(end())) return fault;
     }

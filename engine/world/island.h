@@ -4,7 +4,7 @@
 //   island_change.cpp   what is changed between two ticks
 //   island_report.cpp   energies, frequencies, warnings, why it stopped
 //   island_saving.cpp   its bytes
-//   plasticity.cpp      springs that give way and break
+//   plasticity.cpp      springs that give way and break, strength.h says when
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@
 #include "taut/world/envelope.h"
 #include "taut/world/step_choice.h"
 #include "taut/world/step_following.h"
+#include "taut/world/strength.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -67,11 +68,14 @@ class Island {
     // Expects that the island is not open.
     std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving);
 
-    // After a tick that went well, at the time when it ends: springs give way and break. Whether any broke.
-    bool settle(const TickTime& time);
+    // Whether any spring tore in the last tick.
+    bool hasTorn() const { return hasTorn_; }
 
     // Puts the state back that the last tick began with.
-    void undoTick() { dynamics_->goBack(Since::tick); }
+    void undoTick() {
+        dynamics_->goBack(Since::tick);
+        takeBackGiven();
+    }
 
     // After a fault: back to the state before the step that failed, where it stays; its ticks do nothing any more.
     void freeze(const Fault& fault, const TickTime& time);
@@ -132,6 +136,12 @@ class Island {
     void moveColliders(std::span<const ColliderMotion> moving, int substep);
     void watchVolumes(double t);
     void watchLimit(double t);
+    void settle();
+    void tear(const std::vector<int>& springs, std::vector<int>& changed);
+    void remember(int spring);
+    void remember(Body& body);
+    void keepGiven();
+    void takeBackGiven();
     void watchPlasticity();
     void addPoints(const std::vector<bool>& only, const TickTime& time, Metrics& metrics);
     void addSprings(const std::vector<bool>& only, Metrics& metrics);
@@ -170,6 +180,18 @@ class Island {
     std::vector<std::string> insideWarnings_;
     std::string stretchWarning_, collapseWarning_, limitWarning_;
     std::optional<FrozenIsland> frozen_;
+
+    // Of springs that yield or break.
+    struct Given {
+        int spring;
+        double stiffness, restLength;
+        bool isBroken;
+    };
+    std::unique_ptr<const Strength> strength_;
+    std::vector<int> beyond_;                        // scratch
+    std::vector<Given> given_;                       // what springs were when the tick began, the last first
+    std::vector<std::pair<Body*, Damage>> damaged_;  // likewise
+    bool hasTorn_ = false;                           // in this tick
 };
 
 }  // namespace taut::world

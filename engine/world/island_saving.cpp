@@ -59,6 +59,7 @@ void visitPart(StateBytes& bytes, Body& body) {
         bytes.notNegative(strain);
         *limit = has ? std::optional<double>(strain) : std::nullopt;
     }
+    bytes.notNegative(body.plasticity.breakCell);
 }
 
 void visitPart(StateBytes& bytes, Divergence& d) {

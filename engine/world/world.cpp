@@ -1,7 +1,6 @@
 #include "taut/world/world.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "taut/core/error.h"
@@ -270,13 +269,8 @@ std::optional<Divergence> World::advance() {
             return w.islands[i]->diagnose(*faults[i], now);
         }
     ++w.tick;
-    std::atomic<bool> anyBroke = false;
-    w.threads.run([&] {
-        core::parallelFor(static_cast<int>(w.islands.size()), [&](int i) {
-            if (w.islands[static_cast<std::size_t>(i)]->settle(w.now())) anyBroke = true;
-        });
-    });
-    if (anyBroke) w.redrawDamage();
+    if (std::any_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->hasTorn(); }))
+        w.redrawDamage();
     w.changePicture();
     w.updateHash();
     return std::nullopt;

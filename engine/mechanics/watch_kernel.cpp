@@ -1,0 +1,72 @@
+// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+#include "taut/mechanics/watch_kernel.h"
+
+#include "taut/core/vectorise.h"
+
+namespace taut::mechanics::TAUT_ISA {
+namespace {
+
+// As wide as the numbers that are compared, so that masks need not be narrowed.
+template <class Real>
+struct MaskOf;
+template <>
+struct MaskOf<float> {
+    using Type = int;
+};
+template <>
+struct MaskOf<double> {
+    using Type = long long;
+};
+
+template <class Real>
+inline bool lookAtRun(const WatchRun<Real>& s) {
+    using Mask = typename MaskOf<Real>::Type;
+    const Real *ax = s.x, *ay = ax + s.stride, *az = ay + s.stride;
+    const Real *bx = ax + s.offset, *by = ay + s.offset, *bz = az + s.offset, *least = s.least, *most = s.most;
+    Mask beyond = 0;
+    if (least == nullptr) {
+        TAUT_INDEPENDENT
+        for (int i = 0; i < s.n; ++i) {
+            const Real dx = bx[i] - ax[i], dy = by[i] - ay[i], dz = bz[i] - az[i];
+            beyond |= dx * dx + dy * dy + dz * dz > most[i] ? Mask(1) : Mask(0);
+        }
+        return beyond != 0;
+    }
+    TAUT_INDEPENDENT
+    for (int i = 0; i < s.n; ++i) {
+        const Real dx = bx[i] - ax[i], dy = by[i] - ay[i], dz = bz[i] - az[i];
+        const Real square = dx * dx + dy * dy + dz * dz;
+        beyond |= (square > most[i] ? Mask(1) : Mask(0)) | (square < least[i] ? Mask(1) : Mask(0));
+    }
+    return beyond != 0;
+}
+
+template <class Real>
+inline bool lookAtList(const WatchList<Real>& s) {
+    bool beyond = false;
+    for (int i = 0; i < s.n; ++i) {
+        const Real *a = s.x + s.a[i], *b = s.x + s.b[i];
+        const Real dx = b[0] - a[0], dy = b[s.stride] - a[s.stride], dz = b[2L * s.stride] - a[2L * s.stride];
+        const Real square = dx * dx + dy * dy + dz * dz;
+        beyond |= square > s.most[i];
+        if (s.least != nullptr) beyond |= square < s.least[i];
+    }
+    return beyond;
+}
+
+}  // namespace
+
+bool isAnyBeyond(const WatchRun<float>& s) {
+    return lookAtRun(s);
+}
+bool isAnyBeyond(const WatchRun<double>& s) {
+    return lookAtRun(s);
+}
+bool isAnyBeyond(const WatchList<float>& s) {
+    return lookAtList(s);
+}
+bool isAnyBeyond(const WatchList<double>& s) {
+    return lookAtList(s);
+}
+
+}  // namespace taut::mechanics::TAUT_ISA

@@ -1,0 +1,42 @@
+// The inner loops that look whether springs are longer or shorter than they may be; one copy an instruction set, every
+// copy gives the same answer.
+#pragma once
+
+namespace taut::mechanics {
+
+// Springs alike: spring i joins points i and i + offset.
+template <class Real>
+struct WatchRun {
+    int n;
+    int offset;
+    int stride;         // of x
+    const Real* x;      // planes at the run's first point [m]
+    const Real* least;  // (n) [m²] squares of the lengths between which each may be; null: 0
+    const Real* most;   // (n) [m²]
+};
+
+template <class Real>
+struct WatchList {
+    int n;
+    int stride;
+    const Real* x;  // planes from point 0
+    const int* a;   // (n)
+    const int* b;
+    const Real* least;
+    const Real* most;
+};
+
+// Whether any spring is beyond its lengths.
+#define TAUT_DECLARE(isa)                       \
+    namespace isa {                             \
+    bool isAnyBeyond(const WatchRun<float>&);   \
+    bool isAnyBeyond(const WatchRun<double>&);  \
+    bool isAnyBeyond(const WatchList<float>&);  \
+    bool isAnyBeyond(const WatchList<double>&); \
+    }
+TAUT_DECLARE(sse2)
+TAUT_DECLARE(avx2)
+TAUT_DECLARE(avx512)
+#undef TAUT_DECLARE
+
+}  // namespace taut::mechanics

@@ -7,6 +7,7 @@
 #include "taut/world/encounters.h"
 #include "taut/world/impl.h"
 #include "taut/world/kinds.h"
+#include "taut/world/pins.h"
 #include "taut/world/ticks.h"
 
 namespace taut::world {
@@ -35,7 +36,7 @@ bool followsFromAnother(const ActionSpec& action, const std::vector<Refusal>& be
     return isOfHand && !before.empty();
 }
 
-std::vector<Refusal> refusals(World& world) {
+std::vector<Refusal> refusals(World& world, Pins& pins) {
     WorldImpl& w = WorldAccess::of(world);
     const Ticks ticks(w.start->run);
     std::vector<Refusal> all;
@@ -44,6 +45,7 @@ std::vector<Refusal> refusals(World& world) {
         if (w.tick >= ticks.last()) break;
         try {
             action.perform(world);
+            pins.look(world);
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
             if (!followsFromAnother(action, all))
@@ -100,7 +102,11 @@ Rehearsal rehearse(const SceneSpec& scene) {
             rehearsal.warnings.push_back(warning);
     std::optional<std::int64_t> lastDoubtful;
     std::vector<std::string> doubts;
-    for (const Refusal& refusal : refusals(world)) {
+    Pins pins;
+    pins.look(world);
+    const std::vector<Refusal> refused = refusals(world, pins);
+    rehearsal.warnings.insert(rehearsal.warnings.end(), pins.warnings().begin(), pins.warnings().end());
+    for (const Refusal& refusal : refused) {
         if (refusal.isCertain) {
             rehearsal.faults.push_back(refusal.message);
             continue;

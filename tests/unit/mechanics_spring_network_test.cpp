@@ -197,6 +197,18 @@ TEST_P(SpringNetworks, TakeChangesWhereTheSpringsAre) {
     EXPECT_TRUE(network.mixed.empty());
 }
 
+// The third of them one after the other: as if all had been set.
+TEST_P(SpringNetworks, TakeOneSpringAsTheyTakeAll) {
+    std::vector<Spring> changed = case_.springs;
+    Network network = network_, all = network_;
+    for (std::size_t i = 0; i < changed.size(); i += 3) {
+        (i % 2 == 0 ? changed[i].stiffness : changed[i].restLength) += 1.0 + 1e-3 * static_cast<double>(i);
+        EXPECT_EQ(network.setSpring(static_cast<int>(i), changed[i]), i % 2 == 0);
+    }
+    all.setSprings(changed);
+    EXPECT_EQ(linesOf(network, 0, network.blocks.size()), linesOf(all, 0, all.blocks.size()));
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SpringNetworks,
                          testing::Values(
                              randomCase, longCase, +[] { return clothCase(1 + 1); }, +[] { return clothCase(13); },

@@ -4,5 +4,6 @@ list(APPEND TAUT_UNIT_TESTS
   mechanics_mass_spring_system_test.cpp
   mechanics_spring_kernel_test.cpp
   mechanics_spring_network_test.cpp
+  mechanics_spring_watch_test.cpp
   mechanics_state_bound_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::mechanics taut::ode)

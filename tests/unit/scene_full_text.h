@@ -55,6 +55,7 @@ drag_per_s = 0.4
 lumping = "uniform"
 yield_strain = 0.05
 break_strain = 0.5
+break_cell_m = 0.05
 [cloth.flag]
 size = [1.8, 1.2]
 cells = [36, 24]
@@ -92,6 +93,7 @@ radius = 0.03
 lumping = "uniform"
 yield_strain = 0.06
 break_strain = 0.6
+break_cell_m = 0.06
 hold = ["ends", "25%"]
 [block.jelly]
 size = [0.1, 0.2, 0.3]
@@ -107,6 +109,7 @@ working_stretch = 2
 lumping = "uniform"
 yield_strain = 0.07
 break_strain = 0.7
+break_cell_m = 0.07
 [net.cradle]
 points = [{ name = "a", position = [0, 1, 0], mass_kg = 3, hold = true }, { name = "b", position = [1, 1, 0] }]
 springs = [{ a = "a", b = "b", stiffness_N_per_m = 20, rest_length_m = 0.5, damping_time_s = 5e-4 }]
@@ -116,6 +119,7 @@ radius = 0.04
 ball = 0.07
 yield_strain = 0.08
 break_strain = 0.8
+break_cell_m = 0.08
 [[joint]]
 a = "rope.rail@end"
 b = "net.cradle@b"

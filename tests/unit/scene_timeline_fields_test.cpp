@@ -83,12 +83,16 @@ TEST(SceneTimeline, StrainsOfYieldAndBreakLandInTheirMembers) {
     const world::SceneSpec scene = readFullScene();
     EXPECT_EQ(scene.materials.at("silk").plasticity.yieldStrain, 0.05);
     EXPECT_EQ(scene.materials.at("silk").plasticity.breakStrain, 0.5);
+    EXPECT_EQ(scene.materials.at("silk").plasticity.breakCell, 0.05);
     EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].plasticity.yieldStrain, 0.06);
     EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].plasticity.breakStrain, 0.6);
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].plasticity.breakCell, 0.06);
     EXPECT_EQ(scene.bodies.of<world::BlockSpec>()[0].plasticity.yieldStrain, 0.07);
     EXPECT_EQ(scene.bodies.of<world::BlockSpec>()[0].plasticity.breakStrain, 0.7);
+    EXPECT_EQ(scene.bodies.of<world::BlockSpec>()[0].plasticity.breakCell, 0.07);
     EXPECT_EQ(scene.bodies.of<world::NetSpec>()[0].plasticity.yieldStrain, 0.08);
     EXPECT_EQ(scene.bodies.of<world::NetSpec>()[0].plasticity.breakStrain, 0.8);
+    EXPECT_EQ(scene.bodies.of<world::NetSpec>()[0].plasticity.breakCell, 0.08);
 }
 
 // A scene in which one ramp acts.

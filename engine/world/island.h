@@ -189,7 +189,8 @@ class Island {
     };
     std::unique_ptr<const Strength> strength_;
     std::vector<int> beyond_;                        // scratch
-    std::vector<Given> given_;                       // what springs were when the tick began, the last first
+    std::vector<Given> given_;                       // of what has changed, what it was when the tick began
+    std::vector<bool> isRemembered_;                 // (springs) there
     std::vector<std::pair<Body*, Damage>> damaged_;  // likewise
     bool hasTorn_ = false;                           // in this tick
 };

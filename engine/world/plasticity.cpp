@@ -6,8 +6,8 @@
 namespace taut::world {
 
 // Beyond the break strain, against the length that it was made with, a spring is gone; beyond the yield strain its
-// rest length follows, so that the elastic strain stays at it. The method goes on as if nothing had happened: it keeps
-// nothing of the springs' forces beyond a step.
+// rest length follows, so that the elastic strain stays at it. The method goes on: what it keeps of forces is those of
+// a moment before.
 void Island::settle() {
     beyond_.clear();
     dynamics_->findBeyond(beyond_);
@@ -69,6 +69,9 @@ void Island::tear(const std::vector<int>& springs, std::vector<int>& changed) {
 
 void Island::remember(int spring) {
     const auto s = static_cast<std::size_t>(spring);
+    isRemembered_.resize(plan_.springs.size(), false);
+    if (isRemembered_[s]) return;
+    isRemembered_[s] = true;
     given_.push_back({spring, plan_.springs[s].stiffness, plan_.springs[s].restLength, plan_.broken[s]});
 }
 
@@ -78,6 +81,7 @@ void Island::remember(Body& body) {
 }
 
 void Island::keepGiven() {
+    for (const Given& was : given_) isRemembered_[static_cast<std::size_t>(was.spring)] = false;
     given_.clear();
     damaged_.clear();
     hasTorn_ = false;
@@ -86,11 +90,11 @@ void Island::keepGiven() {
 // What has given way and torn since the tick began holds again.
 void Island::takeBackGiven() {
     if (given_.empty()) return;
-    for (auto was = given_.rbegin(); was != given_.rend(); ++was) {
-        const auto s = static_cast<std::size_t>(was->spring);
-        plan_.springs[s].stiffness = was->stiffness;
-        plan_.springs[s].restLength = was->restLength;
-        plan_.broken[s] = was->isBroken;
+    for (const Given& was : given_) {
+        const auto s = static_cast<std::size_t>(was.spring);
+        plan_.springs[s].stiffness = was.stiffness;
+        plan_.springs[s].restLength = was.restLength;
+        plan_.broken[s] = was.isBroken;
     }
     for (auto& [body, damage] : damaged_) body->damage = std::move(damage);
     dynamics_->take(Changes{}.add(hasTorn_ ? Change::shape : Change::lengths), forces_);

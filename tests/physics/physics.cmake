@@ -22,7 +22,7 @@ list(APPEND TAUT_PHYSICS_TESTS
   sdirk2_test.cpp
   step_following_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode Boost::headers)
-list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp)
+list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp tearing_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::scene)
 list(APPEND TAUT_PHYSICS_TESTS study_reference_test.cpp study_threshold_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::study)

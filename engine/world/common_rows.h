@@ -36,11 +36,13 @@ template <class Spec>
 fields::FieldList<Spec> withPlasticity(fields::FieldList<Spec> list) {
     list.number("yield_strain", &Spec::plasticity, &PlasticitySpec::yieldStrain, "", strainRange,
                 "Strain beyond which springs keep part of it for good; never if not given.");
-    list.number("break_strain", &Spec::plasticity, &PlasticitySpec::breakStrain, "", strainRange,
-                "Strain of a stretched spring at which it tears; never if not given.")
+    list.number(
+            "break_strain", &Spec::plasticity, &PlasticitySpec::breakStrain, "", strainRange,
+            "Strain of a stretched spring at which it tears; never if not given. At the tip of a tear it is meant for "
+            "cells of break_cell_m.")
         .number("break_cell_m", &Spec::plasticity, &PlasticitySpec::breakCell, "m", lengthRange,
-                "Size of the cells for which break_strain holds at the tip of a tear; with others it goes by their "
-                "square root, so that a tear takes the same load to run.");
+                "Side of the cells for which break_strain holds at the tip of a tear. With smaller ones it is larger "
+                "there, as their square root, so that a tear takes the same load to run.");
     return list;
 }
 

@@ -4,9 +4,8 @@
 // In a sheet that is strained evenly a spring breaks at the break strain, whatever the cells. At the tip of a tear the
 // strain of the spring that comes next grows as the cell shrinks, by 1/√l, while what the tear costs per area is the
 // material's. So there the strain to break goes with √(l_ref/l) too, where l_ref is the cell for which it is stated
-// (crack band: Bažant and Oh 1983, sudden drop). A spring that long cells leave without concentration still bears what
-// the sheet is strained by far from the tear, for in a lattice ε_tip² ≈ ε_far² (1 + α n) beside n broken springs: the
-// limit is ε_break √(l_ref/l + 0.08).
+// (crack band: Bažant and Oh 1983, sudden drop). Long cells concentrate less than
+// that, for beside n broken springs of a lattice ε_tip² ≈ ε_far² (1 + α n): the limit is ε_break √(l_ref/l + 0.08).
 //
 //   o   o---o---o    The tear has come from the left between two rows. The spring beside the last one broken is at its
 //           ║        tip: its ends are the neighbours, along springs that hold, of the ends of a broken one. So are the

@@ -106,12 +106,12 @@ double cheapest(const Witness& witness, const std::vector<Generator>& without, i
             const StepFacts facts = stepFacts(modelOf(witness.context.spec, witness.context.resolution, candidate));
             if (!facts.isPossible) continue;
             for (int substeps = facts.leastSubsteps;; ++substeps) {
-                const double least = facts.springs * substeps * method.evaluations * witness.context.grid.ticks();
+                const double least = facts.cost * substeps * method.evaluations * witness.context.grid.ticks();
                 if (least / frames >= best) break;
                 candidate.substeps = substeps;
                 const PlanRun run = witness.runOf(candidate);
                 if (difference(run, witness.reference) <= witness.context.target)
-                    best = std::min(best, run.springEvaluations / frames);
+                    best = std::min(best, run.cost / frames);
             }
         }
     return best;

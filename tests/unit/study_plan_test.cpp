@@ -173,7 +173,7 @@ TEST(PlanRuns, CountSpringsTimesEvaluations) {
     const PlanRun run = play(model, resolution, grid);
     ASSERT_TRUE(run.isWhole());
     // RK4 evaluates four times a step.
-    EXPECT_EQ(run.springEvaluations, facts.springs * 4 * facts.leastSubsteps * 3);
+    EXPECT_EQ(run.cost, facts.cost * 4 * facts.leastSubsteps * 3);
 }
 
 TEST(PlanRuns, DoNotCountTheStart) {
@@ -185,7 +185,7 @@ TEST(PlanRuns, DoNotCountTheStart) {
     candidate.count = 4;  // leap-frog: one evaluation a step, and one to start
     const world::SceneSpec model = modelOf(scene, resolution, candidate);
     const StepFacts facts = stepFacts(model);
-    EXPECT_EQ(play(model, resolution, grid).springEvaluations, facts.springs * facts.leastSubsteps * 3);
+    EXPECT_EQ(play(model, resolution, grid).cost, facts.cost * facts.leastSubsteps * 3);
 }
 
 TEST(PlanRuns, EndAtTheHorizonItself) {

@@ -78,8 +78,10 @@ Pair controlledRuns(const Subject& subject, const Grid& grid, double seconds, Re
     fine.stepsPerSample = subject.quantum(grid);
     fine.tolerance = usual;
     if (secondsOf(subject, fine) > seconds) fine.tolerance = loose;
+    // Inner steps end where steps do: were those alike, the two runs could be the same, and tell nothing.
     RunPlan coarse = fine;
     coarse.tolerance *= 100;
+    fine.stepsPerSample *= 2;
     reference.tolerance = fine.tolerance;
     return playBoth(subject, coarse, fine);
 }

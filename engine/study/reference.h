@@ -19,7 +19,7 @@ struct Reference {
     double difference = 0;        // RMS over the window between the two runs
     double energyDifference = 0;  // [J] largest
     // Of the finer run, RMS over the window: a tenth of the difference, as its tolerance is a hundredth of the other's
-    // (contacts: all of it, as its step is half of the other's and the order is 1).
+    // and its longest step half (contacts: all of it, as its step is half of the other's and the order is 1).
     double error = 0;
     // Errors below this are not told apart from those of the reference: 100 times its own.
     double floor = 0;

@@ -84,7 +84,7 @@ springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]
              "1", "--quiet", "-o", (folder / "out").string(), "--set", "net.spring.drag_per_s=0"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const auto json = nlohmann::json::parse(test::contentOf(folder / "out/spring.json"));
-    EXPECT_EQ(json["reference"]["kind"], "rk4 at two steps");
+    EXPECT_EQ(json["reference"]["kind"], "fehlberg 7(8) at two tolerances");
     EXPECT_FALSE(json["horizon"]["is_reached"].get<bool>());
     ASSERT_FALSE(json["runs"].empty());
     EXPECT_LE(json["runs"][0]["step_s"].get<double>(), 1.0 / 60 * (1 + 1e-12));  // a tick at most

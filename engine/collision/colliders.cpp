@@ -1,5 +1,7 @@
 #include "taut/collision/colliders.h"
 
+#include <algorithm>
+
 #include <string>
 
 #include "taut/collision/impl.h"
@@ -38,6 +40,11 @@ Colliders Colliders::clone() const {
     return copy;
 }
 
+bool Colliders::bounces() const {
+    return std::any_of(
+        impl_->solids.begin(), impl_->solids.end(),
+        [](const Solid& solid) { return solid.material.restitution > 0.0; });
+}
 int Colliders::size() const {
     return static_cast<int>(impl_->firstSolid.size()) - 1;
 }

@@ -46,6 +46,7 @@ struct MovingPoints {
     const Real* inverseMass = nullptr;  // (stride) [1/kg]; 0 is a held point, which is left alone
     double thickness = 0.0;             // [m] distance that the points keep from a surface
     double friction = 1.0;              // factor on the collider's friction [-]
+    double gravity = 9.81;              // [m/s²] size of the acceleration by uniform fields
 };
 
 struct Contact {
@@ -54,7 +55,13 @@ struct Contact {
     glm::dvec3 position;  // [m] on the surface
     glm::dvec3 normal;    // unit, away from the collider
     double impulse;       // normal impulse per mass [m/s]
+    glm::dvec3 carried;   // [m/s] of the surface there
+    double friction;      // Coulomb's μ of point and surface [-]
 };
+
+// What contacts, all of one point, leave of a velocity [m/s] that forces have changed since: none of it goes into a
+// surface, and friction slows what goes along it as Colliders::resolve does. Nothing bounces.
+glm::dvec3 velocityInContact(std::span<const Contact> contacts, glm::dvec3 v);
 
 // Which of an island's points may touch which solids: Colliders::resolve() finds it when it has to, and goes by it for
 // as long as points and solids stay in the room that it gave them. Only what it costs depends on it, nothing that comes
@@ -84,7 +91,8 @@ class Colliders {
     // Returns the collider's number, counting from 0. Throws core::Error(badContent) for a compound without parts, a
     // material out of range, or a pose that is not finite. Rotations need not be of unit length.
     int add(const Shape& shape, const Material& material, const Pose& pose);
-    int size() const;  // how many there are
+    int size() const;      // how many there are
+    bool bounces() const;  // whether any has a restitution
 
     // The same colliders, to be moved on their own; their forms are shared.
     Colliders clone() const;
@@ -106,7 +114,7 @@ class Colliders {
     // - A surface pushes with its own speed, up to 100 m/s. It never pulls.
     // - A point that starts the step inside goes the shortest way out of where it ends, and gains no speed by that.
     //   Of a mesh only a closed one has an inside; an open one has two sides.
-    // - Arrivals slower than 2 · 9.81 m/s² · h do not bounce: a resting point arrives with about half of that in each
+    // - Arrivals slower than 2 · gravity · h do not bounce: a resting point arrives with about half of that in each
     //   step, and such a bounce would be over before the next step ends.
     // - Pressed by several colliders a point is tried four times against each, in the order of their numbers.
     // - Surfaces are where the shapes say, without a margin: exact for the closed forms and meshes, within 1e-12 of

@@ -15,10 +15,6 @@ constexpr int mostAtOnce = 32;  // solids that a block of points is tried agains
 constexpr int smallBlock = 16;  // points that may be near to several solids and are not cut further
 constexpr int mostPasses = 4;   // over the solids that one point touches
 
-// What free fall adds to a speed in two steps: a resting point arrives with about one step's worth each time, and a
-// bounce from less would end within the step that follows.
-constexpr double restSpeedPerSecond = 2.0 * 9.81;  // [m/s²]
-
 template <class Real>
 class Resolver {
   public:
@@ -27,6 +23,7 @@ class Resolver {
         : solids_(solids),
           points_(points),
           h_(h),
+          restSpeed_(2.0 * points.gravity * h),
           candidates_(candidates),
           block_(block),
           touched_(touched),
@@ -141,7 +138,7 @@ class Resolver {
                 const auto k = static_cast<std::size_t>(i);
                 if (lanes_.outcome[i] == 0) continue;
                 outcome[k] = static_cast<Outcome>(lanes_.outcome[i]);
-                if (records_) records[k] = recordOf(first + i, solid.collider, i);
+                if (records_) records[k] = recordOf(first + i, solid, i);
             }
         }
         for (int i = 0; i < n; ++i) {
@@ -174,18 +171,23 @@ class Resolver {
                 if (outcome == Outcome::left) resolvePoint(first + i, 1U, near);
                 if (outcome != Outcome::touched) continue;
                 touched_.push_back(first + i);
-                if (records_) contacts_.push_back(recordOf(first + i, near[0]->collider, i));
+                if (records_) contacts_.push_back(recordOf(first + i, *near[0], i));
             }
         }
     }
 
-    Contact recordOf(int point, int collider, int lane) const {
+    Contact recordOf(int point, const Solid& solid, int lane) const {
+        const bool still = solid.still || hasJumped(solid);
         return {point,
-                collider,
+                solid.collider,
                 {lanes_.position[0][lane], lanes_.position[1][lane], lanes_.position[2][lane]},
                 {lanes_.normal[0][lane], lanes_.normal[1][lane], lanes_.normal[2][lane]},
-                lanes_.impulse[lane]};
+                lanes_.impulse[lane],
+                still ? dvec3(0.0) : dvec3(lanes_.carried[0][lane], lanes_.carried[1][lane], lanes_.carried[2][lane]),
+                frictionOn(solid)};
     }
+
+    double frictionOn(const Solid& solid) const { return solid.material.friction * points_.friction; }
 
     static KernelFrame frameFor(const Frame& frame) {
         KernelFrame plain;
@@ -217,10 +219,10 @@ class Resolver {
         args.from = args.still ? args.to : frameFor(solid.from);
         args.thickness = points_.thickness;
         args.skinPerMetre = skinPerMetre<Real>;
-        args.friction = solid.material.friction * points_.friction;
+        args.friction = frictionOn(solid);
         args.restitution = solid.material.restitution;
         args.h = h_;
-        args.restSpeed = restSpeedPerSecond * h_;
+        args.restSpeed = restSpeed_;
         args.fastest = fastestSurface;
         return args;
     }
@@ -250,7 +252,7 @@ class Resolver {
                 if (!resolveOne(solid, skin, pass == mostPasses - 1, point, impact)) continue;
                 touches = true;
                 again |= impact.shifted;
-                report(firstContact, i, solid.collider, impact);
+                report(firstContact, i, solid, impact);
             }
             if (!again) break;
         }
@@ -265,14 +267,9 @@ class Resolver {
 
     bool resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point, Impact& impact) const {
         const bool jumped = hasJumped(solid);
-        const Surface surface{solid.from,
-                              solid.to,
-                              jumped || solid.still,
-                              solid.material.friction * points_.friction,
-                              solid.material.restitution,
-                              h_,
-                              restSpeedPerSecond * h_,
-                              fastestSurface};
+        const Surface surface{
+            solid.from, solid.to,   jumped || solid.still, frictionOn(solid), solid.material.restitution,
+            h_,         restSpeed_, fastestSurface};
         Path world{point.before, point.x, points_.thickness, skin};
         Touch touch{};
         bool crossed = false;
@@ -317,20 +314,25 @@ class Resolver {
     }
 
     // A solid that is touched again in a later pass adds to its contact.
-    void report(std::size_t firstContact, int i, int collider, const Impact& impact) {
+    void report(std::size_t firstContact, int i, const Solid& solid, const Impact& impact) {
         for (std::size_t c = firstContact; c < contacts_.size(); ++c) {
-            if (contacts_[c].collider != collider) continue;
+            if (contacts_[c].collider != solid.collider) continue;
             contacts_[c].impulse += impact.impulse;
             contacts_[c].position = impact.position;
             contacts_[c].normal = impact.normal;
+            contacts_[c].carried = impact.carried;
             return;
         }
-        contacts_.push_back({i, collider, impact.position, impact.normal, impact.impulse});
+        contacts_.push_back(
+            {i, solid.collider, impact.position, impact.normal, impact.impulse, impact.carried, frictionOn(solid)});
     }
 
     const std::vector<Solid>& solids_;
     const MovingPoints<Real>& points_;
     const double h_;
+    // What free fall adds to a speed in two steps: a resting point arrives with about one step's worth each time, and a
+    // bounce from less would end within the step that follows.
+    const double restSpeed_;
     CandidateRooms& candidates_;
     std::size_t& block_;
     std::vector<int>& touched_;
@@ -341,6 +343,22 @@ class Resolver {
 };
 
 }  // namespace
+
+dvec3 velocityInContact(std::span<const Contact> contacts, dvec3 v) {
+    // Between several surfaces one pushes a point against another.
+    const int passes = contacts.size() > 1 ? mostPasses : 1;
+    for (int pass = 0; pass < passes; ++pass)
+        for (const Contact& contact : contacts) {
+            const dvec3 u = v - contact.carried;
+            const double un = glm::dot(u, contact.normal);
+            if (!(un < 0.0)) continue;
+            const dvec3 slide = u - un * contact.normal;
+            const double slideSquare = glm::dot(slide, slide), grip = contact.friction * -un;
+            const bool sticks = slideSquare <= grip * grip;
+            v = sticks ? contact.carried : contact.carried + slide * (1.0 - grip / std::sqrt(slideSquare));
+        }
+    return v;
+}
 
 template <class Real>
 void Colliders::resolve(std::span<const MovingPoints<Real>> bodies, double h, Candidates& candidates,

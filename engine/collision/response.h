@@ -29,7 +29,8 @@ struct Impact {
     double impulse;  // normal, per mass [m/s]
     dvec3 position;  // on the surface [m]
     dvec3 normal;
-    bool shifted;  // x moved by more than rounding
+    dvec3 carried;  // velocity of the surface [m/s]
+    bool shifted;   // x moved by more than rounding
 };
 
 // Of the surface's place that ends the step at `place`, by its way during the step.
@@ -97,6 +98,7 @@ inline bool respond(const Surface& surface, const Path& path, const Touch& touch
     impact.shifted = depth > path.skin || bounce > 0.0;
     impact.position = onSurface;
     impact.normal = n;
+    impact.carried = carried;
     return impact.impulse > 0.0 || depth > path.skin;
 }
 

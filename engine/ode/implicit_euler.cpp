@@ -12,6 +12,10 @@
 //   G(u) = M (u - v) - h [F(t + h, x + h u, u) - Γ u]
 //
 // and are halved until it falls: |G|² = Σ G²/m.
+//
+// Where contacts then put points elsewhere, the step is solved for once more with those held up along their normals:
+// springs that only the contact compressed, by up to v h, would add ½ k (v h)². What is across is solved for, by
+// conjugate gradients in the subspace (Baraff and Witkin's filter), with friction as an impulse.
 #include <algorithm>
 #include <cmath>
 
@@ -39,9 +43,10 @@ class ImplicitEuler final : public Method<Real> {
 
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
         if (change_.size() != state.layout.size()) prepare(state.layout);  // a state that another one started
+        std::copy(state.x.begin(), state.x.end(), start_.x.begin());
+        std::copy(state.v.begin(), state.v.end(), start_.v.begin());
         Step now{system, implicitPartOf(system, implicitEulerTitle), t + h, h, state};
-        const double scale = firstNewtonStep(now);
-        if (newtonSteps_ > 1) refine(now, scale);
+        solve(now);
         for (std::size_t i = 0; i < state.v.size(); ++i) {
             state.memory[0][i] = u_[i] - state.v[i];
             state.v[i] = u_[i];
@@ -51,6 +56,31 @@ class ImplicitEuler final : public Method<Real> {
             if (inverseMass[i] > Real(0)) state.x[at] += static_cast<Real>(h) * u_[at];
         });
         system.prescribe(t + h, state.x.data(), state.v.data());
+    }
+
+    bool yields() const override { return true; }
+    void yield(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state,
+               std::span<Support> supports) override {
+        using Hold = typename Supports<Real>::Hold;
+        const Step now{system, implicitPartOf(system, implicitEulerTitle), t + h, h, start_};
+        supports_.take(supports, state.x.data());
+        start_.memory.resize(1);
+        start_.memory[0] = state.memory[0];
+        solve(now);
+        forEachNumber(
+            state.layout,
+            [&](std::size_t at, std::size_t i) {
+                if (!isFree(now, i)) return;
+                state.memory[0][at] = u_[at] - start_.v[at];
+                state.x[at] = start_.x[at] + static_cast<Real>(h) * u_[at];
+                if (supports_.holdOf(i) == Hold::none) state.v[at] = u_[at];
+            });
+        supports_.forEachAlong([&](const Support& support) {
+            const double off = supports_.along(support, state.v.data()) - supports_.along(support, u_.data());
+            supports_.forEachPlane(
+                support, [&](std::size_t at, double n) { state.v[at] = u_[at] + static_cast<Real>(off * n); });
+        });
+        supports_.release();
     }
 
     void synchronise(SecondOrderSystem<Real>&, double, double, const State<Real>& state, Real* v) override {
@@ -73,6 +103,8 @@ class ImplicitEuler final : public Method<Real> {
 
     void prepare(Layout layout) {
         const std::size_t n = layout.size();
+        start_ = State<Real>(layout);
+        supports_.resize(layout);
         change_ = b_ = u_ = trial_ = place_ = acceleration_ = scratch_ = core::AlignedArray<Real>(n);
         matrix_.resize(n);
     }
@@ -85,16 +117,25 @@ class ImplicitEuler final : public Method<Real> {
 
     // Solves A change_ = b_, A = M + hΓ + hC + h²K at (x, v), from the given guess.
     void solve(const Step& now, const Real* x, const Real* v) {
-        matrix_.fix(now.system, now.end, x, v, now.h);
-        matrix_.solve(b_.data(), change_.data(), this->work_);
+        matrix_.fix(now.system, now.end, x, v, now.h, &supports_);
+        matrix_.solve(b_, change_, supports_, this->work_);
+    }
+
+    // The velocities at the end into u_.
+    void solve(const Step& now) {
+        const double scale = firstNewtonStep(now);
+        if (newtonSteps_ > 1) refine(now, scale);
+    }
+
+    bool isFree(const Step& now, std::size_t i) const {
+        return now.linear.inverseMasses()[i] > Real(0) && supports_.isFree(i);
     }
 
     // Baraff and Witkin's step into u_; the norm of its right-hand side.
     double firstNewtonStep(const Step& now) {
         const State<Real>& state = now.state;
         const Real h = static_cast<Real>(now.h);
-        const Real *mass = now.linear.masses(), *inverseMass = now.linear.inverseMasses(),
-                   *drag = now.system.dragRates();
+        const Real *mass = now.linear.masses(), *drag = now.system.dragRates();
         accelerate(now, state.x.data(), state.v.data());
         std::fill(scratch_.begin(), scratch_.end(), Real(0));
         now.linear.linearise(now.end, state.x.data(), state.v.data(), now.h * now.h, 0.0);
@@ -105,13 +146,22 @@ class ImplicitEuler final : public Method<Real> {
         trial_ = state.v;
         now.system.prescribe(now.end, place_.data(), trial_.data());
         std::fill(b_.begin(), b_.end(), Real(0));
-        forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
-            if (inverseMass[i] > Real(0)) {
-                b_[at] = h * (mass[i] * acceleration_[at] - mass[i] * drag[i] * state.v[at]) - scratch_[at];
-                change_[at] = state.memory[0][at];
-            } else {
-                change_[at] = (place_[at] - state.x[at]) / h - state.v[at];
-            }
+        forEachNumber(
+            state.layout,
+            [&](std::size_t at, std::size_t i) {
+                if (isFree(now, i)) {
+                    b_[at] = h * (mass[i] * acceleration_[at] - mass[i] * drag[i] * state.v[at]) - scratch_[at] +
+                             mass[i] * supports_.rubbed(at);
+                    change_[at] = state.memory[0][at];
+                } else {
+                    const Real end = supports_.isFree(i) ? place_[at] : supports_.given(at);
+                    change_[at] = (end - state.x[at]) / h - state.v[at];
+                }
+            });
+        supports_.forEachAlong([&](const Support& support) {
+            const auto part = [&](const Real* rows) { return supports_.along(support, rows); };
+            const double wanted = (part(supports_.given()) - part(state.x.data())) / now.h - part(state.v.data());
+            supports_.addAlong(support, wanted - part(change_.data()), change_.data());
         });
         const double scale = massNorm(now, b_.data());
         if (!passOnWhatIsNoNumber(b_, change_, this->work_)) solve(now, state.x.data(), state.v.data());
@@ -143,16 +193,16 @@ class ImplicitEuler final : public Method<Real> {
     double residual(const Step& now, const Real* u) {
         const State<Real>& state = now.state;
         const Real h = static_cast<Real>(now.h);
-        const Real *mass = now.linear.masses(), *inverseMass = now.linear.inverseMasses(),
-                   *drag = now.system.dragRates();
+        const Real *mass = now.linear.masses(), *drag = now.system.dragRates();
         for (std::size_t i = 0; i < u_.size(); ++i) place_[i] = state.x[i] + h * u[i];
         now.system.prescribe(now.end, place_.data(), nullptr);
         accelerate(now, place_.data(), u);
         std::fill(b_.begin(), b_.end(), Real(0));
         forEachNumber(state.layout, [&](std::size_t at, std::size_t i) {
-            if (!(inverseMass[i] > Real(0))) return;
-            b_[at] = mass[i] * (state.v[at] - u[at] + h * (acceleration_[at] - drag[i] * u[at]));
+            if (!isFree(now, i)) return;
+            b_[at] = mass[i] * (state.v[at] + supports_.rubbed(at) - u[at] + h * (acceleration_[at] - drag[i] * u[at]));
         });
+        supports_.flatten(b_.data());
         return massNorm(now, b_.data());
     }
 
@@ -169,6 +219,8 @@ class ImplicitEuler final : public Method<Real> {
     int newtonSteps_;
     double newtonTolerance_;
     ImplicitMatrix<Real> matrix_;
+    State<Real> start_;                    // of the last step
+    Supports<Real> supports_;              // while it yields
     core::AlignedArray<Real> change_, b_;  // Δv, unknown of the solve; right-hand side
     core::AlignedArray<Real> u_, trial_;   // v', and the one in question
     core::AlignedArray<Real> place_;       // x + h u

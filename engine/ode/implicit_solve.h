@@ -10,6 +10,7 @@
 #include "taut/core/error.h"
 #include "taut/ode/conjugate_gradient.h"
 #include "taut/ode/method.h"
+#include "taut/ode/supports.h"
 
 namespace taut::ode {
 
@@ -58,13 +59,14 @@ class ImplicitMatrix {
     }
 
     void resize(std::size_t size) {
-        inverse_ = core::AlignedArray<Real>(size);
+        inverse_ = given_ = product_ = whole_ = core::AlignedArray<Real>(size);
         solver_ = ConjugateGradient<Real>(size);
     }
     std::size_t size() const { return inverse_.size(); }
 
     // At (t, x, v); s [s].
-    void fix(SecondOrderSystem<Real>& system, double t, const Real* x, const Real* v, double s) {
+    void fix(SecondOrderSystem<Real>& system, double t, const Real* x, const Real* v, double s,
+             const Supports<Real>* supports = nullptr) {
         system_ = &system;
         implicit_ = system.implicitPart();
         step_ = static_cast<Real>(s);
@@ -74,32 +76,65 @@ class ImplicitMatrix {
         const Real *mass = implicit_->masses(), *inverseMass = implicit_->inverseMasses(), *drag = system.dragRates();
         forEachNumber(system.layout(), [&](std::size_t at, std::size_t i) {
             const Real own = mass[i] * (Real(1) + step_ * drag[i]);
-            inverse_[at] = inverseMass[i] > Real(0) ? Real(1) / (inverse_[at] + own) : Real(0);
+            const bool isFree = inverseMass[i] > Real(0) && (supports == nullptr || supports->isFree(i));
+            inverse_[at] = isFree ? Real(1) / (inverse_[at] + own) : Real(0);
         });
+        if (supports != nullptr) supports->level(inverse_.data());
     }
 
     // A u = b from the guess u, in which what is held or moved by hand stays as given.
     Solution solve(const Real* b, Real* u, Work& work) {
+        return solve([this](const Real* in, Real* out) { multiply(in, out); }, b, u, work);
+    }
+
+    // The same with points held up, where what u has along their normals is given too: across them. Adds to what each
+    // support bears. b is used up.
+    Solution solve(core::AlignedArray<Real>& b, core::AlignedArray<Real>& u, const Supports<Real>& supports,
+                   Work& work) {
+        if (supports.empty()) return solve(b.data(), u.data(), work);
+        const auto multiplyAcross = [&](const Real* in, Real* out) {
+            multiply(in, out);
+            supports.flatten(out);
+        };
+        // What is given along normals goes to the other side.
+        given_ = u;
+        supports.flatten(u.data());
+        for (std::size_t i = 0; i < u.size(); ++i) given_[i] -= u[i];
+        multiplyAcross(given_.data(), product_.data());
+        whole_ = b;
+        supports.flatten(b.data());
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] -= product_[i];
+        const Solution solution = solve(multiplyAcross, b.data(), u.data(), work);
+        for (std::size_t i = 0; i < u.size(); ++i) u[i] += given_[i];
+        multiply(u.data(), product_.data());
+        for (Support& support : supports.all())
+            support.impulse += (supports.along(support, product_.data()) - supports.along(support, whole_.data())) /
+                               static_cast<double>(implicit_->masses()[Supports<Real>::index(support)]);
+        return solution;
+    }
+
+  private:
+    void multiply(const Real* in, Real* out) {
         const Layout layout = system_->layout();
         const Real *mass = implicit_->masses(), *drag = system_->dragRates();
-        const auto multiply = [&](const Real* in, Real* out) {
-            std::fill_n(out, layout.size(), Real(0));
-            forEachNumber(layout, [&](std::size_t at, std::size_t i) {
-                out[at] = mass[i] * (Real(1) + step_ * drag[i]) * in[at];
-            });
-            implicit_->addProduct(in, out);
-        };
-        const Solution solution = solver_.solve(multiply, inverse_.data(), b, tolerance_, maxIterations_, u);
+        std::fill_n(out, layout.size(), Real(0));
+        forEachNumber(layout,
+                      [&](std::size_t at, std::size_t i) { out[at] = mass[i] * (Real(1) + step_ * drag[i]) * in[at]; });
+        implicit_->addProduct(in, out);
+    }
+    template <class Product>
+    Solution solve(const Product& product, const Real* b, Real* u, Work& work) {
+        const Solution solution = solver_.solve(product, inverse_.data(), b, tolerance_, maxIterations_, u);
         work.iterations += solution.products;
         if (!solution.converged) ++work.unconverged;
         return solution;
     }
 
-  private:
     double tolerance_;
     int maxIterations_;
     ConjugateGradient<Real> solver_;
-    core::AlignedArray<Real> inverse_;  // of the diagonal, 0 for held points
+    core::AlignedArray<Real> inverse_;                  // of the diagonal, 0 for held points
+    core::AlignedArray<Real> given_, product_, whole_;  // of a solve with points held up
     SecondOrderSystem<Real>* system_ = nullptr;
     ImplicitSystem<Real>* implicit_ = nullptr;
     Real step_ = 0;

@@ -1,6 +1,7 @@
 // A method that takes a second-order system from t to t + h. It knows no physics: only flat arrays.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -57,6 +58,14 @@ struct MethodOptions {
 // What a method found among the velocities that a step wrote; unknown when it did not look.
 enum class Speeds { unknown, within, beyond };
 
+// A point that a contact holds up: along a unit normal, or where that is zero in all directions.
+struct Support {
+    int point = 0;
+    std::array<double, 3> normal{};  // (planes)
+    std::array<double, 3> rub{};     // (planes) [m/s] what friction changes of its velocity, across the normal
+    double impulse = 0;              // [m/s] per mass, along it: found by the method
+};
+
 template <class Real>
 class Method {
   public:
@@ -74,6 +83,17 @@ class Method {
 
     // Tells that the x and v of these points were changed after the step, by a contact.
     virtual void touch(State<Real>& state, std::span<const int> points) = 0;
+
+    // Velocities at the time of the positions as far as they are known without another evaluation; of state, or of it.
+    virtual const Real* predicted(const State<Real>& state) const { return state.v.data(); }
+
+    // Whether contacts concern more than the points that they touch: so they do where all are solved for at once.
+    virtual bool yields() const { return false; }
+    // After a step from t to t + h and touch(): solves for the step once more. Points with a normal end as far along it
+    // as they are now, and keep their v along it; those without stay where they are, as they are. May be called again
+    // with others.
+    virtual void yield(SecondOrderSystem<Real>& /*system*/, double /*t*/, double /*h*/, State<Real>& /*state*/,
+                       std::span<Support> /*supports*/) {}
 
     virtual Work work() const { return work_; }  // since it was made
 

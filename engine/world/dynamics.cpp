@@ -5,9 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "taut/mechanics/anchor.h"
+#include "taut/world/island_contacts.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -20,14 +22,15 @@ class DynamicsOf final : public Dynamics {
         : plan_(plan),
           system_(massesOf(plan), plan.ranges, plan.springs),
           state_(system_.layout()),
-          bound_(system_.layout().count, system_.layout().stride) {
+          bound_(system_.layout().count, system_.layout().stride),
+          contacts_(plan_, system_, state_) {
         lead();
         setForces(forces);
         for (std::size_t i = 0; i < plan_.positions.size(); ++i) {
             set(state_.x, static_cast<int>(i), plan_.positions[i]);
             set(state_.v, static_cast<int>(i), plan_.velocities[i]);
         }
-        before_ = velocity_ = core::AlignedArray<Real>(system_.layout().size());
+        velocity_ = core::AlignedArray<Real>(system_.layout().size());
     }
 
     void take(const Changes& changes, const ForceList& forces) override {
@@ -38,6 +41,7 @@ class DynamicsOf final : public Dynamics {
             system_.setPoints(massesOf(plan_));
             lead();
         }
+        if (isMaterial || isShape) contacts_.rewatch();
         if (isShape) return setForces(forces);
         if (isMaterial)
             for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
@@ -45,7 +49,10 @@ class DynamicsOf final : public Dynamics {
         if (changes.has(Change::grips)) addGrips();
     }
 
-    void changeSprings(std::span<const int> springs) override { system_.changeSprings(springs, plan_.springs); }
+    void changeSprings(std::span<const int> springs) override {
+        system_.changeSprings(springs, plan_.springs);
+        bound_.forgetWeights();
+    }
     void watchLengths(std::span<const mechanics::LengthLimits> limits) override {
         watch_.set(system_.network(), limits);
     }
@@ -86,52 +93,54 @@ class DynamicsOf final : public Dynamics {
         if (!method_) makeMethod();
         step_ = h;
         method_->start(system_, t, h, state_);
-        candidates_.drop();
+        contacts_.drop();
         std::size_t size = 0;
         forEachPart([&](Real*, std::size_t n) { size += n; });
         keptSize_ = size;
     }
     void step(double t) override {
+        time_ = t;
         method_->step(system_, t, step_, state_);
         speeds_ = leads_ ? ode::Speeds::unknown : method_->speeds();
     }
-    void rememberPositions() override { std::copy(state_.x.begin(), state_.x.end(), before_.begin()); }
+    void rememberPositions() override { contacts_.remember(); }
     bool collide(const collision::Colliders& colliders, std::vector<collision::Contact>* contacts) override {
         speeds_ = ode::Speeds::unknown;
-        colliding_.clear();
-        for (const Body* body : plan_.bodies) {
-            if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
-            collision::MovingPoints<Real>& points = colliding_.emplace_back();
-            points.first = body->firstPoint;
-            points.last = body->lastPoint;
-            points.stride = state_.layout.stride;
-            points.xBefore = before_.data();
-            points.x = state_.x.data();
-            points.v = state_.v.data();
-            points.inverseMass = system_.inverseMasses();
-            points.thickness = body->spec->thickness;
-            points.friction = body->spec->friction;
-        }
-        touched_.clear();
-        colliders.resolve(std::span<const collision::MovingPoints<Real>>(colliding_), step_, candidates_, touched_,
-                          contacts);
-        if (!touched_.empty()) method_->touch(state_, touched_);
-        return !touched_.empty();
+        return contacts_.collide(colliders, *method_, time_, step_, gravity(time_), contacts);
+    }
+    void watchContacts(bool isOn) override { contacts_.watch(isOn); }
+    ContactWork takeContactWork() override { return contacts_.takeWork(); }
+    dvec3 gravity(double t) const override {
+        dvec3 sum(0.0);
+        for (const auto& generator : system_.generators())
+            if (generator->isUniform()) sum += generator->uniformAcceleration(t);
+        return sum;
+    }
+    double freezingSpeed(double place) const override {
+        if constexpr (sizeof(Real) == sizeof(double)) return 0.0;
+        const Real x = static_cast<Real>(std::abs(place));
+        const Real next = std::nextafter(x, std::numeric_limits<Real>::infinity());
+        return 0.5 * static_cast<double>(next - x) / step_;
+    }
+    Lost lost(double seconds, double most) override {
+        if (lost_.size() != state_.x.size()) lost_ = Planes(state_.x.size());
+        const Real h = static_cast<Real>(step_), length = static_cast<Real>(seconds);
+        Real worst = static_cast<Real>(most);
+        Lost found;
+        for (int p = 0; p < 3; ++p)
+            for (int i = 0; i < state_.layout.count; ++i) {
+                const std::size_t k = index(i, p);
+                const Real x = state_.x[k], v = state_.v[k];
+                const bool isStuck = x + h * v == x && system_.inverseMasses()[i] != Real(0);
+                lost_[k] = isStuck ? lost_[k] + length * v : Real(0);
+                if (!(std::abs(lost_[k]) > worst)) continue;
+                worst = std::abs(lost_[k]);
+                found = {i, p};
+            }
+        return found;
     }
     void emerge(const collision::Colliders& colliders, std::vector<int>& inside) override {
-        const double most = emergingSpeed * step_;
-        emerging_.clear();
-        std::erase_if(inside, [&](int i) {
-            if (system_.inverseMasses()[i] == Real(0)) return false;
-            const dvec3 before = at(before_, i), way = at(state_.x, i) - before;
-            const double length = std::sqrt(glm::dot(way, way));
-            if (!(length > most)) return colliders.inside(before + way).depth <= most;
-            set(state_.x, i, before + way * (most / length));
-            set(state_.v, i, way * (emergingSpeed / length));
-            emerging_.push_back(i);
-            return false;
-        });
-        if (!emerging_.empty()) method_->touch(state_, emerging_);
+        contacts_.emerge(colliders, *method_, step_, emergingSpeed, inside);
     }
     void keep(Since moment) override {
         std::vector<Real>& kept = kept_[static_cast<std::size_t>(moment)];
@@ -145,7 +154,7 @@ class DynamicsOf final : public Dynamics {
             std::copy_n(next, n, numbers);
             next += n;
         });
-        candidates_.drop();
+        contacts_.drop();
     }
     void setStep(double h) override { step_ = h; }
     mechanics::FastestNow fastestNow() override {
@@ -161,12 +170,12 @@ class DynamicsOf final : public Dynamics {
     ode::Work work() const override { return method_->work(); }
 
     std::vector<dvec3> velocities() const override { return list(state_.v); }
-    std::vector<dvec3> velocitiesAt(double t) override {
-        method_->synchronise(system_, t, step_, state_, velocity_.data());
+    std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts) override {
+        findVelocities(t, contacts);
         return list(velocity_);
     }
-    void synchronise(double t) override {
-        method_->synchronise(system_, t, step_, state_, velocity_.data());
+    void synchronise(double t, std::span<const collision::Contact> contacts) override {
+        findVelocities(t, contacts);
         std::copy(velocity_.begin(), velocity_.end(), state_.v.begin());
     }
     void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
@@ -188,10 +197,11 @@ class DynamicsOf final : public Dynamics {
         return (beyond & sign) == 0;
     }
     bool isTouchedBounded() const override {
+        const std::span<const int> touched = contacts_.touched();
         // All are looked at sooner than a tenth of them is picked out.
-        if (touched_.size() * 10 > static_cast<std::size_t>(state_.layout.count)) return isBounded();
+        if (touched.size() * 10 > static_cast<std::size_t>(state_.layout.count)) return isBounded();
         const auto limit = static_cast<Real>(mechanics::speedLimit);
-        return std::all_of(touched_.begin(), touched_.end(), [&](int i) {
+        return std::all_of(touched.begin(), touched.end(), [&](int i) {
             bool isBelow = true;
             for (int p = 0; p < 3; ++p) isBelow = isBelow && std::abs(state_.v[index(i, p)]) < limit;
             return isBelow;
@@ -239,7 +249,7 @@ class DynamicsOf final : public Dynamics {
         bytes.require(memory == state_.memory.size());
         for (auto& array : state_.memory) bytes.planes(array);
         if (!bytes.isReading()) return;
-        candidates_.drop();
+        contacts_.drop();
         makeMethod();  // it has nothing of its own that the state does not have
         for (const Since moment : {Since::tick, Since::step}) keep(moment);
     }
@@ -322,16 +332,17 @@ class DynamicsOf final : public Dynamics {
         method_->watch(static_cast<Real>(mechanics::speedLimit));
     }
 
+    // Those at t into velocity_. Methods that store them have had them resolved.
+    void findVelocities(double t, std::span<const collision::Contact> contacts) {
+        method_->synchronise(system_, t, step_, state_, velocity_.data());
+        contacts_.bear(contacts, velocity_);
+    }
+
     mechanics::Motion<Real> motion(double t) const { return system_.motion(t, state_.x.data(), state_.v.data()); }
-    std::size_t index(int point, int plane) const {
-        return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(plane) * state_.layout.stride + point);
-    }
-    dvec3 at(const Planes& planes, int point) const {
-        return {static_cast<double>(planes[index(point, 0)]), static_cast<double>(planes[index(point, 1)]),
-                static_cast<double>(planes[index(point, 2)])};
-    }
+    std::size_t index(int point, int plane) const { return Planar<Real>{state_.layout.stride}.index(point, plane); }
+    dvec3 at(const Planes& planes, int point) const { return Planar<Real>{state_.layout.stride}.at(planes, point); }
     void set(Planes& planes, int point, const dvec3& value) const {
-        for (int p = 0; p < 3; ++p) planes[index(point, p)] = static_cast<Real>(value[p]);
+        Planar<Real>{state_.layout.stride}.set(planes, point, value);
     }
     std::vector<dvec3> list(const Planes& planes) const {
         std::vector<dvec3> all;
@@ -363,7 +374,7 @@ class DynamicsOf final : public Dynamics {
     std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones
 
     std::unique_ptr<ode::Method<Real>> method_;
-    double step_ = 0;                            // [s]
+    double step_ = 0, time_ = 0;                 // [s] of the last step, when it began
     bool splits_ = false;                        // the dashpots off
     bool leads_ = false;                         // whether some grip is rigid
     ode::Speeds speeds_ = ode::Speeds::unknown;  // of the state as it stands
@@ -373,10 +384,9 @@ class DynamicsOf final : public Dynamics {
     std::size_t keptSize_ = 0;
     mechanics::StateBound<Real> bound_;
     mechanics::SpringWatch<Real> watch_;
-    Planes before_, velocity_;                              // scratch
-    std::vector<collision::MovingPoints<Real>> colliding_;  // bodies
-    collision::Candidates candidates_;
-    std::vector<int> touched_, emerging_;  // points
+    IslandContacts<Real> contacts_;
+    Planes velocity_;  // scratch
+    Planes lost_;      // [m] that velocities say and positions, stuck since then, do not
 };
 
 }  // namespace

@@ -41,6 +41,12 @@ class Changes : public std::bitset<static_cast<std::size_t>(Change::count)> {
 
 enum class Since { tick, step };
 
+// What contacts have done to the energy of an island.
+struct ContactWork {
+    double added = 0;    // [J]
+    double atTouch = 0;  // [J] kinetic, elastic, and of the height over the lowest point, at the first touch; 0 without
+};
+
 // Of points on their way out of a collider that they began in. [m/s]
 inline constexpr double emergingSpeed = 1.0;
 
@@ -73,6 +79,19 @@ class Dynamics {
     // whether any was touched; contacts are appended where they are asked for.
     virtual void rememberPositions() = 0;
     virtual bool collide(const collision::Colliders& colliders, std::vector<collision::Contact>* contacts) = 0;
+    // Whether collide() sums up what it does to the energy, and that sum since it was last taken.
+    virtual void watchContacts(bool isOn) = 0;
+    virtual ContactWork takeContactWork() = 0;
+    // The acceleration of uniform fields [m/s²].
+    virtual dvec3 gravity(double t) const = 0;
+    // The speed [m/s] along an axis below which rounding leaves a point at such a place on it; 0 in double precision.
+    virtual double freezingSpeed(double place) const = 0;
+    // To be called after every tick of so many seconds where such a speed matters: the point whose velocity has led
+    // furthest since it has been stuck along an axis, or -1 where none by more than `most` [m].
+    struct Lost {
+        int point = -1, plane = 0;
+    };
+    virtual Lost lost(double seconds, double most) = 0;
     // After that: points that began inside a collider go on their way out no faster than emergingSpeed; those that are
     // out leave the list.
     virtual void emerge(const collision::Colliders& colliders, std::vector<int>& inside) = 0;
@@ -86,10 +105,10 @@ class Dynamics {
     virtual ode::Work work() const = 0;  // since the island was made or read
 
     // Velocities as the method stores them, those at t [s], which may cost an evaluation, and the first made the
-    // second.
+    // second. Contacts, those at t, point by point, bear what forces have added since the velocities that are stored.
     virtual std::vector<dvec3> velocities() const = 0;
-    virtual std::vector<dvec3> velocitiesAt(double t) = 0;
-    virtual void synchronise(double t) = 0;
+    virtual std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts) = 0;
+    virtual void synchronise(double t, std::span<const collision::Contact> contacts) = 0;
     virtual void setVelocity(int point, const dvec3& v) = 0;
     // Whether every velocity is a number below the limit, and those of points that the last collide() touched.
     virtual bool isBounded() const = 0;

@@ -22,7 +22,7 @@ std::string insideWarning(const Body& body, const std::string& collider, int poi
 
 Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
                bool keepsStep)
-    : plan_(std::move(plan)), forces_(forces) {
+    : tickSeconds_(1.0 / ticksPerSecond), plan_(std::move(plan)), forces_(forces) {
     dynamics_ = makeDynamics(plan_, forces_);
     const mechanics::FastestNow now = dynamics_->fastestNow();
     choice_ = chooseStep(
@@ -35,7 +35,10 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
     if (choice_.need)
         following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
     if (choice_.splits) dynamics_->split(true);
+    ownSubsteps_ = choice_.substeps;
+    shortensForContact_ = !keepsStep && !plan_.solver.dt;
     dynamics_->start(t, choice_.step);
+    foreseeFreezing(t);
     for (const Since moment : {Since::tick, Since::step}) dynamics_->keep(moment);
     watchPlasticity();
     mayFreeze_ = plan_.solver.onDivergence == OnDivergence::freeze;
@@ -48,6 +51,11 @@ void Island::setColliders(collision::Colliders colliders, std::span<const std::s
     mayCollide_ = colliders_.size() > 0 &&
                   std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* b) { return b->spec->collide; });
     if (!mayCollide_) contacts_.clear();
+    // Without restitution an impact takes more from its point than its shift adds, ½ k (v h)² < ½ m v² within the
+    // limit.
+    const bool takesMore =
+        method().symplectic && !colliders_.bounces() && (choice_.need || choice_.step <= choice_.limit * (1 + 1e-9));
+    dynamics_->watchContacts(mayCollide_ && !takesMore);
     if (!hasLooked_ && mayCollide_) findInside(names);
     hasLooked_ = true;
 }
@@ -77,41 +85,59 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
     if (mayFreeze_ && frozen_) return std::nullopt;
     TAUT_EXPECTS(!isOpen_);
     hasMoved_ = true;
-    if (!choice_.need) {
-        dynamics_->keep(Since::tick);
-        const auto fault = takeSubsteps(time, moving);
-        if (!fault && hasCells_) watchVolumes(time.at(1, 1));
-        return fault;
+    if (wantedSubsteps() != choice_.substeps) {
+        dynamics_->synchronise(time.start(), contacts_);
+        startWith(time, wantedSubsteps(), false);
     }
-    if (following_.substeps() != choice_.substeps) {
-        dynamics_->synchronise(time.start());
-        startWith(time, following_.substeps(), false);
-    }
+    const auto fault = choice_.need || shortensForContact_ ? takeTickThatHolds(time, moving) : takeTick(time, moving);
+    if (fault) return fault;
+    if (hasCells_) watchVolumes(time.at(1, 1));
+    watchFreezing(time);
+    return std::nullopt;
+}
+
+std::optional<Fault> Island::takeTick(const TickTime& time, std::span<const ColliderMotion> moving) {
+    dynamics_->keep(Since::tick);
+    const auto fault = takeSubsteps(time, moving);
+    if (!fault) account(dynamics_->takeContactWork());
+    return fault;
+}
+
+// In steps so short that they are within the bound of the state at the tick's end, and contact adds little energy.
+std::optional<Fault> Island::takeTickThatHolds(const TickTime& time, std::span<const ColliderMotion> moving) {
     const std::vector<int> inside = inside_;
     const bool hadTouched = hasTouched_;
+    contacts_.swap(contactsBefore_);
     constexpr int mostRescues = 3;  // of a tick that diverges, perhaps because the state has stiffened within it
     for (int rescues = 0;;) {
         dynamics_->keep(Since::tick);
         const auto fault = takeSubsteps(time, moving);
+        if (fault && !choice_.need) return fault;
+        const ContactWork work = dynamics_->takeContactWork();
+        bool isTooLong = fault.has_value();
         double need = 2.0 * choice_.substeps;
-        if (!fault) {
+        if (!fault && choice_.need) {
             need = (*choice_.need)(dynamics_->fastestNow());
-            if (!following_.isExceededBy(need)) {
-                following_.lengthenIfCalm(need);
-                break;
-            }
+            isTooLong = following_.isExceededBy(need);
+        }
+        if (!isTooLong && !addsTooMuch(work)) {
+            if (choice_.need) following_.lengthenIfCalm(need);
+            account(work);
+            return std::nullopt;
         }
         if (fault && (!fault->isNumber || ++rescues > mostRescues || need > mostSubsteps)) return fault;
-        if (!(need <= mostSubsteps)) return Fault{.point = 0, .time = time.at(1, 1), .isTooStiff = true};
-        following_.shorten(need);
+        if (!isTooLong)
+            contactFactor_ *= 2;
+        else if (need <= mostSubsteps)
+            following_.shorten(need);
+        else
+            return Fault{.point = 0, .time = time.at(1, 1), .isTooStiff = true};
         undoTick();
         inside_ = inside;
         hasTouched_ = hadTouched;
-        dynamics_->synchronise(time.start());
-        startWith(time, following_.substeps(), true);
+        dynamics_->synchronise(time.start(), contactsBefore_);
+        startWith(time, wantedSubsteps(), true);
     }
-    if (hasCells_) watchVolumes(time.at(1, 1));
-    return std::nullopt;
 }
 
 void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
@@ -119,6 +145,7 @@ void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
     choice_.substeps = substeps;
     choice_.step = 1.0 / time.ticksPerSecond / substeps;
     dynamics_->start(time.start(), choice_.step);
+    ticksToLook_ = 0;
 }
 
 std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving) {

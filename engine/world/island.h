@@ -2,6 +2,7 @@
 //
 //   island.cpp          the tick
 //   island_change.cpp   what is changed between two ticks
+//   island_watch.cpp    what contact adds, and what rounding loses
 //   island_report.cpp   energies, frequencies, warnings, why it stopped
 //   island_saving.cpp   its bytes
 //   plasticity.cpp      springs that give way and break, strength.h says when
@@ -49,6 +50,9 @@ struct ColliderMotion {
     int collider = 0;
     collision::Pose from, to;
 };
+
+// By how much contact shortens the steps of "auto" at most.
+inline constexpr int mostContactFactor = 64;
 
 class Island {
   public:
@@ -127,6 +131,8 @@ class Island {
     void visit(StateBytes& bytes);
 
   private:
+    std::optional<Fault> takeTick(const TickTime& time, std::span<const ColliderMotion> moving);
+    std::optional<Fault> takeTickThatHolds(const TickTime& time, std::span<const ColliderMotion> moving);
     std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving);
     // From velocities at the time of the positions.
     void startWith(const TickTime& time, int substeps, bool isRepeated);
@@ -143,6 +149,13 @@ class Island {
     void keepGiven();
     void takeBackGiven();
     void watchPlasticity();
+    void foreseeFreezing(double t);
+    void watchFreezing(const TickTime& time);
+    std::string freezingWarning(int point, int plane) const;
+    bool addsTooMuch(const ContactWork& work) const;
+    void account(const ContactWork& work);
+    std::string contactWarning() const;  // empty where nothing is to be said
+    int wantedSubsteps() const { return contactFactor_ * (choice_.need ? following_.substeps() : ownSubsteps_); }
     void addPoints(const std::vector<bool>& only, const TickTime& time, Metrics& metrics);
     void addSprings(const std::vector<bool>& only, Metrics& metrics);
     void addCells(const Body& body, Metrics& metrics) const;
@@ -156,29 +169,38 @@ class Island {
 
     // What every tick looks at stands close together.
     std::unique_ptr<Dynamics> dynamics_;
-    bool isOpen_ = false;            // v is at the time of x, and the method not started from there
-    bool mayCollide_ = false;        // there are colliders, and bodies for them
-    bool mayGiveWay_ = false;        // there are springs that yield or break
-    bool mayFreeze_ = false;         // after a fault
-    bool hasCells_ = false;          // to watch
-    bool hasMoved_ = false;          // any tick yet
-    bool hasTouched_ = false;        // a contact yet
-    bool hasLooked_ = false;         // which points stand inside colliders
-    bool isChanged_ = false;         // the plan is not as it was built
-    bool haveForcesJumped_ = false;  // since the island was opened
-    Changes changes_;                // of the plan, that the dynamics know nothing of yet
+    bool isOpen_ = false;              // v is at the time of x, and the method not started from there
+    bool mayCollide_ = false;          // there are colliders, and bodies for them
+    bool mayGiveWay_ = false;          // there are springs that yield or break
+    bool mayFreeze_ = false;           // after a fault
+    bool hasCells_ = false;            // to watch
+    bool hasMoved_ = false;            // any tick yet
+    bool hasTouched_ = false;          // a contact yet
+    bool hasLooked_ = false;           // which points stand inside colliders
+    bool isChanged_ = false;           // the plan is not as it was built
+    bool haveForcesJumped_ = false;    // since the island was opened
+    Changes changes_;                  // of the plan, that the dynamics know nothing of yet
+    bool shortensForContact_ = false;  // the step
     StepChoice choice_;
-    StepFollowing following_;              // where choice_.need is
-    std::vector<StepChange> stepChanges_;  // so far
+    double tickSeconds_;                     // [s]
+    int ownSubsteps_ = 1;                    // a tick, where they do not follow the state
+    int contactFactor_ = 1, calmTicks_ = 0;  // by which contact makes them more; since when it does not need that
+    ContactWork contactWork_;                // so far
+    double mostContactWork_ = 0;             // [J] that it was at any time
+    int ticksToLook_ = 0;                    // until size and place tell anew whether rounding matters
+    double mayLose_ = 0;                     // [m] that rounding may keep a point back; 0 where it cannot
+    StepFollowing following_;                // where choice_.need is
+    std::vector<StepChange> stepChanges_;    // so far
     IslandPlan plan_;
     ForceList forces_;
     ode::Work workElsewhere_;  // of what ran before it was read, less that of what was only asked
     std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
-    std::vector<collision::Contact> contacts_;  // of the last tick's last step
-    std::vector<int> inside_;                   // points that began inside a collider and have not been out yet
+    std::vector<collision::Contact> contacts_;        // of the last tick's last step
+    std::vector<collision::Contact> contactsBefore_;  // of the tick before, while a tick may be repeated
+    std::vector<int> inside_;                         // points that began inside a collider and have not been out yet
     std::vector<std::string> insideWarnings_;
-    std::string stretchWarning_, collapseWarning_, limitWarning_;
+    std::string stretchWarning_, collapseWarning_, limitWarning_, freezingWarning_;
     std::optional<FrozenIsland> frozen_;
 
     // Of springs that yield or break.

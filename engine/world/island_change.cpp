@@ -7,7 +7,7 @@ namespace taut::world {
 
 void Island::open(const TickTime& time) {
     if (isOpen_) return;
-    if (!frozen_) dynamics_->synchronise(time.start());
+    if (!frozen_) dynamics_->synchronise(time.start(), contacts_);
     isOpen_ = true;
 }
 
@@ -24,7 +24,7 @@ void Island::close(const TickTime& time) {
         const double need = (*choice_.need)(dynamics_->fastestNow());
         if (following_.isExceededBy(need)) following_.shorten(need);
     }
-    startWith(time, choice_.need ? following_.substeps() : choice_.substeps, false);
+    startWith(time, wantedSubsteps(), false);
     changes_.reset();
     haveForcesJumped_ = false;
     isOpen_ = false;
@@ -89,7 +89,7 @@ std::vector<dvec3> Island::velocities(const TickTime& time) {
     if (isOpen_) return dynamics_->velocities();
     // Asking changes nothing, the work of the run least of all.
     workElsewhere_ += dynamics_->work();
-    std::vector<dvec3> v = dynamics_->velocitiesAt(time.start());
+    std::vector<dvec3> v = dynamics_->velocitiesAt(time.start(), contacts_);
     workElsewhere_ -= dynamics_->work();
     return v;
 }

@@ -96,7 +96,8 @@ ode::Work Island::work() const {
 std::vector<std::string> Island::warnings() const {
     std::vector<std::string> all = choice_.warnings;
     all.insert(all.end(), insideWarnings_.begin(), insideWarnings_.end());
-    for (const std::string& warning : {stretchWarning_, collapseWarning_, limitWarning_})
+    for (const std::string& warning :
+         {stretchWarning_, collapseWarning_, limitWarning_, freezingWarning_, contactWarning()})
         if (!warning.empty()) all.push_back(warning);
     if (work().unconverged > 0) all.push_back(unconvergedWarning(work(), plan_));
     if (frozen_) all.push_back(explainFreeze(*frozen_, choice_, method().title));

@@ -124,16 +124,13 @@ void Island::visitStep(StateBytes& bytes) {
     bytes(follows);
     bytes(splits);
     bytes(substeps);
-    if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && substeps != choice_.substeps))
+    bytes(contactFactor_);
+    bytes(calmTicks_);
+    bytes.require(contactFactor_ >= 1 && contactFactor_ <= mostContactFactor && calmTicks_ >= 0);
+    // By contact they may have been more, and be about to be less again.
+    const bool isOwn = substeps > 0 && substeps % ownSubsteps_ == 0 && substeps / ownSubsteps_ <= mostContactFactor;
+    if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && !isOwn))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
-    if (!follows) return;
-    double safety = choice_.need->safety;
-    bytes(safety);
-    if (safety != choice_.need->safety)
-        misfit("the rule for the steps of " + plan_.bodies.front()->fullName() + " is another");
-    following_.visit([&](auto& number) { bytes(number); });
-    bytes.notNegative(choice_.need->moreOmega2);
-    bytes.notNegative(choice_.need->others.rate);
     bytes.each(stepChanges_, [&](StepChange& change) {
         bytes(change.time);
         bytes(change.from);
@@ -141,6 +138,21 @@ void Island::visitStep(StateBytes& bytes) {
         bytes(change.isRepeated);
         bytes.require(change.from > 0 && change.from <= mostSubsteps && change.to > 0 && change.to <= mostSubsteps);
     });
+    for (double* number : {&contactWork_.added, &contactWork_.atTouch, &mostContactWork_}) bytes.raw(*number);
+    if (!follows) {
+        if (!bytes.isReading()) return;
+        choice_.substeps = substeps;
+        choice_.step = tickSeconds_ / substeps;
+        dynamics_->setStep(choice_.step);
+        return;
+    }
+    double safety = choice_.need->safety;
+    bytes(safety);
+    if (safety != choice_.need->safety)
+        misfit("the rule for the steps of " + plan_.bodies.front()->fullName() + " is another");
+    following_.visit([&](auto& number) { bytes(number); });
+    bytes.notNegative(choice_.need->moreOmega2);
+    bytes.notNegative(choice_.need->others.rate);
     bytes.require(substeps > 0 && substeps <= mostSubsteps && following_.isSound());
     if (!bytes.isReading()) return;
     choice_.substeps = substeps;
@@ -172,8 +184,11 @@ void Island::visit(StateBytes& bytes) {
     for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);
     bytes.list(contacts_);
     for (const collision::Contact& contact : contacts_)
-        bytes.require(contact.point >= 0 && contact.point < static_cast<int>(plan_.points.size()));
-    for (std::string* warning : {&stretchWarning_, &collapseWarning_, &limitWarning_}) bytes(*warning);
+        bytes.require(
+            contact.point >= 0 && contact.point < static_cast<int>(plan_.points.size()) && contact.friction >= 0 &&
+            std::isfinite(glm::dot(contact.normal, contact.normal) + glm::dot(contact.carried, contact.carried)));
+    for (std::string* warning : {&stretchWarning_, &collapseWarning_, &limitWarning_, &freezingWarning_})
+        bytes(*warning);
     ode::Work done = work();
     for (std::int64_t* number : {&done.evaluations, &done.iterations, &done.unconverged}) bytes(*number);
     bytes.optional(frozen_, [&](FrozenIsland& frozen) {

@@ -6,6 +6,7 @@
 
 #include "support/scenes.h"
 #include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
 #include "taut/world/forces/wind.h"
 
 namespace taut::test::precision {
@@ -67,6 +68,43 @@ TEST(SinglePrecision, HasTheEnergyOfDouble) {
     EXPECT_NEAR(a.gravitational / b.gravitational, 1.0, 1e-4);
     // Strains are a few 1e-3, and 3e-8 m rounding on springs of 0.05 m is 1e-6 of strain.
     EXPECT_NEAR(a.elastic / b.elastic, 1.0, 1e-2);
+}
+
+world::SceneSpec chainAt(const dvec3& place, world::Precision precision, double dt) {
+    world::SceneSpec scene;
+    scene.solver.precision = precision;
+    scene.solver.dt = dt;
+    world::NetSpec net;
+    net.name = "chain";
+    net.points = {{"top", place, 0.1, true, {}}, {"end", place + dvec3(1.0, 0.0, 0.0), 0.1, false, {}}};
+    net.springs = {{"top", "end", 100.0, {}, {}, {}}};
+    scene.bodies.add(net);
+    return scene;
+}
+
+bool saysThatItFreezes(const world::World& world, const std::string& name) {
+    const std::vector<std::string> all = world.warnings();
+    return std::any_of(all.begin(), all.end(), [&](const std::string& warning) {
+        return warning.starts_with(name + ": in single precision") && warning.find("\"double\"") != std::string::npos;
+    });
+}
+
+// x + h v = x below v = ½ ulp(x)/h, at 2 m and 1e-7 s 1.2 m/s, at 4 km and 1e-3 s 0.24 m/s.
+TEST(SinglePrecision, SaysWhereRoundingKeepsABodyInPlace) {
+    using world::Precision;
+    // From the start: at rest, for longer than the tick of 1/60 s that gives 0.16 m/s.
+    EXPECT_TRUE(saysThatItFreezes(world::World(chainAt({0, 2.5, 0}, Precision::single_, 1e-7)), "net.chain"));
+    EXPECT_FALSE(saysThatItFreezes(world::World(chainAt({0, 2.5, 0}, Precision::double_, 1e-7)), "net.chain"));
+    EXPECT_FALSE(saysThatItFreezes(world::World(chainAt({0, 2.5, 0}, Precision::single_, 1e-4)), "net.chain"));
+
+    // On the way: aside, 4 km from the origin, where a stretch of 1 mm gives it 1 m/s² and nothing moves for 0.24 s.
+    world::SceneSpec aside = chainAt({4096.5, 1.5, 0}, Precision::single_, 1e-3);
+    aside.bodies.of<world::NetSpec>()[0].springs[0].restLength = 0.999;
+    aside.world.gravity = dvec3(0.0);
+    world::World far(aside);
+    EXPECT_FALSE(saysThatItFreezes(far, "net.chain"));
+    EXPECT_FALSE(advance(far, 60));
+    EXPECT_TRUE(saysThatItFreezes(far, "net.chain"));
 }
 
 }  // namespace

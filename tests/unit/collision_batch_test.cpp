@@ -82,6 +82,8 @@ void expectSame(const Points<Real>& a, const Points<Real>& b) {
         EXPECT_EQ(a.contacts[c].position, b.contacts[c].position);
         EXPECT_EQ(a.contacts[c].normal, b.contacts[c].normal);
         EXPECT_EQ(a.contacts[c].impulse, b.contacts[c].impulse);
+        EXPECT_EQ(a.contacts[c].carried, b.contacts[c].carried);
+        EXPECT_EQ(a.contacts[c].friction, b.contacts[c].friction);
     }
 }
 

@@ -87,6 +87,21 @@ TYPED_TEST(CollisionContact, PointSpawnedInsideGoesTheShortestWayOutWithoutSpeed
     }
 }
 
+// What fields add to a speed in two steps; at rest a point arrives with half of it.
+TYPED_TEST(CollisionContact, BouncesFromTwiceTheSpeedThatAStepOfTheGravityThereGives) {
+    Colliders colliders;
+    colliders.add(planeShape(), {0.0, 0.5}, {});
+    for (double fall : {0.0, 9.81, 25.0, 200.0})
+        for (double share : {0.99, 1.01}) {
+            const double h = 1e-3, speed = share * 2.0 * fall * h + (fall > 0 ? 0.0 : 1e-6);
+            Flyer<TypeParam> point({0.0, 0.0, 0.0}, {0.0, -speed, 0.0});
+            point.fall = fall;
+            point.step(colliders, h);
+            const bool bounces = share > 1.0 || fall == 0.0;
+            EXPECT_NEAR(point.velocity().y, bounces ? 0.5 * speed : 0.0, 1e-6 * speed) << fall << " m/s²";
+        }
+}
+
 TYPED_TEST(CollisionContact, ArrivingPointLosesItsNormalSpeedOnly) {
     for (const Case& c : everyShape()) {
         SCOPED_TRACE(c.name);

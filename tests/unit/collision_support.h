@@ -44,6 +44,7 @@ struct Flyer {
     Real inverseMass = 1;
     double thickness = 0.0;
     double friction = 1.0;
+    double fall = gravity;  // [m/s²]
     std::vector<Contact> contacts;
 
     explicit Flyer(const glm::dvec3& position, const glm::dvec3& velocity = glm::dvec3(0.0)) {
@@ -70,6 +71,7 @@ struct Flyer {
         points.inverseMass = &inverseMass;
         points.thickness = thickness;
         points.friction = friction;
+        points.gravity = fall;
         colliders.resolve(points, h, contacts);
     }
     void step(const Colliders& colliders, double h, const glm::dvec3& acceleration = glm::dvec3(0.0)) {

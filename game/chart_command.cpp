@@ -20,9 +20,9 @@
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/machine.h"
-#include "taut/study/growth_table.h"
 #include "taut/study/problems.h"
 #include "taut/study/scene_subject.h"
+#include "taut/study/steps_table.h"
 #include "taut/study/work_precision.h"
 #include "taut/study/work_precision_chart.h"
 #include "taut/study/work_precision_text.h"
@@ -92,11 +92,16 @@ study::WorkPrecision play(const study::Subject& subject, study::StudySettings se
     return studyWorkPrecision(subject, settings);
 }
 
-void printResults(const study::WorkPrecision& result, const std::vector<study::GrowthRow>& growth) {
+// Its two equations have a table of their own.
+bool isOfTheSlides(const study::Subject& subject) {
+    return subject.name() == "growth" || subject.name() == "quotient";
+}
+
+void printResults(const study::WorkPrecision& result, const std::vector<study::StepsRow>& steps) {
     printResult("{}\n\n{}", result.title, study::workPrecisionSummary(result));
-    if (!growth.empty())
-        printResult("\nSteps until the error at t = 1 is below 1e-6, and what four evaluations buy\n\n{}",
-                    study::growthSummary(growth));
+    if (!steps.empty())
+        printResult("\nSteps until the error at the end is below 1e-6, and what four evaluations buy\n\n{}",
+                    study::stepsSummary(steps));
     for (const std::string& remark : result.remarks) printResult("\n{}\n", remark);
 }
 
@@ -130,12 +135,12 @@ int chart(const ChartFlags& flags) {
     const Interruption interruption;
     const LabFolder output(folder, flags.quiet);
     const study::WorkPrecision result = play(*subject, studySettings(flags), flags.quiet, interruption.flag());
-    std::vector<study::GrowthRow> growth;
-    if (subject->name() == "growth" && !result.isInterrupted) growth = study::growthTable(1e-6, flags.methods);
+    std::vector<study::StepsRow> steps;
+    if (isOfTheSlides(*subject) && !result.isInterrupted) steps = study::stepsTable(*subject, 1e-6, flags.methods);
     const pipeline::Machine machine = pipeline::machine();
     output.write(subject->name() + ".csv", study::workPrecisionCsv(result));
-    output.write(subject->name() + ".json", study::workPrecisionJson(result, growth, machineFacts(machine)));
-    printResults(result, growth);
+    output.write(subject->name() + ".json", study::workPrecisionJson(result, steps, machineFacts(machine)));
+    printResults(result, steps);
     for (const study::NamedChart& drawn : study::workPrecisionCharts(result, {machineNote(machine)}))
         output.draw(subject->name() + "-" + drawn.name, drawn.chart);
     return output.finish(interruption);

@@ -54,14 +54,14 @@ report::Columns<MethodFacts> methodColumns(const WorkPrecision& study) {
             {"measured_order_double", order(Precision::double_)}};
 }
 
-report::Columns<GrowthRow> growthColumns() {
-    return {{"method", &GrowthRow::method, "method"},
-            {"tolerance", &GrowthRow::tolerance},
-            {"steps", &GrowthRow::steps, "steps to 1e-6"},
-            {"evaluations", &GrowthRow::evaluations, "evaluations"},
-            {"error", &GrowthRow::error, "error"},
-            {"steps_with_four_evaluations", &GrowthRow::stepsForFour, "steps with 4 evaluations"},
-            {"error_with_four_evaluations", &GrowthRow::errorForFour, "error then"}};
+report::Columns<StepsRow> stepsColumns() {
+    return {{"method", &StepsRow::method, "method"},
+            {"tolerance", &StepsRow::tolerance},
+            {"steps", &StepsRow::steps, "steps to 1e-6"},
+            {"evaluations", &StepsRow::evaluations, "evaluations"},
+            {"error", &StepsRow::error, "error"},
+            {"steps_with_four_evaluations", &StepsRow::stepsForFour, "steps with 4 evaluations"},
+            {"error_with_four_evaluations", &StepsRow::errorForFour, "error then"}};
 }
 
 // The cheapest run of a curve whose error is below a bound; nullptr when there is none.
@@ -84,7 +84,7 @@ std::string workPrecisionCsv(const WorkPrecision& study) {
     return csv(tableOf(runColumns(study), study.points, In::csv));
 }
 
-std::string workPrecisionJson(const WorkPrecision& study, const std::vector<GrowthRow>& growth,
+std::string workPrecisionJson(const WorkPrecision& study, const std::vector<StepsRow>& steps,
                               const MachineFacts& machine) {
     Json json;
     json["problem"] = study.name;
@@ -114,7 +114,7 @@ std::string workPrecisionJson(const WorkPrecision& study, const std::vector<Grow
     json["frame_s"] = study.frame;
     json["contacts"] = study.hasContacts;
     json["remarks"] = study.remarks;
-    if (!growth.empty()) json["growth_table"] = report::jsonOf<Json>(growthColumns(), growth);
+    if (!steps.empty()) json["steps_table"] = report::jsonOf<Json>(stepsColumns(), steps);
     json["runs"] = report::jsonOf<Json>(runColumns(study), study.points);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -154,8 +154,8 @@ std::string workPrecisionSummary(const WorkPrecision& study) {
     return report::aligned(table);
 }
 
-std::string growthSummary(const std::vector<GrowthRow>& rows) {
-    return aligned(tableOf(growthColumns(), rows, In::people));
+std::string stepsSummary(const std::vector<StepsRow>& rows) {
+    return aligned(tableOf(stepsColumns(), rows, In::people));
 }
 
 }  // namespace taut::study

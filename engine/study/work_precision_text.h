@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "taut/study/growth_table.h"
+#include "taut/study/steps_table.h"
 #include "taut/study/work_precision.h"
 
 namespace taut::study {
@@ -17,13 +17,13 @@ using MachineFacts = std::vector<std::pair<std::string, std::string>>;
 std::string workPrecisionCsv(const WorkPrecision& study);
 
 // Everything but the observations, with the machine. `growth` may be empty.
-std::string workPrecisionJson(const WorkPrecision& study, const std::vector<GrowthRow>& growth,
+std::string workPrecisionJson(const WorkPrecision& study, const std::vector<StepsRow>& steps,
                               const MachineFacts& machine);
 
 // A line a method and precision: limit, measured order, what its best run and the cheapest within 1 % and 0.1 % of the
 // motion cost.
 std::string workPrecisionSummary(const WorkPrecision& study);
 
-std::string growthSummary(const std::vector<GrowthRow>& rows);
+std::string stepsSummary(const std::vector<StepsRow>& rows);
 
 }  // namespace taut::study

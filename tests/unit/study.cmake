@@ -2,7 +2,7 @@ list(APPEND TAUT_UNIT_TESTS
   study_atlas_command_test.cpp
   study_atlas_test.cpp
   study_chart_command_test.cpp
-  study_growth_test.cpp
+  study_steps_table_test.cpp
   study_horizon_test.cpp
   study_plan_command_test.cpp
   study_plan_test.cpp

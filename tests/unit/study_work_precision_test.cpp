@@ -181,11 +181,11 @@ TEST(StudyWorkPrecision, FailedRunsAreMarkedInEveryChart) {
 TEST(StudyWorkPrecision, JsonHoldsTheMachineAndEveryRun) {
     const WorkPrecision& study = oscillatorStudy();
     const auto json =
-        nlohmann::json::parse(workPrecisionJson(study, growthTable(1e-2), {{"processor", "a \"fast\" one"}}));
+        nlohmann::json::parse(workPrecisionJson(study, stepsTable(*makeGrowth(), 1e-2), {{"processor", "a \"fast\" one"}}));
     EXPECT_EQ(json["machine"]["processor"], "a \"fast\" one");
     EXPECT_EQ(json["runs"].size(), study.points.size());
     EXPECT_EQ(json["reference"]["kind"], "exact");
-    EXPECT_EQ(json["growth_table"].size(), 4U);
+    EXPECT_EQ(json["steps_table"].size(), 4U);
     EXPECT_TRUE(json["methods"].back().contains("measured_order_double"));
 }
 

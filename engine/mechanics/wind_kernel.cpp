@@ -83,9 +83,9 @@ inline void findRelativeAir(const Corners<Real>& slip, const Real* flow, int cou
     }
 }
 
-// With N = e1 × e2 = 2 A n and q = u·N the force ½ρA (C_D |u·n| u + C_L (u·n) (|u| n - (u·n)/|u| u)) is
-//   ¼ρ (C_D |q| u + C_L (q/|N|) (|u| N - (q/|u|) u)).
-// A trifle added to |N| and |u| makes 0/0 a 0: no area or no wind, no force.
+// With N = e1 × e2 = 2 A n, q = u·N and c = q/(|u||N|) the force ½ρA (C_D |u·n| u + C_L (u·n) (|u| n - (u·n)/|u| u)) is
+//   ¼ρ (C_D |q| u + C_L c (|u|² N - q u)).
+// A trifle added to |u||N| makes 0/0 a 0: no area or no wind, no force.
 template <class Real>
 inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Real lift, int count,
                        Block<Real>& block) {
@@ -102,12 +102,10 @@ inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Re
         const Real nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
         const Real ux = ax[l], uy = ay[l], uz = az[l];
         const Real q = ux * nx + uy * ny + uz * nz;
-        const Real speed = root(ux * ux + uy * uy + uz * uz) + tiny;
-        const Real size = root(nx * nx + ny * ny + nz * nz) + tiny;
-        const Real share = q / (speed * size);  // u·n/|u|
-        const Real s = lift * weight[l] * share * speed;
-        const Real alongNormal = s * speed;
-        const Real alongAir = drag * weight[l] * (q < Real(0) ? -q : q) - s * share * size;
+        const Real speed2 = ux * ux + uy * uy + uz * uz, size2 = nx * nx + ny * ny + nz * nz;
+        const Real share = weight[l] * q / (root(speed2 * size2) + tiny);
+        const Real alongNormal = lift * share * speed2;
+        const Real alongAir = drag * weight[l] * (q < Real(0) ? -q : q) - lift * share * q;
         fx[l] = alongAir * ux + alongNormal * nx;
         fy[l] = alongAir * uy + alongNormal * ny;
         fz[l] = alongAir * uz + alongNormal * nz;

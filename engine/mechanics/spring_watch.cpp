@@ -96,10 +96,10 @@ bool SpringWatch<Real>::isAnyBeyond(const SpringNetwork<Real>& network, const Pa
 template <class Real>
 void SpringWatch<Real>::find(const SpringNetwork<Real>& network, int stride, const Real* x,
                              std::vector<int>& beyond) const {
-    std::vector<char> isHit(parts_.size(), 0);
+    isHit_.assign(parts_.size(), 0);
     const auto look = [&](int c) {
         const auto k = static_cast<std::size_t>(c);
-        isHit[k] = isAnyBeyond(network, parts_[k], stride, x) ? 1 : 0;
+        isHit_[k] = isAnyBeyond(network, parts_[k], stride, x) ? 1 : 0;
     };
     if (parts_.size() == 1)
         look(0);
@@ -116,7 +116,7 @@ void SpringWatch<Real>::find(const SpringNetwork<Real>& network, int stride, con
         if (square > most_[p] || (!least_.empty() && square < least_[p])) beyond.push_back(network.order[p]);
     };
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-        if (isHit[k] == 0) continue;
+        if (isHit_[k] == 0) continue;
         for (const int r : parts_[k].runs) {
             if (!isRunBeyond(network, r, stride, x)) continue;
             const SpringRun<Real>& run = network.runs[static_cast<std::size_t>(r)];

@@ -44,8 +44,9 @@ class SpringWatch {
 
     bool (*run_)(const WatchRun<Real>&);
     bool (*list_)(const WatchList<Real>&);
-    std::vector<Part> parts_;         // (chunks of the network)
-    std::vector<Real> least_, most_;  // (places of the network) squares [m²]; least_ empty: none
+    std::vector<Part> parts_;          // (chunks of the network)
+    mutable std::vector<char> isHit_;  // (parts) scratch
+    std::vector<Real> least_, most_;   // (places of the network) squares [m²]; least_ empty: none
 };
 
 extern template class SpringWatch<float>;

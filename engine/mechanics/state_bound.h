@@ -1,8 +1,12 @@
-// The bound of a state's frequencies, B2 of stability.h, over a network as it is laid out for speed: cheap enough to be
-// asked for every tick.
+// The bound of a state's frequencies over a network as it is laid out for speed: cheap enough to be asked for every
+// tick.
 //
-// With cells each element is weighed with what its points are good for at rest, not now: any positive weights bound the
-// state (stability.h), those at rest nearly as tightly as its own, and they cost no sweep of their own.
+// Springs alone: B2 of stability.h. With cells, and any weights w_i > 0 of the points that move (0 of held ones),
+//
+//   λ <= max over points i of λ_max(Σ over the elements e at i of (Σ over the points j of e of w_j) K_e,ii) / (m_i w_i)
+//
+// by Cauchy and Schwarz, and what the pressures of the cells add. The weights are the a_i of B2 at rest: nearly as
+// tight as those of the state itself, which would cost a sweep of their own.
 #pragma once
 
 #include <array>

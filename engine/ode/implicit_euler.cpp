@@ -64,8 +64,7 @@ class ImplicitEuler final : public Method<Real> {
         using Hold = typename Supports<Real>::Hold;
         const Step now{system, implicitPartOf(system, implicitEulerTitle), t + h, h, start_};
         supports_.take(supports, state.x.data());
-        start_.memory.resize(1);
-        start_.memory[0] = state.memory[0];
+        std::copy(state.memory[0].begin(), state.memory[0].end(), start_.memory[0].begin());
         solve(now);
         forEachNumber(
             state.layout,
@@ -104,6 +103,7 @@ class ImplicitEuler final : public Method<Real> {
     void prepare(Layout layout) {
         const std::size_t n = layout.size();
         start_ = State<Real>(layout);
+        start_.memory.assign(1, core::AlignedArray<Real>(n));
         supports_.resize(layout);
         change_ = b_ = u_ = trial_ = place_ = acceleration_ = scratch_ = core::AlignedArray<Real>(n);
         matrix_.resize(n);
@@ -142,8 +142,8 @@ class ImplicitEuler final : public Method<Real> {
         now.linear.addProduct(state.v.data(), scratch_.data());
         ++this->work_.iterations;
         // Where points that are moved by hand will be gives their velocity, so that x + h u is there.
-        place_ = state.x;
-        trial_ = state.v;
+        std::copy(state.x.begin(), state.x.end(), place_.begin());
+        std::copy(state.v.begin(), state.v.end(), trial_.begin());
         now.system.prescribe(now.end, place_.data(), trial_.data());
         std::fill(b_.begin(), b_.end(), Real(0));
         forEachNumber(
@@ -243,7 +243,7 @@ MethodInfo implicitEuler() {
             .title = implicitEulerTitle,
             .order = 1,
             .evaluations = 1,
-            .storedArrays = 12,
+            .storedArrays = 19,
             .symplectic = false,
             .reversible = false,
             .limit = "none on linear problems; solves by conjugate gradients, and damps by ζ = z/2",

@@ -59,7 +59,7 @@ class ImplicitMatrix {
     }
 
     void resize(std::size_t size) {
-        inverse_ = given_ = product_ = whole_ = core::AlignedArray<Real>(size);
+        inverse_ = core::AlignedArray<Real>(size);
         solver_ = ConjugateGradient<Real>(size);
     }
     std::size_t size() const { return inverse_.size(); }
@@ -97,11 +97,12 @@ class ImplicitMatrix {
             supports.flatten(out);
         };
         // What is given along normals goes to the other side.
-        given_ = u;
+        if (given_.size() != u.size()) given_ = product_ = whole_ = core::AlignedArray<Real>(u.size());
+        std::copy(u.begin(), u.end(), given_.begin());
         supports.flatten(u.data());
         for (std::size_t i = 0; i < u.size(); ++i) given_[i] -= u[i];
         multiplyAcross(given_.data(), product_.data());
-        whole_ = b;
+        std::copy(b.begin(), b.end(), whole_.begin());
         supports.flatten(b.data());
         for (std::size_t i = 0; i < b.size(); ++i) b[i] -= product_[i];
         const Solution solution = solve(multiplyAcross, b.data(), u.data(), work);

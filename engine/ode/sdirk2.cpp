@@ -44,7 +44,7 @@ class Sdirk2 final : public Method<Real> {
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
         if (matrix_.size() != state.layout.size()) prepare(state.layout);  // a state that another one started
         implicitPartOf(system, sdirk2Title);
-        u_ = state.v;
+        std::copy(state.v.begin(), state.v.end(), u_.begin());
         for (std::size_t i = 0; i < u_.size(); ++i)
             seen_[i] = state.v[i] + static_cast<Real>(gamma * h) * state.memory[0][i];
         stage(system, t + gamma * h, gamma * h, state.x, state.v);

@@ -23,7 +23,7 @@ class ContactWatch {
     // stride: of the planes, which are all of three times that size.
     void start(const IslandPlan& plan, std::vector<mechanics::VolumeCell> cells, int stride) {
         planar_.stride = stride;
-        x = v = w = Planes(3 * static_cast<std::size_t>(stride));
+        x = v = w = vStart = Planes(3 * static_cast<std::size_t>(stride));
         cells_ = std::move(cells);
         springsAt_.assign(plan.points.size(), {});
         cellsAt_.assign(plan.points.size(), {});
@@ -38,8 +38,8 @@ class ContactWatch {
 
     // Before contacts are resolved: places, velocities as they are stored, and those at the time of the places.
     void remember(const Planes& places, const Planes& stored, const Real* velocities) {
-        x = places;
-        v = stored;
+        std::copy(places.begin(), places.end(), x.begin());
+        std::copy(stored.begin(), stored.end(), v.begin());
         std::copy_n(velocities, w.size(), w.begin());
     }
     // At the first touch: how much there is before it.

@@ -10,6 +10,7 @@
 
 #include "taut/mechanics/anchor.h"
 #include "taut/world/island_contacts.h"
+#include "taut/world/rounding_watch.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -41,8 +42,8 @@ class DynamicsOf final : public Dynamics {
             system_.setPoints(massesOf(plan_));
             lead();
         }
-        if (isMaterial || isShape) contacts_.rewatch();
         if (isShape) return setForces(forces);
+        if (isMaterial) contacts_.rewatch();
         if (isMaterial)
             for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
         if (isMaterial && !volumes_.empty()) bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
@@ -67,6 +68,7 @@ class DynamicsOf final : public Dynamics {
         system_.removeGenerators();
         volumes_.clear();
         acting_.clear();
+        contacts_.rewatch();
         for (std::size_t number = 0; number < forces.size(); ++number) {
             if (number == 1) addVolumes();  // after gravity
             std::unique_ptr<Generator> generator;
@@ -116,28 +118,9 @@ class DynamicsOf final : public Dynamics {
             if (generator->isUniform()) sum += generator->uniformAcceleration(t);
         return sum;
     }
-    double freezingSpeed(double place) const override {
-        if constexpr (sizeof(Real) == sizeof(double)) return 0.0;
-        const Real x = static_cast<Real>(std::abs(place));
-        const Real next = std::nextafter(x, std::numeric_limits<Real>::infinity());
-        return 0.5 * static_cast<double>(next - x) / step_;
-    }
+    double freezingSpeed(double place) const override { return rounding_.freezingSpeed(place, step_); }
     Lost lost(double seconds, double most) override {
-        if (lost_.size() != state_.x.size()) lost_ = Planes(state_.x.size());
-        const Real h = static_cast<Real>(step_), length = static_cast<Real>(seconds);
-        Real worst = static_cast<Real>(most);
-        Lost found;
-        for (int p = 0; p < 3; ++p)
-            for (int i = 0; i < state_.layout.count; ++i) {
-                const std::size_t k = index(i, p);
-                const Real x = state_.x[k], v = state_.v[k];
-                const bool isStuck = x + h * v == x && system_.inverseMasses()[i] != Real(0);
-                lost_[k] = isStuck ? lost_[k] + length * v : Real(0);
-                if (!(std::abs(lost_[k]) > worst)) continue;
-                worst = std::abs(lost_[k]);
-                found = {i, p};
-            }
-        return found;
+        return rounding_.find(state_, system_.inverseMasses(), step_, seconds, most);
     }
     void emerge(const collision::Colliders& colliders, std::vector<int>& inside) override {
         contacts_.emerge(colliders, *method_, step_, emergingSpeed, inside);
@@ -248,6 +231,7 @@ class DynamicsOf final : public Dynamics {
         bytes(memory);
         bytes.require(memory == state_.memory.size());
         for (auto& array : state_.memory) bytes.planes(array);
+        rounding_.visit(bytes, state_.x.size());
         if (!bytes.isReading()) return;
         contacts_.drop();
         makeMethod();  // it has nothing of its own that the state does not have
@@ -386,7 +370,7 @@ class DynamicsOf final : public Dynamics {
     mechanics::SpringWatch<Real> watch_;
     IslandContacts<Real> contacts_;
     Planes velocity_;  // scratch
-    Planes lost_;      // [m] that velocities say and positions, stuck since then, do not
+    RoundingWatch<Real> rounding_;
 };
 
 }  // namespace

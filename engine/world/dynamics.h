@@ -79,6 +79,9 @@ class Dynamics {
     // whether any was touched; contacts are appended where they are asked for.
     virtual void rememberPositions() = 0;
     virtual bool collide(const collision::Colliders& colliders, std::vector<collision::Contact>* contacts) = 0;
+    // After that: points that began inside a collider go on their way out no faster than emergingSpeed; those that are
+    // out leave the list.
+    virtual void emerge(const collision::Colliders& colliders, std::vector<int>& inside) = 0;
     // Whether collide() sums up what it does to the energy, and that sum since it was last taken.
     virtual void watchContacts(bool isOn) = 0;
     virtual ContactWork takeContactWork() = 0;
@@ -92,9 +95,6 @@ class Dynamics {
         int point = -1, plane = 0;
     };
     virtual Lost lost(double seconds, double most) = 0;
-    // After that: points that began inside a collider go on their way out no faster than emergingSpeed; those that are
-    // out leave the list.
-    virtual void emerge(const collision::Colliders& colliders, std::vector<int>& inside) = 0;
     // The state as it is, to come back to: at the start of a tick, or of a step.
     virtual void keep(Since moment) = 0;
     virtual void goBack(Since moment) = 0;

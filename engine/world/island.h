@@ -75,11 +75,8 @@ class Island {
     // Whether any spring tore in the last tick.
     bool hasTorn() const { return hasTorn_; }
 
-    // Puts the state back that the last tick began with.
-    void undoTick() {
-        dynamics_->goBack(Since::tick);
-        takeBackGiven();
-    }
+    // Puts back what the last tick began with.
+    void undoTick();
 
     // After a fault: back to the state before the step that failed, where it stays; its ticks do nothing any more.
     void freeze(const Fault& fault, const TickTime& time);
@@ -134,6 +131,9 @@ class Island {
     std::optional<Fault> takeTick(const TickTime& time, std::span<const ColliderMotion> moving);
     std::optional<Fault> takeTickThatHolds(const TickTime& time, std::span<const ColliderMotion> moving);
     std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving);
+    // For undoTick(), besides what gives way.
+    void keepTouches();
+    void keepSteps();
     // From velocities at the time of the positions.
     void startWith(const TickTime& time, int substeps, bool isRepeated);
     std::optional<Fault> overstrained(double t);
@@ -196,9 +196,19 @@ class Island {
     ode::Work workElsewhere_;  // of what ran before it was read, less that of what was only asked
     std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
-    std::vector<collision::Contact> contacts_;        // of the last tick's last step
-    std::vector<collision::Contact> contactsBefore_;  // of the tick before, while a tick may be repeated
-    std::vector<int> inside_;                         // points that began inside a collider and have not been out yet
+    std::vector<collision::Contact> contacts_;  // of the last tick's last step
+    struct {
+        std::vector<collision::Contact> contacts;
+        std::vector<int> inside;
+        bool hasTouched = false;
+        ContactWork contactWork;
+        double mostContactWork = 0;
+        StepFollowing following;
+        int contactFactor = 1, calmTicks = 0, substeps = 1;
+        double step = 0;
+        std::size_t stepChanges = 0;
+    } before_;                 // what the tick began with
+    std::vector<int> inside_;  // points that began inside a collider and have not been out yet
     std::vector<std::string> insideWarnings_;
     std::string stretchWarning_, collapseWarning_, limitWarning_, freezingWarning_;
     std::optional<FrozenIsland> frozen_;

@@ -33,7 +33,7 @@ class IslandContacts {
     // Before a step.
     void remember() {
         std::copy(state_.x.begin(), state_.x.end(), before_.begin());
-        if (watch_.isOn()) watch_.vStart = state_.v;
+        if (watch_.isOn()) std::copy(state_.v.begin(), state_.v.end(), watch_.vStart.begin());
     }
     std::span<const int> touched() const { return touched_; }  // points, by the last collide()
 
@@ -50,7 +50,7 @@ class IslandContacts {
         if (touched_.empty()) return false;
         method.touch(state_, touched_);
         if (method.yields()) letYield(colliders, method, t, h);
-        if (watch_.isOn()) addWork(method.yields(), gravity);
+        if (watch_.isOn()) addWork(colliders, method.yields(), h, gravity);
         if (contacts != nullptr) contacts->insert(contacts->end(), records_.begin(), records_.end());
         return true;
     }
@@ -209,7 +209,28 @@ class IslandContacts {
         return changes;
     }
 
-    void addWork(bool isAll, const dvec3& gravity) { isAll ? addWorkOnAll(gravity) : addWorkOnTouched(gravity); }
+    // Of points that were outside before the step. What begins inside a collider, or nearer than its thickness, is
+    // brought out whatever the step, and no shorter one adds less.
+    void addWork(const collision::Colliders& colliders, bool isAll, double h, const dvec3& gravity) {
+        outside_.clear();
+        forEachPoint(records_, [&](std::span<const collision::Contact> contacts) {
+            const int point = contacts.front().point;
+            const dvec3 carried = contacts.front().carried, before = planar_.at(before_, point);
+            const double thickness = thicknessOf(point);
+            const double trifle = 1e-3 * thickness + 2e-6 * (1.0 + std::sqrt(glm::dot(before, before)));
+            const double moved = h * std::sqrt(glm::dot(carried, carried));
+            if (colliders.distance(before) >= thickness - moved - trifle) outside_.push_back(point);
+        });
+        if (!isAll)
+            addWorkOnTouched(gravity);
+        else if (outside_.size() == touched_.size())
+            addWorkOnAll(gravity);
+    }
+    double thicknessOf(int point) const {
+        for (const auto& points : colliding_)
+            if (point >= points.first && point < points.last) return points.thickness;
+        return 0.0;
+    }
 
     // Before and after with velocities at the time of the positions, to which half of what the last forces gave leads.
     // What a moving surface gives is its own work: none, as seen from it.
@@ -219,7 +240,8 @@ class IslandContacts {
             planar_.set(watch_.w, point, planar_.at(watch_.w, point) - contacts.front().carried);
         });
         watch_.meetAtTouch(plan_, gravity);
-        const double before = watch_.energy(plan_, touched_, false, watch_.x, watch_.w, gravity);
+        if (outside_.empty()) return;
+        const double before = watch_.energy(plan_, outside_, false, watch_.x, watch_.w, gravity);
         for (std::size_t i = 0; i < watch_.w.size(); ++i) watch_.w[i] = state_.v[i] + (watch_.w[i] - watch_.v[i]);
         forEachPoint(records_, [&](std::span<const collision::Contact> contacts) {
             const int point = contacts.front().point;
@@ -227,7 +249,7 @@ class IslandContacts {
             const dvec3 v = collision::velocityInContact(contacts, planar_.at(watch_.w, point) + carried) - carried;
             planar_.set(watch_.w, point, v);
         });
-        watch_.add(watch_.energy(plan_, touched_, false, state_.x, watch_.w, gravity) - before);
+        watch_.add(watch_.energy(plan_, outside_, false, state_.x, watch_.w, gravity) - before);
     }
 
     // Solved for again a step keeps energy that without contact it would have turned into motion and damped: contact
@@ -262,6 +284,7 @@ class IslandContacts {
     std::vector<collision::MovingPoints<Real>> colliding_;  // bodies
     collision::Candidates candidates_;
     std::vector<int> touched_, more_;                        // points
+    std::vector<int> outside_;                               // of those touched, before the step
     std::vector<collision::Contact> records_, moreRecords_;  // of the last collide(), where they are kept
     std::vector<Slide> slides_;                              // (supports)
     std::vector<ode::Support> supports_;                     // likewise

@@ -138,7 +138,9 @@ void Island::visitStep(StateBytes& bytes) {
         bytes(change.isRepeated);
         bytes.require(change.from > 0 && change.from <= mostSubsteps && change.to > 0 && change.to <= mostSubsteps);
     });
-    for (double* number : {&contactWork_.added, &contactWork_.atTouch, &mostContactWork_}) bytes.raw(*number);
+    for (double* number : {&contactWork_.added, &contactWork_.atTouch, &mostContactWork_, &mayLose_})
+        bytes.raw(*number);
+    bytes(ticksToLook_);
     if (!follows) {
         if (!bytes.isReading()) return;
         choice_.substeps = substeps;

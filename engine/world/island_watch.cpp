@@ -9,19 +9,20 @@ namespace taut::world {
 namespace {
 
 constexpr double mostAdded = 0.02;  // of the energy at the first touch, in sum
+constexpr double trifle = 0.01;     // of that
 constexpr double lostShare = 0.01;  // of a body's size, that rounding may keep a point back
 constexpr int looksEvery = 64;      // ticks
 constexpr double considered = 1.0;  // [s] for which a speed is taken to last
 
 }  // namespace
 
-// A quarter of what is left to add: so the sum stays below, however many impacts come.
+// A quarter of what is left to add: so the sum stays below, however many impacts come. A trifle is no reason.
 bool Island::addsTooMuch(const ContactWork& work) const {
     if (!shortensForContact_ || contactFactor_ >= mostContactFactor || 2 * choice_.substeps > mostSubsteps)
         return false;
     const double atTouch = contactWork_.atTouch > 0 ? contactWork_.atTouch : work.atTouch;
     const double left = 0.9 * mostAdded * atTouch - std::max(contactWork_.added, 0.0);
-    return atTouch > 0 && work.added > 0.25 * std::max(left, 0.0);
+    return atTouch > 0 && work.added > std::max(0.25 * left, trifle * mostAdded * atTouch);
 }
 
 // After a second in which contact has added or taken next to nothing steps are as long again as they may.
@@ -30,7 +31,7 @@ void Island::account(const ContactWork& work) {
     contactWork_.added += work.added;
     mostContactWork_ = std::max(mostContactWork_, contactWork_.added);
     if (contactFactor_ == 1) return;
-    const bool isCalm = std::abs(work.added) < 0.01 * mostAdded * contactWork_.atTouch;
+    const bool isCalm = std::abs(work.added) < trifle * mostAdded * contactWork_.atTouch;
     calmTicks_ = isCalm ? calmTicks_ + 1 : 0;
     if (calmTicks_ * tickSeconds_ < 1.0) return;
     contactFactor_ /= 2;

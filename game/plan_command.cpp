@@ -101,12 +101,17 @@ Action declarePlan(Options& options) {
         .required();
     options.value("-o,--json", flags->json, "Everything that was found, as JSON").typeName("FILE");
     options.flag("--write", flags->write, "Write the changed values into the scene file; the rest of it stays");
-    options.value("--effort", flags->effort, "What all runs together may cost, in 1e9 evaluations times springs and points").within(1e-3, 1e6);
+    options
+        .value("--effort", flags->effort,
+               "What all runs together may cost, in 1e9 springs and points times evaluations: about as many times 5 s")
+        .within(1e-3, 1e6);
     options.value("--set", flags->overrides, "Override a field of the scene; repeatable")
         .typeName("KEY=VALUE")
         .oneValue();
     options.flag("--quiet", flags->quiet, "No progress");
     options.footer(
+        "The cost of a candidate is springs, points and 5 for each volume cell, times evaluations of the forces and\n"
+        "products of an implicit method's solver.\n"
         "Ends with 5 when the need cannot be met, and says how near it came.\n"
         "Examples:\n"
         "  taut plan drape\n"

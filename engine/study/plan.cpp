@@ -15,9 +15,11 @@
 namespace taut::study {
 namespace {
 
+constexpr int mostVerified = 4;            // of one search
 constexpr double stricter = 0.75;          // a target after a verification that failed
 constexpr double generatorShare = 0.25;    // of the target, that all generators left out may change together
 constexpr double shareOfGenerators = 0.2;  // of the effort
+constexpr double shareOfHorizon = 0.3;     // of the effort
 
 Candidate plainCandidate(const PlanContext& context) {
     Candidate candidate;
@@ -31,19 +33,25 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     const double asked = resolvedNeed(context.spec, {1.0, 1.0}).horizon;
     context.tell("scene as it is", 0.02);
     context.grid = planGrid(context.spec, asked);
+    const auto playWhole = [&](const world::SceneSpec& scene) {
+        PlanRun run = play(scene, context.resolution, context.grid,
+                           {.effort = std::max(context.left(), 0.0), .withScales = true});
+        context.spent += static_cast<std::int64_t>(run.effort);
+        if (run.isTooDear) failForEffort(context);
+        return run;
+    };
     world::SceneSpec model = modelOf(context.spec, context.resolution, plainCandidate(context));
-    PlanRun base = play(model, context.resolution, context.grid, {.withScales = true});
+    PlanRun base = playWhole(model);
     std::string failure = base.failure;
     // Where leap-frog cannot, another method may.
     for (const ode::MethodInfo& method : ode::methods()) {
         if (base.isWhole()) break;
         model.solver.integrator = method.name;
-        base = play(model, context.resolution, context.grid, {.withScales = true});
+        base = playWhole(model);
     }
     if (!base.isWhole())
         throw core::Error(core::ErrorKind::diverged,
                           fmt::format("{}: leap-frog with the step found for it: {}", plan.name, failure));
-    context.spent += static_cast<std::int64_t>(base.effort);
     context.plainMethod = model.solver.integrator;
     plan.need = resolvedNeed(context.spec, base.scales);
     context.target = plan.need.target;
@@ -52,7 +60,17 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     plan.perturbation = context.target / horizonGrowth;
     const double tick = context.grid.tick;
     const std::unique_ptr<Subject> subject = makeSceneSubject(model, plan.name);
-    const Horizon horizon = findHorizon(*subject, std::max(asked, 10 * tick), plan.perturbation);
+    const double each =
+        base.effort / static_cast<double>(std::max<std::int64_t>(1, base.work.evaluations + base.work.iterations));
+    const auto effortOf = [&](const ode::Work& work) {
+        return each * static_cast<double>(work.evaluations + work.iterations);
+    };
+    const double most = std::max(context.left(shareOfHorizon), 0.0);
+    const Horizon horizon = findHorizon(*subject, std::max(asked, 10 * tick), plan.perturbation,
+                                        [&](const ode::Work& work) { return effortOf(work) > most; });
+    context.spent += static_cast<std::int64_t>(effortOf(horizon.work));
+    plan.isCutShort = horizon.isCutShort;
+    if (horizon.isCutShort) plan.predicted = horizon.seconds;
     plan.isChaotic = horizon.isReached && horizon.seconds < asked * (1 - 1e-9);
     plan.seconds = plan.isChaotic ? horizon.seconds : context.grid.seconds();
     if (plan.isChaotic) {
@@ -139,6 +157,7 @@ void verify(const PlanContext& context, Plan& plan) {
     context.tell("verification, a quarter of the step", 0.92);
     plan.verification.step = difference(chosen, context.run(sceneOf(context, quarter)));
     plan.verification.isPassed = plan.verification.step <= plan.need.target;
+    plan.verification.isCutShort = context.left() <= 0;
     if (context.resolution.count == 0) return;
 
     Candidate twice = quarter;
@@ -149,18 +168,31 @@ void verify(const PlanContext& context, Plan& plan) {
     context.tell("verification, twice the resolution", 0.94);
     plan.verification.finer = difference(chosen, context.run(sceneOf(context, twice)));
     plan.verification.isPassed = plan.verification.isPassed && plan.verification.finer <= plan.need.target;
+    plan.verification.isCutShort = context.left() <= 0;
 }
 
-// What does not stand the verification is searched for once more with a stricter target.
+// In place of what does not stand the verification the next cheapest is taken; where none does, it is searched for once
+// more with a stricter target.
 void searchAndVerify(PlanContext& context, const PlanReference& reference, std::optional<int> least,
                      const std::vector<Generator>& without, Plan& plan) {
     for (int round = 0; round < 3; ++round, context.target *= stricter) {
         plan.trials.clear();
         plan.chosen.reset();
+        plan.alsoTried = 0;
         searchCandidates(context, reference, least, without, plan);
-        if (!plan.chosen) return;
-        verify(context, plan);
-        if (plan.verification.isPassed) return;
+        if (!plan.chosen) return judgeTrials(context, plan);
+        for (int i = 0; i < mostVerified; ++i) {
+            verify(context, plan);
+            const std::size_t verified = *plan.chosen;
+            const bool isLast = plan.verification.isPassed || plan.verification.isCutShort;
+            if (!isLast) rejectChosen(plan);
+            if (isLast || !plan.chosen || i + 1 == mostVerified) {
+                plan.chosen = verified;
+                judgeTrials(context, plan);
+                if (isLast) return;
+                break;
+            }
+        }
     }
 }
 
@@ -185,6 +217,10 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     add(fmt::format("The reference is {}; its own error, cells included, is about {}.", plan.referenceMethod,
                     lengthText(reference.error)));
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
+    if (plan.predicted)
+        add(fmt::format(
+            "Whether the motion can be predicted was tried for the first {:.3g} s, as far as the effort went.",
+            *plan.predicted));
     if (plan.isCutShort) add("The effort was used up before all was tried: a larger --effort may find a cheaper way.");
     if (reference.error > context.target / 2)
         add(fmt::format(
@@ -216,7 +252,9 @@ Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
         plan.ratio = written.hasWholeCost() ? written.cost / chosen.cost : PlanTrial::unset;
         if (!chosen.isAsWritten) plan.changes = planChanges(spec, sceneOf(context, chosen.candidate));
     }
+    plan.isCutShort = plan.isCutShort || plan.verification.isCutShort;
     addRemarks(context, reference, plan);
+    plan.spent = settings.effort - context.left();
     if (settings.progress) settings.progress({"done", 1.0});
     return plan;
 }

@@ -60,16 +60,19 @@ struct Verification {
     double finer = PlanTrial::unset;  // [m] change at twice the resolution too; unset: it has only one
     int count = 0;                    // the cells then
     bool isPassed = false;
+    bool isCutShort = false;  // by the effort
 };
 
 struct Plan {
     std::string name;
     Need need;
-    double seconds = 0;       // [s] that the promise holds for: the horizon asked for, or less
-    bool isCutShort = false;  // by the effort, before all was tried
-    bool isChaotic = false;   // the motion cannot be predicted for as long as was asked
-    double perturbation = 0;  // [m] of the start, by which that was tried; see makePlan
-    double runSeconds = 0;    // [s] of the whole run
+    double seconds = 0;               // [s] that the promise holds for: the horizon asked for, or less
+    bool isCutShort = false;          // by the effort, before all was tried
+    double spent = 0;                 // of the effort
+    std::optional<double> predicted;  // [s] where trying whether the motion can be predicted was cut short
+    bool isChaotic = false;           // the motion cannot be predicted for as long as was asked
+    double perturbation = 0;          // [m] of the start, by which that was tried; see makePlan
+    double runSeconds = 0;            // [s] of the whole run
     Resolution resolution;
     std::vector<GeneratorTrial> generators;
     std::vector<ResolutionTrial> resolutions;  // by count
@@ -79,6 +82,7 @@ struct Plan {
     int referenceCount = 0;
     std::vector<PlanTrial> trials;      // in the order of trying
     std::optional<std::size_t> chosen;  // of trials
+    int alsoTried = 0;                  // around the cheapest, none of which was cheaper; not among the trials
     Verification verification;
     double ratio = 1;  // cost as written over cost as planned; NaN when that was not run to its end
     double secondsAnEvaluation = PlanTrial::unset;  // of all forces

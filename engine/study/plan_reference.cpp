@@ -109,9 +109,7 @@ ExactRun steppedRun(const PlanContext& context, const ExactMethod& exact, double
 }
 
 void expectWhole(const PlanContext& context, const ExactRun& exact) {
-    if (exact.run.isTooDear)
-        throw core::Error(core::ErrorKind::usage,
-                          context.spec.file + ": the effort does not suffice for a single run: a larger --effort");
+    if (exact.run.isTooDear) failForEffort(context);
     if (!exact.run.isWhole())
         throw core::Error(core::ErrorKind::diverged, context.spec.file + ": even the reference: " + exact.run.failure);
 }
@@ -124,7 +122,17 @@ void PlanContext::tell(const std::string& doing, double done) const {
     if (settings.progress) settings.progress({doing, done});
 }
 
+void failForEffort(const PlanContext& context) {
+    throw core::Error(core::ErrorKind::usage,
+                      context.spec.file + ": the effort does not suffice for a single run: a larger --effort");
+}
+
 PlanRun PlanContext::run(const world::SceneSpec& model, double most) const {
+    if (left() <= 0) {
+        PlanRun none;
+        none.isTooDear = true;
+        return none;
+    }
     PlanRun run = play(model, resolution, grid, {.cost = most, .effort = std::max(left(), 0.0)});
     spent.fetch_add(static_cast<std::int64_t>(run.effort), std::memory_order_relaxed);
     return run;

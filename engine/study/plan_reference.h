@@ -32,6 +32,9 @@ struct PlanContext {
     }
 };
 
+// Throws core::Error(usage).
+[[noreturn]] void failForEffort(const PlanContext& context);
+
 // The motion at a resolution, in double precision with all generators: by Fehlberg's method of order 8, which controls
 // its own error. Where there is something to touch, contact is of order 1 whatever the method: there by RK4, and where
 // explicit steps are far too dear by another, at ever shorter steps until halving them tells no more.

@@ -159,13 +159,23 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
     for (const world::IslandInfo& island : world.islands()) costOfAll += costOf(island);
     Box box;
     if (limits.withScales) box.add(watcher.look());
+    // Islands are described from scratch at each call: rarely.
+    const auto isTooDear = [&] {
+        const ode::Work work = world.work();
+        const double most = (costOfAll + costOfCall) * static_cast<double>(work.evaluations + work.iterations);
+        return most > std::min(limits.cost, limits.effort) &&
+               (costSoFar(world) - atStart > limits.cost || costSoFar(world, costOfCall) > limits.effort);
+    };
     for (int sample = 0; sample < grid.samples; ++sample) {
         const auto start = Clock::now();
-        for (int tick = 0; tick < grid.every && run.failure.empty(); ++tick)
+        for (int tick = 0; tick < grid.every && run.failure.empty() && !run.isTooDear; ++tick) {
             if (const auto divergence = world.advance())
                 run.failure = "diverged at " + std::to_string(divergence->time) + " s";
+            const bool isLast = sample + 1 == grid.samples && tick + 1 == grid.every;
+            run.isTooDear = !isLast && run.failure.empty() && isTooDear();
+        }
         run.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-        if (!run.failure.empty()) return;
+        if (!run.isWhole()) return;
         run.at.push_back(watcher.look());
         const Sight& seen = run.at.back();
         if (limits.withScales) {
@@ -174,14 +184,6 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
             const double pixel = pixelAt(world, model, seen);
             if (pixel > 0 && (run.scales.metresPerPixel == 0 || pixel < run.scales.metresPerPixel))
                 run.scales.metresPerPixel = pixel;
-        }
-        // Islands are described from scratch at each call: rarely.
-        const ode::Work work = world.work();
-        const double most = (costOfAll + costOfCall) * static_cast<double>(work.evaluations + work.iterations);
-        if (most > std::min(limits.cost, limits.effort) &&
-            (costSoFar(world) - atStart > limits.cost || costSoFar(world, costOfCall) > limits.effort)) {
-            run.isTooDear = sample + 1 < grid.samples;
-            return;
         }
     }
 }

@@ -13,6 +13,9 @@ namespace {
 constexpr int moreCounts = 4;           // resolutions above the coarsest that are tried too
 constexpr double stepPrecision = 1.04;  // the number of steps is found to this factor
 constexpr double clearly = 0.99;        // cheaper by less than that is no reason to change anything
+constexpr double leastToScan = 1e8;     // of the effort, and
+constexpr double timesToScan = 2;       // times what was spent before, may go into looking around the cheapest
+constexpr double farFrom = 3;           // times the target: from there steps follow the order
 constexpr int mostRuns = 20;            // of one method at one resolution
 constexpr double shareToSearch = 0.9;   // the rest is for the verification
 
@@ -78,19 +81,27 @@ class Search {
         plan_.chosen = plan_.trials.size() - 1;
     }
 
-    void judge() {
-        for (std::size_t i = 0; i < plan_.trials.size(); ++i) {
-            PlanTrial& trial = plan_.trials[i];
-            if (plan_.chosen == i) {
-                trial.verdict = "chosen";
-            } else if (trial.verdict.empty() && !trial.meets) {
-                trial.verdict = fmt::format("its error is {:.3g} times the target", trial.error / context_.target);
-            } else if (trial.verdict.empty() && plan_.chosen) {
-                const double ratio = trial.cost / plan_.trials[*plan_.chosen].cost;
-                trial.verdict = ratio > 0.985 && ratio < 1.015 ? "costs the same"
-                                                               : fmt::format("costs {:.3g} times as much", ratio);
+    // Errors of the cells and of the step may cancel, which no order tells: looks at coarser and finer cells around the
+    // cheapest, each method at every number of steps that could be cheaper.
+    void scan(int finest) {
+        if (!plan_.chosen) return;
+        const double spent = context_.left(0.0) * -1;
+        const double wanted = std::max(leastToScan, timesToScan * spent);
+        const double most = std::min(wanted, context_.left(shareToSearch));
+        const auto isOver = [&] { return -context_.left(0.0) - spent > most; };
+        plan_.isCutShort = plan_.isCutShort || most < std::min(wanted, leastToScan);
+        const int centre = plan_.trials[*plan_.chosen].candidate.count;
+        const std::vector<std::string> names = methods();
+        for (int away = 0; away < std::max(centre, 1); ++away)
+            for (const int side : {-1, 1}) {
+                const int count = centre + side * away;
+                if (away == 0 && side > 0) continue;
+                if (count < std::min(1, centre) || (count > centre && (count > finest || away > moreCounts))) continue;
+                for (const std::string& method : names) {
+                    if (isOver()) return;
+                    scanMethod(count, method, isOver);
+                }
             }
-        }
     }
 
   private:
@@ -186,6 +197,35 @@ class Search {
         }
     }
 
+    template <class IsOver>
+    void scanMethod(int count, const std::string& name, const IsOver& isOver) {
+        PlanTrial trial;
+        trial.candidate = {count, without_, name, Precision::double_, 0};
+        const StepFacts facts = stepFacts(modelOf(context_.spec, context_.resolution, trial.candidate));
+        if (!facts.isPossible) return;
+        const ode::MethodInfo& method = *ode::findMethod(name);
+        const double costOfSubstep =
+            perFrame(facts.stepCost / facts.leastSubsteps * method.evaluations * context_.grid.ticks());
+        double before = HUGE_VAL;
+        for (int substeps = facts.leastSubsteps; substeps * costOfSubstep < clearly * bestCost() && !isOver();) {
+            trial.candidate.substeps = substeps == facts.leastSubsteps ? 0 : substeps;
+            PlanTrial done = trial;
+            const std::optional<std::size_t> chosen = plan_.chosen;
+            run(done);
+            if (plan_.chosen == chosen) {
+                plan_.trials.pop_back();
+                ++plan_.alsoTried;
+            }
+            if (done.meets || done.wasStopped) return;
+            if (std::abs(done.error - before) < 0.005 * before) return;  // only the resolution can help
+            before = done.error;
+            const double follows = std::pow(done.error / (farFrom * context_.target), 1.0 / method.order);
+            const double next = substeps * std::max(1.0, std::isfinite(follows) ? std::min(follows, 64.0) : 2.0);
+            if (next > 1e6) return;
+            substeps = std::max({substeps + 1, static_cast<int>(substeps * stepPrecision), static_cast<int>(next)});
+        }
+    }
+
     // As many as the method's order promises, or the order that the last two errors show if that is less; none when
     // only the resolution can help.
     int nextSubsteps(int substeps, double error, int order) {
@@ -234,17 +274,40 @@ world::SceneSpec sceneOf(const PlanContext& context, const Candidate& candidate)
     return model;
 }
 
+void rejectChosen(Plan& plan) {
+    plan.trials[*plan.chosen].meets = false;
+    plan.trials[*plan.chosen].verdict = "does not stand the verification";
+    plan.chosen.reset();
+    for (std::size_t i = 0; i < plan.trials.size(); ++i)
+        if (plan.trials[i].meets && (!plan.chosen || plan.trials[i].cost < plan.trials[*plan.chosen].cost))
+            plan.chosen = i;
+}
+
+void judgeTrials(const PlanContext& context, Plan& plan) {
+    for (std::size_t i = 0; i < plan.trials.size(); ++i) {
+        PlanTrial& trial = plan.trials[i];
+        if (plan.chosen == i) {
+            trial.verdict = "chosen";
+        } else if (trial.verdict.empty() && !trial.meets) {
+            trial.verdict = fmt::format("its error is {:.3g} times the target", trial.error / context.target);
+        } else if (trial.verdict.empty() && plan.chosen) {
+            const double ratio = trial.cost / plan.trials[*plan.chosen].cost;
+            trial.verdict =
+                ratio > 0.985 && ratio < 1.015 ? "costs the same" : fmt::format("costs {:.3g} times as much", ratio);
+        }
+    }
+}
+
 void searchCandidates(const PlanContext& context, const PlanReference& reference, std::optional<int> least,
                       const std::vector<Generator>& without, Plan& plan) {
     Search search(context, reference, without, plan);
     search.tryAsWritten();
     if (least)
-        search.tryAll(*least);
+        search.tryAll(*least), search.scan(reference.count);
     else
         search.tryNearest(reference.count);
     search.trySingle();
     search.compareAsWritten();
-    search.judge();
 }
 
 }  // namespace taut::study

@@ -10,6 +10,12 @@ namespace taut::study {
 void searchCandidates(const PlanContext& context, const PlanReference& reference, std::optional<int> least,
                       const std::vector<Generator>& without, Plan& plan);
 
+// Sets aside what was chosen, as it did not stand the verification, for the next cheapest that meets the need, if any.
+void rejectChosen(Plan& plan);
+
+// Says of each trial why it was not chosen.
+void judgeTrials(const PlanContext& context, Plan& plan);
+
 // The scene that a candidate stands for.
 world::SceneSpec sceneOf(const PlanContext& context, const Candidate& candidate);
 

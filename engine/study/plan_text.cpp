@@ -65,7 +65,7 @@ report::Columns<PlanTrial> trialColumns(const Plan& plan) {
             {"was_stopped", &Trial::wasStopped},
             {"cost_is_lower_bound", [](const Trial& t) { return !t.hasWholeCost(); }},
             {"error_m", &Trial::error, "error", [](const Trial& t) { return lengthText(t.error); }},
-            {"spring_evaluations_per_frame", &Trial::cost, "spring evals a frame", cost},
+            {"cost_per_frame", &Trial::cost, "cost a frame", cost},
             {"force_evaluations_per_frame", &Trial::evaluations},
             {"ms_per_frame", &Trial::milliseconds, "ms a frame",
              [](const Trial& t) { return numberText(t.milliseconds, "{:.3f}"); }},
@@ -83,13 +83,20 @@ std::string evidenceText(const Plan& plan) {
         text += fmt::format("\nResolution: cells along the longest edge{}\n", order) +
                 aligned(tableOf(resolutionColumns(), plan.resolutions, In::people));
     }
-    return text + "\nCandidates (evaluations of a long run: those of the start alone are left out)\n" +
-           aligned(tableOf(trialColumns(plan), plan.trials, In::people));
+    return text +
+           "\nCandidates (cost: springs, points and 5 for a volume cell, times evaluations of the forces and products "
+           "of a "
+           "solver; those of the start alone are left out)\n" +
+           aligned(tableOf(trialColumns(plan), plan.trials, In::people)) +
+           (plan.alsoTried > 0
+                ? fmt::format("and {} around the cheapest, which are not cheaper or err too much.\n", plan.alsoTried)
+                : "");
 }
 
 std::string verificationText(const Plan& plan) {
     if (!plan.chosen) return "";
     const Verification& v = plan.verification;
+    if (v.isCutShort && !v.isPassed) return "\nVerification: the effort did not suffice for it.\n";
     std::string text = fmt::format("\nVerification: a quarter of the step changes {}", lengthText(v.step));
     if (std::isfinite(v.finer))
         text += fmt::format(", that with {} cells and every generator {}", v.count, lengthText(v.finer));
@@ -107,10 +114,9 @@ std::string resultText(const Plan& plan) {
     std::string text = fmt::format("\nOne evaluation of the forces takes {:.3g} us, a frame {:.3g} ms of one processor",
                                    1e6 * plan.secondsAnEvaluation, chosen.milliseconds);
     const bool isSame = plan.ratio > 0.985 && plan.ratio < 1.015;
-    text += isSame ? std::string("; as written it costs as many spring evaluations.\n")
-            : std::isfinite(plan.ratio)
-                ? fmt::format("; as written it costs {:.3g} times as many spring evaluations.\n", plan.ratio)
-                : std::string(".\n");
+    text += isSame                      ? std::string("; as written it costs the same.\n")
+            : std::isfinite(plan.ratio) ? fmt::format("; as written it costs {:.3g} times as much.\n", plan.ratio)
+                                        : std::string(".\n");
     if (plan.changes.empty()) return text + "\nThe file needs no change.\n";
     text += "\nChanges\n";
     for (const scene::Change& change : plan.changes) text += fmt::format("  {} = {}\n", change.key, change.value);
@@ -137,6 +143,11 @@ std::string planVerdict(const Plan& plan) {
                            lengthText(near->error), near->error / plan.need.target, target);
     }
     const PlanTrial& chosen = plan.trials[*plan.chosen];
+    if (plan.verification.isCutShort && !plan.verification.isPassed)
+        return fmt::format(
+            "The need is not met for certain: what was found errs by {} where {} is allowed, but the effort did not "
+            "suffice to verify it.",
+            lengthText(chosen.error), target);
     if (!plan.verification.isPassed)
         return fmt::format(
             "The need is not met: what was found errs by {}, but the verification finds {} where {} is "
@@ -181,6 +192,8 @@ std::string planJson(const Plan& plan, const MachineFacts& machine) {
     json["not_looked_at_s"] = plan.unseen();
     json["perturbation_m"] = plan.perturbation;
     json["chaotic"] = plan.isChaotic;
+    json["cut_short_by_effort"] = plan.isCutShort;
+    json["effort_spent"] = plan.spent;
     json["met"] = plan.isMet();
     json["verdict"] = planVerdict(plan);
     json["generators"] = report::jsonOf<Json>(generatorColumns(), plan.generators);
@@ -189,7 +202,9 @@ std::string planJson(const Plan& plan, const MachineFacts& machine) {
                          {"error_m", plan.referenceError},
                          {"order", plan.order},
                          {"method", plan.referenceMethod}};
+    json["cost"] = "springs, points and 5 for a volume cell, times evaluations of the forces and products of a solver";
     json["candidates"] = report::jsonOf<Json>(trialColumns(plan), plan.trials);
+    json["also_tried"] = plan.alsoTried;
     json["verification"] = {{"change_at_quarter_step_m", plan.verification.step},
                             {"change_at_twice_resolution_m", plan.verification.finer},
                             {"cells", plan.verification.count},

@@ -1,72 +1,29 @@
-// What `plan` picks, held against every resolution, method and step there is on three small scenes. The witness is a
-// reference of its own: finer than plan's, by velocity Verlet instead of RK4, without plan's extrapolation.
+// What `plan` picks, held against a grid of resolutions, methods and steps. The witness is a run of its own, see
+// plan_scenes.h, without plan's extrapolation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "plan_scenes.h"
 #include "support/small_scenes.h"
 #include "taut/ode/method_table.h"
+#include "taut/scene/load.h"
 #include "taut/study/plan.h"
 #include "taut/study/plan_run.h"
 #include "taut/study/plan_search.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
+#include "taut/study/plan_text.h"
 #include "taut/world/bodies/rope.h"
 #include "taut/world/forces/wind.h"
 
 namespace taut::study::plan_brute_force {
 namespace {
 
-world::SceneSpec shortScene(double seconds, double target) {
-    world::SceneSpec scene;
-    scene.file = "small.toml";
-    scene.run.seconds = 1.0;
-    scene.need.horizon = seconds;
-    scene.need.rmsPosition = target;
-    return scene;
-}
-
-// A rope that starts level and straight and swings down, held at one end.
-world::SceneSpec swingingRope() {
-    world::SceneSpec scene = shortScene(0.2, 4e-3);
-    world::RopeSpec rope = support::rope("r", {0, 2, 0}, {1, 2, 0}, 16);
-    rope.stretch = 60;
-    rope.mass = 0.5;
-    rope.dampingTime = 1e-3;
-    rope.hold = {"start"};
-    scene.bodies.add(rope);
-    return scene;
-}
-
-// A cloth that falls from level, held along one edge.
-world::SceneSpec fallingCloth() {
-    world::SceneSpec scene = shortScene(0.2, 4e-3);
-    scene.materials["m"].stretch = 30;
-    scene.materials["m"].dampingTime = 1e-3;
-    world::ClothSpec cloth = support::cloth("c", 8);
-    cloth.down = {0, 0, 1};
-    cloth.material = "m";
-    cloth.hold = {"left"};
-    scene.bodies.add(cloth);
-    return scene;
-}
-
-// Two masses on springs of their own and one between: nothing to coarsen, the step decides.
-world::SceneSpec smallNet() {
-    world::SceneSpec scene = shortScene(0.5, 1e-3);
-    world::NetSpec net;
-    net.name = "n";
-    net.drag = 0.5;
-    net.points = {{"top", {0, 2, 0}, 1.0, true, {}},
-                  {"a", {0.3, 1.5, 0}, 0.2, false, {}},
-                  {"b", {0.6, 1.2, 0.1}, 0.1, false, {}}};
-    net.springs = {{"top", "a", 120, 0.5, {}, {}}, {"a", "b", 60, 0.3, {}, {}}, {"top", "b", 20, 0.8, {}, {}}};
-    scene.bodies.add(net);
-    return scene;
+world::SceneSpec specOf(const Scene& scene) {
+    return scene::loadSceneText(scene.text, std::string(scene.name) + ".toml", {}).spec;
 }
 
 struct Witness {
@@ -74,81 +31,107 @@ struct Witness {
     PlanContext context;
     PlanRun reference;
 
-    // `count` cells, at a quarter of the stable step.
-    Witness(const world::SceneSpec& spec, int count)
+    Witness(const world::SceneSpec& spec, const Scene& scene)
         : context{spec, settings, resolutionOf(spec), planGrid(spec, *spec.need.horizon), *spec.need.rmsPosition} {
         Candidate fine;
-        fine.count = count;
-        fine.method = "velocity-verlet";
+        fine.count = scene.witnessCells;
+        fine.method = scene.witnessMethod;
         const StepFacts facts = stepFacts(modelOf(spec, context.resolution, fine));
-        fine.substeps = std::max(4 * facts.leastSubsteps, 64);
+        fine.substeps = std::max(4 * facts.leastSubsteps, scene.witnessSubsteps);
         reference = play(sceneOf(context, fine), context.resolution, context.grid);
     }
 
-    PlanRun runOf(const Candidate& candidate) const {
-        return play(sceneOf(context, candidate), context.resolution, context.grid);
+    StepFacts factsOf(const Candidate& candidate) const {
+        return stepFacts(modelOf(context.spec, context.resolution, candidate));
     }
-    double errorOf(const Candidate& candidate) const { return difference(runOf(candidate), reference); }
+    // Not beyond `most` cost.
+    PlanRun runOf(const Candidate& candidate, double most = HUGE_VAL) const {
+        return play(sceneOf(context, candidate), context.resolution, context.grid, {.cost = most});
+    }
 };
 
-// The smallest count of spring evaluations a frame with which any resolution, method and step meets the need. Methods
-// that cost more than `most` are passed over.
-double cheapest(const Witness& witness, const std::vector<Generator>& without, int mostCells, double most) {
+struct Best {
+    Candidate candidate;
+    double cost;  // a frame
+};
+
+// The cheapest way on the grid that meets the need: cells from the fewest to two more than chosen, all methods,
+// substeps from the fewest that are stable to those that cost more than the cheapest so far: each number of them up to
+// 32, beyond it numbers 2 % apart. Starts from what was chosen.
+Best cheapest(const Witness& witness, const Best& chosen) {
     const double frames = witness.context.grid.frames();
-    double best = most;
+    Best best = chosen;
     const bool isFixed = witness.context.resolution.count == 0;
-    for (int count = isFixed ? 0 : 2; count <= (isFixed ? 0 : mostCells); ++count)
+    for (int count = isFixed ? 0 : 1; count <= (isFixed ? 0 : chosen.candidate.count + 2); ++count)
         for (const ode::MethodInfo& method : ode::methods()) {
-            Candidate candidate;
+            Candidate candidate = chosen.candidate;
+            candidate.precision = world::Precision::double_;
             candidate.count = count;
-            candidate.without = without;
             candidate.method = std::string(method.name);
-            const StepFacts facts = stepFacts(modelOf(witness.context.spec, witness.context.resolution, candidate));
+            const StepFacts facts = witness.factsOf(candidate);
             if (!facts.isPossible) continue;
-            for (int substeps = facts.leastSubsteps;; ++substeps) {
-                const double least = facts.cost * substeps * method.evaluations * witness.context.grid.ticks();
-                if (least / frames >= best) break;
+            const double costOfSubstep =
+                facts.stepCost / facts.leastSubsteps * method.evaluations * witness.context.grid.ticks() / frames;
+            for (int substeps = facts.leastSubsteps; substeps * costOfSubstep < best.cost;
+                 substeps += std::max(1, substeps / 50 + (substeps > 32 ? 1 : 0))) {
                 candidate.substeps = substeps;
-                const PlanRun run = witness.runOf(candidate);
-                if (difference(run, witness.reference) <= witness.context.target)
-                    best = std::min(best, run.cost / frames);
+                const PlanRun run = witness.runOf(candidate, best.cost * frames);
+                if (run.cost / frames < best.cost && difference(run, witness.reference) <= witness.context.target)
+                    best = {candidate, run.cost / frames};
             }
         }
     return best;
 }
 
-struct Case {
-    const char* name;
-    world::SceneSpec (*scene)();
-    int witnessCells;  // of the longest edge
-};
-
-class PlanAgainstBruteForce : public testing::TestWithParam<Case> {};
-
-TEST_P(PlanAgainstBruteForce, MeetsTheNeedAtNearlyTheLowestCost) {
-    const world::SceneSpec scene = GetParam().scene();
-    const Plan plan = makePlan(scene);
-    ASSERT_TRUE(plan.isMet());
-    const PlanTrial& chosen = plan.trials[*plan.chosen];
-    ASSERT_FALSE(chosen.isAsWritten);
-
-    const Witness witness(scene, GetParam().witnessCells);
-    EXPECT_LE(witness.errorOf(chosen.candidate), *scene.need.rmsPosition);
-
-    // 1.25: the search stops at 4 % more steps than needed, counts the reference's own error against itself, and a
-    // resolution more or less of a dozen cells changes the cost by a fifth.
-    const double best = cheapest(witness, chosen.candidate.without, chosen.candidate.count + 2, 2 * chosen.cost);
-    EXPECT_LE(chosen.cost, 1.25 * best);
-    RecordProperty("cost_over_best", std::to_string(chosen.cost / best));
+std::string textOf(const Best& best) {
+    return best.candidate.method + " with " + std::to_string(best.candidate.count) + " cells, " +
+           std::to_string(best.candidate.substeps) + " substeps: " + std::to_string(best.cost);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PlanAgainstBruteForce,
-                         testing::Values(Case{"Rope", swingingRope, 96}, Case{"Cloth", fallingCloth, 40},
-                                         Case{"Net", smallNet, 0}),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+void expectNearlyTheCheapest(const Scene& scene) {
+    const world::SceneSpec spec = specOf(scene);
+    const Plan plan = makePlan(spec);
+    ASSERT_TRUE(plan.isMet()) << planVerdict(plan);
+    const PlanTrial& trial = plan.trials[*plan.chosen];
+
+    const Witness witness(spec, scene);
+    const PlanRun run = trial.isAsWritten ? play(spec, witness.context.resolution, witness.context.grid)
+                                          : witness.runOf(trial.candidate);
+    EXPECT_LE(difference(run, witness.reference), witness.context.target);
+
+    Best chosen{trial.candidate, trial.cost};
+    if (chosen.candidate.substeps == 0) chosen.candidate.substeps = run.substeps;
+    const Best best = cheapest(witness, chosen);
+    const bool isNext = best.candidate.method == chosen.candidate.method &&
+                        std::abs(best.candidate.count - chosen.candidate.count) <= 1 &&
+                        std::abs(best.candidate.substeps - chosen.candidate.substeps) <= 1;
+    // 1.25: the search stops at 4 % more steps than needed, counts the reference's own error against itself, and a
+    // resolution more or less of a dozen cells changes the cost by a fifth.
+    EXPECT_TRUE(chosen.cost <= 1.25 * best.cost || isNext) << textOf(chosen) << "\n" << textOf(best);
+    testing::Test::RecordProperty("chosen", textOf(chosen));
+    testing::Test::RecordProperty("cheapest", textOf(best));
+    testing::Test::RecordProperty("cost_over_cheapest", std::to_string(chosen.cost / best.cost));
+}
+
+class PlanAgainstBruteForce : public testing::TestWithParam<Scene> {};
+TEST_P(PlanAgainstBruteForce, MeetsTheNeedAtNearlyTheLowestCost) {
+    expectNearlyTheCheapest(GetParam());
+}
+const auto nameOfScene = [](const auto& instance) { return std::string(instance.param.name); };
+INSTANTIATE_TEST_SUITE_P(Scenes, PlanAgainstBruteForce, testing::Values(swingingRope, smallNet, tightNet, dampedRope),
+                         nameOfScene);
+
+class PlanLong : public testing::TestWithParam<Scene> {};
+TEST_P(PlanLong, DISABLED_MeetsTheNeedAtNearlyTheLowestCost) {
+    expectNearlyTheCheapest(GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, PlanLong,
+                         testing::Values(fallingCloth, bouncingDumbbell, implicitRope, windyCloth, bendingBlock,
+                                         unlikeRopes, clothOnBall, pendulum),
+                         nameOfScene);
 
 TEST(Plan, IsTheSameEveryTime) {
-    const world::SceneSpec scene = swingingRope();
+    const world::SceneSpec scene = specOf(swingingRope);
     const Plan one = makePlan(scene), two = makePlan(scene);
     ASSERT_TRUE(one.chosen && two.chosen);
     EXPECT_EQ(*one.chosen, *two.chosen);
@@ -157,7 +140,7 @@ TEST(Plan, IsTheSameEveryTime) {
 }
 
 TEST(Plan, SaysHowNearItComesWhenNothingMeetsTheNeed) {
-    world::SceneSpec scene = swingingRope();
+    world::SceneSpec scene = specOf(swingingRope);
     scene.need.rmsPosition = 1e-7;  // of a rope of at most 8 times 16 segments, which is known to micrometres
     PlanSettings settings;
     settings.effort = 1e6;
@@ -169,7 +152,7 @@ TEST(Plan, SaysHowNearItComesWhenNothingMeetsTheNeed) {
 }
 
 TEST(Plan, ABudgetThatIsTooSmallIsNotMet) {
-    world::SceneSpec scene = smallNet();
+    world::SceneSpec scene = specOf(smallNet);
     scene.need.budget = 1e-9;  // [ms] less than one instruction
     const Plan plan = makePlan(scene);
     EXPECT_TRUE(plan.isAccurate());
@@ -177,13 +160,13 @@ TEST(Plan, ABudgetThatIsTooSmallIsNotMet) {
 }
 
 TEST(Plan, LeavesOutAForceWithoutEffectAndKeepsOneThatMatters) {
-    world::SceneSpec scene = fallingCloth();
+    world::SceneSpec scene = specOf(fallingCloth);
     scene.materials["m"].drag = 1e-6;  // moves the cloth by 1e-6 of its way, 0.2 µm
     scene.forces.add(world::WindSpec{});
     scene.forces.of<world::WindSpec>().back().name = "storm";
     scene.forces.of<world::WindSpec>().back().velocity = {20, 0, 0};
     PlanSettings settings;
-    settings.effort = 2e6;
+    settings.effort = 1e9;
     const Plan plan = makePlan(scene, settings);
     const auto find = [&](const std::string& name) {
         return std::find_if(plan.generators.begin(), plan.generators.end(),
@@ -198,7 +181,10 @@ TEST(Plan, LeavesOutAForceWithoutEffectAndKeepsOneThatMatters) {
 
 // A straight rope pushed together buckles: a shift of a micrometre grows a thousandfold at once.
 world::SceneSpec bucklingRope(double target) {
-    world::SceneSpec scene = shortScene(0.5, target);
+    world::SceneSpec scene;
+    scene.run.seconds = 1.0;
+    scene.need.horizon = 0.5;
+    scene.need.rmsPosition = target;
     scene.world.gravity = {0, 0, 0};
     world::RopeSpec rope = support::rope("r", {0, 2, 0}, {0.1, 2, 0}, 8);
     rope.stretch = 500;

@@ -13,9 +13,10 @@
 namespace taut::study {
 namespace {
 
-constexpr double share = 5;          // the reference's own error is to be so many times below the target
-constexpr double shareOfSteps = 20;  // and that of its steps
-constexpr double leastShare = 1e-3;  // of the target: the tolerance of a method that controls its error
+constexpr double leastOfExtrapolated = 0.1;  // of the error that extrapolation takes away, is taken to be left
+constexpr double share = 5;                  // the reference's own error is to be so many times below the target
+constexpr double shareOfSteps = 20;          // and that of its steps
+constexpr double leastShare = 1e-3;          // of the target: the tolerance of a method that controls its error
 constexpr double shareOfReference = 0.5;
 constexpr int leastFinerOfContacts = 32;  // times finer than the step that "auto" finds
 constexpr int mostTimesFiner = 8;         // than the scene as written
@@ -57,6 +58,14 @@ std::vector<int> ladder(int count) {
     std::reverse(counts.begin(), counts.end());
     for (int c = 2 * count; c <= mostTimesFiner * count; c *= 2) counts.push_back(c);
     return counts;
+}
+
+// Richardson's: beyond the finer run by a factor of what the two are apart.
+PlanRun extrapolatedRun(const PlanRun& coarse, const PlanRun& fine, double factor) {
+    PlanRun run = fine;
+    for (std::size_t s = 0; s < run.at.size(); ++s)
+        for (std::size_t i = 0; i < run.at[s].size(); ++i) run.at[s][i] += factor * (fine.at[s][i] - coarse.at[s][i]);
+    return run;
 }
 
 // [m/s]
@@ -164,6 +173,8 @@ PlanReference makePlanReference(const PlanContext& context) {
         return reference;
     }
     double before = 0, ofResolution = HUGE_VAL;
+    PlanRun last;          // by the cells before
+    PlanRun extrapolated;  // from those and the ones before them
     for (const int count : ladder(context.resolution.count)) {
         const bool isFirst = reference.count == 0;
         if (!isFirst && 2 * exactEffort(context, count) > context.left(shareOfReference)) break;
@@ -172,16 +183,29 @@ PlanReference makePlanReference(const PlanContext& context) {
         ExactRun exact = exactRun(context, count, shareOfReference);
         if (isFirst) expectWhole(context, exact);
         if (!exact.run.isWhole()) break;
+        PlanRun best = exact.run;
         if (!isFirst) {
-            const double apart = difference(reference.run, exact.run);
+            const double apart = difference(last, exact.run);
             const double ratio = std::log(static_cast<double>(count) / reference.count);
             if (before > 0) reference.order = std::log(before / std::max(apart, 1e-300)) / ratio;
             const double order = std::clamp(before > 0 ? reference.order : 1.0, leastOrder, mostOrder);
-            ofResolution = apart / (std::exp(order * ratio) - 1);
+            const double factor = 1 / (std::exp(order * ratio) - 1);
+            ofResolution = factor * apart;
+            PlanRun next = extrapolatedRun(last, exact.run, factor);
+            // What two extrapolations in a row differ by is more than the later one errs by.
+            const double left = before > 0 && extrapolated.isWhole() && !extrapolated.at.empty()
+                                    ? std::max(difference(extrapolated, next), leastOfExtrapolated * ofResolution)
+                                    : HUGE_VAL;
+            if (left < ofResolution) {
+                best = next;
+                ofResolution = left;
+            }
+            extrapolated = std::move(next);
             before = apart;
         }
         reference.runs[count] = exact.run;
-        reference.run = std::move(exact.run);
+        last = std::move(exact.run);
+        reference.run = std::move(best);
         reference.count = count;
         reference.error = ofResolution + exact.error;
         reference.method = exact.method;

@@ -49,9 +49,9 @@ ExactRun exactRun(const PlanContext& context, int count, double share);
 double exactEffort(const PlanContext& context, int count);
 
 struct PlanReference {
-    PlanRun run;
-    int count = 0;
-    double error = 0;                 // [m] of the reference: by Richardson's extrapolation, and that of its steps
+    PlanRun run;       // at `count` cells, or extrapolated from it and the coarser ones where that is nearer
+    int count = 0;     // of the finest
+    double error = 0;  // [m] of the reference: what is left of that of its cells, and that of its steps
     double order = PlanTrial::unset;  // measured over three resolutions
     std::string method;               // of its steps, in words
     std::map<int, PlanRun> runs;      // by count

@@ -103,7 +103,7 @@ Action declarePlan(Options& options) {
     options.flag("--write", flags->write, "Write the changed values into the scene file; the rest of it stays");
     options
         .value("--effort", flags->effort,
-               "What all runs together may cost, in 1e9 springs and points times evaluations: about as many times 5 s")
+               "What all runs together may cost, in 1e9 springs and points times evaluations, which take about 5 s")
         .within(1e-3, 1e6);
     options.value("--set", flags->overrides, "Override a field of the scene; repeatable")
         .typeName("KEY=VALUE")

@@ -60,8 +60,8 @@ PlanRun resolveNeed(PlanContext& context, Plan& plan) {
     plan.perturbation = context.target / horizonGrowth;
     const double tick = context.grid.tick;
     const std::unique_ptr<Subject> subject = makeSceneSubject(model, plan.name);
-    const double each =
-        base.effort / static_cast<double>(std::max<std::int64_t>(1, base.work.evaluations + base.work.iterations));
+    const std::int64_t calls = std::max<std::int64_t>(1, base.work.evaluations + base.work.iterations);
+    const double each = (base.effort - base.startEffort) / static_cast<double>(calls);
     const auto effortOf = [&](const ode::Work& work) {
         return each * static_cast<double>(work.evaluations + work.iterations);
     };
@@ -252,7 +252,7 @@ Plan makePlan(const world::SceneSpec& spec, const PlanSettings& settings) {
         plan.ratio = written.hasWholeCost() ? written.cost / chosen.cost : PlanTrial::unset;
         if (!chosen.isAsWritten) plan.changes = planChanges(spec, sceneOf(context, chosen.candidate));
     }
-    plan.isCutShort = plan.isCutShort || plan.verification.isCutShort;
+    plan.isCutShort = plan.isCutShort || context.isCutShort;
     addRemarks(context, reference, plan);
     plan.spent = settings.effort - context.left();
     if (settings.progress) settings.progress({"done", 1.0});

@@ -140,9 +140,11 @@ PlanRun PlanContext::run(const world::SceneSpec& model, double most) const {
     if (left() <= 0) {
         PlanRun none;
         none.isTooDear = true;
+        isCutShort = true;
         return none;
     }
     PlanRun run = play(model, resolution, grid, {.cost = most, .effort = std::max(left(), 0.0)});
+    if (run.isTooDear && run.cost <= most) isCutShort = true;
     spent.fetch_add(static_cast<std::int64_t>(run.effort), std::memory_order_relaxed);
     return run;
 }
@@ -177,7 +179,10 @@ PlanReference makePlanReference(const PlanContext& context) {
     PlanRun extrapolated;  // from those and the ones before them
     for (const int count : ladder(context.resolution.count)) {
         const bool isFirst = reference.count == 0;
-        if (!isFirst && 2 * exactEffort(context, count) > context.left(shareOfReference)) break;
+        if (!isFirst && 2 * exactEffort(context, count) > context.left(shareOfReference)) {
+            context.isCutShort = true;
+            break;
+        }
         context.tell(fmt::format("reference, {} cells", count),
                      0.3 + 0.03 * static_cast<double>(reference.runs.size()));
         ExactRun exact = exactRun(context, count, shareOfReference);

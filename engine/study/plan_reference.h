@@ -19,9 +19,10 @@ struct PlanContext {
     const PlanSettings& settings;
     Resolution resolution;
     PlanGrid grid;
-    double target = 0;                            // [m]
-    std::string plainMethod = "leapfrog";         // that plays the scene at a step found for it
-    mutable std::atomic<std::int64_t> spent = 0;  // of the effort
+    double target = 0;                             // [m]
+    std::string plainMethod = "leapfrog";          // that plays the scene at a step found for it
+    mutable std::atomic<std::int64_t> spent = 0;   // of the effort
+    mutable std::atomic<bool> isCutShort = false;  // something was not run, or not to its end, for the effort
 
     void tell(const std::string& doing, double done) const;  // throws core::Error when it is to stop
     // Runs a model of the scene within the effort that is left, and counts what it takes. Not beyond `most` cost.

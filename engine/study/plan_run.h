@@ -36,7 +36,8 @@ struct PlanRun {
     ode::Work work;          // the start's too
     double cost = 0;    // evaluations of the forces, products of a solver counted as such, times what one costs, see
                         // costOf(); without the start's, which are made once however long the run
-    double effort = 0;  // the same with the start's, and with what a call costs besides
+    double effort = 0;  // the same with the start's, and with what a call and building the world cost besides
+    double startEffort = 0;  // of that, of building the world
     double springs = 0;
     double seconds = 0;  // of wall time, on one thread
     int substeps = 0;    // a tick, of the island that makes most

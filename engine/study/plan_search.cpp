@@ -89,7 +89,6 @@ class Search {
         const double wanted = std::max(leastToScan, timesToScan * spent);
         const double most = std::min(wanted, context_.left(shareToSearch));
         const auto isOver = [&] { return -context_.left(0.0) - spent > most; };
-        plan_.isCutShort = plan_.isCutShort || most < std::min(wanted, leastToScan);
         const int centre = plan_.trials[*plan_.chosen].candidate.count;
         const std::vector<std::string> names = methods();
         for (int away = 0; away < std::max(centre, 1); ++away)
@@ -98,7 +97,10 @@ class Search {
                 if (away == 0 && side > 0) continue;
                 if (count < std::min(1, centre) || (count > centre && (count > finest || away > moreCounts))) continue;
                 for (const std::string& method : names) {
-                    if (isOver()) return;
+                    if (isOver()) {
+                        plan_.isCutShort = plan_.isCutShort || most < wanted;
+                        return;
+                    }
                     scanMethod(count, method, isOver);
                 }
             }

@@ -136,8 +136,9 @@ std::string planVerdict(const Plan& plan) {
     const std::string target = lengthText(plan.need.target);
     if (!plan.chosen) {
         const PlanTrial* near = nearest(plan);
-        if (near == nullptr) return fmt::format("The need cannot be met: nothing tried ran to the end.");
-        return fmt::format("The need cannot be met: the nearest, {} with {}, errs by {}, {:.3g} times the {} allowed.",
+        const std::string how = plan.isCutShort ? "is not met within the effort" : "cannot be met";
+        if (near == nullptr) return fmt::format("The need {}: nothing tried ran to the end.", how);
+        return fmt::format("The need {}: the nearest, {} with {}, errs by {}, {:.3g} times the {} allowed.", how,
                            near->candidate.method,
                            near->candidate.count > 0 ? fmt::format("{} cells", near->candidate.count) : "its points",
                            lengthText(near->error), near->error / plan.need.target, target);

@@ -10,6 +10,7 @@
 
 #include "plan_scenes.h"
 #include "support/small_scenes.h"
+#include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/scene/load.h"
 #include "taut/study/plan.h"
@@ -143,12 +144,35 @@ TEST(Plan, SaysHowNearItComesWhenNothingMeetsTheNeed) {
     world::SceneSpec scene = specOf(swingingRope);
     scene.need.rmsPosition = 1e-7;  // of a rope of at most 8 times 16 segments, which is known to micrometres
     PlanSettings settings;
-    settings.effort = 1e6;
+    settings.effort = 1e7;
     const Plan plan = makePlan(scene, settings);
     EXPECT_FALSE(plan.isMet());
     EXPECT_FALSE(plan.chosen.has_value());
     ASSERT_FALSE(plan.trials.empty());
     EXPECT_GT(plan.trials.back().error, 1e-7);
+}
+
+TEST(Plan, SpendsNoMoreThanItsEffortAndSaysThatItWasCutShort) {
+    const world::SceneSpec scene = specOf(swingingRope);
+    const Plan whole = makePlan(scene);
+    EXPECT_FALSE(whole.isCutShort);
+    int found = 0;
+    for (const double share : {0.6, 0.4, 0.2, 0.1}) {
+        PlanSettings settings;
+        settings.effort = share * whole.spent;
+        const Plan plan = makePlan(scene, settings);
+        EXPECT_TRUE(plan.isCutShort) << share;
+        // 1 %: a run ends at the first tick that is too much, a twelfth of the run.
+        EXPECT_LE(plan.spent, 1.01 * settings.effort) << share;
+        found += plan.chosen.has_value() ? 1 : 0;
+    }
+    EXPECT_GE(found, 2) << "the best found so far";
+}
+
+TEST(Plan, ASceneOfWhichNotOneRunIsWithinTheEffortIsRefusedAtOnce) {
+    PlanSettings settings;
+    settings.effort = 1e3;
+    EXPECT_THROW((void)makePlan(specOf(swingingRope), settings), core::Error);
 }
 
 TEST(Plan, ABudgetThatIsTooSmallIsNotMet) {
@@ -206,9 +230,7 @@ TEST(Plan, OfAChaoticSceneItPromisesNoMoreThanTheHorizonAndDoesNotMeetTheNeed) {
 
 TEST(Plan, CallsNothingChaoticThatStaysWithinTheTarget) {
     // The same rope: whichever way it buckles, points of a rope of 0.1 m are hardly further apart than that.
-    PlanSettings settings;
-    settings.effort = 1e6;
-    const Plan plan = makePlan(bucklingRope(0.3), settings);
+    const Plan plan = makePlan(bucklingRope(0.3));
     EXPECT_FALSE(plan.isChaotic);
     EXPECT_DOUBLE_EQ(plan.seconds, 0.5);
     EXPECT_DOUBLE_EQ(plan.unseen(), 0.5) << "of a run of one second";

@@ -50,7 +50,7 @@ TEST(PlanCommand, PrintsTheEvidenceAndKeepsTheFile) {
     const Outcome outcome = run({"plan", path.string(), "--quiet"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     for (const char* part : {"Force generators", "Resolution", "Candidates", "implicit-euler", "as written", "chosen",
-                             "Verification", "rope.r.segments = ", "The need is met"})
+                             "cost a frame", "Verification", "rope.r.segments = ", "The need is met"})
         EXPECT_TRUE(has(outcome.out, part)) << part << "\n" << outcome.out;
     EXPECT_EQ(core::fileContent(path), rope);
 }

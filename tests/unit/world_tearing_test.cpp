@@ -95,7 +95,7 @@ TEST(Tearing, ASheetCutAlongItsLoadBearsWhatItBore) {
     EXPECT_EQ(world.metrics().brokenSprings, cut);
 }
 
-// A spring torn and one that yields at once, in a tick that another body's end undoes.
+// A spring torn, one that yields at once, and an impact, in a tick that another body's end undoes.
 TEST(Tearing, AnUndoneTickTakesBackWhatToreAndGaveWay) {
     SceneSpec scene;
     scene.world.gravity = dvec3(0.0);
@@ -113,8 +113,16 @@ TEST(Tearing, AnUndoneTickTakesBackWhatToreAndGaveWay) {
     yields.plasticity.yieldStrain = 0.2;
     scene.bodies.add(tears);
     scene.bodies.add(yields);
+    NetSpec lands = pair("lands", 3, 1.0, {0, -5, 0});  // within a tick, from 0.05 m
+    for (auto& point : lands.points) point.position.y = 0.05 + lands.thickness;
+    scene.bodies.add(lands);
+    ColliderSpec ground;
+    ground.name = "ground";
+    ground.shape = "plane";
+    scene.colliders = {ground};
     World alone(scene);
     run(alone, 1);
+    EXPECT_EQ(alone.metrics("net.lands").contacts, 2);
     EXPECT_EQ(alone.metrics("net.tears").brokenSprings, 1);
     EXPECT_NEAR(alone.metrics("net.yields").maxStrain, 0.2, 1e-3);
     // As fast as may be said; its spring makes one of its ends faster still.
@@ -126,6 +134,8 @@ TEST(Tearing, AnUndoneTickTakesBackWhatToreAndGaveWay) {
     EXPECT_EQ(world.metrics("net.tears").brokenSprings, 0);
     EXPECT_NEAR(world.metrics("net.yields").maxStrain, 0.25, 1e-6);
     EXPECT_NEAR(world.metrics("net.tears").elastic, 0.5 * 100 * 0.2 * 0.2, 1e-5);
+    EXPECT_EQ(world.metrics("net.lands").contacts, 0);
+    EXPECT_NEAR(world.metrics("net.lands").kinetic, 0.5 * 20 * 25, 1e-3);  // drag of a tick that did not count
 }
 
 // A block pulled so hard that a tick diverges and is repeated in shorter steps: what tore on the wrong way has not.

@@ -14,7 +14,8 @@ constexpr int moreCounts = 4;           // resolutions above the coarsest that a
 constexpr double stepPrecision = 1.04;  // the number of steps is found to this factor
 constexpr double clearly = 0.99;        // cheaper by less than that is no reason to change anything
 constexpr double leastToScan = 1e8;     // of the effort, and
-constexpr double timesToScan = 2;       // times what was spent before, may go into looking around the cheapest
+constexpr double timesToScan = 1;       // times what was spent before, may go into looking around the cheapest
+constexpr double scanPrecision = 1.02;  // numbers of steps looked at are so far apart, or 1
 constexpr double farFrom = 3;           // times the target: from there steps follow the order
 constexpr int mostRuns = 20;            // of one method at one resolution
 constexpr double shareToSearch = 0.9;   // the rest is for the verification
@@ -219,12 +220,14 @@ class Search {
                 ++plan_.alsoTried;
             }
             if (done.meets || done.wasStopped) return;
-            if (std::abs(done.error - before) < 0.005 * before) return;  // only the resolution can help
+            if (count > 0 && std::abs(done.error - before) < 0.005 * before) return;  // only the resolution can help
             before = done.error;
-            const double follows = std::pow(done.error / (farFrom * context_.target), 1.0 / method.order);
+            // Where points touch something errors jump: there any number of steps may do.
+            const double far = (reference_.run.hasContacts ? 10 : 1) * farFrom * context_.target;
+            const double follows = std::pow(done.error / far, 1.0 / method.order);
             const double next = substeps * std::max(1.0, std::isfinite(follows) ? std::min(follows, 64.0) : 2.0);
             if (next > 1e6) return;
-            substeps = std::max({substeps + 1, static_cast<int>(substeps * stepPrecision), static_cast<int>(next)});
+            substeps = std::max({substeps + 1, static_cast<int>(substeps * scanPrecision), static_cast<int>(next)});
         }
     }
 

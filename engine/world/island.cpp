@@ -107,7 +107,9 @@ std::optional<Fault> Island::takeTick(const TickTime& time, std::span<const Coll
 // In steps so short that they are within the bound of the state at the tick's end, and contact adds little energy.
 std::optional<Fault> Island::takeTickThatHolds(const TickTime& time, std::span<const ColliderMotion> moving) {
     constexpr int mostRescues = 3;  // of a tick that diverges, perhaps because the state has stiffened within it
-    double addedBefore = HUGE_VAL;  // [J] by contact, in longer steps
+    constexpr int fairTrial = 3;    // doublings of steps, after which contact should add less
+    double addedFirst = 0;          // [J] by contact, before those
+    int doublings = 0;
     for (int rescues = 0;;) {
         keepSteps();
         const auto fault = takeSubsteps(time, moving);
@@ -120,7 +122,9 @@ std::optional<Fault> Island::takeTickThatHolds(const TickTime& time, std::span<c
             isTooLong = following_.isExceededBy(need / contactFactor_);
         }
         // Where shorter steps have not helped, still shorter ones will not.
-        if (!isTooLong && (!addsTooMuch(work) || work.added > 0.75 * addedBefore)) {
+        const bool isInVain = doublings >= fairTrial && work.added > 0.75 * addedFirst;
+        if (!isTooLong && (isInVain || !addsTooMuch(work))) {
+            if (isInVain) contactFactor_ = std::max(1, contactFactor_ >> doublings);
             if (choice_.need) following_.lengthenIfCalm(need);
             account(work);
             return std::nullopt;
@@ -129,7 +133,7 @@ std::optional<Fault> Island::takeTickThatHolds(const TickTime& time, std::span<c
         if (!isTooLong) {
             contactFactor_ *= 2;
             calmTicks_ = 0;
-            addedBefore = work.added;
+            if (doublings++ == 0) addedFirst = work.added;
         } else if (need <= mostSubsteps) {
             following_.shorten(need);
             while (contactFactor_ > 1 && wantedSubsteps() > mostSubsteps) contactFactor_ /= 2;

@@ -116,7 +116,7 @@ Action declarePlan(Options& options) {
         "Examples:\n"
         "  taut plan drape\n"
         "  taut plan my.toml --json out/plan.json --write\n"
-        "  taut plan flag --set need.rms_pixels=2 --set need.horizon_s=0.1 --effort 0.05");
+        "  taut plan flag --set need.rms_pixels=2 --set need.horizon_s=0.1 --effort 2");
     return [flags] { return plan(*flags); };
 }
 

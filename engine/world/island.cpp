@@ -207,7 +207,10 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
             const bool isLast = s + 1 == choice_.substeps;
             const bool touches = dynamics_->collide(colliders_, isLast ? &contacts_ : nullptr);
             hasTouched_ = hasTouched_ || touches;
-            if (!inside_.empty()) dynamics_->emerge(colliders_, inside_);
+            if (!inside_.empty()) {
+                dynamics_->emerge(colliders_, inside_);
+                dynamics_->takeContactWork();  // of no step, but of the start
+            }
             if (touches && !dynamics_->isTouchedBounded()) return giveUp(end());
         }
         if (mayGiveWay_) settle();

@@ -36,8 +36,8 @@ TEST_P(TimelineHash, IsTheSameForEveryInstructionSet) {
         if (core::isSupported(set)) EXPECT_EQ(sse2, hashes(GetParam(), 2, set)) << nameOf(set);
 }
 
-// Recorded with g++ 12. They change with the scene of tests/support/timelines.h, and with the bits of results (3: tears and
-// yields at every substep).
+// Recorded with g++ 12. They change with the scene of tests/support/timelines.h, and with the bits of results (3: tears
+// and yields at every substep).
 TEST_P(TimelineHash, IsAsRecorded) {
     EXPECT_EQ(hashes(GetParam(), 2, core::instructionSet()).back(),
               GetParam() ? 0x16d56bd23dcf1fa7ULL : 0xcc424910df5f538dULL);

@@ -199,9 +199,9 @@ double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share)
         fastestMode(share, leastDrag, mostDrag, bounds.anywhere().omega, bounds.dampingAnywhere()));
 }
 
-// Springs are not linear: near ω h = √3, where a mode takes three steps to turn, a step within the linear limit feeds wide
-// swings (Schlick, Mandziuk, Skeel and Srinivas 1998, third-order resonance), unless dashpots take more out. A share of
-// 0.9 keeps ω h below 1.5. Drag takes out too little to count.
+// Springs are not linear: near ω h = √3, where a mode takes three steps to turn, a step within the linear limit feeds
+// wide swings (Schlick, Mandziuk, Skeel and Srinivas 1998, third-order resonance), unless dashpots take more out. A
+// share of 0.9 keeps ω h below 1.5. Drag takes out too little to count.
 constexpr double mostUndamped = 1.5 / 0.9, weakDamping = 0.02;  // ω h, and τ ω
 
 double StepNeed::operator()(const mechanics::FastestNow& now) const {
@@ -220,6 +220,19 @@ void StepNeed::raise(const mechanics::StabilityShare& share, std::span<const dou
     for (std::size_t i = 0; i < inverseMasses.size(); ++i)
         moreOmega2 = std::max(moreOmega2, share.stiffness[i] * inverseMasses[i]);
     for (double rate : share.dampingRate) others.rate = std::max(others.rate, rate);
+}
+
+// A method without a limit takes one step a tick by itself, and shakes springs in it as no shorter one would.
+void warnOfTears(const IslandPlan& plan, const ode::MethodInfo& method, StepChoice& choice) {
+    if (plan.solver.dt || !std::isinf(choice.limit)) return;
+    for (const Body* body : plan.bodies)
+        if (body->plasticity.breakStrain || body->plasticity.yieldStrain) {
+            choice.warnings.push_back(
+                body->fullName() + ": what tears or yields is looked for at every step, and " +
+                std::string(method.title) +
+                " takes one a tick: give a dt, such as 0.001, so that the picture rate has no say");
+            return;
+        }
 }
 
 // What a step that splits the dashpots off costs, of one that does not: two sweeps over them besides the forces.
@@ -292,6 +305,7 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
     if (!method->caution.empty())
         choice.warnings.push_back(body.fullName() + ": " + std::string(method->title) + ": " +
                                   std::string(method->caution));
+    warnOfTears(plan, *method, choice);
     if (!choice.need) warnOverLimit(envelope, *method, choice, limitHere, leastOmega);
     if (std::isfinite(choice.limit)) {
         adviseOnSliver(plan, choice);

@@ -95,6 +95,25 @@ TEST(Tearing, ASheetCutAlongItsLoadBearsWhatItBore) {
     EXPECT_EQ(world.metrics().brokenSprings, cut);
 }
 
+TEST(Tearing, ByMethodsWithoutALimitIsWarnedOfUnlessTheirStepIsGiven) {
+    SceneSpec scene;
+    scene.materials["paper"].plasticity.breakStrain = 0.1;
+    ClothSpec sheet = support::cloth("sheet", 2);
+    sheet.material = "paper";
+    scene.bodies.add(sheet);
+    const auto isWarned = [&] {
+        const std::vector<std::string> all = World(scene).warnings();
+        return std::any_of(all.begin(), all.end(), [](const std::string& warning) {
+            return warning.find("cloth.sheet: what tears or yields") != std::string::npos;
+        });
+    };
+    EXPECT_FALSE(isWarned());
+    scene.solver.integrator = "sdirk2";
+    EXPECT_TRUE(isWarned());
+    scene.solver.dt = 1e-3;
+    EXPECT_FALSE(isWarned());
+}
+
 // A spring torn, one that yields at once, and an impact, in a tick that another body's end undoes.
 TEST(Tearing, AnUndoneTickTakesBackWhatToreAndGaveWay) {
     SceneSpec scene;

@@ -213,9 +213,9 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
             }
             if (touches && !dynamics_->isTouchedBounded()) return giveUp(end());
         }
-        if (mayGiveWay_) settle();
-        if (!mayFreeze_) continue;
-        if (const auto fault = overstrained(end())) return fault;
+        if (mayFreeze_)
+            if (const auto fault = overstrained(end())) return fault;
+        if (mayGiveWay_) settle();  // of steps that stand
     }
     return std::nullopt;
 }

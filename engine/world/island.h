@@ -52,7 +52,7 @@ struct ColliderMotion {
 };
 
 // By how much contact shortens the steps of "auto" at most.
-inline constexpr int mostContactFactor = 64;
+inline constexpr int mostContactFactor = 1024;
 
 class Island {
   public:

@@ -232,10 +232,6 @@ std::unique_ptr<Method<Real>> makeImplicitEuler(const MethodOptions& options) {
     return std::make_unique<ImplicitEuler<Real>>(options);
 }
 
-double implicitEulerLargestStep(const FastestMode&) {
-    return HUGE_VAL;
-}
-
 }  // namespace
 
 MethodInfo implicitEuler() {
@@ -248,8 +244,8 @@ MethodInfo implicitEuler() {
             .reversible = false,
             .limit = "none on linear problems; solves by conjugate gradients, and damps by ζ = z/2",
             .caution = "",
-            .largestStep = implicitEulerLargestStep,
-            .automaticStep = implicitEulerLargestStep,
+            .largestStep = unlimitedStep,
+            .automaticStep = unlimitedStep,
             .make = {makeImplicitEuler<float>, makeImplicitEuler<double>}};
 }
 

@@ -23,6 +23,11 @@ void forEachNumber(Layout layout, F&& f) {
               static_cast<std::size_t>(i));
 }
 
+// Of methods that stand any step on linear problems. [s]
+inline double unlimitedStep(const FastestMode&) {
+    return HUGE_VAL;
+}
+
 // Keeps accelerations as they come. out (layout.size()).
 template <class Real>
 class StoreAccelerations final : public AccelerationSink<Real> {

@@ -128,10 +128,6 @@ std::unique_ptr<Method<Real>> makeSdirk2(const MethodOptions& options) {
     return std::make_unique<Sdirk2<Real>>(options);
 }
 
-double sdirk2LargestStep(const FastestMode&) {
-    return HUGE_VAL;
-}
-
 }  // namespace
 
 MethodInfo sdirk2() {
@@ -144,8 +140,8 @@ MethodInfo sdirk2() {
             .reversible = false,
             .limit = "none on linear problems; two solves a step, and what is too fast for it dies out",
             .caution = "",
-            .largestStep = sdirk2LargestStep,
-            .automaticStep = sdirk2LargestStep,
+            .largestStep = unlimitedStep,
+            .automaticStep = unlimitedStep,
             .make = {makeSdirk2<float>, makeSdirk2<double>}};
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
-
 #include "taut/core/child_process.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
@@ -21,14 +19,13 @@ void draw(const Chart& chart, Format format, const std::filesystem::path& path) 
     };
     if (!core::isInPath(gnuplotProgram)) fail(gnuplotMissing());
     // "-d": no settings of the user's own.
-    const core::ChildResult result =
-        core::runChild({{gnuplotProgram, "-d", "-"}}, gnuplotScript(chart, format, file.temporary()));
-    std::error_code error;
-    if (!result.end.succeeded() || std::filesystem::file_size(file.temporary(), error) == 0) {
-        const std::string said = result.output + result.errors;
+    // The picture comes to us, for gnuplot does not tell of a disk that is full.
+    const core::ChildResult result = core::runChild({{gnuplotProgram, "-d", "-"}}, gnuplotScript(chart, format));
+    if (!result.end.succeeded() || result.output.empty())
         fail(fmt::format("gnuplot {}{}{}", result.end.succeeded() ? "drew nothing" : result.end.text(),
-                         said.empty() ? "" : ":\n", said));
-    }
+                         result.errors.empty() ? "" : ":\n", result.errors));
+    file.write(result.output);
+    if (format == Format::svg) file.write("\n");
     file.commit();
 }
 

@@ -10,8 +10,8 @@ namespace taut::report {
 
 enum class Format { svg, png };
 
-// The script that makes gnuplot draw the chart into `output`, data included.
-std::string gnuplotScript(const Chart& chart, Format format, const std::filesystem::path& output);
+// The script that makes gnuplot draw the chart to its standard output, data included.
+std::string gnuplotScript(const Chart& chart, Format format);
 
 // Writes stem.svg and stem.png, each whole or not at all. Throws core::Error(inputOutput): gnuplot is not installed
 // (with the name of the package), failed (with what it said), or the files cannot be written.

@@ -70,8 +70,7 @@ Axis belowStrip(Axis axis, double foot) {
 
 class Script {
   public:
-    Script(const Chart& chart, Format format, const std::filesystem::path& output)
-        : chart_(chart), layout_(layoutOf(chart)) {
+    Script(const Chart& chart, Format format) : chart_(chart), layout_(layoutOf(chart)) {
         const double scale = format == Format::png ? chart.pngScale : 1.0;
         const char* fonts = "DejaVu Sans,Verdana,Arial,sans-serif";
         if (format == Format::png)
@@ -83,10 +82,10 @@ class Script {
                 "set termoption font '{},12'\n",
                 layout_.width, layout_.height, fonts, fonts);
         isPng_ = format == Format::png;
-        add("set output {}\nset encoding utf8\nset multiplot\n", quoted(output.string()));
+        add("set encoding utf8\nset multiplot\n");
         for (std::size_t i = 0; i < chart.panels.size(); ++i) addPanel(chart.panels[i], layout_.panels[i]);
         addFrame();
-        add("unset multiplot\nset output\n");
+        add("unset multiplot\n");
     }
 
     std::string text;
@@ -365,8 +364,8 @@ void Script::addFrame() {
 
 }  // namespace
 
-std::string gnuplotScript(const Chart& chart, Format format, const std::filesystem::path& output) {
-    return Script(chart, format, output).text;
+std::string gnuplotScript(const Chart& chart, Format format) {
+    return Script(chart, format).text;
 }
 
 }  // namespace taut::report

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "taut/world/bodies/block.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/rope.h"
 #include "taut/world/spec.h"
@@ -15,6 +16,19 @@ inline world::ClothSpec cloth(const std::string& name, int cells = 8) {
     spec.cells = {cells, cells};
     spec.origin = {0.0, 2.0, 0.0};
     return spec;
+}
+
+// Stiff, and held at its bottom.
+inline world::BlockSpec stiffBlock(const std::string& name) {
+    world::BlockSpec block;
+    block.name = name;
+    block.size = {0.2, 0.2, 0.2};
+    block.cells = {4, 4, 4};
+    block.density = 1000;
+    block.young = 2e5;
+    block.bulk = 2e6;
+    block.hold = {"bottom"};
+    return block;
 }
 
 inline world::RopeSpec rope(const std::string& name, world::dvec3 start, world::dvec3 end, int segments = 10) {

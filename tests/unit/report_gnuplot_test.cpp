@@ -75,10 +75,10 @@ TEST(ReportGnuplot, AStripOfFailuresHasNoNumbers) {
     guide.x = 0.1;
     panel.guides.push_back(guide);
     chart.panels = {panel};
-    const std::string without = gnuplotScript(chart, Format::svg, "chart.svg");
+    const std::string without = gnuplotScript(chart, Format::svg);
     EXPECT_TRUE(has(without, "from first 0.1, graph 0 to first 0.1, graph 1 "));
     chart.panels[0].strip = {"failed", 4, {}};
-    const std::string with = gnuplotScript(chart, Format::svg, "chart.svg");
+    const std::string with = gnuplotScript(chart, Format::svg);
     for (const int power : {-6, -3, -2}) EXPECT_TRUE(has(with, "\"10^{" + std::to_string(power) + "}\"")) << power;
     for (const int power : {-1, 0}) EXPECT_FALSE(has(with, "\"10^{" + std::to_string(power) + "}\"")) << power;
     // Four rows of 11 px and 6 px: 50 of 160.

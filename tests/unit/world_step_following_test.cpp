@@ -70,15 +70,7 @@ TEST(StepFollowing, RepeatsATickThatLeftItsStepBehindAndSaysSo) {
 // Pulled so hard that it stiffens within a tick, beyond what the step at its start bears.
 TEST(StepFollowing, RepeatsATickThatDiverges) {
     SceneSpec scene;
-    BlockSpec block;
-    block.name = "b";
-    block.size = {0.2, 0.2, 0.2};
-    block.cells = {4, 4, 4};
-    block.density = 1000;
-    block.young = 2e5;
-    block.bulk = 2e6;
-    block.hold = {"bottom"};
-    scene.bodies.add(block);
+    scene.bodies.add(support::stiffBlock("b"));
     scene.actions = {support::push(0.1, "block.b@top", {0, 200, 0})};  // N s
     World world(scene);
     for (int i = 0; i < 30; ++i) ASSERT_FALSE(world.advance()) << i;

@@ -160,15 +160,7 @@ TEST(Tearing, AnUndoneTickTakesBackWhatToreAndGaveWay) {
 // A block pulled so hard that a tick diverges and is repeated in shorter steps: what tore on the wrong way has not.
 TEST(Tearing, ARepeatedTickKnowsNothingOfTheOneBefore) {
     SceneSpec scene;
-    BlockSpec block;
-    block.name = "b";
-    block.size = {0.2, 0.2, 0.2};
-    block.cells = {4, 4, 4};
-    block.density = 1000;
-    block.young = 2e5;
-    block.bulk = 2e6;
-    block.hold = {"bottom"};
-    scene.bodies.add(block);
+    scene.bodies.add(support::stiffBlock("b"));
     scene.actions = {support::push(0.1, "block.b@top", {0, 200, 0})};  // N s
     World whole(scene);
     double strain = 0;

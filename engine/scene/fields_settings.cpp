@@ -125,6 +125,26 @@ SceneSection worldSection() {
     return section;
 }
 
+SceneSection contactSection() {
+    SceneSection section;
+    section.name = "contact";
+    section.help = "Between bodies that touch.";
+    section.enter = enterPart(&SceneSpec::contact);
+    section.fields = FieldList<ContactSpec>()
+                         .number("friction", &ContactSpec::friction, "", Range{0.0, 100.0},
+                                 "Coulomb's friction between two bodies, times the factors of both.")
+                         .whole("instants", &ContactSpec::instants, "", Range{1, 1024},
+                                "Moments of a tick at which bodies are kept apart, a power of two; as many as their "
+                                "speeds ask for if not given.")
+                         .take();
+    section.check = [](const CheckInput& input, void* target) {
+        const auto& contact = *static_cast<const ContactSpec*>(target);
+        if (contact.instants && (*contact.instants & (*contact.instants - 1)) != 0)
+            input.problems.addError(input.at("instants"), "instants must be a power of two", "1, 2, 4, 8, 16, …");
+    };
+    return section;
+}
+
 SceneSection runSection() {
     SceneSection section;
     section.name = "run";

@@ -34,7 +34,7 @@ void nameMethods(Section& section, const std::vector<std::string>& names) {
 }  // namespace
 
 std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
-    std::vector<SceneSection> all{fileSection(), needSection(),    solverSection(),  worldSection(),
+    std::vector<SceneSection> all{fileSection(), needSection(),    solverSection(),  worldSection(), contactSection(),
                                   runSection(),  pictureSection(), materialSection()};
     for (const auto& kind : kinds.bodies.all()) all.push_back(kindSection(kind, &world::SceneSpec::bodies));
     all.insert(all.end(), {jointSection(), massSection()});

@@ -30,6 +30,7 @@ SceneSection fileSection();
 SceneSection needSection();
 SceneSection solverSection();
 SceneSection worldSection();
+SceneSection contactSection();
 SceneSection runSection();
 SceneSection pictureSection();
 SceneSection lightSection();

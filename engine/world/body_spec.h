@@ -39,6 +39,9 @@ struct MaterialSpec {             // of cloth, per metre of material
     PlasticitySpec plasticity{};
 };
 
+// Which surfaces of bodies keep off each other: none, those of different bodies, or all, a body's own parts among them.
+enum class Touch { nothing, others, all };
+
 struct ArraySpec {  // copies of a body along three directions, named NAME.0, NAME.1, …
     ivec3 count{1, 1, 1};
     dvec3 stepX{0.0}, stepY{0.0}, stepZ{0.0};  // [m] from one copy to the next
@@ -62,8 +65,9 @@ struct BodySpec {
     double jitter = 0.0;            // [m] random offset of free points at the start: breaks symmetry
     std::int64_t seed = 1;          // of the jitter
     double friction = 1.0;          // factor on the collider's friction
-    double thickness = 0.005;       // [m] distance kept from colliders
+    double thickness = 0.005;       // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
     bool collide = true;
+    Touch touch = Touch::nothing;
     FinishSpec finish;
     SolverOverride solver;
     ArraySpec array;

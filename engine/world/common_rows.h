@@ -71,8 +71,11 @@ std::vector<fields::Field> bodyRows() {
                 "Random offset of the free points at the start, to break symmetry.")
         .whole("seed", &Spec::seed, "", Range{0.0, 1e12}, "Seed of the offsets.")
         .number("friction", &Spec::friction, "", Range{0.0, 100.0}, "Factor on the collider's friction.")
-        .number("thickness", &Spec::thickness, "m", Range{0.0, 10.0}, "Distance kept from colliders.")
+        .number("thickness", &Spec::thickness, "m", Range{0.0, 10.0},
+                "Distance kept from colliders; bodies that touch keep the sum of theirs.")
         .flag("collide", &Spec::collide, "Whether colliders stop it. Points that start inside one come out at 1 m/s.")
+        .choice("touch", &Spec::touch, {"nothing", "others", "all"},
+                "What of other bodies stops it: nothing, those that touch others too, or all, its own parts as well.")
         .table("finish", &Spec::finish, finishSection(), "How it looks.")
         .table("solver", &Spec::solver, overrideSection(), "Its own way to be computed.")
         .table("array", &Spec::array, arraySection(), "Copies, called NAME.0, NAME.1 and so on.");

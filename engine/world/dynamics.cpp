@@ -110,6 +110,11 @@ class DynamicsOf final : public Dynamics {
         speeds_ = ode::Speeds::unknown;
         return contacts_.collide(colliders, *method_, time_, step_, gravity(time_), contacts);
     }
+    void place(const collision::Colliders* colliders, std::span<const int> points, std::span<dvec3> x,
+               std::span<dvec3> v) override {
+        speeds_ = ode::Speeds::unknown;
+        contacts_.place(colliders, *method_, step_, gravity(time_), points, x, v);
+    }
     void watchContacts(bool isOn) override { contacts_.watch(isOn); }
     ContactWork takeContactWork() override { return contacts_.takeWork(); }
     dvec3 gravity(double t) const override {
@@ -153,6 +158,9 @@ class DynamicsOf final : public Dynamics {
     ode::Work work() const override { return method_->work(); }
 
     std::vector<dvec3> velocities() const override { return list(state_.v); }
+    void velocities(std::span<dvec3> v) const override {
+        for (std::size_t i = 0; i < v.size(); ++i) v[i] = at(state_.v, static_cast<int>(i));
+    }
     std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts) override {
         findVelocities(t, contacts);
         return list(velocity_);
@@ -193,6 +201,9 @@ class DynamicsOf final : public Dynamics {
     dvec3 position(int point) const override { return at(state_.x, point); }
     void positions(std::vector<dvec3>& x) const override {
         x.resize(static_cast<std::size_t>(state_.layout.count));
+        positions(std::span(x));
+    }
+    void positions(std::span<dvec3> x) const override {
         for (std::size_t i = 0; i < x.size(); ++i) x[i] = at(state_.x, static_cast<int>(i));
     }
 

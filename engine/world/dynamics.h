@@ -82,6 +82,10 @@ class Dynamics {
     // After that: points that began inside a collider go on their way out no faster than emergingSpeed; those that are
     // out leave the list.
     virtual void emerge(const collision::Colliders& colliders, std::vector<int>& inside) = 0;
+    // After contact with other bodies, between two steps: points (ascending) go to x [m] with a velocity v [m/s] as the
+    // method stores it, and out of the colliders where those stop them on their way. Both become what is kept.
+    virtual void place(const collision::Colliders* colliders, std::span<const int> points, std::span<dvec3> x,
+                       std::span<dvec3> v) = 0;
     // Whether collide() sums up what it does to the energy, and that sum since it was last taken.
     virtual void watchContacts(bool isOn) = 0;
     virtual ContactWork takeContactWork() = 0;
@@ -107,6 +111,7 @@ class Dynamics {
     // Velocities as the method stores them, those at t [s], which may cost an evaluation, and the first made the
     // second. Contacts, those at t, point by point, bear what forces have added since the velocities that are stored.
     virtual std::vector<dvec3> velocities() const = 0;
+    virtual void velocities(std::span<dvec3> v) const = 0;
     virtual std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts) = 0;
     virtual void synchronise(double t, std::span<const collision::Contact> contacts) = 0;
     virtual void setVelocity(int point, const dvec3& v) = 0;
@@ -115,6 +120,7 @@ class Dynamics {
     virtual bool isTouchedBounded() const = 0;
     virtual dvec3 position(int point) const = 0;
     virtual void positions(std::vector<dvec3>& x) const = 0;
+    virtual void positions(std::span<dvec3> x) const = 0;
 
     // What the generators say, at t [s].
     virtual mechanics::StabilityShare stabilityShare(double t) const = 0;

@@ -20,6 +20,7 @@
 #include "taut/world/components.h"
 #include "taut/world/hands.h"
 #include "taut/world/island.h"
+#include "taut/world/touching.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -47,6 +48,7 @@ struct World::Impl {
     std::vector<System> systems;
     ForceList added;  // by addForce()
     std::vector<std::unique_ptr<Island>> islands;
+    std::unique_ptr<Touching> touching;  // of those that touch; null when it has to be made anew
     struct Member {
         ecs::Entity entity;
         Body* body;
@@ -84,6 +86,8 @@ struct World::Impl {
     Member addBody(std::unique_ptr<Body> body);
     ecs::Entity spawn(Body body);
     ecs::Entity addAlone(std::unique_ptr<Body> body);
+    void findTouching();
+    std::optional<Divergence> tickIslands(const std::vector<ColliderMotion>& moving);
     void placeColliders();
     std::vector<ColliderMotion> movingColliders();
     void undoTick();

@@ -9,6 +9,8 @@
 namespace taut::world {
 namespace {
 
+constexpr int leastParts = 4;  // of a tick of bodies that touch others, whatever their method bears
+
 std::string insideWarning(const Body& body, const std::string& collider, int points, double depth) {
     char text[200];
     std::snprintf(text, sizeof text, ": %d of its points start inside ", points);
@@ -21,8 +23,8 @@ std::string insideWarning(const Body& body, const std::string& collider, int poi
 }  // namespace
 
 Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
-               bool keepsStep)
-    : tickSeconds_(1.0 / ticksPerSecond), plan_(std::move(plan)), forces_(forces) {
+               bool keepsStep, int parts)
+    : tickSeconds_(1.0 / ticksPerSecond), parts_(parts), plan_(std::move(plan)), forces_(forces) {
     dynamics_ = makeDynamics(plan_, forces_);
     const mechanics::FastestNow now = dynamics_->fastestNow();
     choice_ = chooseStep(
@@ -35,6 +37,10 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
     if (choice_.need)
         following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
     if (choice_.splits) dynamics_->split(true);
+    if (parts_ > 1) {
+        choice_.substeps = inParts(choice_.substeps);
+        choice_.step = tickSeconds_ / choice_.substeps;
+    }
     ownSubsteps_ = choice_.substeps;
     shortensForContact_ = !keepsStep && !plan_.solver.dt;
     dynamics_->start(t, choice_.step);
@@ -81,8 +87,23 @@ void Island::findInside(std::span<const std::string> names) {
 }
 
 std::optional<Fault> Island::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
+    beginTick(time);
+    if (frozen_) return std::nullopt;
+    for (;;) {
+        beginTry();
+        auto fault = advance(time, moving, 0, 1);
+        const Verdict verdict = judge(time, fault);
+        if (verdict == Verdict::fails) return fault;
+        if (verdict == Verdict::stands) break;
+        tryAgain(time, verdict);
+    }
+    endTick(time);
+    return std::nullopt;
+}
+
+void Island::beginTick(const TickTime& time) {
     keepGiven();
-    if (mayFreeze_ && frozen_) return std::nullopt;
+    if (mayFreeze_ && frozen_) return;
     TAUT_EXPECTS(!isOpen_);
     hasMoved_ = true;
     if (wantedSubsteps() != choice_.substeps) {
@@ -90,65 +111,105 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
         startWith(time, wantedSubsteps(), false);
     }
     keepTouches();
-    const auto fault = choice_.need || shortensForContact_ ? takeTickThatHolds(time, moving) : takeTick(time, moving);
-    if (fault) return fault;
+    tries_ = {};
+}
+
+void Island::beginTry() {
+    if (frozen_) return;
+    keepSteps();
+    contacts_.clear();
+}
+
+std::optional<Fault> Island::advance(const TickTime& time, std::span<const ColliderMotion> moving, int part,
+                                     int parts) {
+    if (frozen_) return std::nullopt;
+    TAUT_EXPECTS(choice_.substeps % parts == 0);
+    const int each = choice_.substeps / parts;
+    return takeSubsteps(time, moving, part * each, (part + 1) * each);
+}
+
+void Island::endTick(const TickTime& time) {
+    if (frozen_) return;
     if (hasCells_) watchVolumes(time.at(1, 1));
     watchFreezing(time);
-    return std::nullopt;
 }
 
-std::optional<Fault> Island::takeTick(const TickTime& time, std::span<const ColliderMotion> moving) {
-    keepSteps();
-    const auto fault = takeSubsteps(time, moving);
-    if (!fault) account(dynamics_->takeContactWork());
-    return fault;
+Verdict Island::judge(const TickTime& time, std::optional<Fault>& fault) {
+    if (frozen_) return Verdict::stands;
+    if (choice_.need || shortensForContact_) return judgeSteps(time, fault);
+    if (fault) return Verdict::fails;
+    account(dynamics_->takeContactWork());
+    return Verdict::stands;
 }
 
-// In steps so short that they are within the bound of the state at the tick's end, and contact adds little energy.
-std::optional<Fault> Island::takeTickThatHolds(const TickTime& time, std::span<const ColliderMotion> moving) {
+// A tick stands in steps so short that they are within the bound of the state at its end, and contact adds little
+// energy.
+Verdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
     constexpr int mostRescues = 3;  // of a tick that diverges, perhaps because the state has stiffened within it
     constexpr int fairTrial = 3;    // doublings of steps, after which contact should add less
-    double addedFirst = 0;          // [J] by contact, before those
-    int doublings = 0;
-    for (int rescues = 0;;) {
-        keepSteps();
-        const auto fault = takeSubsteps(time, moving);
-        if (fault && !choice_.need) return fault;
-        const ContactWork work = dynamics_->takeContactWork();
-        bool isTooLong = fault.has_value();
-        double need = 2.0 * following_.substeps();
-        if (!fault && choice_.need) {
-            need = (*choice_.need)(dynamics_->fastestNow());
-            isTooLong = following_.isExceededBy(need / contactFactor_);
-        }
-        // Where shorter steps have not helped, still shorter ones will not.
-        const bool isInVain = doublings >= fairTrial && work.added > 0.75 * addedFirst;
-        if (!isTooLong && (isInVain || !addsTooMuch(work))) {
-            if (isInVain) contactFactor_ = std::max(1, contactFactor_ >> doublings);
-            if (choice_.need) following_.lengthenIfCalm(need);
-            account(work);
-            return std::nullopt;
-        }
-        if (fault && (!fault->isNumber || ++rescues > mostRescues || need > mostSubsteps)) return fault;
-        if (!isTooLong) {
-            contactFactor_ *= 2;
-            calmTicks_ = 0;
-            if (doublings++ == 0) addedFirst = work.added;
-        } else if (need <= mostSubsteps) {
-            following_.shorten(need);
-            while (contactFactor_ > 1 && wantedSubsteps() > mostSubsteps) contactFactor_ /= 2;
-        } else {
-            return Fault{.point = 0, .time = time.at(1, 1), .isTooStiff = true};
-        }
-        const StepFollowing following = following_;
-        const int factor = contactFactor_, calmTicks = calmTicks_;
-        undoTick();
-        following_ = following;
-        contactFactor_ = factor;
-        calmTicks_ = calmTicks;
-        dynamics_->synchronise(time.start(), contacts_);
-        startWith(time, wantedSubsteps(), true);
+    if (fault && !choice_.need) return Verdict::fails;
+    const ContactWork work = dynamics_->takeContactWork();
+    bool isTooLong = fault.has_value();
+    double need = 2.0 * following_.substeps();
+    if (!fault && choice_.need) {
+        need = (*choice_.need)(dynamics_->fastestNow());
+        isTooLong = following_.isExceededBy(need / contactFactor_);
     }
+    // Where shorter steps have not helped, still shorter ones will not.
+    const bool isInVain = tries_.doublings >= fairTrial && work.added > 0.75 * tries_.addedFirst;
+    if (!isTooLong && (isInVain || !addsTooMuch(work))) {
+        if (isInVain) contactFactor_ = std::max(1, contactFactor_ >> tries_.doublings);
+        if (choice_.need) following_.lengthenIfCalm(need);
+        account(work);
+        return Verdict::stands;
+    }
+    if (fault && (!fault->isNumber || ++tries_.rescues > mostRescues || need > mostSubsteps)) return Verdict::fails;
+    if (!isTooLong) {
+        contactFactor_ *= 2;
+        calmTicks_ = 0;
+        if (tries_.doublings++ == 0) tries_.addedFirst = work.added;
+    } else if (need <= mostSubsteps) {
+        following_.shorten(need);
+        while (contactFactor_ > 1 && wantedSubsteps() > mostSubsteps) contactFactor_ /= 2;
+    } else {
+        fault = Fault{.point = 0, .time = time.at(1, 1), .isTooStiff = true};
+        return Verdict::fails;
+    }
+    return Verdict::again;
+}
+
+void Island::tryAgain(const TickTime& time, Verdict verdict) {
+    if (frozen_) return;
+    const StepFollowing following = following_;
+    const int factor = contactFactor_, calmTicks = calmTicks_;
+    undoTick();
+    if (verdict != Verdict::again) return;
+    following_ = following;
+    contactFactor_ = factor;
+    calmTicks_ = calmTicks;
+    dynamics_->synchronise(time.start(), contacts_);
+    startWith(time, wantedSubsteps(), true);
+}
+
+// Few substeps become a power of two.
+int Island::inParts(int substeps) const {
+    if (!plan_.solver.dt) substeps = std::max(substeps, std::min(parts_, leastParts));
+    if (substeps >= parts_) return (substeps + parts_ - 1) / parts_ * parts_;
+    int parts = 1;
+    while (parts < substeps) parts *= 2;
+    return parts;
+}
+
+void Island::read(std::span<dvec3> x, std::span<dvec3> v) const {
+    dynamics_->positions(x);
+    if (frozen_)
+        std::fill(v.begin(), v.end(), dvec3(0.0));
+    else
+        dynamics_->velocities(v);
+}
+
+void Island::place(std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v) {
+    dynamics_->place(mayCollide_ ? &colliders_ : nullptr, points, x, v);
 }
 
 void Island::keepTouches() {
@@ -194,9 +255,11 @@ void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
     ticksToLook_ = 0;
 }
 
-std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving) {
+// Contacts are those of the last of them.
+std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first,
+                                          int last) {
     contacts_.clear();
-    for (int s = 0; s < choice_.substeps; ++s) {
+    for (int s = first; s < last; ++s) {
         const auto end = [&] { return time.at(s + 1, choice_.substeps); };
         if (mayFreeze_) dynamics_->keep(Since::step);
         if (mayCollide_) dynamics_->rememberPositions();
@@ -204,7 +267,7 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
         if (!dynamics_->isBounded()) return giveUp(end());
         if (mayCollide_) {
             moveColliders(moving, s);
-            const bool isLast = s + 1 == choice_.substeps;
+            const bool isLast = s + 1 == last;
             const bool touches = dynamics_->collide(colliders_, isLast ? &contacts_ : nullptr);
             hasTouched_ = hasTouched_ || touches;
             if (!inside_.empty()) {

@@ -51,6 +51,9 @@ struct ColliderMotion {
     collision::Pose from, to;
 };
 
+// What becomes of a try of a tick.
+enum class Verdict { stands, again, fails };
+
 // By how much contact shortens the steps of "auto" at most.
 inline constexpr int mostContactFactor = 1024;
 
@@ -58,9 +61,10 @@ class Island {
   public:
     // At time t [s]. Chooses its step, which holds for all that the envelope allows; throws core::Error(badContent)
     // where no step would do.
-    // With `keepsStep` no state changes it.
+    // With `keepsStep` no state changes it. A tick has at least `parts` substeps, in as many equal parts, a power of two;
+    // fewer where dt is given, or the method has no limit.
     Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
-           bool keepsStep);
+           bool keepsStep, int parts = 1);
     Island(const Island&) = delete;
     Island& operator=(const Island&) = delete;
 
@@ -71,6 +75,21 @@ class Island {
     // substeps steps of leap-frog or whichever method; contacts of the last step are kept. Ends early on a fault.
     // Expects that the island is not open.
     std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving);
+
+    // A tick in pieces, of islands whose bodies touch others: beginTick(), then tries until one stands. A try begins,
+    // goes on by parts of all substeps, and is judged; after `again` the island begins another from where the tick
+    // began, and may be asked to for the sake of others.
+    void beginTick(const TickTime& time);
+    void beginTry();
+    std::optional<Fault> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);
+    Verdict judge(const TickTime& time, std::optional<Fault>& fault);
+    void tryAgain(const TickTime& time, Verdict verdict);
+    void endTick(const TickTime& time);
+    int substeps() const { return choice_.substeps; }
+    // Where points of the island are, and velocities as the method stores them (points) [m], [m/s].
+    void read(std::span<dvec3> x, std::span<dvec3> v) const;
+    // After a part: points (ascending) were moved by contact with other bodies; out of colliders again.
+    void place(std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v);
 
     // Whether any spring tore in the last tick.
     bool hasTorn() const { return hasTorn_; }
@@ -128,9 +147,8 @@ class Island {
     void visit(StateBytes& bytes);
 
   private:
-    std::optional<Fault> takeTick(const TickTime& time, std::span<const ColliderMotion> moving);
-    std::optional<Fault> takeTickThatHolds(const TickTime& time, std::span<const ColliderMotion> moving);
-    std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving);
+    std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last);
+    Verdict judgeSteps(const TickTime& time, std::optional<Fault>& fault);
     // For undoTick(), besides what gives way.
     void keepTouches();
     void keepSteps();
@@ -155,7 +173,10 @@ class Island {
     bool addsTooMuch(const ContactWork& work) const;
     void account(const ContactWork& work);
     std::string contactWarning() const;  // empty where nothing is to be said
-    int wantedSubsteps() const { return contactFactor_ * (choice_.need ? following_.substeps() : ownSubsteps_); }
+    int wantedSubsteps() const {
+        return inParts(contactFactor_ * (choice_.need ? following_.substeps() : ownSubsteps_));
+    }
+    int inParts(int substeps) const;
     void addPoints(const std::vector<bool>& only, const TickTime& time, Metrics& metrics);
     void addSprings(const std::vector<bool>& only, Metrics& metrics);
     void addCells(const Body& body, Metrics& metrics) const;
@@ -183,6 +204,7 @@ class Island {
     bool shortensForContact_ = false;  // the step
     StepChoice choice_;
     double tickSeconds_;                     // [s]
+    int parts_ = 1;                          // a tick, that all substeps are to be divided into
     int ownSubsteps_ = 1;                    // a tick, where they do not follow the state
     int contactFactor_ = 1, calmTicks_ = 0;  // by which contact makes them more; since when it does not need that
     ContactWork contactWork_;                // so far
@@ -208,6 +230,11 @@ class Island {
         double step = 0;
         std::size_t stepChanges = 0;
     } before_;                 // what the tick began with
+    struct {
+        int rescues = 0;        // so far, of a tick that diverges
+        int doublings = 0;      // of steps, for contact to add less
+        double addedFirst = 0;  // [J] by contact, before those
+    } tries_;                   // of this tick
     std::vector<int> inside_;  // points that began inside a collider and have not been out yet
     std::vector<std::string> insideWarnings_;
     std::string stretchWarning_, collapseWarning_, limitWarning_, freezingWarning_;

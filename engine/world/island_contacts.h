@@ -73,6 +73,50 @@ class IslandContacts {
         if (!more_.empty()) method.touch(state_, more_);
     }
 
+    // Points (ascending) go to x [m] with v [m/s], out of the colliders where those stop them; both become what is kept.
+    // h [s], gravity: of the step that was taken.
+    void place(const collision::Colliders* colliders, Method& method, double h, const dvec3& gravity,
+               std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v) {
+        if (colliders != nullptr) findColliding(std::sqrt(glm::dot(gravity, gravity)));
+        const auto count = static_cast<int>(points.size());
+        if (placed_.size() < 3 * points.size()) placed_ = placedFrom_ = placedSpeeds_ = Planes(6 * points.size());
+        const Planar<Real> few{static_cast<int>(placed_.size() / 3)};
+        placedMasses_.clear();
+        for (int k = 0; k < count; ++k) {
+            const auto own = static_cast<std::size_t>(k);
+            few.set(placedFrom_, k, planar_.at(state_.x, points[own]));
+            few.set(placed_, k, x[own]);
+            few.set(placedSpeeds_, k, v[own]);
+            placedMasses_.push_back(system_.inverseMasses()[points[own]]);
+        }
+        if (colliders != nullptr)
+            for (const collision::MovingPoints<Real>& body : colliding_) {
+                const auto first = std::lower_bound(points.begin(), points.end(), body.first);
+                const auto last = std::lower_bound(first, points.end(), body.last);
+                collision::MovingPoints<Real> own = body;
+                own.first = static_cast<int>(first - points.begin());
+                own.last = static_cast<int>(last - points.begin());
+                own.stride = few.stride;
+                own.xBefore = placedFrom_.data();
+                own.x = placed_.data();
+                own.v = placedSpeeds_.data();
+                own.inverseMass = placedMasses_.data();
+                collision::Candidates candidates;
+                more_.clear();
+                if (own.last > own.first)
+                    colliders->resolve(std::span<const collision::MovingPoints<Real>>(&own, 1), h, candidates, more_,
+                                       nullptr);
+            }
+        for (int k = 0; k < count; ++k) {
+            const auto own = static_cast<std::size_t>(k);
+            x[own] = few.at(placed_, k);
+            v[own] = few.at(placedSpeeds_, k);
+            planar_.set(state_.x, points[own], x[own]);
+            planar_.set(state_.v, points[own], v[own]);
+        }
+        method.touch(state_, points);
+    }
+
     // Velocities to which forces have been added since those of the state: what contacts, point by point, leave of
     // them.
     void bear(std::span<const collision::Contact> contacts, Planes& velocities) const {
@@ -289,6 +333,8 @@ class IslandContacts {
     std::vector<Slide> slides_;                              // (supports)
     std::vector<ode::Support> supports_;                     // likewise
     ContactWatch<Real> watch_;
+    Planes placed_, placedFrom_, placedSpeeds_;  // scratch, of points that are placed
+    std::vector<Real> placedMasses_;             // likewise
 };
 
 }  // namespace taut::world

@@ -181,6 +181,7 @@ void World::restore(std::span<const std::byte> content) {
     if (!reader.isAtEnd()) misfit("there is more in them than it has");
     impl_->rebuildColliders();
     impl_->redrawDamage();
+    impl_->touching.reset();
 }
 
 }  // namespace taut::world

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,12 @@ class KindTable;
 struct WorldSpec {
     dvec3 gravity{0.0, -9.81, 0.0};  // [m/s²]
     double airDensity = 1.2;         // [kg/m³]
+};
+
+// Of bodies that touch each other, or themselves.
+struct ContactSpec {
+    double friction = 0.3;        // Coulomb's μ between two bodies, times the factors of both [-]
+    std::optional<int> instants;  // a tick, at which contacts are looked at; none: as many as their speed asks for
 };
 
 struct RunSpec {
@@ -67,6 +74,7 @@ struct SceneSpec {
     std::string base;  // the file that it builds on; empty: none
     std::string title;
     WorldSpec world;
+    ContactSpec contact;
     SolverSpec solver;
     RunSpec run;
     NeedSpec need;

@@ -96,8 +96,10 @@ void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Env
     plan.solver.precision = spec.solver.precision;
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
+    const int parts = touches(plan) ? partsOfTick(1.0 / ticksPerSecond, spec.contact) : 1;
     islands.push_back(
-        std::make_unique<Island>(std::move(plan), current, envelope, ticksPerSecond, seconds(), keepsSteps));
+        std::make_unique<Island>(std::move(plan), current, envelope, ticksPerSecond, seconds(), keepsSteps, parts));
+    touching.reset();
     for (Body* body : members) body->island = islands.back().get();
 }
 
@@ -188,6 +190,40 @@ std::vector<ColliderMotion> World::Impl::movingColliders() {
     return moving;
 }
 
+void World::Impl::findTouching() {
+    if (!touching) touching = std::make_unique<Touching>(islands, spec.contact, 1.0 / ticksPerSecond);
+}
+
+// Those that touch go together, all others side by side.
+std::optional<Divergence> World::Impl::tickIslands(const std::vector<ColliderMotion>& moving) {
+    const TickTime time = now();
+    findTouching();
+    std::vector<Island*> alone;
+    for (const auto& island : islands)
+        if (!touches(island->plan())) alone.push_back(island.get());
+    std::vector<std::optional<Fault>> faults(alone.size());
+    std::optional<Touching::Outcome> outcome;
+    threads.run([&] {
+        core::parallelFor(static_cast<int>(alone.size()),
+                          [&](int i) {
+                              const auto k = static_cast<std::size_t>(i);
+                              faults[k] = alone[k]->tick(time, moving);
+                          });
+        if (!touching->isEmpty()) outcome = touching->tick(time, moving);
+    });
+    const auto diagnose = [&](Island& island, const Fault& fault) {
+        undoTick();
+        return island.diagnose(fault, time);
+    };
+    for (std::size_t i = 0; i < faults.size(); ++i)
+        if (faults[i]) {
+            if (alone[i]->plan().solver.onDivergence != OnDivergence::freeze) return diagnose(*alone[i], *faults[i]);
+            alone[i]->freeze(*faults[i], time);
+        }
+    if (outcome) return diagnose(*outcome->island, outcome->fault);
+    return std::nullopt;
+}
+
 // Everything as it was when the tick began.
 void World::Impl::undoTick() {
     for (const auto& island : islands) island->undoTick();
@@ -240,7 +276,6 @@ void World::Impl::redrawDamage() {
 
 std::optional<Divergence> World::advance() {
     Impl& w = *impl_;
-    const TickTime now = w.now();
     // What acts between two ticks, systems as well as actions; then the islands that it opened start again.
     w.performDue(*this);
     w.changeColliders();
@@ -252,22 +287,7 @@ std::optional<Divergence> World::advance() {
     w.leadHands();
     w.closeIslands();
     const std::vector<ColliderMotion> moving = w.movingColliders();
-    std::vector<std::optional<Fault>> faults(w.islands.size());
-    w.threads.run([&] {
-        core::parallelFor(static_cast<int>(w.islands.size()), [&](int i) {
-            const auto k = static_cast<std::size_t>(i);
-            faults[k] = w.islands[k]->tick(now, moving);
-        });
-    });
-    for (std::size_t i = 0; i < faults.size(); ++i)
-        if (faults[i]) {
-            if (w.islands[i]->plan().solver.onDivergence == OnDivergence::freeze) {
-                w.islands[i]->freeze(*faults[i], now);
-                continue;
-            }
-            w.undoTick();
-            return w.islands[i]->diagnose(*faults[i], now);
-        }
+    if (auto divergence = w.tickIslands(moving)) return divergence;
     ++w.tick;
     if (std::any_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->hasTorn(); }))
         w.redrawDamage();
@@ -350,6 +370,7 @@ void World::destroy(ecs::Entity entity) {
     if (const BodyPart* part = w.registry.find<BodyPart>(entity)) {
         const Island* island = &w.islandOf(*part->body);
         TAUT_EXPECTS(island->plan().bodies.size() == 1);
+        w.touching.reset();
         std::erase_if(
             w.islands, [&](const auto& other) { return other.get() == island; });
         std::erase_if(w.bodies, [&](const Impl::Member& member) { return member.entity == entity; });

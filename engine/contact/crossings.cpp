@@ -1,0 +1,103 @@
+#include "taut/contact/crossings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/contact/closest.h"
+
+namespace taut::contact {
+namespace {
+
+constexpr double leastSlope = 0.05;  // of an edge against the triangle, for its faces to have a say
+
+dvec3 unit(const dvec3& v) {
+    const double size = length(v);
+    return size > 0 ? v / size : dvec3(0.0);
+}
+
+// Volino and Magnenat-Thalmann, "Resolving surface collisions through intersection contour minimization", 2006.
+dvec3 wayApart(const Elements& elements, const Edge& edge, const Triangle& triangle, std::span<const dvec3> x) {
+    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    const dvec3 along = unit(at(edge.b) - at(edge.a));
+    const std::array<int, 3>& c = triangle.points;
+    const dvec3 normal = unit(glm::cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0])));
+    const double slope = glm::dot(along, normal);
+    if (std::abs(slope) < leastSlope) return dvec3(0.0);
+    dvec3 sum(0.0);
+    for (int t : edge.triangles) {
+        if (t < 0) continue;
+        const std::array<int, 3>& f = elements.triangles()[static_cast<std::size_t>(t)].points;
+        int apex = f[0];
+        for (int i : f)
+            if (i != edge.a && i != edge.b) apex = i;
+        const dvec3 face = glm::cross(at(f[1]) - at(f[0]), at(f[2]) - at(f[0]));
+        dvec3 line = unit(glm::cross(face, normal));  // of the two planes, to be led into the face
+        const dvec3 inwards = at(apex) - at(edge.a);
+        const dvec3 across = inwards - glm::dot(inwards, along) * along;
+        if (glm::dot(line, across) < 0) line = -line;
+        sum += line - (2 * glm::dot(along, line) / slope) * normal;
+    }
+    return unit(sum);
+}
+
+}  // namespace
+
+std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, std::span<const dvec3> x) {
+    std::vector<Crossing> crossings;
+    patches.follow(x, x);
+    std::vector<std::pair<int, int>> near;
+    patches.findNear(0.0, near);
+    const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
+    struct Boxed {
+        int item;
+        Box box;
+    };
+    std::vector<Boxed> edges;
+    const auto tryBoth = [&](const Patch& ofEdges, const Patch& ofTriangles, const Box& edgeBox,
+                             const Box& triangleBox) {
+        edges.clear();
+        for (int e : ofEdges.edges) {
+            const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
+            if (edge.isGone || edge.a == edge.b) continue;
+            Box box;
+            box.add(at(edge.a));
+            box.add(at(edge.b));
+            if (box.overlaps(triangleBox, 0.0)) edges.push_back({e, box});
+        }
+        if (edges.empty()) return;
+        for (int t : ofTriangles.triangles) {
+            const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
+            if (triangle.isGone) continue;
+            const std::array<int, 3>& c = triangle.points;
+            Box box;
+            for (int i : c) box.add(at(i));
+            if (!box.overlaps(edgeBox, 0.0)) continue;
+            for (const Boxed& boxed : edges) {
+                if (!boxed.box.overlaps(box, 0.0)) continue;
+                const Edge& edge = elements.edges()[static_cast<std::size_t>(boxed.item)];
+                if (edge.a == c[0] || edge.a == c[1] || edge.a == c[2] || edge.b == c[0] || edge.b == c[1] ||
+                    edge.b == c[2])
+                    continue;
+                Piercing p;
+                if (!pierces(at(edge.a), at(edge.b), at(c[0]), at(c[1]), at(c[2]), p)) continue;
+                crossings.push_back({boxed.item,
+                                     t,
+                                     at(edge.a) + p.s * (at(edge.b) - at(edge.a)),
+                                     {edge.a, edge.b, c[0], c[1], c[2]},
+                                     {1 - p.s, p.s, -p.weights[0], -p.weights[1], -p.weights[2]},
+                                     wayApart(elements, edge, triangle, x)});
+            }
+        }
+    };
+    for (const auto& [a, b] : near) {
+        const Box &boxA = patches.motion(a).box, &boxB = patches.motion(b).box;
+        tryBoth(patches[a], patches[b], boxA, boxB);
+        if (a != b) tryBoth(patches[b], patches[a], boxB, boxA);
+    }
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+        return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
+    });
+    return crossings;
+}
+
+}  // namespace taut::contact

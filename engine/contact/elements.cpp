@@ -1,0 +1,108 @@
+#include "taut/contact/elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace taut::contact {
+
+Elements::Elements(std::vector<Surface> surfaces, std::vector<dvec3> rest)
+    : surfaces_(std::move(surfaces)), rest_(std::move(rest)), surfaceOf_(rest_.size(), -1) {
+    for (int s = 0; s < static_cast<int>(surfaces_.size()); ++s) addSurface(s);
+    firstTriangleOf_.push_back(triangles_.size());
+    firstEdgeOf_.push_back(edges_.size());
+    firstBall_ = static_cast<int>(edges_.size());
+    isSevered_.assign(edges_.size(), false);
+    refresh();
+}
+
+void Elements::addSurface(int number) {
+    const Surface& surface = surfaces_[static_cast<std::size_t>(number)];
+    for (int i : surface.points) {
+        int& owner = surfaceOf_[static_cast<std::size_t>(i)];
+        if (owner < 0) owner = number;
+    }
+    firstTriangleOf_.push_back(triangles_.size());
+    firstEdgeOf_.push_back(edges_.size());
+    std::map<std::array<int, 2>, int> known;
+    const auto edgeOf = [&](int a, int b, bool isLine) {
+        const auto [place, isNew] =
+            known.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(edges_.size()));
+        if (isNew) edges_.push_back({std::min(a, b), std::max(a, b), number, isLine});
+        return place->second;
+    };
+    for (const std::array<int, 3>& t : surface.triangles)
+        triangles_.push_back(
+            {t, {edgeOf(t[0], t[1], false), edgeOf(t[1], t[2], false), edgeOf(t[2], t[0], false)}, number});
+    for (const std::array<int, 2>& line : surface.lines)
+        if (line[0] != line[1]) edgeOf(line[0], line[1], true);
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t e = firstEdgeOf_.back(); e < edges_.size(); ++e) {
+        const dvec3 d = rest_[static_cast<std::size_t>(edges_[e].b)] - rest_[static_cast<std::size_t>(edges_[e].a)];
+        shortest = std::min(shortest, std::sqrt(glm::dot(d, d)));
+    }
+    shortest_.push_back(std::isfinite(shortest) ? shortest : 0.0);
+}
+
+void Elements::setGone(int number, const std::function<bool(std::size_t triangle)>& isTriangleGone,
+                       const std::function<bool(int a, int b)>& isEdgeSevered) {
+    const auto s = static_cast<std::size_t>(number);
+    for (std::size_t t = firstTriangleOf_[s]; t < firstTriangleOf_[s + 1]; ++t)
+        triangles_[t].isGone = isTriangleGone(t - firstTriangleOf_[s]);
+    for (std::size_t e = firstEdgeOf_[s]; e < firstEdgeOf_[s + 1]; ++e)
+        isSevered_[e] = isEdgeSevered(edges_[e].a, edges_[e].b);
+}
+
+void Elements::refresh() {
+    edges_.resize(static_cast<std::size_t>(firstBall_));
+    firstTriangle_.assign(rest_.size(), -1);
+    for (std::size_t e = 0; e < edges_.size(); ++e) edges_[e].triangles = {-1, -1};
+    std::vector<bool> isCrowded(edges_.size(), false);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        if (triangles_[t].isGone) continue;
+        for (int i : triangles_[t].points) {
+            int& first = firstTriangle_[static_cast<std::size_t>(i)];
+            if (first < 0) first = static_cast<int>(t);
+        }
+        for (int e : triangles_[t].edges) {
+            std::array<int, 2>& beside = edges_[static_cast<std::size_t>(e)].triangles;
+            if (beside[0] < 0)
+                beside[0] = static_cast<int>(t);
+            else if (beside[1] < 0)
+                beside[1] = static_cast<int>(t);
+            else
+                isCrowded[static_cast<std::size_t>(e)] = true;
+        }
+    }
+    std::vector<int> degree(rest_.size() + 1, 0);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        Edge& edge = edges_[e];
+        if (isCrowded[e]) edge.triangles[1] = -1;
+        edge.isGone = edge.triangles[0] < 0 && isSevered_[e];
+        if (edge.isGone) continue;
+        ++degree[static_cast<std::size_t>(edge.a)];
+        ++degree[static_cast<std::size_t>(edge.b)];
+    }
+    ringStart_.assign(rest_.size() + 1, 0);
+    for (std::size_t i = 0; i < rest_.size(); ++i)
+        ringStart_[i + 1] = ringStart_[i] + static_cast<std::size_t>(degree[i]);
+    ring_.assign(ringStart_.back(), 0);
+    std::vector<std::size_t> next(ringStart_.begin(), ringStart_.end() - 1);
+    for (const Edge& edge : edges_) {
+        if (edge.isGone) continue;
+        ring_[next[static_cast<std::size_t>(edge.a)]++] = edge.b;
+        ring_[next[static_cast<std::size_t>(edge.b)]++] = edge.a;
+    }
+    for (std::size_t s = 0; s < surfaces_.size(); ++s)
+        for (int i : surfaces_[s].points)
+            if (degree[static_cast<std::size_t>(i)] == 0 && surfaceOf(i) == static_cast<int>(s))
+                edges_.push_back({i, i, static_cast<int>(s), true});
+}
+
+std::uint64_t Elements::bytes() const {
+    return triangles_.size() * sizeof(Triangle) + edges_.size() * sizeof(Edge) + ring_.size() * sizeof(int) +
+           rest_.size() * (sizeof(dvec3) + 4 * sizeof(int));
+}
+
+}  // namespace taut::contact

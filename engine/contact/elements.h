@@ -1,0 +1,86 @@
+// The triangles and edges of all surfaces of a group in one numbering, and what lies beside what. It knows no places
+// but those at rest.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "taut/contact/surface.h"
+
+namespace taut::contact {
+
+struct Triangle {
+    std::array<int, 3> points;
+    std::array<int, 3> edges;  // edge k: points k, k + 1
+    int surface;
+    bool isGone = false;
+};
+
+struct Edge {
+    int a, b;  // the same of a ball: a point that nothing holds any more
+    int surface;
+    bool isLine;  // of no triangle: it pushes with its ends too
+    bool isGone = false;
+    std::array<int, 2> triangles{-1, -1};  // on either side, the lower first; more than two count as a border
+};
+
+class Elements {
+  public:
+    // rest (points) [m].
+    Elements(std::vector<Surface> surfaces, std::vector<dvec3> rest);
+
+    // What is gone of a surface from now on: triangles by their number in it, edges by their points. An edge stays
+    // while a triangle of it does. Points without either become balls, which are the last of the edges.
+    void setGone(int surface, const std::function<bool(std::size_t triangle)>& isTriangleGone,
+                 const std::function<bool(int a, int b)>& isEdgeSevered);
+    // To be called after the last of those.
+    void refresh();
+
+    const std::vector<Surface>& surfaces() const { return surfaces_; }
+    const Surface& surface(int i) const { return surfaces_[static_cast<std::size_t>(i)]; }
+    const std::vector<Triangle>& triangles() const { return triangles_; }
+    const std::vector<Edge>& edges() const { return edges_; }
+    int edgesWithoutBalls() const { return firstBall_; }
+    int surfaceOf(int point) const { return surfaceOf_[static_cast<std::size_t>(point)]; }
+    const std::vector<dvec3>& rest() const { return rest_; }
+    int pointCount() const { return static_cast<int>(rest_.size()); }
+    // Of the points at the other ends of edges.
+    std::span<const int> neighbours(int point) const {
+        const auto i = static_cast<std::size_t>(point);
+        return {ring_.data() + ringStart_[i], ring_.data() + ringStart_[i + 1]};
+    }
+    // The lowest triangle at a point; -1 without.
+    int firstTriangle(int point) const { return firstTriangle_[static_cast<std::size_t>(point)]; }
+    double shortestEdge(int surface) const { return shortest_[static_cast<std::size_t>(surface)]; }  // [m] at rest
+
+    bool shareBond(int surfaceA, int surfaceB) const {
+        return surface(surfaceA).bond == surface(surfaceB).bond && !surface(surfaceA).isRigid;
+    }
+    // Whether anything of the one may meet anything of the other.
+    bool mayMeet(int surfaceA, int surfaceB) const {
+        const Surface &a = surface(surfaceA), &b = surface(surfaceB);
+        if (surfaceA == surfaceB) return a.meetsItself && !a.isRigid;
+        return a.meetsOthers && b.meetsOthers && !(a.isRigid && b.isRigid);
+    }
+
+    std::uint64_t bytes() const;
+
+  private:
+    void addSurface(int number);
+
+    std::vector<Surface> surfaces_;
+    std::vector<dvec3> rest_;
+    std::vector<Triangle> triangles_;
+    std::vector<Edge> edges_;
+    std::vector<std::size_t> firstTriangleOf_, firstEdgeOf_;  // (surfaces + 1)
+    int firstBall_ = 0;
+    std::vector<bool> isSevered_;  // (edges without balls)
+    std::vector<int> surfaceOf_;   // (points)
+    std::vector<int> ring_, firstTriangle_;
+    std::vector<std::size_t> ringStart_;
+    std::vector<double> shortest_;  // (surfaces)
+};
+
+}  // namespace taut::contact

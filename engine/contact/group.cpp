@@ -1,0 +1,407 @@
+#include "taut/contact/group.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/contact/closest.h"
+#include "taut/contact/guard.h"
+#include "taut/core/parallel.h"
+
+namespace taut::contact {
+namespace {
+
+constexpr int recordsAtOnce = 16;
+constexpr int mostSlides = 8, mostZones = 12;
+constexpr double pressShare = 0.05;  // of the distance kept: a gap below it is a contact
+constexpr double valley = 0.2;       // sine of the angle by which a face may rise beside an edge that presses
+constexpr double apartSpeed = 0.3;   // [m/s] that crossings are led apart with
+constexpr double nothing = 1e-9;     // [m] no direction can be told of less
+
+}  // namespace
+
+Group::Group(std::vector<Surface> surfaces, std::vector<dvec3> rest, const GroupOptions& options)
+    : options_(options), elements_(std::move(surfaces), std::move(rest)), near_(elements_) {
+    const auto count = static_cast<std::size_t>(elements_.pointCount());
+    u0_.resize(count);
+    u_.resize(count);
+    v_.resize(count);
+    shift_.resize(count);
+    xIs_.resize(count);
+    isMarked_.assign(count, 0);
+}
+
+void Group::drop() {
+    near_.drop();
+    mayBeCrossed_ = true;
+    pressed_.clear();
+}
+
+void Group::begin(std::span<const dvec3> x) {
+    for (const Crossing& crossing : crossings_)
+        for (int i : crossing.points) isMarked_[static_cast<std::size_t>(i)] = 0;
+    crossings_.clear();
+    if (!mayBeCrossed_) return;
+    crossings_ = crossingsAt(x);
+    mayBeCrossed_ = !crossings_.empty();
+    if (!options_.untangles) return;
+    for (const Crossing& crossing : crossings_)
+        for (int i : crossing.points) isMarked_[static_cast<std::size_t>(i)] = 1;
+}
+
+std::vector<Crossing> Group::crossingsAt(std::span<const dvec3> x) {
+    return findCrossings(elements_, near_.patches(), x);
+}
+
+// Pairs of crossed surfaces would be held where they are.
+bool Group::isTangled(const MeetingPair& pair) const {
+    bool first = false, second = false;
+    for (int k = 0; k < 4; ++k) {
+        const bool isMarked = isMarked_[static_cast<std::size_t>(pair.points[static_cast<std::size_t>(k)])] != 0;
+        (k < pair.firstSide() ? first : second) |= isMarked;
+    }
+    return first && second;
+}
+
+// Whether no face beside the edge is nearer to what lies outward of a place on it.
+bool Group::isRidge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const {
+    for (int t : edge.triangles) {
+        if (t < 0) continue;
+        for (int i : elements_.triangles()[static_cast<std::size_t>(t)].points) {
+            if (i == edge.a || i == edge.b) continue;
+            const dvec3 inwards = x[static_cast<std::size_t>(i)] - on;
+            const double rise = glm::dot(inwards, outward);
+            if (rise > 0 && rise * rise > valley * valley * glm::dot(inwards, inwards)) return false;
+        }
+    }
+    return true;
+}
+
+// Of a point whose nearest place on a triangle is on an edge or a corner: whether that is so of all triangles there,
+// and this is the first of them, so that the point is pressed away from it once.
+bool Group::isFeatureNearest(const MeetingPair& pair, int feature, std::span<const dvec3> x) const {
+    const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(pair.b)];
+    if (feature < 3) {
+        const Edge& edge =
+            elements_.edges()[static_cast<std::size_t>(triangle.edges[static_cast<std::size_t>(feature)])];
+        if (edge.triangles[0] != pair.b) return false;
+        if (edge.triangles[1] < 0) return true;
+        const Triangle& other = elements_.triangles()[static_cast<std::size_t>(edge.triangles[1])];
+        for (int i : other.points)
+            if (i != edge.a && i != edge.b)
+                return !(glm::dot(x[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(edge.a)], pair.normal) >
+                         0);
+        return true;
+    }
+    const int corner = triangle.points[static_cast<std::size_t>(feature - 3)];
+    if (elements_.firstTriangle(corner) != pair.b) return false;
+    const dvec3& at = x[static_cast<std::size_t>(corner)];
+    for (int other : elements_.neighbours(corner))
+        if (glm::dot(x[static_cast<std::size_t>(other)] - at, pair.normal) > 0) return false;
+    return true;
+}
+
+void Group::locateIn(const NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
+                     std::vector<MeetingPair>& pairs) const {
+    const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
+    for (std::size_t k = 0; k < record.pairs.size(); ++k) {
+        const NearPair& near = record.pairs[k];
+        if (near.d0 - record.approached > nearShare * near.distance) continue;
+        MeetingPair pair;
+        pair.a = near.a;
+        pair.b = near.b;
+        pair.isPoint = k < record.pointPairs;
+        pair.keep = near.distance;
+        dvec3 apart(0.0);
+        int feature = -1;
+        bool areInside = true;
+        int surfaceA = 0, surfaceB = 0;
+        if (pair.isPoint) {
+            const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(near.b)];
+            const std::array<int, 3>& c = triangle.points;
+            const OnTriangle on = nearestOnTriangle(at(near.a), at(c[0]), at(c[1]), at(c[2]));
+            pair.points = {near.a, c[0], c[1], c[2]};
+            pair.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
+            feature = static_cast<int>(on.feature) - static_cast<int>(Feature::edge0);
+            surfaceA = elements_.surfaceOf(near.a);
+            surfaceB = triangle.surface;
+        } else {
+            const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
+                       &second = elements_.edges()[static_cast<std::size_t>(near.b)];
+            const OnSegments on = nearestOnSegments(at(first.a), at(first.b), at(second.a), at(second.b));
+            pair.points = {first.a, first.b, second.a, second.b};
+            pair.weights = {1 - on.s, on.s, on.t - 1, -on.t};
+            areInside = on.areInside || first.isLine || second.isLine;
+            surfaceA = first.surface;
+            surfaceB = second.surface;
+        }
+        for (std::size_t i = 0; i < 4; ++i) apart += pair.weights[i] * at(pair.points[i]);
+        pair.apart = length(apart);
+        const double gap = pair.apart - pair.keep;
+        dvec3 way(0.0);
+        for (std::size_t i = 0; i < 4; ++i)
+            way += pair.weights[i] * (x1[static_cast<std::size_t>(pair.points[i])] - at(pair.points[i]));
+        if (pair.apart > nothing) {
+            pair.normal = apart / pair.apart;
+        } else {
+            // Through each other, or nearly: which side is which cannot be told.
+            const dvec3 p = at(pair.points[1]) - at(pair.points[pair.isPoint ? 3 : 0]);
+            const dvec3 q = at(pair.points[pair.isPoint ? 2 : 3]) - at(pair.points[pair.isPoint ? 3 : 2]);
+            const dvec3 across = glm::cross(p, q);
+            const double size = length(across);
+            pair.normal = size > 0 ? across / size : dvec3(0.0, 1.0, 0.0);
+        }
+        pair.presses = areInside && (gap < pressShare * pair.keep || gap + glm::dot(pair.normal, way) < 0);
+        if (pair.presses && pair.isPoint && feature >= 0) pair.presses = isFeatureNearest(pair, feature, x0);
+        if (pair.presses && !pair.isPoint) {
+            const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
+                       &second = elements_.edges()[static_cast<std::size_t>(near.b)];
+            const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
+            const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
+            pair.presses = (first.isLine || isRidge(first, onFirst, -pair.normal, x0)) &&
+                           (second.isLine || isRidge(second, onSecond, pair.normal, x0));
+        }
+        if (!crossings_.empty() && isTangled(pair)) continue;
+        const Surface &a = elements_.surface(surfaceA), &b = elements_.surface(surfaceB);
+        pair.friction = (a.isRigid || b.isRigid ? 1.0 : options_.friction) * a.friction * b.friction;
+        pairs.push_back(pair);
+    }
+}
+
+void Group::locate(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    const int count = static_cast<int>(near_.nearCount());
+    const int tasks = (count + recordsAtOnce - 1) / recordsAtOnce;
+    located_.resize(static_cast<std::size_t>(std::max(tasks, static_cast<int>(located_.size()))));
+    core::parallelFor(tasks, [&](int task) {
+        std::vector<MeetingPair>& own = located_[static_cast<std::size_t>(task)];
+        own.clear();
+        for (int k = task * recordsAtOnce; k < std::min((task + 1) * recordsAtOnce, count); ++k) {
+            const NearPairs::Record& record = near_.near(static_cast<std::size_t>(k));
+            if (!record.isFlat) locateIn(record, x0, x1, own);
+        }
+    });
+    pairs_.clear();
+    for (int task = 0; task < tasks; ++task) {
+        const std::vector<MeetingPair>& own = located_[static_cast<std::size_t>(task)];
+        pairs_.insert(pairs_.end(), own.begin(), own.end());
+    }
+}
+
+Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, double seconds) {
+    for (std::size_t i = 0; i < x.size(); ++i) xIs_[i] = x[i] + seconds * v[i];
+    near_.find(x, xIs_);
+    locate(x, xIs_);
+    Outlook outlook;
+    outlook.leastKeep = 1e300;
+    for (const MeetingPair& pair : pairs_) {
+        if (!pair.presses) continue;
+        outlook.meets = true;
+        dvec3 speed(0.0);
+        for (std::size_t k = 0; k < 4; ++k) speed += pair.weights[k] * v[static_cast<std::size_t>(pair.points[k])];
+        outlook.closing = std::max(outlook.closing, -glm::dot(pair.normal, speed));
+        outlook.leastKeep = std::min(outlook.leastKeep, pair.keep);
+    }
+    outlook.meets = outlook.meets || !crossings_.empty();
+    return outlook;
+}
+
+const Meeting& Group::meet(const Instant& instant) {
+    meeting_ = {};
+    moved_.clear();
+    std::copy(instant.x1.begin(), instant.x1.end(), xIs_.begin());
+    near_.find(instant.x0, instant.x1);
+    locate(instant.x0, instant.x1);
+    pressed_.clear();
+    for (const MeetingPair& pair : pairs_)
+        if (pair.presses) pressed_.push_back(pair);
+    if (!pressed_.empty() || !crossings_.empty()) press(instant);
+    if (options_.certifies) guard(instant);
+    near_.arrive();
+    std::sort(moved_.begin(), moved_.end());
+    moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
+    meeting_.moved = moved_;
+    return meeting_;
+}
+
+// Points (ascending) have been moved.
+void Group::give(const Instant& instant, std::span<const int> points) {
+    moved_.insert(moved_.end(), points.begin(), points.end());
+    if (instant.take) instant.take(points);
+}
+
+void Group::press(const Instant& instant) {
+    // Only of points that may be pressed; the others are not asked for.
+    const auto prepare = [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        u0_[k] = u_[k] = (instant.x1[k] - instant.x0[k]) / instant.h;
+        v_[k] = instant.v[k];
+        shift_[k] = dvec3(0.0);
+    };
+    for (const MeetingPair& pair : pressed_)
+        for (int i : pair.points) prepare(i);
+    for (const Crossing& crossing : crossings_)
+        for (int i : crossing.points) prepare(i);
+    pressing_.solve(pressed_, instant.held, instant.inverseMass, instant.h, options_.pressing, u_, v_, shift_);
+    for (double impulse : pressing_.impulses()) meeting_.pressing += impulse > 0 ? 1 : 0;
+    meeting_.sweeps = pressing_.sweeps();
+    if (options_.untangles) leadApart(instant);
+
+    std::vector<int> moved;
+    const auto take = [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (!(instant.inverseMass[k] > 0)) return;
+        if (u_[k] == u0_[k] && v_[k] == instant.v[k] && shift_[k] == dvec3(0.0)) return;
+        instant.x1[k] += instant.h * (u_[k] - u0_[k]) + shift_[k];
+        instant.v[k] = v_[k];
+        u0_[k] = u_[k];
+        shift_[k] = dvec3(0.0);
+        moved.push_back(i);
+    };
+    for (int i : pressing_.points()) take(i);
+    for (const Crossing& crossing : crossings_)
+        for (int i : crossing.points) take(i);
+    if (moved.empty()) return;
+    std::sort(moved.begin(), moved.end());
+    give(instant, moved);
+}
+
+void Group::leadApart(const Instant& instant) {
+    for (const Crossing& crossing : crossings_) {
+        double inverse = 0, speed = 0, speedV = 0;
+        for (std::size_t k = 0; k < 5; ++k) {
+            const auto i = static_cast<std::size_t>(crossing.points[k]);
+            inverse += crossing.weights[k] * crossing.weights[k] * instant.inverseMass[i];
+            speed += crossing.weights[k] * glm::dot(u_[i], crossing.apart);
+            speedV += crossing.weights[k] * glm::dot(v_[i], crossing.apart);
+        }
+        if (!(inverse > 0) || crossing.apart == dvec3(0.0)) continue;
+        const double impulse = std::max(0.0, apartSpeed - speed) / inverse;
+        const double impulseV = std::max(0.0, apartSpeed - speedV) / inverse;
+        for (std::size_t k = 0; k < 5; ++k) {
+            const auto i = static_cast<std::size_t>(crossing.points[k]);
+            const double share = crossing.weights[k] * instant.inverseMass[i];
+            u_[i] += (share * impulse) * crossing.apart;
+            v_[i] += (share * impulseV) * crossing.apart;
+        }
+    }
+}
+
+std::vector<const MeetingPair*> Group::uncertified(const Instant& instant) const {
+    std::vector<const MeetingPair*> bad;
+    for (const MeetingPair& pair : pairs_)
+        if (!isCertified(pair, instant.x0, instant.x1)) bad.push_back(&pair);
+    return bad;
+}
+
+// Points went elsewhere than the near pairs were found for; only where that may have brought others near.
+void Group::refind(const Instant& instant, std::span<const int> moved) {
+    double most = 0;
+    for (int i : moved) {
+        const dvec3 d = instant.x1[static_cast<std::size_t>(i)] - xIs_[static_cast<std::size_t>(i)];
+        most = std::max(most, glm::dot(d, d));
+    }
+    if (near_.holdWithin(std::sqrt(most))) return;
+    near_.find(instant.x0, instant.x1);
+    locate(instant.x0, instant.x1);
+    std::copy(instant.x1.begin(), instant.x1.end(), xIs_.begin());
+}
+
+void Group::guard(const Instant& instant) {
+    if (!moved_.empty()) refind(instant, moved_);
+    for (int round = 0; round < mostSlides + mostZones; ++round) {
+        const std::vector<const MeetingPair*> bad = uncertified(instant);
+        meeting_.uncertified = static_cast<int>(bad.size());
+        if (bad.empty()) return;
+        std::vector<int> moved;
+        if (round < mostSlides && options_.slides) {
+            for (const MeetingPair* pair : bad) slideApart(*pair, instant.inverseMass, instant.x1, instant.v, moved);
+            meeting_.slides += static_cast<int>(bad.size());
+        } else {
+            moveAsZones(bad, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);
+            ++meeting_.zones;
+        }
+        if (moved.empty()) break;
+        std::sort(moved.begin(), moved.end());
+        moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+        give(instant, moved);
+        refind(instant, moved_);
+    }
+    meeting_.uncertified = static_cast<int>(uncertified(instant).size());
+    if (meeting_.uncertified > 0) mayBeCrossed_ = true;
+}
+
+std::vector<Touching> Group::touching(std::span<const dvec3> x) const {
+    std::vector<Touching> all;
+    for (std::size_t p = 0; p < pressed_.size(); ++p) {
+        const MeetingPair& pair = pressed_[p];
+        const double impulse = p < pressing_.impulses().size() ? pressing_.impulses()[p] : 0.0;
+        if (!(impulse > 0)) continue;
+        dvec3 first(0.0), second(0.0);
+        for (int k = 0; k < 4; ++k) {
+            const auto i = static_cast<std::size_t>(k);
+            (k < pair.firstSide() ? first : second) += pair.weights[i] * x[static_cast<std::size_t>(pair.points[i])];
+        }
+        all.push_back({0.5 * (first - second), pair.normal, impulse, elements_.surfaceOf(pair.points[0]),
+                       elements_.surfaceOf(pair.points[3])});
+    }
+    return all;
+}
+
+std::uint64_t Group::bytes() const {
+    return elements_.bytes() + near_.bytes() + pairs_.capacity() * sizeof(MeetingPair) +
+           xIs_.size() * 5 * sizeof(dvec3);
+}
+
+double distanceBetween(const Elements& elements, Patches& patches, std::span<const dvec3> x,
+                       const std::function<bool(int surface)>& isFirst,
+                       const std::function<bool(int surface)>& isSecond) {
+    patches.follow(x, x);
+    const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
+    double least = 1e300;
+    struct Near {
+        double bound;
+        int a, b;
+    };
+    std::vector<Near> order;
+    for (int a = 0; a < patches.count(); ++a) {
+        if (!isFirst(patches[a].surface)) continue;
+        for (int b = 0; b < patches.count(); ++b) {
+            if (!isSecond(patches[b].surface)) continue;
+            const Box &p = patches.motion(a).box, &q = patches.motion(b).box;
+            const dvec3 gap = glm::max(dvec3(0.0), glm::max(p.low - q.high, q.low - p.high));
+            order.push_back({glm::dot(gap, gap), a, b});
+        }
+    }
+    std::sort(
+        order.begin(), order.end(), [](const Near& a, const Near& b) { return a.bound < b.bound; });
+    const auto points = [&](const Patch& of, const Patch& triangles) {
+        for (int i : of.points)
+            for (int t : triangles.triangles) {
+                const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
+                const std::array<int, 3>& c = triangle.points;
+                if (triangle.isGone || i == c[0] || i == c[1] || i == c[2]) continue;
+                const OnTriangle on = nearestOnTriangle(at(i), at(c[0]), at(c[1]), at(c[2]));
+                const dvec3 d =
+                    at(i) - (on.weights[0] * at(c[0]) + on.weights[1] * at(c[1]) + on.weights[2] * at(c[2]));
+                least = std::min(least, glm::dot(d, d));
+            }
+    };
+    for (const Near& near : order) {
+        if (near.bound >= least) break;
+        const Patch &a = patches[near.a], &b = patches[near.b];
+        points(a, b);
+        points(b, a);
+        for (int e : a.edges)
+            for (int f : b.edges) {
+                const Edge &first = elements.edges()[static_cast<std::size_t>(e)],
+                           &second = elements.edges()[static_cast<std::size_t>(f)];
+                if (first.isGone || second.isGone) continue;
+                const OnSegments on = nearestOnSegments(at(first.a), at(first.b), at(second.a), at(second.b));
+                const dvec3 d = at(first.a) + on.s * (at(first.b) - at(first.a)) -
+                                (at(second.a) + on.t * (at(second.b) - at(second.a)));
+                least = std::min(least, glm::dot(d, d));
+            }
+    }
+    return std::sqrt(least);
+}
+
+}  // namespace taut::contact

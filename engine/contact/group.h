@@ -1,0 +1,123 @@
+// Surfaces that may touch: at instants a few milliseconds apart, what has been moved from x0 to x1 is kept from going
+// through itself and others. It knows places and velocities of points, nothing of why they move; no stiffness and no
+// memory is in it, so that it limits no step, and what comes out depends on the instant alone.
+//
+//   find near pairs -> locate -> press, push -> colliders again -> certify -> slide apart, zones
+//
+// After Bridson, Fedkiw and Anderson 2002 and Harmon et al. 2008, with speculative gaps instead of the roots of cubics.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "taut/contact/crossings.h"
+#include "taut/contact/near_pairs.h"
+#include "taut/contact/pressing.h"
+
+namespace taut::contact {
+
+struct GroupOptions {
+    double friction = 0.3;  // Coulomb's μ between two surfaces, times the factors of both [-]
+    PressingOptions pressing{};
+    // For tests of what each is for.
+    bool certifies = true, slides = true, untangles = true;
+};
+
+// All arrays (points).
+struct Instant {
+    double h = 0;                         // [s] since the last instant
+    std::span<const dvec3> x0;            // [m] at the last
+    std::span<dvec3> x1;                  // [m] now
+    std::span<dvec3> v;                   // [m/s] as their method stores them
+    std::span<const double> inverseMass;  // [1/kg]; 0 of points that go their way whatever they meet
+    std::span<const char> isSingle;       // whether x1 is kept in single precision; empty: none
+    std::span<const Held> held;           // ascending by point
+    // Points (ascending) of which x1 and v have changed: their owner takes them over, and may change both once more, by
+    // rounding or where a collider is. May be empty.
+    std::function<void(std::span<const int> points)> take;
+};
+
+// What an instant found.
+struct Meeting {
+    std::vector<int> moved;  // points of which x1 or v has changed, ascending
+    int pressing = 0;        // pairs with an impulse
+    int sweeps = 0, slides = 0, zones = 0, uncertified = 0;
+};
+
+// What comes in a time, if all go on as they are.
+struct Outlook {
+    bool meets = false;    // something is or comes in contact
+    double closing = 0.0;  // [m/s] of what does, at most
+    double leastKeep = 0;  // [m] that it keeps, at least
+};
+
+// Two surfaces in contact, for pictures.
+struct Touching {
+    dvec3 place, normal;  // [m] in the middle between both; towards the first
+    double impulse;       // [N s] of the last instant
+    int surfaceA, surfaceB;
+};
+
+class Group {
+  public:
+    // rest (points) [m].
+    Group(std::vector<Surface> surfaces, std::vector<dvec3> rest, const GroupOptions& options);
+    Group(const Group&) = delete;
+    Group& operator=(const Group&) = delete;
+
+    Elements& elements() { return elements_; }
+    const Elements& elements() const { return elements_; }
+
+    // Points have jumped, or something is gone: what was known of them is not true any more.
+    void drop();
+    // Before the instants of a tick: looks for crossings if there may be any. Their pairs are not pressed until the
+    // next tick, but led apart.
+    void begin(std::span<const dvec3> x);
+    Outlook foresee(std::span<const dvec3> x, std::span<const dvec3> v, double seconds);
+    const Meeting& meet(const Instant& instant);
+
+    const std::vector<Crossing>& crossings() const { return crossings_; }  // at the start of the tick
+    // Of the last instant.
+    std::vector<Touching> touching(std::span<const dvec3> x) const;
+    std::vector<Crossing> crossingsAt(std::span<const dvec3> x);
+    std::size_t listed() const { return near_.listed(); }
+    std::uint64_t bytes() const;
+
+  private:
+    void locate(std::span<const dvec3> x0, std::span<const dvec3> x1);
+    void locateIn(const NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
+                  std::vector<MeetingPair>& pairs) const;
+    bool isFeatureNearest(const MeetingPair& pair, int feature, std::span<const dvec3> x) const;
+    bool isRidge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const;
+    bool isTangled(const MeetingPair& pair) const;
+    void press(const Instant& instant);
+    void leadApart(const Instant& instant);
+    void guard(const Instant& instant);
+    std::vector<const MeetingPair*> uncertified(const Instant& instant) const;
+    void give(const Instant& instant, std::span<const int> points);
+    void refind(const Instant& instant, std::span<const int> moved);
+
+    GroupOptions options_;
+    Elements elements_;
+    NearPairs near_;
+    bool mayBeCrossed_ = true;
+    std::vector<Crossing> crossings_;
+    std::vector<char> isMarked_;                     // (points) of crossings
+    std::vector<MeetingPair> pairs_;                 // all that were located
+    std::vector<MeetingPair> pressed_;               // of them those that press
+    std::vector<std::vector<MeetingPair>> located_;  // (tasks) scratch
+    Pressing pressing_;
+    std::vector<dvec3> u0_, u_, v_, shift_;  // (points)
+    std::vector<dvec3> xIs_;                 // (points) [m] that near pairs were found for
+    std::vector<int> moved_;
+    Meeting meeting_;
+};
+
+// The least distance between two of the surfaces of elements at places x [m]; infinite where one has nothing.
+double distanceBetween(const Elements& elements, Patches& patches, std::span<const dvec3> x,
+                       const std::function<bool(int surface)>& isFirst,
+                       const std::function<bool(int surface)>& isSecond);
+
+}  // namespace taut::contact

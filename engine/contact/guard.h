@@ -1,0 +1,26 @@
+// That nothing goes through anything: a certificate for each pair, and what is done for those that have none.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "taut/contact/meeting_pair.h"
+
+namespace taut::contact {
+
+// Whether the sides of a pair surely did not meet on straight ways from x0 to x1 (points): for some axis all of the one
+// lies above all of the other at both ends, and so in between.
+bool isCertified(const MeetingPair& pair, std::span<const dvec3> x0, std::span<const dvec3> x1);
+
+// Of a pair without: the points of its two sides that went furthest into each other come apart, to a fifth of what they
+// were, and their velocities stop approaching. It takes the approach alone and leaves the sliding (Harmon et al. 2008).
+// Returns whether any point was moved; then both, or the one that can, are appended.
+bool slideApart(const MeetingPair& pair, std::span<const double> inverseMass, std::span<dvec3> x1, std::span<dvec3> v,
+                std::vector<int>& moved);
+
+// Points of pairs that nothing else helped, tied together: each zone goes the mean way of its mass, or that of its
+// points that nothing moves (Provot 1997). In the order of the pairs; appends the points.
+void moveAsZones(std::span<const MeetingPair* const> pairs, std::span<const double> inverseMass, double h,
+                 std::span<const dvec3> x0, std::span<dvec3> x1, std::span<dvec3> v, std::vector<int>& moved);
+
+}  // namespace taut::contact

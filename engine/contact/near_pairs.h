@@ -1,0 +1,74 @@
+// Which points may meet which triangles, and which edges which, in an instant: lists that outlive the instant they were
+// made in, for as long as what they are about has not come nearer than they reach. They may name too much, never too
+// little: what comes out of an instant does not depend on when they were made.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "taut/contact/patches.h"
+
+namespace taut::contact {
+
+// A point and a triangle, or two edges, of which at least one pair of points may come into contact.
+struct NearPair {
+    int a, b;         // point and triangle; or edges, the lower first
+    double distance;  // [m] that they keep
+    double d0;        // [m] between them when they were listed
+};
+
+class NearPairs {
+  public:
+    explicit NearPairs(const Elements& elements) : elements_(elements), patches_(elements) {}
+
+    // Forgets all lists: to be called when points have jumped, or something is gone.
+    void drop();
+
+    // Lists all that comes within reach on the way from x0 to x1 (points) [m].
+    void find(std::span<const dvec3> x0, std::span<const dvec3> x1);
+    // Nobody went further than that [m] beyond the ways that were found: whether the lists hold for them too, and no
+    // pair that was not near can have met.
+    bool holdWithin(double way) const { return 2 * way <= slack_; }
+    // Points were last seen at the end of those ways, and are there now.
+    void arrive();
+
+    Patches& patches() { return patches_; }
+
+    struct Record {
+        int a = 0, b = 0;  // patches
+        std::vector<NearPair> pairs;
+        std::size_t pointPairs = 0;  // the first of them: of points and triangles
+        double approached = 0;       // [m] at most, since they were listed, the coming way included
+        double coming = 0;           // [m] of that the coming way
+        bool isFlat = false;         // nothing of it meets in this instant
+
+        double leastKeep = 0;           // [m] of the pairs
+        double valid = -1;              // [m] until it may have come that much nearer
+        dvec3 apart{0.0};               // [m] of the centres when they were listed
+        double strayA = 0, strayB = 0;  // [m] of the patches until then
+        double flatSlack = 0;           // [m] by which its parts may come nearer still
+        bool knowsAbout = false;
+        std::vector<int> about;  // patches
+    };
+    // In the order of the patches; those that are near, of an instant.
+    std::size_t nearCount() const { return near_.size(); }
+    const Record& near(std::size_t i) const { return records_[near_[i]]; }
+
+    std::size_t listed() const { return listed_; }  // lists made so far
+    std::uint64_t bytes() const;
+
+  private:
+    void approach(Record& record) const;
+    void list(Record& record, std::span<const dvec3> x0) const;
+
+    const Elements& elements_;
+    Patches patches_;
+    std::vector<Record> records_;    // ascending
+    std::vector<std::size_t> near_;  // of records
+    std::vector<double> stray_;      // [m] (patches) sum over all instants
+    std::vector<std::pair<int, int>> found_;
+    double slack_ = 0;
+    std::size_t listed_ = 0;
+};
+
+}  // namespace taut::contact

@@ -1,0 +1,128 @@
+// Surfaces in patches of some forty triangles, or edges where there are none, and a tree over them: which patches come
+// near each other in an instant. Patches hang on what the surfaces are at rest, never on where they are.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "taut/contact/elements.h"
+
+namespace taut::contact {
+
+struct Box {
+    dvec3 low{1e300}, high{-1e300};
+    void add(const dvec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    void add(const Box& other) {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+    bool overlaps(const Box& other, double within) const {
+        return low.x <= other.high.x + within && other.low.x <= high.x + within && low.y <= other.high.y + within &&
+               other.low.y <= high.y + within && low.z <= other.high.z + within && other.low.z <= high.z + within;
+    }
+};
+
+struct Patch {
+    int surface = 0;
+    // All that there is belongs to one patch; an edge or a point to the first that has it.
+    std::vector<int> triangles, edges, points;
+    std::vector<int> corners;  // all points of those
+};
+
+// How a patch moves in an instant.
+struct PatchMotion {
+    Box box;             // of its points, before and after
+    dvec3 centre{0.0};   // [m] mean of its points, before
+    dvec3 way{0.0};      // [m] of that mean
+    double stray = 0.0;  // [m] no point goes further than that from the way of the mean
+};
+
+// How far a patch of a surface that is flat at rest is from being moved as one, before and after: t·Rᵀ F t is at least
+// `least` for all directions t of all of its triangles, F the gradient of the deformation and R the mean of those.
+struct Flatness {
+    dvec3 right{0.0}, up{0.0};  // columns of R
+    double least = -1.0;
+    double most = 0.0;  // of any F, by its Frobenius norm
+};
+
+// Parts of a surface that stay further apart than this share of their distance at rest are not in contact.
+inline constexpr double leastFlat = 0.75;  // a hair more than nearShare · restShare
+
+class Patches {
+  public:
+    explicit Patches(const Elements& elements);
+
+    int count() const { return static_cast<int>(patches_.size()); }
+    const Patch& operator[](int i) const { return patches_[static_cast<std::size_t>(i)]; }
+
+    // The balls there are have become others.
+    void takeBalls();
+
+    // Follows the points from x0 to x1 (points) [m].
+    void follow(std::span<const dvec3> x0, std::span<const dvec3> x1);
+    const PatchMotion& motion(int patch) const { return motions_[static_cast<std::size_t>(patch)]; }
+
+    // Pairs a <= b of patches whose boxes come within the sum of the thicknesses, and that much more [m], and which may
+    // meet; ascending.
+    void findNear(double more, std::vector<std::pair<int, int>>& pairs) const;
+
+    // How flat all of what lies about two patches of one surface is in this instant: no two parts of it come nearer
+    // than that share of their distance at rest. For where the surface is flat and convex at rest and all of it about
+    // them is moved nearly as one, |f(p) - f(q)| >= ∫ t·RᵀF t ds >= least |p - q| along the straight way at rest.
+    // Negative where that cannot be told.
+    double flatness(std::span<const int> about) const;
+    // The least distance at rest of parts of a surface that do not hang together; of those that are flat. [m]
+    double leastAltitude(int surface) const { return altitudes_[static_cast<std::size_t>(surface)]; }
+    // What lies about them: all patches that the box at rest of both overlaps. None where that cannot be told, or of
+    // more than a few.
+    std::vector<int> about(int a, int b) const;
+
+  private:
+    struct Node {
+        int left = -1, right = -1;  // nodes
+        int patch = -1;             // of a leaf
+        int surface = -1;           // -1: several
+        double thickness = 0;       // [m] largest
+    };
+    struct Plane {  // of a surface that is flat and convex at rest
+        dvec3 right, up;
+    };
+    using Rest2 = glm::dvec2;
+    struct RestBox {
+        Rest2 low{1e300}, high{-1e300};
+    };
+
+    int addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, bool areTriangles);
+    int addPatch(const std::vector<int>& items, int surface, bool areTriangles);
+    int joinRoots(std::span<const int> roots);
+    void shareOut();
+    void findPlane(int surface);
+    void prepareFlatness();
+    void measureFlatness(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
+    void meetItself(int node, double more, std::vector<std::pair<int, int>>& pairs) const;
+    void meet(int a, int b, double more, std::vector<std::pair<int, int>>& pairs) const;
+
+    const Elements& elements_;
+    std::vector<Patch> patches_;
+    std::vector<int> patchOfPoint_, patchOfEdge_;
+    std::vector<Node> nodes_;  // children before parents
+    int root_ = -1;
+    std::vector<PatchMotion> motions_;          // (patches)
+    std::vector<Box> boxes_;                    // (nodes) of both moments
+    std::vector<std::optional<Plane>> planes_;  // (surfaces)
+    struct Inverse {
+        double a, b, c, d;  // of the two edges at corner 0, in the plane
+    };
+    std::vector<double> altitudes_;   // (surfaces) [m] smallest of a triangle
+    std::vector<Inverse> inverses_;   // (triangles) of those in planes
+    std::vector<RestBox> restBoxes_;  // (patches) likewise
+    std::vector<Flatness> flatness_;  // (patches)
+};
+
+}  // namespace taut::contact

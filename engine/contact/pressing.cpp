@@ -1,0 +1,219 @@
+#include "taut/contact/pressing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/core/parallel.h"
+
+namespace taut::contact {
+namespace {
+
+constexpr double recovery = 0.2;    // share of an overlap that is taken back an instant
+constexpr double fastestOut = 1.0;  // [m/s] that it is taken back with
+constexpr double settled = 1e-3;    // of the distance kept, an instant: smaller changes end the sweeps
+
+dvec3 between(const MeetingPair& pair, std::span<const dvec3> u) {
+    dvec3 sum(0.0);
+    for (int k = 0; k < 4; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        if (pair.points[i] >= 0) sum += pair.weights[i] * u[static_cast<std::size_t>(pair.points[i])];
+    }
+    return sum;
+}
+
+void press(const MeetingPair& pair, const dvec3& impulse, std::span<const double> inverseMass, std::span<dvec3> u) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto point = static_cast<std::size_t>(pair.points[i]);
+        u[point] += (pair.weights[i] * inverseMass[point]) * impulse;
+    }
+}
+
+// One visit: normal and rub are the impulses so far. Returns by how much a point's velocity changed at most.
+double visit(const MeetingPair& pair, double mass, double open, double bounce, std::span<const double> inverseMass,
+             std::span<dvec3> u, double& normal, dvec3& rub) {
+    dvec3 change(0.0);
+    dvec3 way = between(pair, u);
+    const double along = glm::dot(pair.normal, way);
+    const double wanted = std::max(0.0, normal - mass * (along + open - bounce));
+    change = (wanted - normal) * pair.normal;
+    normal = wanted;
+    if (pair.friction > 0) {
+        const dvec3 across = way - along * pair.normal;
+        dvec3 next = rub - mass * across;
+        const double square = glm::dot(next, next), limit = pair.friction * normal;
+        if (square > limit * limit) next = square > 0 ? next * (limit / std::sqrt(square)) : dvec3(0.0);
+        change += next - rub;
+        rub = next;
+    }
+    const double square = glm::dot(change, change);
+    if (!(square > 0)) return 0.0;
+    press(pair, change, inverseMass, u);
+    double most = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        most = std::max(most, std::abs(pair.weights[i]) * inverseMass[static_cast<std::size_t>(pair.points[i])]);
+    return most * std::sqrt(square);
+}
+
+// Of velocities, or of shifts, to which surfaces have no speed.
+void holdUp(std::span<const Held> held, std::span<dvec3> u, bool areShifts) {
+    for (const Held& h : held) {
+        dvec3& own = u[static_cast<std::size_t>(h.point)];
+        const double along = glm::dot(own, h.normal) - (areShifts ? 0.0 : h.speed);
+        if (along < 0) own -= along * h.normal;
+    }
+}
+
+}  // namespace
+
+int Pressing::root(int point) {
+    while (parent_[static_cast<std::size_t>(point)] != point) {
+        int& up = parent_[static_cast<std::size_t>(point)];
+        up = parent_[static_cast<std::size_t>(up)];
+        point = up;
+    }
+    return point;
+}
+
+void Pressing::findClusters(std::span<const MeetingPair> pairs, std::span<const Held> held, std::size_t pointCount,
+                            std::span<const double> inverseMass) {
+    if (parent_.size() != pointCount)
+        parent_.assign(pointCount, -1);
+    else
+        for (int i : touched_) parent_[static_cast<std::size_t>(i)] = -1;
+    touched_.clear();
+    const auto join = [&](int i) {
+        if (parent_[static_cast<std::size_t>(i)] >= 0) return;
+        parent_[static_cast<std::size_t>(i)] = i;
+        touched_.push_back(i);
+    };
+    // Points that nothing moves pass nothing on.
+    const auto isFixed = [&](int i) { return !(inverseMass[static_cast<std::size_t>(i)] > 0); };
+    for (const MeetingPair& pair : pairs) {
+        int first = -1;
+        for (int i : pair.points) {
+            join(i);
+            if (isFixed(i)) continue;
+            const int own = root(i);
+            if (first < 0) {
+                first = own;
+                continue;
+            }
+            const int low = std::min(first, own);
+            parent_[static_cast<std::size_t>(std::max(first, own))] = low;
+            first = low;
+        }
+    }
+    std::sort(touched_.begin(), touched_.end());
+
+    std::vector<std::pair<int, int>> order;  // cluster, pair
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+        int cluster = -1;
+        for (int i : pairs[p].points)
+            if (!isFixed(i)) cluster = root(i);
+        if (cluster >= 0) order.emplace_back(cluster, static_cast<int>(p));
+    }
+    std::sort(order.begin(), order.end());
+    rows_.clear();
+    clusterStart_.clear();
+    heldRows_.clear();
+    heldStart_.clear();
+    std::vector<std::pair<int, std::size_t>> holds;
+    for (std::size_t h = 0; h < held.size(); ++h) {
+        const int i = held[h].point;
+        if (parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i)) holds.emplace_back(root(i), h);
+    }
+    std::sort(holds.begin(), holds.end());
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        if (k == 0 || order[k].first != order[k - 1].first) {
+            clusterStart_.push_back(k);
+            heldStart_.push_back(heldRows_.size());
+            for (; next < holds.size() && holds[next].first <= order[k].first; ++next)
+                if (holds[next].first == order[k].first) heldRows_.push_back(held[holds[next].second]);
+        }
+        Row row;
+        row.pair = order[k].second;
+        rows_.push_back(row);
+    }
+    clusterStart_.push_back(rows_.size());
+    heldStart_.push_back(heldRows_.size());
+}
+
+void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> held,
+                     std::span<const double> inverseMass, double h, const PressingOptions& options, std::span<dvec3> u,
+                     std::span<dvec3> v, std::span<dvec3> shift) {
+    impulses_.assign(pairs.size(), 0.0);
+    findClusters(pairs, held, u.size(), inverseMass);
+    for (Row& row : rows_) {
+        const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
+        double inverse = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            inverse += pair.weights[i] * pair.weights[i] * inverseMass[static_cast<std::size_t>(pair.points[i])];
+        row.mass = 1.0 / inverse;
+        row.open = std::max(pair.gap(), 0.0) / h;
+        const auto bounceOf = [&](std::span<const dvec3> velocities) {
+            const double arrival = -glm::dot(pair.normal, between(pair, velocities));
+            return arrival > options.restSpeed ? options.restitution * arrival : 0.0;
+        };
+        row.bounce = bounceOf(u);
+        row.bounceV = bounceOf(v);
+        if (row.bounce > 0) row.open = 0;
+    }
+    const int count = clusters();
+    std::vector<int> sweepsOf(static_cast<std::size_t>(count), 0);
+    const auto solveCluster = [&](int c) {
+        const auto k = static_cast<std::size_t>(c);
+        const std::span<Row> rows(rows_.data() + clusterStart_[k], clusterStart_[k + 1] - clusterStart_[k]);
+        const std::span<const Held> supports(heldRows_.data() + heldStart_[k], heldStart_[k + 1] - heldStart_[k]);
+        double keep = 1e300;
+        for (const Row& row : rows) keep = std::min(keep, pairs[static_cast<std::size_t>(row.pair)].keep);
+        const double little = settled * keep / h;
+        const auto sweep = [&](auto&& visitRow, std::span<dvec3> of, double enough) {
+            for (int s = 1;; ++s) {
+                double most = 0;
+                for (Row& row : rows) most = std::max(most, visitRow(row, pairs[static_cast<std::size_t>(row.pair)]));
+                holdUp(supports, of, of.data() == shift.data());
+                if (s >= options.sweeps || most < enough) return s;
+            }
+        };
+        sweepsOf[k] = sweep(
+            [&](Row& row, const MeetingPair& pair) {
+                return visit(pair, row.mass, row.open, row.bounce, inverseMass, u, row.impulse, row.rub);
+            },
+            u, little);
+        sweep(
+            [&](Row& row, const MeetingPair& pair) {
+                if (!(row.impulse > 0)) return 0.0;
+                return visit(pair, row.mass, row.open, row.bounceV, inverseMass, v, row.impulseV, row.rubV);
+            },
+            v, little);
+        bool overlaps = false;
+        for (Row& row : rows) {
+            const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
+            row.recover = pair.gap() < 0 ? std::min(-recovery * pair.gap(), fastestOut * h) : 0.0;
+            overlaps = overlaps || row.recover > 0;
+        }
+        if (overlaps)
+            sweep(
+                [&](Row& row, const MeetingPair& pair) {
+                    if (!(row.recover > 0) && !(row.impulse > 0)) return 0.0;
+                    const double along = glm::dot(pair.normal, between(pair, shift));
+                    const double wanted = std::max(0.0, row.push + row.mass * (row.recover - along));
+                    const double change = wanted - row.push;
+                    row.push = wanted;
+                    press(pair, change * pair.normal, inverseMass, shift);
+                    return std::abs(change) / row.mass / h;
+                },
+                shift, little);
+        for (const Row& row : rows) impulses_[static_cast<std::size_t>(row.pair)] = row.impulse;
+    };
+    // Few rows are solved sooner than they are shared out.
+    if (rows_.size() < 64)
+        for (int c = 0; c < count; ++c) solveCluster(c);
+    else
+        core::parallelFor(count, solveCluster);
+    mostSweeps_ = 0;
+    for (int s : sweepsOf) mostSweeps_ = std::max(mostSweeps_, s);
+}
+
+}  // namespace taut::contact

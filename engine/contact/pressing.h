@@ -1,0 +1,68 @@
+// Impulses that keep pairs apart, with Coulomb's friction: projected Gauss-Seidel over them, in their order.
+//
+//   0 <= λ  ⊥  n·Σ w u + max(g, 0) / h >= 0          u mean velocity of the points in the instant, g gap at its start
+//
+// From λ = 0 on it descends ½ λᵀ A λ + λᵀ (u_n + g⁺/h), A = W M⁻¹ Wᵀ, so that after any number of sweeps the kinetic
+// energy ½ Σ m u² has not grown. The velocities v that a method stores get impulses of their own, of the pairs that
+// press, by the same rule: what the points' mean motion needs is not what they need at its end. Overlaps are taken back
+// as a shift without speed.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "taut/contact/meeting_pair.h"
+
+namespace taut::contact {
+
+// A point that a collider holds: it does not go into it.
+struct Held {
+    int point;
+    dvec3 normal;  // unit, out of the collider
+    double speed;  // [m/s] of the surface along it
+};
+
+struct PressingOptions {
+    int sweeps = 10;           // at most
+    double restitution = 0.0;  // of arrivals faster than restSpeed [-]
+    double restSpeed = 0.0;    // [m/s]
+};
+
+class Pressing {
+  public:
+    // Points (points) that a pair presses: u and v [m/s] become what they are after it, shift [m] what their place is
+    // moved by besides. h [s]: length of the instant.
+    void solve(std::span<const MeetingPair> pairs, std::span<const Held> held, std::span<const double> inverseMass,
+               double h, const PressingOptions& options, std::span<dvec3> u, std::span<dvec3> v,
+               std::span<dvec3> shift);
+
+    // After that: points of the pairs, ascending; which of the pairs pressed, and how much [N s].
+    std::span<const int> points() const { return touched_; }
+    std::span<const double> impulses() const { return impulses_; }  // (pairs)
+    int sweeps() const { return mostSweeps_; }                      // of the cluster that took most
+    int clusters() const { return static_cast<int>(clusterStart_.size()) - 1; }
+
+  private:
+    struct Row {
+        int pair;
+        double mass;             // [kg] that the pair's points have along the normal together
+        double open;             // [m/s] they may approach each other with
+        double bounce, bounceV;  // [m/s] they have to part with
+        double impulse = 0, impulseV = 0;
+        dvec3 rub{0.0}, rubV{0.0};
+        double push = 0, recover = 0;  // [m] so far, and to be
+    };
+    void findClusters(std::span<const MeetingPair> pairs, std::span<const Held> held, std::size_t pointCount,
+                      std::span<const double> inverseMass);
+    int root(int point);
+
+    std::vector<Row> rows_;                  // cluster by cluster, in the order of the pairs
+    std::vector<std::size_t> clusterStart_;  // of rows
+    std::vector<Held> heldRows_;
+    std::vector<std::size_t> heldStart_;  // (clusters + 1)
+    std::vector<int> parent_, touched_;   // (points), points
+    std::vector<double> impulses_;
+    int mostSweeps_ = 0;
+};
+
+}  // namespace taut::contact

@@ -1,0 +1,237 @@
+#include "taut/world/touching.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/core/parallel.h"
+
+namespace taut::world {
+namespace {
+
+constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as there may be
+constexpr int mostParts = 64;
+constexpr int fewestMet = 4;               // instants of a tick in which anything touches
+constexpr double wayOfKeep = 0.5;          // of the distance kept, that two may approach in an instant
+
+}  // namespace
+
+int partsOfTick(double tickSeconds, const ContactSpec& spec) {
+    if (spec.instants) return *spec.instants;
+    int parts = 1;
+    while (parts < mostParts && tickSeconds / parts > longestInstant) parts *= 2;
+    return parts;
+}
+
+bool touches(const IslandPlan& plan) {
+    return std::any_of(plan.bodies.begin(), plan.bodies.end(),
+                       [](const Body* body) { return body->spec->touch != Touch::nothing; });
+}
+
+contact::Surface surfaceOf(const Body& body, int offset, int bond) {
+    const mechanics::Model& model = body.model;
+    contact::Surface surface;
+    surface.thickness = body.spec->thickness;
+    surface.friction = body.spec->friction;
+    surface.meetsItself = body.spec->touch == Touch::all;
+    surface.meetsOthers = body.spec->touch != Touch::nothing;
+    surface.bond = bond;
+    const auto at = [&](int i) { return offset + body.pointOf[static_cast<std::size_t>(i)]; };
+    for (const std::array<int, 3>& t : model.triangles) surface.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
+    std::vector<bool> isOutside(model.positions.size(), model.triangles.empty());
+    for (const std::array<int, 3>& t : model.triangles)
+        for (int i : t) isOutside[static_cast<std::size_t>(i)] = true;
+    if (model.triangles.empty())
+        for (const mechanics::Spring& s : model.springs)
+            if (s.kind == mechanics::SpringKind::structural) surface.lines.push_back({at(s.a), at(s.b)});
+    for (int i = 0; i < model.pointCount(); ++i)
+        if (isOutside[static_cast<std::size_t>(i)]) surface.points.push_back(at(i));
+    return surface;
+}
+
+Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds)
+    : spec_(spec), tickSeconds_(tickSeconds), parts_(partsOfTick(tickSeconds, spec)) {
+    std::vector<contact::Surface> surfaces;
+    std::vector<dvec3> rest;
+    for (const auto& island : islands) {
+        if (!touches(island->plan())) continue;
+        const int offset = static_cast<int>(rest.size());
+        for (const Body* body : island->plan().bodies) {
+            if (body->spec->touch == Touch::nothing) continue;
+            surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
+            bodies_.push_back(body);
+        }
+        const std::vector<dvec3>& start = island->plan().positions;
+        rest.insert(rest.end(), start.begin(), start.end());
+        islands_.push_back(island.get());
+        rooms_.push_back({island.get(), offset, static_cast<int>(rest.size())});
+    }
+    if (islands_.empty()) return;
+    for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
+    inverseMass_.resize(rest.size());
+    damage_.assign(bodies_.size(), 0);
+    contact::GroupOptions options;
+    options.friction = spec.friction;
+    group_ = std::make_unique<contact::Group>(std::move(surfaces), std::move(rest), options);
+}
+
+void Touching::takeDamage() {
+    bool isOther = false;
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+        const Body& body = *bodies_[s];
+        const std::size_t severed = body.damage.edges().size();
+        if (severed == damage_[s]) continue;
+        damage_[s] = severed;
+        isOther = true;
+        int offset = 0;
+        for (const Part& room : rooms_)
+            if (room.island == body.island) offset = room.first;
+        std::vector<int> own(static_cast<std::size_t>(body.island->plan().points.size()), -1);
+        for (std::size_t i = 0; i < body.pointOf.size(); ++i)
+            own[static_cast<std::size_t>(body.pointOf[i])] = static_cast<int>(i);
+        group_->elements().setGone(
+            static_cast<int>(s), [&](std::size_t triangle) { return body.damage.isTriangleGone(triangle); },
+            [&](int a, int b) {
+                return body.damage.isSevered(own[static_cast<std::size_t>(a - offset)],
+                                             own[static_cast<std::size_t>(b - offset)]);
+            });
+    }
+    if (!isOther) return;
+    group_->elements().refresh();
+    hasJumped_ = true;
+}
+
+void Touching::readAll() {
+    for (const Part& room : rooms_) {
+        const auto first = static_cast<std::size_t>(room.first), count = static_cast<std::size_t>(room.last) - first;
+        room.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
+    }
+}
+
+int Touching::chooseInstants(const TickTime& time) {
+    int most = parts_;
+    for (const Island* island : islands_)
+        if (island->frozen() == nullptr) most = std::min(most, island->substeps());
+    if (spec_.instants) return most;
+    const contact::Outlook outlook = group_->foresee(x1_, v_, 1.0 / time.ticksPerSecond);
+    if (!outlook.meets) return 0;
+    const double longest = outlook.closing > 0 ? wayOfKeep * outlook.leastKeep / outlook.closing : HUGE_VAL;
+    int instants = fewestMet;
+    while (instants < most && 1.0 / time.ticksPerSecond / instants > longest) instants *= 2;
+    return std::min(instants, most);
+}
+
+std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
+    for (Island* island : islands_) island->beginTick(time);
+    takeDamage();
+    for (const Part& room : rooms_) {
+        const IslandPlan& plan = room.island->plan();
+        for (int i = room.first; i < room.last; ++i) {
+            const int own = i - room.first;
+            const bool moves = room.island->frozen() == nullptr && isFree(plan, own);
+            inverseMass_[static_cast<std::size_t>(i)] =
+                moves ? 1.0 / plan.points[static_cast<std::size_t>(own)].mass : 0.0;
+        }
+    }
+    readAll();
+    if (hasJumped_) group_->drop();
+    hasJumped_ = false;
+    group_->begin(x1_);
+    int instants = chooseInstants(time);
+    for (;;) {
+        std::vector<std::optional<Fault>> faults(islands_.size());
+        for (Island* island : islands_) island->beginTry();
+        readAll();
+        const bool isTrial = instants == 0;
+        instants_ = std::max(instants, 1);
+        const bool meetsAfterAll = tryTick(time, moving, instants_, faults, isTrial);
+        std::vector<Verdict> verdicts(islands_.size(), Verdict::stands);
+        bool isAgain = meetsAfterAll;
+        for (std::size_t k = 0; k < islands_.size(); ++k) {
+            if (meetsAfterAll && !faults[k]) continue;
+            verdicts[k] = islands_[k]->judge(time, faults[k]);
+            if (verdicts[k] == Verdict::fails) {
+                if (islands_[k]->plan().solver.onDivergence != OnDivergence::freeze)
+                    return Outcome{islands_[k], *faults[k]};
+                islands_[k]->freeze(*faults[k], time);
+                verdicts[k] = Verdict::stands;
+                const Part& room = rooms_[k];
+                std::fill(inverseMass_.begin() + room.first, inverseMass_.begin() + room.last, 0.0);
+                isAgain = true;  // the others, beside it as it stays
+            }
+            isAgain = isAgain || verdicts[k] == Verdict::again;
+        }
+        if (!isAgain) break;
+        for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
+        readAll();
+        group_->drop();
+        group_->begin(x1_);
+        instants = meetsAfterAll ? std::max(chooseInstants(time), std::min(fewestMet, parts_)) : chooseInstants(time);
+    }
+    for (Island* island : islands_) island->endTick(time);
+    return std::nullopt;
+}
+
+// Returns whether a trial without instants but the last met anything; then the tick is not what it should be.
+bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
+                       std::vector<std::optional<Fault>>& faults, bool isTrial) {
+    const double h = tickSeconds_ / instants;
+    for (int c = 0; c < instants; ++c) {
+        std::swap(x0_, x1_);
+        core::parallelFor(static_cast<int>(islands_.size()), [&](int k) {
+            const auto own = static_cast<std::size_t>(k);
+            faults[own] = islands_[own]->advance(time, moving, c, instants);
+        });
+        if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); })) return false;
+        readAll();
+        meet(h);
+        if (isTrial && instants < parts_ && (meeting_.pressing > 0 || meeting_.slides > 0)) return true;
+    }
+    return false;
+}
+
+void Touching::meet(double h) {
+    held_.clear();
+    for (const Part& room : rooms_)
+        for (const collision::Contact& c : room.island->contacts())
+            held_.push_back({room.first + c.point, c.normal, glm::dot(c.normal, c.carried)});
+    contact::Instant instant;
+    instant.h = h;
+    instant.x0 = x0_;
+    instant.x1 = x1_;
+    instant.v = v_;
+    instant.inverseMass = inverseMass_;
+    instant.held = held_;
+    instant.take = [&](std::span<const int> points) {
+        std::vector<int> own;
+        std::vector<dvec3> x, v;
+        for (const Part& room : rooms_) {
+            const auto first = std::lower_bound(points.begin(), points.end(), room.first);
+            const auto last = std::lower_bound(first, points.end(), room.last);
+            if (first == last) continue;
+            own.clear();
+            x.clear();
+            v.clear();
+            for (auto i = first; i != last; ++i) {
+                own.push_back(*i - room.first);
+                x.push_back(x1_[static_cast<std::size_t>(*i)]);
+                v.push_back(v_[static_cast<std::size_t>(*i)]);
+            }
+            room.island->place(own, x, v);
+            for (std::size_t k = 0; k < own.size(); ++k) {
+                x1_[static_cast<std::size_t>(own[k] + room.first)] = x[k];
+                v_[static_cast<std::size_t>(own[k] + room.first)] = v[k];
+            }
+        }
+    };
+    meeting_ = group_->meet(instant);
+}
+
+std::vector<contact::Touching> Touching::contacts() const {
+    return group_->touching(x1_);
+}
+
+std::vector<contact::Crossing> Touching::crossings() const {
+    return group_->crossingsAt(x1_);
+}
+
+}  // namespace taut::world

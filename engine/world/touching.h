@@ -1,0 +1,78 @@
+// Bodies that touch each other, or themselves: their islands go through a tick together, from one instant of contact to
+// the next. It is made anew when a body comes or goes, and knows nothing that the islands do not.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "taut/contact/group.h"
+#include "taut/world/island.h"
+
+namespace taut::world {
+
+// Parts of a tick that bodies which touch take their steps in, by the tick's length [s] and what the scene asks for.
+int partsOfTick(double tickSeconds, const ContactSpec& spec);
+
+// Whether any body of the plan touches anything.
+bool touches(const IslandPlan& plan);
+
+// The surface of a body, its points numbered from `offset` on as in its island.
+contact::Surface surfaceOf(const Body& body, int offset, int bond);
+
+class Touching {
+  public:
+    // Of the islands with bodies that touch; expects that they stay.
+    Touching(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds);
+
+    bool isEmpty() const { return islands_.empty(); }
+    std::span<Island* const> islands() const { return islands_; }
+
+    // A tick of all of them. On a fault that is not to be frozen it ends early and says whose it was.
+    struct Outcome {
+        Island* island = nullptr;
+        Fault fault;
+    };
+    std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving);
+
+    // Points have been put elsewhere than ticks led them.
+    void drop() { hasJumped_ = true; }
+
+    // What the last tick was like.
+    int instants() const { return instants_; }
+    const contact::Meeting& meeting() const { return meeting_; }
+    std::vector<contact::Touching> contacts() const;  // at its end
+    std::vector<contact::Crossing> crossings() const;  // now
+    const contact::Elements& elements() const { return group_->elements(); }
+    const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }
+
+  private:
+    struct Part {
+        Island* island;
+        int first, last;  // points of the group
+    };
+    void takeDamage();
+    void readAll();
+    int chooseInstants(const TickTime& time);
+    std::optional<Outcome> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);
+    void meet(double h);
+    bool tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
+                 std::vector<std::optional<Fault>>& faults, bool isTrial);
+
+    ContactSpec spec_;
+    double tickSeconds_;
+    int parts_;
+    std::vector<Island*> islands_;
+    std::vector<Part> rooms_;          // (islands)
+    std::vector<const Body*> bodies_;  // (surfaces)
+    std::vector<std::size_t> damage_;  // (surfaces) severed edges that are known
+    std::unique_ptr<contact::Group> group_;
+    bool hasJumped_ = true;
+    std::vector<dvec3> x0_, x1_, v_;    // (points)
+    std::vector<double> inverseMass_;   // (points)
+    std::vector<contact::Held> held_;
+    int instants_ = 0;
+    contact::Meeting meeting_;
+};
+
+}  // namespace taut::world

@@ -100,11 +100,12 @@ bool Group::isFeatureNearest(const MeetingPair& pair, int feature, std::span<con
     return true;
 }
 
-void Group::locateIn(const NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
+void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
                      std::vector<MeetingPair>& pairs) const {
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
+    const double approachedBefore = record.approached - record.coming;
     for (std::size_t k = 0; k < record.pairs.size(); ++k) {
-        const NearPair& near = record.pairs[k];
+        NearPair& near = record.pairs[k];
         if (near.d0 - record.approached > nearShare * near.distance) continue;
         MeetingPair pair;
         pair.a = near.a;
@@ -136,6 +137,8 @@ void Group::locateIn(const NearPairs::Record& record, std::span<const dvec3> x0,
         }
         for (std::size_t i = 0; i < 4; ++i) apart += pair.weights[i] * at(pair.points[i]);
         pair.apart = length(apart);
+        near.d0 = std::max(near.d0, pair.apart + approachedBefore);
+        if (pair.apart > nearShare * pair.keep + record.coming) continue;
         const double gap = pair.apart - pair.keep;
         dvec3 way(0.0);
         for (std::size_t i = 0; i < 4; ++i)
@@ -175,7 +178,7 @@ void Group::locate(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         std::vector<MeetingPair>& own = located_[static_cast<std::size_t>(task)];
         own.clear();
         for (int k = task * recordsAtOnce; k < std::min((task + 1) * recordsAtOnce, count); ++k) {
-            const NearPairs::Record& record = near_.near(static_cast<std::size_t>(k));
+            NearPairs::Record& record = near_.near(static_cast<std::size_t>(k));
             if (!record.isFlat) locateIn(record, x0, x1, own);
         }
     });
@@ -192,6 +195,15 @@ Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, doubl
     locate(x, xIs_);
     Outlook outlook;
     outlook.leastKeep = 1e300;
+    int stirring = 0;
+    for (std::size_t k = 0; k < near_.nearCount(); ++k) {
+        const NearPairs::Record& record = near_.near(k);
+        if (record.isFlat) continue;
+        const int a = near_.patches()[record.a].surface, b = near_.patches()[record.b].surface;
+        outlook.stir += record.coming / (elements_.surface(a).thickness + elements_.surface(b).thickness);
+        ++stirring;
+    }
+    if (stirring > 0) outlook.stir /= stirring * seconds;
     for (const MeetingPair& pair : pairs_) {
         if (!pair.presses) continue;
         outlook.meets = true;

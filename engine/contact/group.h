@@ -51,6 +51,7 @@ struct Outlook {
     bool meets = false;    // something is or comes in contact
     double closing = 0.0;  // [m/s] of what does, at most
     double leastKeep = 0;  // [m] that it keeps, at least
+    double stir = 0;  // [1/s] speed of neighbouring patches against each other, over the distance kept, in the mean
 };
 
 // Two surfaces in contact, for pictures.
@@ -82,12 +83,15 @@ class Group {
     // Of the last instant.
     std::vector<Touching> touching(std::span<const dvec3> x) const;
     std::vector<Crossing> crossingsAt(std::span<const dvec3> x);
+    // Pairs that the last instant looked at, and those of them that came near enough to be pressed.
+    std::size_t located() const { return pairs_.size(); }
+    std::size_t near() const { return pressed_.size(); }
     std::size_t listed() const { return near_.listed(); }
     std::uint64_t bytes() const;
 
   private:
     void locate(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    void locateIn(const NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
+    void locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
                   std::vector<MeetingPair>& pairs) const;
     bool isFeatureNearest(const MeetingPair& pair, int feature, std::span<const dvec3> x) const;
     bool isRidge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const;

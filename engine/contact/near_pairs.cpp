@@ -12,6 +12,7 @@ namespace {
 
 constexpr int atOnce = 8;            // records a task
 constexpr double leastMargin = 0.4;  // of the distance kept
+constexpr double waysAhead = 2.5;    // like the coming one, for which a list is to last
 constexpr double boxSlack = 0.25;    // of it, by which boxes are found near beforehand
 
 bool isEarlier(const std::pair<int, int>& a, const NearPairs::Record& b) {
@@ -83,7 +84,7 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     double thickest = 0;
     for (const Surface& surface : elements_.surfaces()) thickest = std::max(thickest, surface.thickness);
     const double room = boxSlack * 2 * thickest;
-    patches_.findNear(room, found_);
+    slack_ = std::min(room, patches_.findNear(room, found_));
 
     // Of those before, near ones go on, and others for as long as they are true.
     std::vector<Record> merged;
@@ -122,9 +123,10 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
             if (!record.knowsAbout) record.about = patches_.about(record.a, record.b);
             record.knowsAbout = true;
             const double flatness = patches_.flatness(record.about);
-            record.isFlat = flatness >= leastFlat;
+            const int surface = patches_[record.a].surface;
+            record.isFlat = flatness >= patches_.enough(surface);
             if (record.isFlat)
-                record.flatSlack = (flatness - leastFlat) * patches_.leastAltitude(patches_[record.a].surface);
+                record.flatSlack = (flatness - patches_.enough(surface)) * patches_.leastAltitude(surface);
             approach(record);
             if (record.isFlat || record.approached <= record.valid) continue;
             list(record, x0);
@@ -133,7 +135,6 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         made += own;
     });
     listed_ += made;
-    slack_ = room;
     for (std::size_t i : near_) {
         const Record& record = records_[i];
         slack_ = std::min(
@@ -153,7 +154,8 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     const double cell = std::min(elements_.shortestEdge(a.surface), elements_.shortestEdge(b.surface));
     // More would list a surface's own neighbours.
     const double own = isBond ? std::min(most, restShare * cell - most) : most;
-    const double margin = std::max({leastMargin * most, own, 2.5 * record.coming});
+    const double ahead = std::min(waysAhead * record.coming, std::max(most, record.coming));
+    const double margin = std::max({leastMargin * most, own, ahead});
     const double reach = nearShare * most + margin;
     const bool isOne = record.a == record.b;
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };

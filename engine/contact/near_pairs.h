@@ -14,7 +14,7 @@ namespace taut::contact {
 struct NearPair {
     int a, b;         // point and triangle; or edges, the lower first
     double distance;  // [m] that they keep
-    double d0;        // [m] between them when they were listed
+    double d0;        // [m] between them when that was last found, and what the record had approached before
 };
 
 class NearPairs {
@@ -52,7 +52,7 @@ class NearPairs {
     };
     // In the order of the patches; those that are near, of an instant.
     std::size_t nearCount() const { return near_.size(); }
-    const Record& near(std::size_t i) const { return records_[near_[i]]; }
+    Record& near(std::size_t i) { return records_[near_[i]]; }
 
     std::size_t listed() const { return listed_; }  // lists made so far
     std::uint64_t bytes() const;

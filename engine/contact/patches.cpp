@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "taut/contact/closest.h"
@@ -10,9 +11,10 @@
 namespace taut::contact {
 namespace {
 
-constexpr std::size_t patchSize = 40;  // elements at most
-constexpr int atOnce = 16;             // patches a task
-constexpr std::size_t mostAbout = 16;  // patches
+constexpr std::size_t patchSize = 12;         // elements at most
+constexpr int atOnce = 16;                    // patches a task
+constexpr double jitter = 0.05, gaps = 2e-3;  // of an edge, of the area
+constexpr std::size_t mostAbout = 48;         // patches
 
 double widest(const dvec3& size, int& axis) {
     axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
@@ -77,7 +79,7 @@ Patches::Patches(const Elements& elements)
         patch.points = patch.corners = std::move(others);
         for (int i : patch.points) patchOfPoint_[static_cast<std::size_t>(i)] = count();
         patches_.push_back(std::move(patch));
-        nodes_.push_back({-1, -1, count() - 1, s, elements.surface(s).thickness});
+        nodes_.push_back({-1, -1, count() - 1, s, elements.surface(s).thickness, {}});
         roots.push_back(static_cast<int>(nodes_.size()) - 1);
     }
     if (!roots.empty()) root_ = joinRoots(roots);
@@ -88,14 +90,15 @@ Patches::Patches(const Elements& elements)
     takeBalls();
 }
 
-// Flat if all points lie in one plane, and convex if the triangles fill their convex hull.
+// Flat if all points lie in one plane, and convex if the triangles fill their convex hull; but for what breaks
+// symmetry.
 void Patches::findPlane(int number) {
     planes_.emplace_back();
     const Surface& surface = elements_.surface(number);
     if (surface.triangles.empty() || !surface.meetsItself) return;
     const auto at = [&](int i) { return elements_.rest()[static_cast<std::size_t>(i)]; };
     dvec3 normal(0.0);
-    double area = 0, size = 0;
+    double area = 0;
     for (const std::array<int, 3>& t : surface.triangles) {
         const dvec3 own = glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
         normal += own;
@@ -108,7 +111,6 @@ void Patches::findPlane(int number) {
     dvec3 right(0.0);
     for (int i : surface.points) {
         const dvec3 d = at(i) - origin;
-        size = std::max(size, length(d));
         if (length(d) > length(right)) right = d;
     }
     right /= length(right);
@@ -116,10 +118,10 @@ void Patches::findPlane(int number) {
     std::vector<glm::dvec2> flat;
     for (int i : surface.points) {
         const dvec3 d = at(i) - origin;
-        if (std::abs(glm::dot(d, normal)) > 1e-9 * size) return;
+        if (std::abs(glm::dot(d, normal)) > jitter * elements_.shortestEdge(number)) return;
         flat.emplace_back(glm::dot(d, right), glm::dot(d, up));
     }
-    if (area < (1 - 1e-9) * hullArea(std::move(flat))) return;
+    if (area < (1 - gaps) * hullArea(std::move(flat))) return;
     planes_.back() = Plane{right, up};
 }
 
@@ -139,7 +141,7 @@ int Patches::addTree(std::vector<int> items, const std::vector<dvec3>& centres, 
     std::sort(high.begin(), high.end());
     const int left = addTree(std::move(low), centres, surface, areTriangles);
     const int right = addTree(std::move(high), centres, surface, areTriangles);
-    nodes_.push_back({left, right, -1, surface, elements_.surface(surface).thickness});
+    nodes_.push_back({left, right, -1, surface, elements_.surface(surface).thickness, {}});
     return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -178,7 +180,7 @@ int Patches::addPatch(const std::vector<int>& items, int surface, bool areTriang
         list->erase(std::unique(list->begin(), list->end()), list->end());
     }
     patches_.push_back(std::move(patch));
-    nodes_.push_back({-1, -1, number, surface, elements_.surface(surface).thickness});
+    nodes_.push_back({-1, -1, number, surface, elements_.surface(surface).thickness, {}});
     return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -187,7 +189,7 @@ int Patches::joinRoots(std::span<const int> roots) {
     const int left = joinRoots(roots.first(roots.size() / 2)), right = joinRoots(roots.subspan(roots.size() / 2));
     const Node &a = nodes_[static_cast<std::size_t>(left)], &b = nodes_[static_cast<std::size_t>(right)];
     const int surface = a.surface == b.surface ? a.surface : -1;
-    nodes_.push_back({left, right, -1, surface, std::max(a.thickness, b.thickness)});
+    nodes_.push_back({left, right, -1, surface, std::max(a.thickness, b.thickness), {}});
     return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -236,18 +238,24 @@ void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     }
 }
 
-void Patches::findNear(double more, std::vector<std::pair<int, int>>& pairs) const {
+double Patches::findNear(double more, std::vector<std::pair<int, int>>& pairs) const {
     pairs.clear();
-    if (root_ >= 0) meetItself(root_, more, pairs);
+    double slack = std::numeric_limits<double>::infinity();
+    if (root_ >= 0) meetItself(root_, more, slack, pairs);
     std::sort(pairs.begin(), pairs.end());
+    return slack;
 }
 
-void Patches::meetItself(int number, double more, std::vector<std::pair<int, int>>& pairs) const {
+void Patches::meetItself(int number, double more, double& slack, std::vector<std::pair<int, int>>& pairs) const {
     const Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.surface >= 0 && !elements_.mayMeet(node.surface, node.surface)) return;
     if (node.patch >= 0) return pairs.emplace_back(node.patch, node.patch), void();
-    meetItself(node.left, more, pairs);
-    meetItself(node.right, more, pairs);
+    if (!node.about.empty()) {
+        const double excess = flatness(node.about) - enough(node.surface);
+        if (excess >= 0) return void(slack = std::min(slack, excess * leastAltitude(node.surface)));
+    }
+    meetItself(node.left, more, slack, pairs);
+    meetItself(node.right, more, slack, pairs);
     meet(node.left, node.right, more, pairs);
 }
 
@@ -299,6 +307,26 @@ void Patches::prepareFlatness() {
             altitude = std::min(altitude, std::abs(det) / std::sqrt(longest));
         }
     }
+    constexpr double hair = 1.02;  // for what is not quite flat or convex
+    for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
+        enough_.push_back(hair * nearShare *
+                          std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
+    for (Node& node : nodes_) {
+        if (node.patch >= 0 || node.surface < 0 || !planes_[static_cast<std::size_t>(node.surface)]) continue;
+        RestBox box;
+        const auto add = [&](auto&& self, const Node& below) -> void {
+            if (below.patch < 0) {
+                self(self, nodes_[static_cast<std::size_t>(below.left)]);
+                self(self, nodes_[static_cast<std::size_t>(below.right)]);
+                return;
+            }
+            const RestBox& own = restBoxes_[static_cast<std::size_t>(below.patch)];
+            box.low = glm::min(box.low, own.low);
+            box.high = glm::max(box.high, own.high);
+        };
+        add(add, node);
+        node.about = about(box, node.surface, patches_.size());
+    }
 }
 
 void Patches::measureFlatness(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -340,36 +368,43 @@ void Patches::measureFlatness(std::size_t number, std::span<const dvec3> x0, std
         const double b = 0.5 * (glm::dot(flatness.right, f.up) + glm::dot(flatness.up, f.right));
         const double half = 0.5 * (a - d);
         least = std::min(least, 0.5 * (a + d) - std::sqrt(half * half + b * b));
-        most = std::max(most, glm::dot(f.right, f.right) + glm::dot(f.up, f.up));
+        const double p = glm::dot(f.right, f.right), q = glm::dot(f.up, f.up), r = glm::dot(f.right, f.up);
+        most = std::max(most, 0.5 * (p + q) + std::sqrt(0.25 * (p - q) * (p - q) + r * r));
     }
+    flatness.normal = glm::cross(flatness.right, flatness.up);
     flatness.least = least;
     flatness.most = std::sqrt(most);
     flatness_[number] = flatness;
 }
 
 std::vector<int> Patches::about(int a, int b) const {
-    std::vector<int> all;
     const int surface = patches_[static_cast<std::size_t>(a)].surface;
     if (surface != patches_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
-        return all;
+        return {};
     const RestBox &boxA = restBoxes_[static_cast<std::size_t>(a)], &boxB = restBoxes_[static_cast<std::size_t>(b)];
-    const Rest2 low = glm::min(boxA.low, boxB.low), high = glm::max(boxA.high, boxB.high);
+    return about({glm::min(boxA.low, boxB.low), glm::max(boxA.high, boxB.high)}, surface, mostAbout);
+}
+
+std::vector<int> Patches::about(const RestBox& all, int surface, std::size_t most) const {
+    std::vector<int> found;
     for (std::size_t p = 0; p < patches_.size(); ++p) {
         if (patches_[p].surface != surface) continue;
         const RestBox& box = restBoxes_[p];
-        if (box.low.x > high.x || box.low.y > high.y || low.x > box.high.x || low.y > box.high.y) continue;
-        if (all.size() == mostAbout) return {};
-        all.push_back(static_cast<int>(p));
+        if (box.low.x > all.high.x || box.low.y > all.high.y || all.low.x > box.high.x || all.low.y > box.high.y)
+            continue;
+        if (found.size() == most) return {};
+        found.push_back(static_cast<int>(p));
     }
-    return all;
+    return found;
 }
 
 double Patches::flatness(std::span<const int> about) const {
     if (about.empty()) return -1.0;
+    const double least = enough(patches_[static_cast<std::size_t>(about.front())].surface);
     dvec3 right(0.0), up(0.0);
     for (int p : about) {
         const Flatness& own = flatness_[static_cast<std::size_t>(p)];
-        if (own.least < leastFlat) return -1.0;
+        if (own.least < least) return -1.0;
         right += own.right;
         up += own.up;
     }
@@ -380,13 +415,18 @@ double Patches::flatness(std::span<const int> about) const {
     const double height = length(up);
     if (!(height > 0)) return -1.0;
     up /= height;
-    double least = 1e300;
+    const dvec3 normal = glm::cross(right, up);
+    double flattest = 1e300;
     for (int p : about) {
         const Flatness& own = flatness_[static_cast<std::size_t>(p)];
-        const dvec3 r = right - own.right, u = up - own.up;
-        least = std::min(least, own.least - std::sqrt(glm::dot(r, r) + glm::dot(u, u)) * own.most);
+        // Turned by an angle, from R of the patch to that of all, F t may be led that much further away from R t.
+        const double trace = glm::dot(right, own.right) + glm::dot(up, own.up) + glm::dot(normal, own.normal);
+        const double cosine = std::min(1.0, 0.5 * (trace - 1.0));
+        if (!(cosine > 0)) return -1.0;
+        const double aside = std::sqrt(std::max(0.0, own.most * own.most - own.least * own.least));
+        flattest = std::min(flattest, own.least * cosine - aside * std::sqrt(1.0 - cosine * cosine));
     }
-    return least;
+    return flattest;
 }
 
 }  // namespace taut::contact

@@ -1,4 +1,4 @@
-// Surfaces in patches of some forty triangles, or edges where there are none, and a tree over them: which patches come
+// Surfaces in patches of some ten triangles, or edges where there are none, and a tree over them: which patches come
 // near each other in an instant. Patches hang on what the surfaces are at rest, never on where they are.
 #pragma once
 
@@ -43,16 +43,14 @@ struct PatchMotion {
     double stray = 0.0;  // [m] no point goes further than that from the way of the mean
 };
 
-// How far a patch of a surface that is flat at rest is from being moved as one, before and after: t·Rᵀ F t is at least
-// `least` for all directions t of all of its triangles, F the gradient of the deformation and R the mean of those.
+// How far a patch of a surface that is flat at rest is from being moved as one, before and after: for all directions t
+// of all of its triangles t·Rᵀ F t is at least `least` and F t at most `most`, F the gradient of the deformation and R
+// the mean of those.
 struct Flatness {
-    dvec3 right{0.0}, up{0.0};  // columns of R
+    dvec3 right{0.0}, up{0.0}, normal{0.0};  // columns of R, and across
     double least = -1.0;
-    double most = 0.0;  // of any F, by its Frobenius norm
+    double most = 0.0;
 };
-
-// Parts of a surface that stay further apart than this share of their distance at rest are not in contact.
-inline constexpr double leastFlat = 0.75;  // a hair more than nearShare · restShare
 
 class Patches {
   public:
@@ -69,14 +67,17 @@ class Patches {
     const PatchMotion& motion(int patch) const { return motions_[static_cast<std::size_t>(patch)]; }
 
     // Pairs a <= b of patches whose boxes come within the sum of the thicknesses, and that much more [m], and which may
-    // meet; ascending.
-    void findNear(double more, std::vector<std::pair<int, int>>& pairs) const;
+    // meet; ascending. Those are left out that are flat together; returns by how much [m] their parts may come nearer
+    // yet.
+    double findNear(double more, std::vector<std::pair<int, int>>& pairs) const;
 
     // How flat all of what lies about two patches of one surface is in this instant: no two parts of it come nearer
     // than that share of their distance at rest. For where the surface is flat and convex at rest and all of it about
     // them is moved nearly as one, |f(p) - f(q)| >= ∫ t·RᵀF t ds >= least |p - q| along the straight way at rest.
     // Negative where that cannot be told.
     double flatness(std::span<const int> about) const;
+    // Parts that stay further apart than this share of their distance at rest are not in contact.
+    double enough(int surface) const { return enough_[static_cast<std::size_t>(surface)]; }
     // The least distance at rest of parts of a surface that do not hang together; of those that are flat. [m]
     double leastAltitude(int surface) const { return altitudes_[static_cast<std::size_t>(surface)]; }
     // What lies about them: all patches that the box at rest of both overlaps. None where that cannot be told, or of
@@ -89,6 +90,7 @@ class Patches {
         int patch = -1;             // of a leaf
         int surface = -1;           // -1: several
         double thickness = 0;       // [m] largest
+        std::vector<int> about;     // patches, of a surface that is flat at rest
     };
     struct Plane {  // of a surface that is flat and convex at rest
         dvec3 right, up;
@@ -104,8 +106,9 @@ class Patches {
     void shareOut();
     void findPlane(int surface);
     void prepareFlatness();
+    std::vector<int> about(const RestBox& box, int surface, std::size_t most) const;
     void measureFlatness(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    void meetItself(int node, double more, std::vector<std::pair<int, int>>& pairs) const;
+    void meetItself(int node, double more, double& slack, std::vector<std::pair<int, int>>& pairs) const;
     void meet(int a, int b, double more, std::vector<std::pair<int, int>>& pairs) const;
 
     const Elements& elements_;
@@ -120,6 +123,7 @@ class Patches {
         double a, b, c, d;  // of the two edges at corner 0, in the plane
     };
     std::vector<double> altitudes_;   // (surfaces) [m] smallest of a triangle
+    std::vector<double> enough_;      // (surfaces) see enough()
     std::vector<Inverse> inverses_;   // (triangles) of those in planes
     std::vector<RestBox> restBoxes_;  // (patches) likewise
     std::vector<Flatness> flatness_;  // (patches)

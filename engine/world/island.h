@@ -61,8 +61,8 @@ class Island {
   public:
     // At time t [s]. Chooses its step, which holds for all that the envelope allows; throws core::Error(badContent)
     // where no step would do.
-    // With `keepsStep` no state changes it. A tick has at least `parts` substeps, in as many equal parts, a power of two;
-    // fewer where dt is given, or the method has no limit.
+    // With `keepsStep` no state changes it. A tick has at least `parts` substeps, in as many equal parts, a power of
+    // two; fewer where dt is given, or the method has no limit.
     Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
            bool keepsStep, int parts = 1);
     Island(const Island&) = delete;
@@ -147,7 +147,8 @@ class Island {
     void visit(StateBytes& bytes);
 
   private:
-    std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first, int last);
+    std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first,
+                                      int last);
     Verdict judgeSteps(const TickTime& time, std::optional<Fault>& fault);
     // For undoTick(), besides what gives way.
     void keepTouches();
@@ -229,13 +230,13 @@ class Island {
         int contactFactor = 1, calmTicks = 0, substeps = 1;
         double step = 0;
         std::size_t stepChanges = 0;
-    } before_;                 // what the tick began with
+    } before_;  // what the tick began with
     struct {
         int rescues = 0;        // so far, of a tick that diverges
         int doublings = 0;      // of steps, for contact to add less
         double addedFirst = 0;  // [J] by contact, before those
     } tries_;                   // of this tick
-    std::vector<int> inside_;  // points that began inside a collider and have not been out yet
+    std::vector<int> inside_;   // points that began inside a collider and have not been out yet
     std::vector<std::string> insideWarnings_;
     std::string stretchWarning_, collapseWarning_, limitWarning_, freezingWarning_;
     std::optional<FrozenIsland> frozen_;

@@ -73,8 +73,8 @@ class IslandContacts {
         if (!more_.empty()) method.touch(state_, more_);
     }
 
-    // Points (ascending) go to x [m] with v [m/s], out of the colliders where those stop them; both become what is kept.
-    // h [s], gravity: of the step that was taken.
+    // Points (ascending) go to x [m] with v [m/s], out of the colliders where those stop them; both become what is
+    // kept. h [s], gravity: of the step that was taken.
     void place(const collision::Colliders* colliders, Method& method, double h, const dvec3& gravity,
                std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v) {
         if (colliders != nullptr) findColliding(std::sqrt(glm::dot(gravity, gravity)));

@@ -10,8 +10,9 @@ namespace {
 
 constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as there may be
 constexpr int mostParts = 64;
-constexpr int fewestMet = 4;               // instants of a tick in which anything touches
-constexpr double wayOfKeep = 0.5;          // of the distance kept, that two may approach in an instant
+constexpr int fewestMet = 4;       // instants of a tick in which anything touches
+constexpr double calmWay = 2.0;    // of the distance kept, that neighbours may move in an instant without contact
+constexpr double wayOfKeep = 0.5;  // of the distance kept, that two may approach in an instant
 
 }  // namespace
 
@@ -23,8 +24,8 @@ int partsOfTick(double tickSeconds, const ContactSpec& spec) {
 }
 
 bool touches(const IslandPlan& plan) {
-    return std::any_of(plan.bodies.begin(), plan.bodies.end(),
-                       [](const Body* body) { return body->spec->touch != Touch::nothing; });
+    return std::any_of(
+        plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return body->spec->touch != Touch::nothing; });
 }
 
 contact::Surface surfaceOf(const Body& body, int offset, int bond) {
@@ -107,17 +108,22 @@ void Touching::readAll() {
     }
 }
 
+// How many the tick is to have; less than nothing where it is a trial, in which nothing should meet.
 int Touching::chooseInstants(const TickTime& time) {
     int most = parts_;
     for (const Island* island : islands_)
         if (island->frozen() == nullptr) most = std::min(most, island->substeps());
     if (spec_.instants) return most;
-    const contact::Outlook outlook = group_->foresee(x1_, v_, 1.0 / time.ticksPerSecond);
-    if (!outlook.meets) return 0;
+    const contact::Outlook outlook = group_->foresee(x1_, v_, 1.0 / time.ticksPerSecond / fewestMet);
+    const auto enough = [&](int fewest, double longest) {
+        int instants = fewest;
+        while (instants < most && tickSeconds_ / instants > longest) instants *= 2;
+        return std::min(instants, most);
+    };
+    // Where nothing meets, by what is cheapest.
+    if (!outlook.meets) return -enough(1, calmWay / std::max(outlook.stir, 1e-9));
     const double longest = outlook.closing > 0 ? wayOfKeep * outlook.leastKeep / outlook.closing : HUGE_VAL;
-    int instants = fewestMet;
-    while (instants < most && 1.0 / time.ticksPerSecond / instants > longest) instants *= 2;
-    return std::min(instants, most);
+    return enough(fewestMet, longest);
 }
 
 std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
@@ -141,8 +147,8 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         std::vector<std::optional<Fault>> faults(islands_.size());
         for (Island* island : islands_) island->beginTry();
         readAll();
-        const bool isTrial = instants == 0;
-        instants_ = std::max(instants, 1);
+        const bool isTrial = instants < 0;
+        instants_ = std::abs(instants);
         const bool meetsAfterAll = tryTick(time, moving, instants_, faults, isTrial);
         std::vector<Verdict> verdicts(islands_.size(), Verdict::stands);
         bool isAgain = meetsAfterAll;
@@ -165,9 +171,12 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         readAll();
         group_->drop();
         group_->begin(x1_);
-        instants = meetsAfterAll ? std::max(chooseInstants(time), std::min(fewestMet, parts_)) : chooseInstants(time);
+        instants = chooseInstants(time);
+        if (meetsAfterAll) instants = std::max(instants, std::min(2 * std::max(instants_, fewestMet / 2), parts_));
     }
     for (Island* island : islands_) island->endTick(time);
+    total_.instants += instants_;
+    ++total_.ticks;
     return std::nullopt;
 }
 
@@ -177,11 +186,14 @@ bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> mov
     const double h = tickSeconds_ / instants;
     for (int c = 0; c < instants; ++c) {
         std::swap(x0_, x1_);
-        core::parallelFor(static_cast<int>(islands_.size()), [&](int k) {
-            const auto own = static_cast<std::size_t>(k);
-            faults[own] = islands_[own]->advance(time, moving, c, instants);
-        });
-        if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); })) return false;
+        core::parallelFor(
+            static_cast<int>(islands_.size()),
+            [&](int k) {
+                const auto own = static_cast<std::size_t>(k);
+                faults[own] = islands_[own]->advance(time, moving, c, instants);
+            });
+        if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); }))
+            return false;
         readAll();
         meet(h);
         if (isTrial && instants < parts_ && (meeting_.pressing > 0 || meeting_.slides > 0)) return true;
@@ -224,6 +236,22 @@ void Touching::meet(double h) {
         }
     };
     meeting_ = group_->meet(instant);
+    total_.slides += meeting_.slides;
+    total_.zones += meeting_.zones;
+    total_.uncertified += meeting_.uncertified;
+}
+
+ContactInfo Touching::info() const {
+    ContactInfo info = total_;
+    if (isEmpty()) return info;
+    for (const Body* body : bodies_) info.bodies.push_back(body->fullName());
+    info.mostInstants = parts_;
+    info.lastInstants = instants_;
+    info.located = static_cast<int>(group_->located());
+    info.pressing = meeting_.pressing;
+    info.lists = static_cast<std::int64_t>(group_->listed());
+    info.bytes = group_->bytes();
+    return info;
 }
 
 std::vector<contact::Touching> Touching::contacts() const {

@@ -41,7 +41,8 @@ class Touching {
     // What the last tick was like.
     int instants() const { return instants_; }
     const contact::Meeting& meeting() const { return meeting_; }
-    std::vector<contact::Touching> contacts() const;  // at its end
+    ContactInfo info() const;
+    std::vector<contact::Touching> contacts() const;   // at its end
     std::vector<contact::Crossing> crossings() const;  // now
     const contact::Elements& elements() const { return group_->elements(); }
     const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }
@@ -68,11 +69,12 @@ class Touching {
     std::vector<std::size_t> damage_;  // (surfaces) severed edges that are known
     std::unique_ptr<contact::Group> group_;
     bool hasJumped_ = true;
-    std::vector<dvec3> x0_, x1_, v_;    // (points)
-    std::vector<double> inverseMass_;   // (points)
+    std::vector<dvec3> x0_, x1_, v_;   // (points)
+    std::vector<double> inverseMass_;  // (points)
     std::vector<contact::Held> held_;
     int instants_ = 0;
     contact::Meeting meeting_;
+    ContactInfo total_;  // of the ticks since it was made
 };
 
 }  // namespace taut::world

@@ -204,11 +204,10 @@ std::optional<Divergence> World::Impl::tickIslands(const std::vector<ColliderMot
     std::vector<std::optional<Fault>> faults(alone.size());
     std::optional<Touching::Outcome> outcome;
     threads.run([&] {
-        core::parallelFor(static_cast<int>(alone.size()),
-                          [&](int i) {
-                              const auto k = static_cast<std::size_t>(i);
-                              faults[k] = alone[k]->tick(time, moving);
-                          });
+        core::parallelFor(static_cast<int>(alone.size()), [&](int i) {
+            const auto k = static_cast<std::size_t>(i);
+            faults[k] = alone[k]->tick(time, moving);
+        });
         if (!touching->isEmpty()) outcome = touching->tick(time, moving);
     });
     const auto diagnose = [&](Island& island, const Fault& fault) {
@@ -304,6 +303,11 @@ std::vector<IslandInfo> World::islands() const {
     std::vector<IslandInfo> all;
     for (const auto& island : impl_->islands) all.push_back(island->info(impl_->now()));
     return all;
+}
+
+ContactInfo World::contact() const {
+    impl_->findTouching();
+    return impl_->touching->info();
 }
 
 ode::Work World::work() const {

@@ -114,6 +114,19 @@ struct IslandInfo {
     ode::Work work{};  // of its method since the start
 };
 
+// Of bodies that touch others or themselves, since the scene began or a body came or went.
+struct ContactInfo {
+    std::vector<std::string> bodies;  // "cloth.flag", …
+    int mostInstants = 0;             // a tick, at most
+    int lastInstants = 0;             // of the last tick
+    std::int64_t ticks = 0, instants = 0;
+    int located = 0, pressing = 0;       // pairs of the last instant: looked at, and with an impulse
+    std::int64_t lists = 0;              // of pairs that were made
+    std::int64_t slides = 0, zones = 0;  // pairs that had to be slid apart, and times that zones were moved as one
+    std::int64_t uncertified = 0;        // pairs that may have gone through each other
+    std::uint64_t bytes = 0;
+};
+
 // What a joint of the scene ties together.
 struct JointInfo {
     std::string a, b;  // as the scene names the points
@@ -183,6 +196,7 @@ class World {
     void restore(std::span<const std::byte> bytes);
 
     std::vector<IslandInfo> islands() const;
+    ContactInfo contact() const;                // of bodies that touch
     std::vector<JointInfo> joints() const;      // in the order of the scene
     ode::Work work() const;                     // of all methods since the start
     bool hasTouched() const;                    // any contact, at any step since it was made or restored

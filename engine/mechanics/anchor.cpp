@@ -16,7 +16,7 @@ Anchor<Real>::Anchor(std::vector<int> points, const glm::dvec3& place, double st
 template <class Real>
 Anchor<Real>::Anchor(std::vector<int> points, const glm::dvec3& place, std::vector<double> stiffness,
                      std::vector<double> damping, std::vector<glm::dvec3> offsets)
-    : place_{place, place, 0.0, 0.0} {
+    : path_(LinearPath{place, place, 0.0, 0.0}) {
     TAUT_EXPECTS(stiffness.size() == points.size() && damping.size() == points.size());
     TAUT_EXPECTS(offsets.empty() || offsets.size() == points.size());
     offsets.resize(points.size(), glm::dvec3(0.0));
@@ -35,15 +35,15 @@ Anchor<Real>::Anchor(std::vector<int> points, const glm::dvec3& place, std::vect
 
 template <class Real>
 void Anchor<Real>::addForces(const Motion<Real>& motion, int first, int last, Real* f) const {
-    const glm::dvec3 place = place_.at(motion.t), velocity = place_.rate(motion.t);
+    const PosePath::Frame frame = path_.at(motion.t);
     const auto begin = std::lower_bound(points_.begin(), points_.end(), first);
     const auto end = std::lower_bound(begin, points_.end(), last);
     for (auto point = begin; point != end; ++point) {
         const auto p = static_cast<std::size_t>(point - points_.begin());
-        const glm::dvec3& offset = offsets_[p];
+        const glm::dvec3 arm = frame.arm(offsets_[p]), velocity = frame.velocityOf(arm);
         for (int axis = 0; axis < 3; ++axis) {
             const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(axis) * motion.stride + *point;
-            const double away = static_cast<double>(motion.x[i]) - (place[axis] + offset[axis]);
+            const double away = static_cast<double>(motion.x[i]) - (frame.place[axis] + arm[axis]);
             const double speed = static_cast<double>(motion.v[i]) - velocity[axis];
             f[i] += static_cast<Real>(-stiffness_[p] * away - damping_[p] * speed);
         }
@@ -52,15 +52,17 @@ void Anchor<Real>::addForces(const Motion<Real>& motion, int first, int last, Re
 
 template <class Real>
 double Anchor<Real>::potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only) const {
-    const glm::dvec3 place = place_.at(motion.t);
+    const PosePath::Frame frame = path_.at(motion.t);
     double energy = 0.0;
-    for (std::size_t p = 0; p < points_.size(); ++p)
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+        if (!only.empty() && !only[static_cast<std::size_t>(points_[p])]) continue;
+        const glm::dvec3 arm = frame.arm(offsets_[p]);
         for (int axis = 0; axis < 3; ++axis) {
-            if (!only.empty() && !only[static_cast<std::size_t>(points_[p])]) continue;
             const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(axis) * motion.stride + points_[p];
-            const double away = static_cast<double>(motion.x[i]) - (place[axis] + offsets_[p][axis]);
+            const double away = static_cast<double>(motion.x[i]) - (frame.place[axis] + arm[axis]);
             energy += 0.5 * stiffness_[p] * away * away;
         }
+    }
     return energy;
 }
 

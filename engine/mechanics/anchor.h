@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "taut/mechanics/force_generator.h"
-#include "taut/mechanics/linear_path.h"
+#include "taut/mechanics/pose_path.h"
 
 namespace taut::mechanics {
 
-// On a point: F = -k (x - p) - c (v - ṗ), p the place at the time plus the point's own offset from it.
+// On a point: F = -k (x - p) - c (v - ṗ), p the place at the time plus the point's own offset from it, which turns with
+// the place if that turns.
 template <class Real>
 class Anchor final : public ForceGenerator<Real> {
   public:
@@ -22,10 +23,12 @@ class Anchor final : public ForceGenerator<Real> {
            std::vector<glm::dvec3> offsets = {});
 
     // The place stays, moves evenly from one to the other between t0 and t1 [s], or as the path says.
-    void setPlace(const glm::dvec3& place) { place_ = {place, place, 0.0, 0.0}; }
-    void setPlace(const glm::dvec3& from, const glm::dvec3& to, double t0, double t1) { place_ = {from, to, t0, t1}; }
-    void setPlace(const LinearPath& path) { place_ = path; }
-    glm::dvec3 place(double t) const { return place_.at(t); }
+    void setPlace(const glm::dvec3& place) { path_ = LinearPath{place, place, 0.0, 0.0}; }
+    void setPlace(const glm::dvec3& from, const glm::dvec3& to, double t0, double t1) {
+        path_ = LinearPath{from, to, t0, t1};
+    }
+    void setPlace(const PosePath& path) { path_ = path; }
+    glm::dvec3 place(double t) const { return path_.place.at(t); }
 
     const std::vector<int>& points() const { return points_; }  // ascending
 
@@ -42,7 +45,7 @@ class Anchor final : public ForceGenerator<Real> {
   private:
     std::vector<int> points_;
     std::vector<glm::dvec3> offsets_;  // (points) [m]
-    LinearPath place_;
+    PosePath path_;
     std::vector<double> stiffness_, damping_;  // (points) [N/m], [kg/s]
     std::vector<Real> weight_;                 // (points) s k + d c for the s and d of linearise()
 };

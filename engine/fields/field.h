@@ -58,6 +58,8 @@ enum class Role {
     bodies,     // KIND.NAME of bodies that have a surface
     anyBodies,  // KIND.NAME
     selector,   // points of the body it stands in
+    tieable,    // KIND.NAME@SELECTOR, or collider.NAME
+    collider,   // collider.NAME
     time,       // a moment, taken to the nearest tick
 };
 

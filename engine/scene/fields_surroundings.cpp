@@ -8,6 +8,7 @@
 #include "taut/fields/field_list.h"
 #include "taut/fields/problems.h"
 #include "taut/scene/sections.h"
+#include "taut/world/ties.h"
 
 namespace taut::scene {
 
@@ -123,26 +124,34 @@ SceneSection jointSection() {
     SceneSection section;
     section.name = "joint";
     section.layout = Layout::list;
-    section.help = "Ties points of one body to points of another.";
+    section.help = "Ties points of a body to points of another, or to a collider that carries them.";
     section.enter = enterNamed(&SceneSpec::joints);
     section.variant = [](const Node& table) -> std::string {
         const Member* kind = table.find("kind");
-        return kind != nullptr && kind->value.text == "spring" ? "a spring joint" : "a weld";
+        if (kind != nullptr && kind->value.text == "spring") return "a spring joint";
+        const auto isOn = [&](const char* key) {
+            const Member* side = table.find(key);
+            return side != nullptr && isCollider(side->value.text);
+        };
+        return isOn("a") || isOn("b") ? "a weld to a collider" : "a weld";
     };
-    section.fields = FieldList<JointSpec>()
-                         .text("a", &JointSpec::a, Role::points, "Points of one body: KIND.NAME@SELECTOR.")
-                         .required()
-                         .text("b", &JointSpec::b, Role::points, "Points of the other.")
-                         .required()
-                         .choice("kind", &JointSpec::kind, {"weld", "spring"}, "Points made one, or springs.")
-                         .number("stiffness_N_per_m", &JointSpec::stiffness, "N/m", positive, "Of each spring.")
-                         .only({"a spring joint"})
-                         .number("damping_time_s", &JointSpec::dampingTime, "s", Range{0.0, 1e3}, "Of each spring.")
-                         .only({"a spring joint"})
-                         .number("reach_m", &JointSpec::reach, "m", Range{0.0, 1e3},
-                                 "Largest distance of two points that a weld makes one.")
-                         .only({"a weld"})
-                         .take();
+    section.fields =
+        FieldList<JointSpec>()
+            .text("a", &JointSpec::a, Role::tieable, "Points of one body: KIND.NAME@SELECTOR.")
+            .required()
+            .text("b", &JointSpec::b, Role::tieable, "Points of the other; or collider.NAME, on either side.")
+            .required()
+            .choice("kind", &JointSpec::kind, {"weld", "spring"},
+                    "Points made one, or springs. A collider carries all points that are welded to it as "
+                    "they lie when the scene starts; springs draw each to that place on it.")
+            .number("stiffness_N_per_m", &JointSpec::stiffness, "N/m", positive, "Of each spring.")
+            .only({"a spring joint"})
+            .number("damping_time_s", &JointSpec::dampingTime, "s", Range{0.0, 1e3}, "Of each spring.")
+            .only({"a spring joint"})
+            .number("reach_m", &JointSpec::reach, "m", Range{0.0, 1e3},
+                    "Largest distance of two points that a weld makes one.")
+            .only({"a weld"})
+            .take();
     return section;
 }
 

@@ -10,6 +10,7 @@
 #include "taut/scene/ramp_key.h"
 #include "taut/world/actions.h"
 #include "taut/world/ticks.h"
+#include "taut/world/ties.h"
 
 namespace taut::scene {
 
@@ -88,6 +89,7 @@ class Timeline {
                       fmt::format("{} is spawned already at {} s", name, events_[before->second].action->t));
         }
         for (const JointSpec& joint : scene_.spec.joints) {
+            if (isTie(joint)) continue;
             for (const std::string& end : {joint.a, joint.b}) {
                 for (const BodyEntry* body : bodies_.matches(end)) {
                     const auto tied = bodies_.matches(target);

@@ -41,11 +41,12 @@ struct MoveAction final : SpecOf<MoveAction, ActionSpec> {
     static constexpr std::string_view kindName = "move";
     void perform(World& world) const override;
 
-    std::string id;                      // of the hand; empty: a collider
-    std::string target;                  // "collider.NAME"
-    std::optional<glm::dvec3> to;        // [m]
-    std::optional<glm::dvec3> rotation;  // [rad] of a collider, about x, then y, then z
-    double over = 0.0;                   // [s]; 0: at once
+    std::string id;                // of the hand; empty: a collider
+    std::string target;            // "collider.NAME"
+    std::optional<glm::dvec3> to;  // [m]
+    // [rad] about x, then y, then z. A collider takes the short way; a hand turns by the angles, since its grab.
+    std::optional<glm::dvec3> rotation;
+    double over = 0.0;  // [s]; 0: at once
     Ease ease = Ease::smooth;
 };
 
@@ -63,10 +64,12 @@ struct PushAction final : SpecOf<PushAction, PointsAction> {
     glm::dvec3 impulse{0.0};  // [N s] of the whole target, shared by mass: every point changes its velocity alike
 };
 
-// From then on the points stay where they are, or are free to move.
+// From then on the points stay where they are, or go with a collider, or are free to move.
 struct HoldAction final : SpecOf<HoldAction, PointsAction> {
     static constexpr std::string_view kindName = "hold";
     void perform(World& world) const override;
+
+    std::string holdOn;  // "collider.pole"; empty: they stay
 };
 struct FreeAction final : SpecOf<FreeAction, PointsAction> {
     static constexpr std::string_view kindName = "free";

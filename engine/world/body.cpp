@@ -28,8 +28,13 @@ void holdPoints(Body& body) {
         if (points.empty())
             throw Error(ErrorKind::badContent,
                         at(body.spec->source) + "hold = \"" + selector + "\" names no point of " + body.fullName());
-        for (int i : points) body.model.held[static_cast<std::size_t>(i)] = true;
+        if (body.spec->holdOn.empty())
+            for (int i : points) body.model.held[static_cast<std::size_t>(i)] = true;
+        else
+            body.carried.insert(body.carried.end(), points.begin(), points.end());
     }
+    std::sort(body.carried.begin(), body.carried.end());
+    body.carried.erase(std::unique(body.carried.begin(), body.carried.end()), body.carried.end());
 }
 
 void setInMotion(Body& body) {
@@ -42,7 +47,7 @@ void setInMotion(Body& body) {
     }
     centre /= mass;
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
-        if (model.held[i]) {
+        if (model.held[i] || std::binary_search(body.carried.begin(), body.carried.end(), static_cast<int>(i))) {
             model.velocities[i] = dvec3(0.0);
             continue;
         }

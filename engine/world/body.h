@@ -23,6 +23,8 @@ struct Body {
     mechanics::Model model;
     PlasticitySpec plasticity;
 
+    std::vector<int> carried;  // ascending points of the model that its spec holds on a collider
+
     Damage damage;  // what has been cut or torn of it
 
     // In the island that owns it.
@@ -45,8 +47,8 @@ bool sortsBefore(const Body& a, const Body& b);
 // One body, for spawning: at rest and free, arrays not expanded; startBody does the rest.
 Body buildBody(const BodySpec& spec, const SceneSpec& scene);
 
-// Holds the points that its spec names and gives the others their starting velocity and jitter. Throws
-// core::Error(badContent) where `hold` names nothing.
+// Holds the points that its spec names, in place or for a collider to carry, and gives the others their starting
+// velocity and jitter. Throws core::Error(badContent) where `hold` names nothing.
 void startBody(Body& body);
 
 // Whether a target names the body.

@@ -60,6 +60,7 @@ struct BodySpec {
     std::string name;  // without the kind: "flag"
     Source source;
     std::vector<std::string> hold;  // selectors, see mechanics: a group, "(u,v)", "50%", "#index"
+    std::string holdOn;             // "collider.pole": what carries those; empty: they stay where they are
     dvec3 velocity{0.0};            // [m/s] at the start
     dvec3 spin{0.0};                // [rad/s] at the start, about the centre of mass
     double jitter = 0.0;            // [m] random offset of free points at the start: breaks symmetry

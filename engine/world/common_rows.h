@@ -64,6 +64,9 @@ std::vector<fields::Field> bodyRows() {
     fields::FieldList<Spec> list;
     list.texts("hold", &Spec::hold, fields::Role::selector,
                "Points that never move: a group, \"#12\", \"(u,v)\", \"50%\".")
+        .text("hold_on", &Spec::holdOn, fields::Role::collider,
+              "The collider that carries the points of `hold`, e.g. \"collider.pole\": they go and turn with it. "
+              "Without it they stay where they are.")
         .vector("velocity", &Spec::velocity, "m/s", speedRange,
                 "At the start. Whatever moves faster than 3000 m/s counts as diverged.")
         .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange, "At the start, about the centre of mass.")

@@ -276,17 +276,18 @@ class DynamicsOf final : public Dynamics {
         return rest;
     }
 
-    // Points in a rigid grip go where the hand goes.
+    // Points in a rigid grip go where what holds them goes.
     void lead() {
         leads_ = std::any_of(plan_.grips.begin(), plan_.grips.end(), [](const Grip& grip) { return grip.rigid; });
         for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
             if (!plan_.grips[g].rigid) continue;
             system_.lead({plan_.grips[g].points, [this, g](double t, std::span<dvec3> x, std::span<dvec3> v) {
                               const Grip& grip = plan_.grips[g];
-                              const dvec3 place = grip.path.at(t), rate = grip.path.rate(t);
+                              const mechanics::PosePath::Frame frame = grip.path.at(t);
                               for (std::size_t i = 0; i < x.size(); ++i) {
-                                  x[i] = place + grip.offsets[i];
-                                  v[i] = rate;
+                                  const dvec3 arm = frame.arm(grip.offsets[i]);
+                                  x[i] = frame.place + arm;
+                                  v[i] = frame.velocityOf(arm);
                               }
                           }});
         }
@@ -299,7 +300,7 @@ class DynamicsOf final : public Dynamics {
         for (const Grip& grip : plan_.grips) {
             anchors_.push_back(nullptr);
             if (grip.rigid) continue;
-            auto anchor = std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.from, grip.stiffness,
+            auto anchor = std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.place.from, grip.stiffness,
                                                                     grip.damping, grip.offsets);
             anchor->setPlace(grip.path);
             anchors_.back() = anchor.get();

@@ -61,6 +61,7 @@ class Outlook {
         for (const auto& island : world.islands) {
             Group group;
             for (const Body* body : island->plan().bodies) group.bodies.push_back(body);
+            group.isHeld = !island->plan().grips.empty();  // on colliders, as the scene starts
             add(std::move(group));
         }
         for (const auto& body : world.waiting) add({{body.get()}, false, spawnTime(*body), {}});
@@ -100,7 +101,7 @@ class Outlook {
         double mass = 0;
         for (const Body* body : group.bodies) {
             const mechanics::Model& model = body->model;
-            group.isHeld = group.isHeld || isAnchored(*body) ||
+            group.isHeld = group.isHeld || isAnchored(*body) || !body->carried.empty() ||
                            std::find(model.held.begin(), model.held.end(), true) != model.held.end();
             for (std::size_t i = 0; i < model.positions.size(); ++i) {
                 group.velocity += model.masses[i] * model.velocities[i];

@@ -9,6 +9,7 @@
 #include "taut/world/actions.h"
 #include "taut/world/forces/scene_forces.h"
 #include "taut/world/targets.h"
+#include "taut/world/ties.h"
 
 namespace taut::world {
 namespace {
@@ -170,6 +171,7 @@ struct EnvelopeSide {
             if (!isSpawnedLater(*bodies.back(), spec)) first.push_back(bodies.back().get());
         }
         plans = planIslands(first, spec);
+        for (IslandPlan& plan : plans) tie(plan);
         for (std::size_t i = 0; i < bodies.size(); ++i) bodyOf.emplace(bodies[i]->fullName(), i);
         for (std::size_t i = 0; i < plans.size(); ++i) planOf.emplace(plans[i].bodies.front()->fullName(), i);
     }
@@ -185,7 +187,15 @@ struct EnvelopeSide {
         if (found == bodyOf.end()) return std::nullopt;
         SceneSpec alone;
         alone.solver = spec.solver;
-        return planIslands(std::vector<Body*>{bodies[found->second].get()}, alone).front();
+        IslandPlan own = planIslands(std::vector<Body*>{bodies[found->second].get()}, alone).front();
+        tie(own);
+        return own;
+    }
+
+    // Wherever the colliders are: it is only by what springs.
+    void tie(IslandPlan& plan) const {
+        addTies(
+            plan, spec, [](const std::string&) { return std::optional<collision::Pose>(collision::Pose{}); });
     }
 };
 

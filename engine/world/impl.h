@@ -4,7 +4,7 @@
 //   world.cpp          building, the tick, what is asked of a world
 //   timeline.cpp       actions when they are due, and the points that they name
 //   actions/           what each kind of action does
-//   hands.cpp          where hands are
+//   hands.cpp          where hands are, and where colliders carry what is tied to them
 //   ramps.cpp          fields of the scene that change while it runs
 //   queries.cpp        metrics, points, hashes
 //   saving.cpp         all of it as bytes
@@ -108,6 +108,10 @@ struct World::Impl {
     // Throws core::Error(badContent) if there is none of that name.
     Hand& handOf(const ActionSpec& action, const std::string& id);
     void leadHands();
+    // Where colliders carry what is tied to them in the coming tick.
+    void carryTied();
+    void letGo(const std::string& collider);  // of all that is tied to it
+    std::optional<collision::Pose> poseOf(const std::string& collider) const;
 
     // Writes the values at this tick, or at a moment between two, into the scene; only of those that affect `which`.
     void applyRamps(double moment, fields::Affects which);

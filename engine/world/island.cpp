@@ -32,7 +32,13 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
         envelope.isStatic ? dynamics_->stabilityShare(t)
                           : makeDynamics(envelope.plan, envelope.forces)->stabilityShare(t),
         1.0 / ticksPerSecond,
-        [&] { return mechanics::leastFrequency(inverseMassesOf(plan_), stiffnessAt(plan_.positions)); },
+        [&] {
+            std::vector<double> inverseMasses = inverseMassesOf(plan_);
+            const std::vector<bool> isHeld = heldPointsOf(plan_);
+            for (std::size_t i = 0; i < isHeld.size(); ++i)
+                if (isHeld[i]) inverseMasses[i] = 0;
+            return mechanics::leastFrequency(inverseMasses, stiffnessAt(plan_.positions));
+        },
         keepsStep ? nullptr : &now);
     if (choice_.need)
         following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
@@ -48,6 +54,7 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
     for (const Since moment : {Since::tick, Since::step}) dynamics_->keep(moment);
     watchPlasticity();
     mayFreeze_ = plan_.solver.onDivergence == OnDivergence::freeze;
+    isChanged_ = !plan_.grips.empty();  // they go on ways that the scene alone does not tell
     hasCells_ = std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
                             [](const Body* body) { return !body->model.cells.empty(); });
 }

@@ -115,7 +115,9 @@ class Island {
     // Opens; the points stand still.
     void stop(const TickTime& time, std::span<const int> points);
     // The way of a hand from now on; opens if `bends`. Does nothing where the hand has hold of nothing.
-    void lead(const TickTime& time, const std::string& hand, const mechanics::LinearPath& path, bool bends);
+    void lead(const TickTime& time, const std::string& hand, const mechanics::PosePath& path, bool bends);
+    // The same of a collider, "collider.pole"; opens where the way does not go on from the one before.
+    void carry(const TickTime& time, const std::string& collider, const mechanics::PosePath& path);
     // Opens where a force jumps; not if flows and gravity only go on changing.
     void setForces(const TickTime& time, const ForceList& forces);
 
@@ -161,6 +163,7 @@ class Island {
     void moveColliders(std::span<const ColliderMotion> moving, int substep);
     void watchVolumes(double t);
     void watchLimit(double t);
+    void setPath(std::size_t grip, const mechanics::PosePath& path);
     void settle();
     void tear(const std::vector<int>& springs, std::vector<int>& changed);
     void remember(int spring);

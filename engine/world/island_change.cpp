@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "taut/world/island.h"
+#include "taut/world/ties.h"
 
 namespace taut::world {
 
@@ -48,15 +49,28 @@ void Island::stop(const TickTime& time, std::span<const int> points) {
     for (int i : points) dynamics_->setVelocity(i, dvec3(0.0));
 }
 
-void Island::lead(const TickTime& time, const std::string& hand, const mechanics::LinearPath& path, bool bends) {
+void Island::lead(const TickTime& time, const std::string& hand, const mechanics::PosePath& path, bool bends) {
     if (frozen_) return;
     for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
-        if (plan_.grips[g].hand != hand) continue;
+        if (plan_.grips[g].ofCollider || plan_.grips[g].holder != hand) continue;
         if (bends) open(time);
-        plan_.grips[g].path = path;
-        // Grips that are not what the dynamics know are led when those take them over.
-        if (!changes_.has(Change::grips)) dynamics_->leadGrip(g);
+        setPath(g, path);
     }
+}
+
+void Island::carry(const TickTime& time, const std::string& collider, const mechanics::PosePath& path) {
+    if (frozen_) return;
+    for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
+        if (!plan_.grips[g].ofCollider || plan_.grips[g].holder != collider) continue;
+        if (!goesOn(plan_.grips[g].path, path, time.start())) open(time);
+        setPath(g, path);
+    }
+}
+
+void Island::setPath(std::size_t grip, const mechanics::PosePath& path) {
+    plan_.grips[grip].path = path;
+    // Grips that are not what the dynamics know are led when those take them over.
+    if (!changes_.has(Change::grips)) dynamics_->leadGrip(grip);
 }
 
 void Island::setForces(const TickTime& time, const ForceList& forces) {

@@ -9,6 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/world/spec.h"
 #include "taut/world/targets.h"
+#include "taut/world/ties.h"
 
 namespace taut::world {
 namespace {
@@ -57,7 +58,8 @@ class Planner {
           islands_(bodies.size()),
           firstGlobal_(firsts(bodies)),
           welds_(firstGlobalEnd()) {
-        for (const JointSpec& joint : spec.joints) addJoint(joint);
+        for (const JointSpec& joint : spec.joints)
+            if (!isTie(joint)) addJoint(joint);
     }
 
     std::vector<IslandPlan> plans() {
@@ -356,6 +358,15 @@ std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
         for (std::size_t i = 0; i < body->pointOf.size(); ++i)
             if (body->pointOf[i] == point) return {body, static_cast<int>(i)};
     return {nullptr, point};
+}
+
+std::vector<bool> heldPointsOf(const IslandPlan& plan) {
+    std::vector<bool> isHeld;
+    for (const mechanics::PointMass& p : plan.points) isHeld.push_back(p.held);
+    for (const Grip& grip : plan.grips)
+        if (grip.ofCollider && grip.rigid)
+            for (int i : grip.points) isHeld[static_cast<std::size_t>(i)] = true;
+    return isHeld;
 }
 
 bool isFree(const IslandPlan& plan, int point) {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "taut/mechanics/linear_path.h"
 #include "taut/mechanics/mass_spring_system.h"
+#include "taut/mechanics/pose_path.h"
 #include "taut/ode/method_table.h"
 #include "taut/world/body.h"
 
@@ -20,14 +20,15 @@ struct SpringOrigin {
     int spring = -1;  // of that body's model
 };
 
-// What a hand has got hold of. Its points keep their places about it.
+// What a hand or a collider has got hold of. Its points keep their places about it and turn with it.
 struct Grip {
-    std::string hand;
+    std::string holder;                      // the hand, or "collider.pole"
+    bool ofCollider = false;                 // which of the two
     bool rigid = false;                      // led exactly; else drawn by springs
     std::vector<int> points;                 // ascending
-    std::vector<dvec3> offsets;              // (points) [m] from the hand
+    std::vector<dvec3> offsets;              // (points) [m] from it, as it is unturned
     std::vector<double> stiffness, damping;  // (points) [N/m], [kg/s]; not of rigid ones
-    mechanics::LinearPath path;              // of the hand, a line during each tick
+    mechanics::PosePath path;                // of it; the place on a line during each tick
 };
 
 // Points in the island's own numbering: body by body, welded points once.
@@ -56,7 +57,7 @@ struct JointReport {
 
 // The smallest sets of bodies that springs or welds couple. Fills pointOf, firstPoint and lastPoint of every body, and,
 // if wanted, what became of each joint. Throws core::Error(badContent) where joints name nothing or bodies tied
-// together disagree on their solver.
+// together disagree on their solver. Joints with colliders are not its concern, see ties.h.
 std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec,
                                     std::vector<JointReport>* joints = nullptr);
 
@@ -73,6 +74,8 @@ std::vector<mechanics::VolumeCell> cellsOf(const Body& body);
 std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan);
 // The body and its own number of a point; null and the point where none has it. Of welded bodies the first.
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point);
+// (points) whether it is held, in place or on a collider.
+std::vector<bool> heldPointsOf(const IslandPlan& plan);
 // Whether a point moves by itself: neither held nor in a rigid grip.
 bool isFree(const IslandPlan& plan, int point);
 // [m] of a spring between points (points) of such a place [m].

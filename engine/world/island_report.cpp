@@ -111,10 +111,9 @@ IslandInfo Island::info(const TickTime& time) const {
         info.bodies.push_back(body->fullName());
         info.cells += static_cast<int>(body->model.cells.size());
     }
-    for (const auto& point : plan_.points) {
-        info.mass += point.mass;
-        info.heldPoints += point.held ? 1 : 0;
-    }
+    for (const auto& point : plan_.points) info.mass += point.mass;
+    const std::vector<bool> isHeld = heldPointsOf(plan_);
+    info.heldPoints = static_cast<int>(std::count(isHeld.begin(), isHeld.end(), true));
     info.points = static_cast<int>(plan_.points.size());
     info.springs = static_cast<int>(plan_.springs.size());
     dynamics_->describe(info);

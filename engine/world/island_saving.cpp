@@ -8,14 +8,25 @@
 namespace taut::world {
 namespace {
 
+// Before the bytes of a grip that a collider has, or that turns; no length of a name, with which all others begin.
+constexpr std::uint64_t poseMark = 0xfff8'7461'7574'0003ULL;
+
 void visitPart(StateBytes& bytes, Grip& grip, std::size_t pointCount) {
-    bytes(grip.hand);
+    mechanics::PosePath& path = grip.path;
+    if (bytes.mark(poseMark, grip.ofCollider || path.isTurned())) {
+        bytes(grip.ofCollider);
+        for (glm::dquat* rotation : {&path.from, &path.to}) bytes(*rotation);
+        bytes(path.t0);
+        bytes(path.t1);
+        bytes.require(path.t0 < path.t1);
+    }
+    bytes(grip.holder);
     bytes(grip.rigid);
     bytes.list(grip.points);
     bytes.list(grip.offsets);
     bytes.list(grip.stiffness);
     bytes.list(grip.damping);
-    bytes(grip.path);
+    bytes(path.place);
     const std::size_t count = grip.points.size(), forces = grip.rigid ? 0 : count;
     bytes.require(count > 0 && grip.offsets.size() == count && grip.stiffness.size() == forces &&
                   grip.damping.size() == forces);

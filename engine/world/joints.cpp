@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "taut/world/impl.h"
+#include "taut/world/targets.h"
+#include "taut/world/ties.h"
 
 namespace taut::world {
 namespace {
@@ -43,6 +45,16 @@ void World::Impl::takeJoints(const std::vector<JointReport>& reports) {
     for (const JointReport& report : reports) {
         joints.push_back(infoOf(report));
         if (!report.loose.empty()) jointWarnings.push_back(warningOf(report));
+    }
+    for (const JointSpec& joint : spec.joints) {
+        if (!isTie(joint)) continue;
+        JointInfo info{joint.a, joint.b, joint.kind == JointSpec::Kind::weld, {}, {}};
+        const std::string selector = parseTarget(pointsOf(joint)).selector;
+        const std::vector<Body*> all = allBodies();
+        for (const Body* body : matchBodies(all, pointsOf(joint)))
+            info.pairs.push_back(
+                {body->fullName(), colliderOf(joint), static_cast<int>(selectPoints(body->model, selector).size())});
+        joints.push_back(std::move(info));
     }
 }
 

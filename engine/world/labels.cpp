@@ -21,9 +21,10 @@ view::Align alignOf(Align align) {
 // Above the points that are held, for they do not swing; above all of them if none is.
 glm::vec3 placeAbove(const LabelSubject& subject) {
     dvec3 low(1e300), high(-1e300);
+    const std::vector<bool> isHeld = heldPointsOf(subject.island->plan());
     const auto include = [&](bool heldOnly) {
         for (int i : subject.body->pointOf) {
-            if (heldOnly && !subject.island->plan().points[static_cast<std::size_t>(i)].held) continue;
+            if (heldOnly && !isHeld[static_cast<std::size_t>(i)]) continue;
             low = glm::min(low, subject.island->position(i));
             high = glm::max(high, subject.island->position(i));
         }

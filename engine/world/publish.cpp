@@ -29,9 +29,10 @@ void addMarks(const Island& island, view::Marks& marks) {
         marks.lines.push_back(
             {glm::vec3(a), glm::vec3(b), strainColour(s.restLength > 0 ? l / s.restLength - 1.0 : 0.0)});
     }
+    const std::vector<bool> isHeld = heldPointsOf(plan);
     for (std::size_t i = 0; i < plan.points.size(); ++i) {
         const glm::vec3 at(island.position(static_cast<int>(i)));
-        if (plan.points[i].held)
+        if (isHeld[i])
             marks.dots.push_back({at, glm::vec3(0.95F, 0.75F, 0.05F), 3.0F});
         else
             marks.dots.push_back({at, glm::vec3(0.02F), 0.8F});

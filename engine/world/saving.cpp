@@ -19,7 +19,12 @@ void visitWay(StateBytes& bytes, std::int64_t& start, std::int64_t& length, Ease
     bytes.choice(ease, Ease::hold);
 }
 
+// Before the bytes of a hand that is turned; no length of a name, with which all others begin.
+constexpr std::uint64_t turnMark = 0xfff8'7461'7574'0003ULL;
+
 void visitPart(StateBytes& bytes, Hand& hand) {
+    if (bytes.mark(turnMark, hand.isTurned()))
+        for (dvec3* v : {&hand.turnedFrom, &hand.turnedTo, &hand.spin}) bytes(*v);
     bytes(hand.id);
     bytes(hand.rigid);
     for (dvec3* v : {&hand.from, &hand.to, &hand.rate}) bytes(*v);

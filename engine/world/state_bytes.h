@@ -96,12 +96,14 @@ class StateBytes {
         (*this)(path.t1);
         (*this)(path.isLine);
     }
+    void operator()(glm::dquat& rotation) {
+        for (double* number : {&rotation.w, &rotation.x, &rotation.y, &rotation.z}) (*this)(*number);
+        const double length2 = glm::dot(rotation, rotation);
+        require(length2 > 0.25 && length2 < 4.0);
+    }
     void operator()(collision::Pose& pose) {
         (*this)(pose.position);
-        for (double* number : {&pose.rotation.w, &pose.rotation.x, &pose.rotation.y, &pose.rotation.z})
-            (*this)(*number);
-        const double length2 = glm::dot(pose.rotation, pose.rotation);
-        require(length2 > 0.25 && length2 < 4.0);
+        (*this)(pose.rotation);
     }
     // Numbers, or plain structs of numbers without gaps; nothing is said of what they hold.
     template <class Item>

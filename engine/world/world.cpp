@@ -10,6 +10,7 @@
 #include "taut/world/motion.h"
 #include "taut/world/targets.h"
 #include "taut/world/ticks.h"
+#include "taut/world/ties.h"
 
 namespace taut::world {
 
@@ -45,6 +46,9 @@ void World::Impl::addBodies() {
         pointers.push_back(bodies.back().body);
     }
     checkForces();
+    std::vector<Body*> all = allBodies();
+    for (const auto& body : waiting) all.push_back(body.get());
+    checkTies(spec, all, [this](const std::string& collider) { return poseOf(collider); });
     const Envelopes envelopes(*start);
     const ForceList current = forces();
     std::vector<JointReport> reports;
@@ -55,12 +59,14 @@ void World::Impl::addBodies() {
 // A body that comes later cannot be tied to others: islands are made once.
 void World::Impl::checkUntied(Body& body) const {
     const std::vector<Body*> one{&body};
-    for (const JointSpec& joint : spec.joints)
+    for (const JointSpec& joint : spec.joints) {
+        if (isTie(joint)) continue;
         for (const std::string& side : {joint.a, joint.b})
             if (!matchBodies(one, side).empty())
                 throw core::Error(core::ErrorKind::badContent,
                                   at(joint.source) + "\"" + side + "\" ties " + body.fullName() +
                                       ", which is spawned later; a spawned body cannot be tied to another");
+    }
 }
 
 World::Impl::Member World::Impl::addBody(std::unique_ptr<Body> body) {
@@ -94,6 +100,7 @@ void World::Impl::checkForces() const {
 
 void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints) {
     plan.solver.precision = spec.solver.precision;
+    addTies(plan, spec, [this](const std::string& collider) { return poseOf(collider); });
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
     const int parts = touches(plan) ? partsOfTick(1.0 / ticksPerSecond, spec.contact) : 1;
@@ -381,6 +388,7 @@ void World::destroy(ecs::Entity entity) {
         ++w.generation;
     }
     const bool wasCollider = w.registry.find<ColliderPart>(entity) != nullptr;
+    if (wasCollider) w.letGo(w.registry.find<Identity>(entity)->fullName());
     w.registry.destroy(entity);
     if (wasCollider) w.rebuildColliders();
 }

@@ -132,7 +132,7 @@ struct JointInfo {
     std::string a, b;  // as the scene names the points
     bool isWeld = true;
     struct Pair {
-        std::string a, b;  // "block.plank0"
+        std::string a, b;  // "block.plank0"; b may be a collider
         int points = 0;    // of the first that are tied to the second
     };
     std::vector<Pair> pairs;
@@ -196,8 +196,12 @@ class World {
     void restore(std::span<const std::byte> bytes);
 
     std::vector<IslandInfo> islands() const;
+<<<<<<< HEAD
     ContactInfo contact() const;                // of bodies that touch
     std::vector<JointInfo> joints() const;      // in the order of the scene
+=======
+    std::vector<JointInfo> joints() const;      // in the order of the scene, those with colliders last
+>>>>>>> b1db158 (world, scene: colliders carry points that are held on them or joined to them; hands turn)
     ode::Work work() const;                     // of all methods since the start
     bool hasTouched() const;                    // any contact, at any step since it was made or restored
     std::vector<FrozenIsland> frozen() const;   // in the order of islands()

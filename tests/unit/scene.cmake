@@ -14,6 +14,7 @@ list(APPEND TAUT_UNIT_TESTS
   scene_splice_test.cpp
   scene_state_keys_test.cpp
   scene_syntax_errors_test.cpp
+  scene_ties_test.cpp
   scene_timeline_errors_test.cpp
   scene_timeline_fields_test.cpp
   scene_value_errors_test.cpp)

@@ -106,15 +106,6 @@ TEST(SceneErrors, ActionsThatAreIncompleteAreReported) {
          "s.toml:3:40: error: to must be a list of 3 numbers [m], not 3\n"
          "    { t = 1, do = \"move\", id = \"h\", to = 3 },\n"
          "                                         ^"},
-        {"a hand that is turned",
-         "at = [\n"
-         "  { t = 1, do = \"move\", id = \"h\", to = [0, 0, 0], rotation_deg = [0, 90, 0] },\n"
-         "]\n"
-         "[rope.r]\n"
-         "ends = [[0, 0, 0], [1, 0, 0]]\n",
-         "s.toml:3:66: error: a hand is not turned\n"
-         "    { t = 1, do = \"move\", id = \"h\", to = [0, 0, 0], rotation_deg = [0, 90, 0] },\n"
-         "                                                                   ^ only a collider is"},
         {"a push of nothing",
          "at = [\n"
          "  { t = 1, do = \"push\", target = \"rope.r@end\", impulse_Ns = [0, 0, 0] },\n"

@@ -49,7 +49,7 @@ void collectPaths(const Node& node, const std::string& path, bool isNamed, std::
 std::string standIn(const std::string& path) {
     const std::string rest = path.substr(path.find('.') + 1);
     const std::string key = rest.substr(0, rest.find('.'));
-    for (const char* common : {"hold", "velocity", "spin_rad_per_s", "jitter_m", "seed", "friction", "thickness",
+    for (const char* common : {"hold", "hold_on", "velocity", "spin_rad_per_s", "jitter_m", "seed", "friction", "thickness",
                                "collide", "finish", "solver", "array"})
         if (key == common && !path.starts_with("wind.")) return "cloth." + rest;
     return path;

@@ -64,6 +64,7 @@ across = [0, 0, 2]
 down = [0, -3, 0]
 material = "silk"
 hold = ["left", "#7", "(0.5,1)"]
+hold_on = "collider.ball"
 velocity = [1, 2, 3]
 spin_rad_per_s = [4, 5, 6]
 jitter_m = 0.001
@@ -218,6 +219,11 @@ t = 1.5
 do = "move"
 target = "collider.ball"
 rotation_deg = [0, 90, 0]
+[[at]]
+t = 2.25
+do = "hold"
+target = "rope.rail@50%"
+hold_on = "collider.ball"
 [[at]]
 t = 2.5
 do = "push"

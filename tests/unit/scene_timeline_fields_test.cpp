@@ -26,7 +26,7 @@ world::SceneSpec readFullScene() {
 
 TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
     const Specs<ActionSpec> actions = readFullScene().actions;
-    ASSERT_EQ(actions.size(), 8U);
+    ASSERT_EQ(actions.size(), 9U);
     const auto& grab = dynamic_cast<const GrabAction&>(actions[0]);
     EXPECT_EQ(grab.t, 1.0);
     EXPECT_EQ(grab.id, "left");
@@ -52,10 +52,11 @@ TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
     const auto& plane = dynamic_cast<const CutAction&>(actions[4]);
     EXPECT_EQ(plane.planePoint, dvec3(1, 2, 3));
     EXPECT_EQ(plane.planeNormal, dvec3(0, 2, 0));
+    EXPECT_EQ(dynamic_cast<const HoldAction&>(actions[5]).holdOn, "collider.ball");
     // Written before the cuts, but later.
-    EXPECT_EQ(dynamic_cast<const PushAction&>(actions[5]).impulse, dvec3(0, 1, 2));
-    EXPECT_EQ(dynamic_cast<const AddMassAction&>(actions[6]).mass, 0.5);
-    const auto& ramp = dynamic_cast<const RampAction&>(actions[7]);
+    EXPECT_EQ(dynamic_cast<const PushAction&>(actions[6]).impulse, dvec3(0, 1, 2));
+    EXPECT_EQ(dynamic_cast<const AddMassAction&>(actions[7]).mass, 0.5);
+    const auto& ramp = dynamic_cast<const RampAction&>(actions[8]);
     EXPECT_EQ(ramp.key, "wind.breeze.velocity");
     EXPECT_EQ(ramp.value, (std::vector<double>{9, 8, 7}));
 }

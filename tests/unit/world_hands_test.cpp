@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "support/timelines.h"
+#include "taut/core/error.h"
+#include "taut/core/trig.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/net.h"
 #include "taut/world/world.h"
@@ -114,6 +116,90 @@ TEST(Hands, ARigidHandIsFollowedExactly) {
                 EXPECT_NEAR(glm::length(now.x[p] - start[p] - (*world.handPlace("hand") - place)), 0, 1e-12);
         }
     }
+}
+
+// Four turns of 360 degrees, in angles and not the short way.
+MoveAction turnHand(double t, dvec3 angles, double over, Ease ease) {
+    MoveAction turn = support::moveHand(t, {0, 0, 0}, over, ease);
+    turn.to.reset();
+    turn.rotation = angles;
+    return turn;
+}
+
+TEST(Hands, WhatATurningHandHasGoesRoundAsOftenAsItTurns) {
+    for (const bool isRigid : {true, false}) {
+        SceneSpec scene;
+        scene.world.gravity = dvec3(0.0);
+        scene.solver.precision = Precision::double_;
+        scene.bodies.add(support::cloth("sheet", 2));
+        auto grab = support::grab(0.0, "cloth.sheet", isRigid);
+        grab.strength = 1e5;
+        grab.dampingRatio = 1;
+        scene.actions = {grab, turnHand(0.0, {8 * core::pi, 0, 0}, 1.5, Ease::smooth)};
+        World world(scene);
+        const std::vector<dvec3> start = world.points("cloth.sheet").x;
+        run(world, 1);
+        const dvec3 hand = *world.handPlace("hand");
+        double turned = 0;
+        dvec3 before = start[0] - hand;
+        for (int i = 1; i < 90; ++i) {
+            run(world, 1);
+            const dvec3 arm = world.points("cloth.sheet").x[0] - hand;
+            turned += std::atan2(before.y * arm.z - before.z * arm.y, before.y * arm.y + before.z * arm.z);
+            before = arm;
+        }
+        run(world, isRigid ? 0 : 60);  // until springs have led it there
+        const std::vector<dvec3> end = world.points("cloth.sheet").x;
+        const double tolerance = isRigid ? 1e-14 : 1e-9;
+        for (std::size_t p = 0; p < start.size(); ++p) EXPECT_NEAR(glm::length(end[p] - start[p]), 0, tolerance);
+        EXPECT_NEAR(turned, 8 * core::pi, isRigid ? 0.01 : 0.1);  // less the first tick, and what springs lag behind
+    }
+}
+
+// Held at both ends and wrung, a cloth is as much the one way as the other: half a turn about its axis changes nothing,
+// as long as it does not buckle.
+TEST(Hands, TwoHandsWringAClothEvenly) {
+    SceneSpec scene;
+    scene.world.gravity = dvec3(0.0);
+    scene.solver.precision = Precision::double_;
+    scene.bodies.add(support::cloth("sheet", 4));
+    auto left = support::grab(0.0, "cloth.sheet@left", true), right = support::grab(0.0, "cloth.sheet@right", true);
+    auto turnLeft = turnHand(0.0, {0.4, 0, 0}, 0.2, Ease::smooth), turnRight = turnLeft;
+    right.id = turnRight.id = "other";
+    turnRight.rotation = dvec3(-0.4, 0, 0);
+    scene.actions = {left, right, turnLeft, turnRight};
+    World world(scene);
+    run(world, 12);
+    const std::vector<dvec3> x = world.points("cloth.sheet").x;
+    EXPECT_NEAR(x[0].z, 0.5 * std::sin(0.4), 1e-12);
+    EXPECT_NEAR(x[4].z, -0.5 * std::sin(0.4), 1e-12);
+    const dvec3 middle = 0.5 * (*world.handPlace("hand") + *world.handPlace("other"));
+    for (std::size_t row = 0; row < 5; ++row)
+        for (std::size_t column = 0; column < 5; ++column) {
+            const dvec3 a = x[5 * row + column] - middle, b = x[5 * (4 - row) + column] - middle;
+            EXPECT_NEAR(glm::length(b - dvec3(a.x, -a.y, -a.z)), 0, 1e-6) << row << ' ' << column;
+        }
+}
+
+TEST(Hands, AHandThatWouldTurnTooFarInATickIsRefused) {
+    SceneSpec scene = handledMass();
+    World world(scene);
+    world.apply(support::grab(0.0, "net.ball@m"));
+    const auto whyNot = [&](const MoveAction& turn) -> std::string {
+        try {
+            world.apply(turn);
+        } catch (const core::Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const double turns = 8 * core::pi;
+    EXPECT_EQ(whyNot(turnHand(0.0, {turns, 0, 0}, 0.0, Ease::smooth)),
+              "timeline.toml:7:3: error: the hand would turn by 1.44e+03 degrees in a tick of 1/60 s; raise over_s, so "
+              "that it is 120 at most");
+    EXPECT_NE(whyNot(turnHand(0.0, {turns, 0, 0}, 0.25, Ease::smooth)), "");  // 144 degrees in the middle
+    EXPECT_EQ(whyNot(turnHand(0.0, {turns, 0, 0}, 0.25, Ease::linear)), "");  // 96
+    EXPECT_NE(whyNot(turnHand(0.0, {0, 0, turns}, 9.0, Ease::hold)), "");
 }
 
 class EveryMethodLetsGo : public testing::TestWithParam<std::string_view> {};

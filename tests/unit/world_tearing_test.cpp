@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/timelines.h"
+#include "taut/mechanics/mass_spring_system.h"
 #include "taut/world/bodies/block.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/net.h"

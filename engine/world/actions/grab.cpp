@@ -59,10 +59,10 @@ void GrabAction::perform(World& world) const {
     const GripRates rates = gripRates(strength, dampingRatio, mass);
     for (const auto& [island, numbers] : byIsland(points)) {
         Grip grip;
-        grip.hand = id;
+        grip.holder = id;
         grip.rigid = rigid;
         grip.points = numbers;
-        grip.path = {hand.from, hand.from};
+        grip.path = mechanics::LinearPath{hand.from, hand.from};
         IslandPlan& plan = island->change(w.now(), Change::grips);
         for (int i : numbers) {
             const double share = plan.points[static_cast<std::size_t>(i)].mass;

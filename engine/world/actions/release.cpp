@@ -13,7 +13,7 @@ Kind<ActionSpec> releaseKind() {
 void ReleaseAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     w.handOf(*this, id);
-    const auto isOwn = [&](const auto& held) { return held.hand == id; };
+    const auto isOwn = [&](const auto& held) { return !held.ofCollider && held.holder == id; };
     for (const auto& island : w.islands) {
         const std::vector<Grip>& grips = island->plan().grips;
         if (island->frozen() != nullptr || std::none_of(grips.begin(), grips.end(), isOwn)) continue;

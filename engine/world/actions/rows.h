@@ -14,6 +14,10 @@ void needsId(const fields::CheckInput& input, const ActionSpec& action);
 
 inline constexpr const char* endHelp = "Where the hand or the collider goes [m]; the value that a ramp ends at.";
 
+inline constexpr const char* holdOnHelp =
+    "The collider that carries the held points, e.g. \"collider.pole\": they go and turn with it. Without it they stay "
+    "where they are.";
+
 template <class Own>
 fields::FieldList<Own> withId(fields::FieldList<Own> rows = {}) {
     return rows.text("id", &Own::id, fields::Role::none, "Name of the hand.");

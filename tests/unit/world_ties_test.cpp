@@ -1,0 +1,345 @@
+// Points tied to colliders: where they are carried, what that does to the rest, and how they are let go.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/timelines.h"
+#include "taut/core/error.h"
+#include "taut/core/trig.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/components.h"
+#include "taut/world/motion.h"
+#include "taut/world/rotation.h"
+#include "taut/world/ties.h"
+#include "taut/world/world.h"
+
+namespace taut::world {
+namespace {
+
+using core::pi;
+using support::run;
+
+JointSpec tie(const std::string& a, const std::string& b, JointSpec::Kind kind = JointSpec::Kind::weld) {
+    JointSpec joint;
+    joint.a = a;
+    joint.b = b;
+    joint.kind = kind;
+    joint.source = {"ties.toml", 5, 1};
+    return joint;
+}
+
+// A ball that nothing comes near to, at the origin, on keys that turn it about z evenly: a turn a second.
+ColliderSpec turning(double seconds) {
+    ColliderSpec spinner = support::ball("spinner", {0, 0, 0}, 0.01);
+    spinner.keys = {{0.0, dvec3(0.0), dvec3(0.0), Ease::linear},
+                    {seconds, dvec3(0.0), {0, 0, 2 * pi * seconds}, Ease::linear}};
+    return spinner;
+}
+
+// A net of the mass m, free, and the mass p at r = (0.5, 0, 0.2).
+SceneSpec pair(const std::string& method = "leapfrog", double stiffness = 40, double dt = 0) {
+    SceneSpec scene;
+    scene.world.gravity = dvec3(0.0);
+    scene.solver.precision = Precision::double_;
+    scene.solver.integrator = method;
+    if (dt > 0) scene.solver.dt = dt;
+    NetSpec net;
+    net.name = "n";
+    net.drag = 0;
+    net.collide = false;
+    net.points = {{"p", {0.5, 0, 0.2}, 1.0, false, {}}, {"m", {0.9, 0.1, 0.1}, 0.5, false, {}}};
+    net.springs = {{"p", "m", stiffness, 0.3, 2e-3, {}}};
+    scene.bodies.add(net);
+    return scene;
+}
+
+SceneSpec carriedPair(const std::string& method = "leapfrog", double dt = 0) {
+    SceneSpec scene = pair(method, 40, dt);
+    scene.colliders = {turning(3)};
+    scene.joints = {tie("net.n@p", "collider.spinner")};
+    return scene;
+}
+
+// Wherever in a tick it is asked for, and a step before and after it.
+TEST(Ties, TheWayOfWhatIsCarriedIsThatOfItsCollider) {
+    const collision::Pose from{{1, 2, 3}, rotationOf({0.3, -1, 2})}, to{{1.5, 2, 2}, rotationOf({1, 0.5, 2.5})};
+    const mechanics::PosePath path = pathOf(from, to, 0.7, 60);
+    const dvec3 offset(0.2, -0.4, 0.1);
+    const auto placeAt = [&](double t) {
+        const auto frame = path.at(t);
+        return frame.place + frame.arm(offset);
+    };
+    for (const double u : {-0.5, 0.0, 0.25, 0.5, 0.9, 1.0, 1.5}) {
+        const double t = 0.7 + u / 60, d = 1e-6;
+        if (u >= 0 && u <= 1) {
+            const collision::Pose pose = between(from, to, u);
+            EXPECT_NEAR(glm::length(placeAt(t) - (pose.position + pose.rotation * offset)), 0, 5e-14) << u;  // of t
+        }
+        const auto frame = path.at(t);
+        const dvec3 difference = (placeAt(t + d) - placeAt(t - d)) / (2 * d);  // to d² times the third derivative
+        EXPECT_NEAR(glm::length(frame.velocityOf(frame.arm(offset)) - difference), 0, 1e-6) << u;
+    }
+}
+
+// At the ends of a tick in which the rotation goes by θ, its rate is 2 sin(θ/2) a tick (world::between()).
+TEST(Ties, PointsDescribeTheCircleOfTheirCollider) {
+    World world(carriedPair());
+    run(world, 1);
+    const double angle = 2 * pi * world.tickSeconds(), speed = 0.5 * 2 * std::sin(0.5 * angle) / world.tickSeconds();
+    for (int i = 0; i < 150; ++i, run(world, 1)) {
+        const PointsNow now = world.points("net.n@p");
+        const double at = 2 * pi * world.time();
+        EXPECT_NEAR(glm::length(now.x[0] - dvec3(0.5 * std::cos(at), 0.5 * std::sin(at), 0.2)), 0, 2e-15);
+        EXPECT_NEAR(glm::length(now.v[0] - speed * dvec3(-std::sin(at), std::cos(at), 0)), 0, 2e-13);
+    }
+    EXPECT_NEAR(speed, pi, pi * angle * angle / 24);  // ω r
+}
+
+// Whatever moves it: keys, an action, a system.
+TEST(Ties, PointsKeepTheirPlaceOnAColliderThatAnActionOrASystemMoves) {
+    SceneSpec scene = pair();
+    scene.colliders = {support::ball("box", {0.2, -0.1, 0}, 0.01)};
+    scene.bodies[0].hold = {"p"};
+    scene.bodies[0].holdOn = "collider.box";
+    auto move = support::action<MoveAction>(0.1, "collider.box");
+    move.to = dvec3(1, 2, 3);
+    move.rotation = dvec3(0.3, -1.1, 2.0);
+    move.over = 0.5;
+    scene.actions = {move};
+    World world(scene);
+    EXPECT_EQ(world.islands()[0].heldPoints, 1);
+    world.addSystem([](World& w, double t, double) {
+        if (t > 0.7)
+            w.registry().each<Placement>(
+                [&](ecs::Entity, Placement& p) { p.to.position.x = 1 + (t - 0.7) * (t - 0.7); });
+    });
+    const dvec3 start = dvec3(0.5, 0, 0.2) - dvec3(0.2, -0.1, 0);
+    for (int i = 0; i < 60; ++i) {
+        run(world, 1);
+        collision::Pose pose;
+        world.registry().each<Placement>([&](ecs::Entity, const Placement& p) { pose = p.to; });
+        const PointsNow now = world.points("net.n@p");
+        EXPECT_NEAR(glm::length(now.x[0] - (pose.position + pose.rotation * start)), 0, 1e-14);
+    }
+}
+
+class OrderThroughTies : public testing::TestWithParam<std::tuple<std::string_view, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Methods, OrderThroughTies,
+                         testing::Combine(testing::Values("leapfrog", "velocity-verlet", "midpoint", "rk4", "sdirk2"),
+                                          testing::Bool()),
+                         [](const auto& parameter) {
+                             std::string name(std::get<0>(parameter.param));
+                             std::erase(name, '-');
+                             return name + (std::get<1>(parameter.param) ? "Rigid" : "Spring");
+                         });
+
+dvec3 placeOnTheSwing(const std::string& method, bool isRigid, int substeps) {
+    SceneSpec scene = pair(method, 40, 1.0 / 60 / substeps);
+    scene.colliders = {turning(3)};
+    scene.colliders[0].keys[1].ease = Ease::smooth;  // its spin changes from tick to tick
+    scene.joints = {tie("net.n@p", "collider.spinner", isRigid ? JointSpec::Kind::weld : JointSpec::Kind::spring)};
+    scene.joints[0].stiffness = 100;
+    scene.joints[0].dampingTime = 5e-3;
+    World world(scene);
+    run(world, 60);
+    return world.points("net.n@m").x[0];
+}
+
+// Against Runge-Kutta 4 at steps so short that it is exact to about 1e-11. What hangs on the point sees it where it is
+// at every stage.
+TEST_P(OrderThroughTies, IsThatOfTheMethod) {
+    const auto [method, isRigid] = GetParam();
+    const dvec3 exact = placeOnTheSwing("rk4", isRigid, 40);
+    const double coarse = glm::length(placeOnTheSwing(std::string(method), isRigid, 3) - exact);
+    const double fine = glm::length(placeOnTheSwing(std::string(method), isRigid, 6) - exact);
+    EXPECT_NEAR(std::log2(coarse / fine), method == "rk4" ? 4 : 2, 0.35) << coarse << ' ' << fine;
+}
+
+// Thrown off a wheel: the speed 2 sin(θ/2) r a tick, along the tangent, and from then on momentum is conserved.
+TEST(Ties, WhatIsFreedFliesOnWithItsVelocity) {
+    SceneSpec scene = carriedPair();
+    scene.bodies.of<NetSpec>()[0].springs[0].stiffness = 1e-9;
+    scene.actions = {support::action<FreeAction>(0.5, "net.n@p")};
+    World world(scene);
+    run(world, 30);
+    const PointsNow thrown = world.points("net.n@p");
+    EXPECT_NEAR(thrown.v[0].y, -pi, 2e-3);
+    run(world, 30);
+    const PointsNow now = world.points("net.n@p");
+    EXPECT_NEAR(glm::length(now.v[0] - thrown.v[0]), 0, 1e-8);  // but for the spring of 1e-9 N/m
+    EXPECT_NEAR(glm::length(now.x[0] - thrown.x[0] - 0.5 * thrown.v[0]), 0, 1e-8);
+}
+
+TEST(Ties, AColliderThatIsDestroyedLetsGo) {
+    World world(carriedPair());
+    run(world, 20);
+    ecs::Entity spinner{};
+    world.registry().each<ColliderPart>([&](ecs::Entity entity, const ColliderPart&) { spinner = entity; });
+    world.destroy(spinner);
+    run(world, 1);
+    const dvec3 momentum = world.metrics().momentum;
+    run(world, 60);
+    EXPECT_NEAR(glm::length(world.metrics().momentum - momentum), 0, 1e-12);
+    EXPECT_EQ(world.islands()[0].heldPoints, 0);
+}
+
+// From then on, wherever the collider is by now.
+TEST(Ties, PointsAreHeldOnAColliderInMidRun) {
+    SceneSpec scene = carriedPair();
+    scene.joints.clear();
+    auto hold = support::action<HoldAction>(0.25, "net.n@p");
+    hold.holdOn = "collider.spinner";
+    scene.actions = {hold};
+    World world(scene);
+    run(world, 15);
+    const dvec3 at = world.points("net.n@p").x[0];
+    run(world, 15);  // half a turn less a quarter
+    const dvec3 now = world.points("net.n@p").x[0];
+    EXPECT_NEAR(glm::length(now - dvec3(-at.y, at.x, at.z)), 0, 1e-14);
+    hold.holdOn = "collider.nobody";
+    EXPECT_THROW(world.apply(hold), core::Error);
+}
+
+// Drawn to the place on the collider: once that is still the spring is without force there.
+TEST(Ties, ASpringDrawsAPointToItsPlaceOnTheCollider) {
+    SceneSpec scene = pair();
+    scene.colliders = {support::ball("arm", {0, 0, 0}, 0.01)};
+    scene.joints = {tie("collider.arm", "net.n@p", JointSpec::Kind::spring)};
+    scene.joints[0].stiffness = 200;
+    scene.joints[0].dampingTime = 0.1;
+    scene.bodies.of<NetSpec>()[0].springs[0].dampingTime = 0.1;
+    scene.bodies.of<NetSpec>()[0].drag = 4;  // so that m does not swing for ever
+    auto move = support::action<MoveAction>(0.0, "collider.arm");
+    move.to = dvec3(0, 1, 0);
+    move.rotation = dvec3(0, 0, pi / 2);
+    move.over = 0.2;
+    scene.actions = {move};
+    World world(scene);
+    run(world, 900);
+    EXPECT_NEAR(glm::length(world.points("net.n@p").x[0] - dvec3(0, 1.5, 0.2)), 0, 1e-9);
+    EXPECT_NEAR(world.metrics().energy(), 0, 1e-9);
+}
+
+TEST(Ties, ABodyThatIsSpawnedIsTiedWhereTheColliderThenIs) {
+    SceneSpec scene = carriedPair();
+    scene.actions = {support::action<SpawnAction>(0.25, "net.n")};
+    World world(scene);
+    run(world, 30);
+    EXPECT_NEAR(glm::length(world.points("net.n@p").x[0] - dvec3(0, 0.5, 0.2)), 0, 1e-14);
+}
+
+// A cloth that is carried and drawn, freed and held elsewhere, beside a collider in its way.
+SceneSpec muchIsTied(const std::string& method) {
+    SceneSpec scene;
+    scene.solver.integrator = method;
+    if (method == "implicit-euler") scene.solver.dt = 1.0 / 240;
+    scene.bodies.add(support::cloth("sheet", 6));
+    scene.bodies[0].hold = {"top"};
+    scene.bodies[0].holdOn = "collider.spinner";
+    scene.colliders = {turning(3), support::ball("rock", {0.5, 0.8, 0.1}, 0.3), support::ball("arm", {0, 0, 1}, 0.1)};
+    scene.joints = {tie("cloth.sheet@bottom-left", "collider.arm", JointSpec::Kind::spring)};
+    scene.joints[0].stiffness = 20;
+    auto move = support::action<MoveAction>(0.1, "collider.arm");
+    move.to = dvec3(0, 1, 1);
+    move.rotation = dvec3(1, 1, 0);
+    move.over = 0.3;
+    auto hold = support::action<HoldAction>(0.3, "cloth.sheet@bottom-right");
+    hold.holdOn = "collider.arm";
+    auto turn = support::moveHand(0.2, {0, 2, 0.2}, 0.2);
+    turn.rotation = dvec3(0, 3, 0);
+    scene.actions = {support::grab(0.1, "cloth.sheet@(0.5,0.5)", true), move, turn,
+                     support::action<FreeAction>(0.25, "cloth.sheet@top-left"), hold};
+    return scene;
+}
+
+class SavedTies : public testing::TestWithParam<std::string_view> {};
+INSTANTIATE_TEST_SUITE_P(Methods, SavedTies, testing::Values("leapfrog", "velocity-verlet", "implicit-euler"),
+                         [](const auto& parameter) {
+                             std::string name(parameter.param);
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+TEST_P(SavedTies, GoOnBitForBitFromAnyTick) {
+    const SceneSpec scene = muchIsTied(std::string(GetParam()));
+    World through(scene);
+    std::vector<std::vector<std::byte>> saved;
+    for (int i = 0; i < 30; ++i) {
+        saved.push_back(through.save());
+        run(through, 1);
+    }
+    for (std::size_t from = 0; from < saved.size(); ++from) {
+        World restored(scene);
+        restored.restore(saved[from]);
+        EXPECT_EQ(restored.save(), saved[from]) << from;
+        run(restored, 30 - static_cast<int>(from));
+        EXPECT_EQ(restored.stateHash(), through.stateHash()) << from;
+        EXPECT_EQ(restored.metrics().kinetic, through.metrics().kinetic) << from;
+    }
+}
+
+std::uint64_t hashWith(int threads) {
+    SceneSpec scene = muchIsTied("leapfrog");
+    scene.bodies.of<ClothSpec>()[0].cells = {80, 80};  // of several chunks
+    World world(scene, {.threads = threads});
+    run(world, 20);
+    return world.stateHash();
+}
+
+TEST(Ties, AreTheSameWithAnyThreads) {
+    EXPECT_EQ(hashWith(1), hashWith(3));
+}
+
+std::string refusal(const SceneSpec& scene) {
+    try {
+        World world(scene);
+    } catch (const core::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Ties, WhatCannotBeTiedIsRefused) {
+    SceneSpec scene = carriedPair();
+    const auto with = [&](const JointSpec& joint) {
+        SceneSpec other = scene;
+        other.joints.push_back(joint);
+        return refusal(other);
+    };
+    const std::string place = "ties.toml:5:1: error: ";
+    EXPECT_EQ(with(tie("net.n@m", "collider.nobody")),
+              place + "there is no collider.nobody to tie points to; add a table [collider.nobody]");
+    EXPECT_EQ(with(tie("collider.spinner", "collider.spinner")),
+              place +
+                  "both sides of the joint \"collider.spinner\" – \"collider.spinner\" are colliders; one has to be "
+                  "points of a body");
+    EXPECT_EQ(with(tie("net.n@q", "collider.spinner")), place + "\"net.n@q\" names no point");
+    EXPECT_EQ(with(tie("net.n@p", "collider.spinner")), "");  // once more the same
+    scene.colliders.push_back(support::ball("other", {0, 0, 0}, 0.1));
+    EXPECT_EQ(with(tie("net.n@p", "collider.other")),
+              place +
+                  "point #0 of net.n is tied to collider.spinner already and cannot go with collider.other too; "
+                  "take different points");
+    scene.bodies[0].hold = {"m"};
+    EXPECT_EQ(with(tie("net.n@m", "collider.other")),
+              place +
+                  "point #1 of net.n is held in place and cannot go with collider.other too; take it out of `hold`, "
+                  "or give the body hold_on = \"collider.other\"");
+}
+
+TEST(Ties, AnIslandThatIsFrozenStaysWhereItIs) {
+    SceneSpec scene = carriedPair("leapfrog", 0.25 / 60);
+    scene.solver.onDivergence = OnDivergence::freeze;
+    scene.solver.freezeStrain = 0.5;
+    scene.actions = {support::push(0.1, "net.n@m", {20, 0, 0})};
+    World world(scene);
+    run(world, 30);
+    ASSERT_EQ(world.frozen().size(), 1U);
+    const dvec3 at = world.points("net.n@p").x[0];
+    run(world, 30);
+    EXPECT_EQ(world.points("net.n@p").x[0], at);
+}
+
+}  // namespace
+}  // namespace taut::world

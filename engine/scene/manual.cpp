@@ -60,6 +60,11 @@ std::string manual(const world::Kinds& kinds) {
         "  rope         start end ends, 50%\n"
         "  block        left right bottom top back front corners\n"
         "  net          the names of its points\n\n"
+        "Points that are carried\n"
+        "  hold_on = \"collider.NAME\" of a body lets that collider carry the points of hold; a [[joint]] with\n"
+        "  collider.NAME on one side does the same with points of any body, or draws them by springs; do = \"hold\"\n"
+        "  with hold_on ties points while the scene runs, and \"free\" lets them go. They are where the collider is\n"
+        "  at every moment, turned with it, and no collider stops them.\n\n"
         "Ramps\n"
         "  do = \"ramp\" changes a number or a list of numbers from its value at that moment:\n\n";
     for (const std::string& line : rampableKeys(sceneSections(kinds))) out += "  " + line + "\n";

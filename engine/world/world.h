@@ -196,12 +196,8 @@ class World {
     void restore(std::span<const std::byte> bytes);
 
     std::vector<IslandInfo> islands() const;
-<<<<<<< HEAD
     ContactInfo contact() const;                // of bodies that touch
-    std::vector<JointInfo> joints() const;      // in the order of the scene
-=======
     std::vector<JointInfo> joints() const;      // in the order of the scene, those with colliders last
->>>>>>> b1db158 (world, scene: colliders carry points that are held on them or joined to them; hands turn)
     ode::Work work() const;                     // of all methods since the start
     bool hasTouched() const;                    // any contact, at any step since it was made or restored
     std::vector<FrozenIsland> frozen() const;   // in the order of islands()

@@ -22,11 +22,16 @@ world::SceneSpec played(const world::SceneSpec& spec, std::string_view method, P
     return scene;
 }
 
+// In place, or on a collider.
+bool isHeld(const world::Body& body, std::size_t point) {
+    return body.model.held[point] ||
+           std::binary_search(body.carried.begin(), body.carried.end(), static_cast<int>(point));
+}
+
 bool hasFreePoint(world::World& world) {
     bool has = false;
     world.registry().each<world::BodyPart>([&](ecs::Entity, const world::BodyPart& part) {
-        const auto& held = part.body->model.held;
-        has = has || std::find(held.begin(), held.end(), false) != held.end();
+        for (std::size_t i = 0; i < part.body->model.held.size() && !has; ++i) has = !isHeld(*part.body, i);
     });
     return has;
 }
@@ -47,7 +52,7 @@ class SceneTrial final : public Trial {
         world_.registry().each<world::BodyPart>([&](ecs::Entity entity, const world::BodyPart& part) {
             const std::vector<glm::dvec3> positions = world_.positions(entity);
             for (std::size_t i = 0; i < positions.size(); ++i)
-                for (int p = 0; p < 3 && !part.body->model.held[i]; ++p) seen.values.push_back(positions[i][p]);
+                for (int p = 0; p < 3 && !isHeld(*part.body, i); ++p) seen.values.push_back(positions[i][p]);
         });
         const world::Metrics metrics = world_.metrics();
         seen.kinetic = metrics.kinetic;

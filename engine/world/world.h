@@ -222,7 +222,8 @@ class World {
     // expects what the constructor does.
     ecs::Entity spawn(const ColliderSpec& spec);
     ecs::Entity spawn(const BodySpec& spec);
-    // Removes the entity and what it stood for. Expects that it is alive, and a body not joined to another.
+    // Removes the entity and what it stood for; a collider lets go of what is tied to it. Expects that it is alive, and
+    // a body not joined to another.
     void destroy(ecs::Entity entity);
 
     // Positions of a body's points in the order of authoring [m]; expects an entity that is one.

@@ -10,6 +10,9 @@ const world::SceneSpec& sceneOfStates() {
         scene::loadSceneText(
             std::string(smallScene) +
                 "[[at]]\nt = 0.05\ndo = \"grab\"\nid = \"h\"\ntarget = \"cloth.a@bottom-right\"\nradius = 0.3\n"
+                "[[at]]\nt = 0.1\ndo = \"move\"\nid = \"h\"\nrotation_deg = [0, 90, 0]\nover_s = 0.2\n"
+                "[[at]]\nt = 0.15\ndo = \"hold\"\ntarget = \"cloth.a@top-right\"\nhold_on = \"collider.a\"\n"
+                "[[at]]\nt = 0.15\ndo = \"move\"\ntarget = \"collider.a\"\nrotation_deg = [0, 0, 90]\nover_s = 0.1\n"
                 "[[at]]\nt = 0.1\ndo = \"cut\"\ntarget = \"cloth.a\"\nsegment = [[0, 0.5], [1, 0.5]]\n"
                 "[[at]]\nt = 0.1\ndo = \"ramp\"\nkey = \"material.a.stretch_N_per_m\"\nto = 200\nover_s = 0.2\n"
                 "[[at]]\nt = 0.2\ndo = \"spawn\"\ntarget = \"block.a\"\n",

@@ -6,6 +6,7 @@
 
 #include "taut/core/trig.h"
 #include "taut/world/rotation.h"
+#include "taut/world/ties.h"
 
 namespace taut::world {
 namespace {
@@ -49,6 +50,27 @@ TEST(Motion, AnOrbitReturnsAfterItsPeriodAndKeepsItsDistance) {
     EXPECT_NEAR(std::abs(quarter.eye.z), 3.0F, 1e-6F);
     EXPECT_NEAR(whole.eye.x, 3.0F, 1e-6F);
     EXPECT_EQ(quarter.eye.y, 2.0F);
+}
+
+// Wherever in a tick it is asked for, and a step before and after it.
+TEST(Motion, TheWayOfWhatIsCarriedIsThatOfItsCollider) {
+    const collision::Pose from{{1, 2, 3}, rotationOf({0.3, -1, 2})}, to{{1.5, 2, 2}, rotationOf({1, 0.5, 2.5})};
+    const mechanics::PosePath path = pathOf(from, to, 0.7, 60);
+    const dvec3 offset(0.2, -0.4, 0.1);
+    const auto placeAt = [&](double t) {
+        const auto frame = path.at(t);
+        return frame.place + frame.arm(offset);
+    };
+    for (const double u : {-0.5, 0.0, 0.25, 0.5, 0.9, 1.0, 1.5}) {
+        const double t = 0.7 + u / 60, d = 1e-6;
+        if (u >= 0 && u <= 1) {
+            const collision::Pose pose = between(from, to, u);
+            EXPECT_NEAR(glm::length(placeAt(t) - (pose.position + pose.rotation * offset)), 0, 5e-14) << u;  // of t
+        }
+        const auto frame = path.at(t);
+        const dvec3 difference = (placeAt(t + d) - placeAt(t - d)) / (2 * d);  // to d² times the third derivative
+        EXPECT_NEAR(glm::length(frame.velocityOf(frame.arm(offset)) - difference), 0, 1e-6) << u;
+    }
 }
 
 }  // namespace

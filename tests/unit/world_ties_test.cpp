@@ -1,17 +1,17 @@
 // Points tied to colliders: where they are carried, what that does to the rest, and how they are let go.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/timelines.h"
 #include "taut/core/error.h"
 #include "taut/core/trig.h"
+#include "taut/world/bodies/block.h"
 #include "taut/world/bodies/cloth.h"
 #include "taut/world/bodies/net.h"
 #include "taut/world/components.h"
-#include "taut/world/motion.h"
 #include "taut/world/rotation.h"
-#include "taut/world/ties.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -59,27 +59,6 @@ SceneSpec carriedPair(const std::string& method = "leapfrog", double dt = 0) {
     scene.colliders = {turning(3)};
     scene.joints = {tie("net.n@p", "collider.spinner")};
     return scene;
-}
-
-// Wherever in a tick it is asked for, and a step before and after it.
-TEST(Ties, TheWayOfWhatIsCarriedIsThatOfItsCollider) {
-    const collision::Pose from{{1, 2, 3}, rotationOf({0.3, -1, 2})}, to{{1.5, 2, 2}, rotationOf({1, 0.5, 2.5})};
-    const mechanics::PosePath path = pathOf(from, to, 0.7, 60);
-    const dvec3 offset(0.2, -0.4, 0.1);
-    const auto placeAt = [&](double t) {
-        const auto frame = path.at(t);
-        return frame.place + frame.arm(offset);
-    };
-    for (const double u : {-0.5, 0.0, 0.25, 0.5, 0.9, 1.0, 1.5}) {
-        const double t = 0.7 + u / 60, d = 1e-6;
-        if (u >= 0 && u <= 1) {
-            const collision::Pose pose = between(from, to, u);
-            EXPECT_NEAR(glm::length(placeAt(t) - (pose.position + pose.rotation * offset)), 0, 5e-14) << u;  // of t
-        }
-        const auto frame = path.at(t);
-        const dvec3 difference = (placeAt(t + d) - placeAt(t - d)) / (2 * d);  // to d² times the third derivative
-        EXPECT_NEAR(glm::length(frame.velocityOf(frame.arm(offset)) - difference), 0, 1e-6) << u;
-    }
 }
 
 // At the ends of a tick in which the rotation goes by θ, its rate is 2 sin(θ/2) a tick (world::between()).
@@ -199,6 +178,64 @@ TEST(Ties, PointsAreHeldOnAColliderInMidRun) {
     EXPECT_NEAR(glm::length(now - dvec3(-at.y, at.x, at.z)), 0, 1e-14);
     hold.holdOn = "collider.nobody";
     EXPECT_THROW(world.apply(hold), core::Error);
+    hold.holdOn = "";
+    world.apply(hold);
+    run(world, 15);
+    EXPECT_EQ(world.points("net.n@p").x[0], now);
+}
+
+// At the same steps; the collider is at the origin, so that not even its place is rounded.
+TEST(Ties, OnAColliderThatIsStillItIsAsHeldInPlace) {
+    SceneSpec scene;
+    scene.solver.dt = 1.0 / 60 / 40;
+    scene.bodies.add(support::cloth("sheet", 6));
+    scene.bodies[0].hold = {"top"};
+    scene.colliders = {support::ball("rock", {0, 0, 0}, 0.9)};
+    World held(scene);
+    scene.bodies[0].holdOn = "collider.rock";
+    World carried(scene);
+    run(held, 20);
+    run(carried, 20);
+    EXPECT_EQ(carried.points("cloth.sheet").x, held.points("cloth.sheet").x);
+}
+
+TEST(Ties, WeldedBodiesAreCarriedAsOne) {
+    SceneSpec scene = pair();
+    NetSpec other;
+    other.name = "o";
+    other.points = {{"q", {0.9, 0.1, 0.1}, 1.0, false, {}}, {"r", {0.9, 0.6, 0.1}, 1.0, false, {}}};
+    other.springs = {{"q", "r", 10, 0.5, 1e-3, {}}};
+    scene.bodies.add(other);
+    scene.colliders = {turning(3)};
+    scene.joints = {tie("net.n@m", "net.o@q"), tie("net.o@q", "collider.spinner"), tie("net.n@m", "collider.spinner")};
+    World world(scene);
+    EXPECT_EQ(world.islands().size(), 1U);
+    EXPECT_EQ(world.islands()[0].heldPoints, 1);
+    run(world, 15);
+    for (const char* point : {"net.n@m", "net.o@q"})
+        EXPECT_NEAR(glm::length(world.points(point).x[0] - dvec3(-0.1, 0.9, 0.1)), 0, 1e-14);
+}
+
+// Pulled so hard that ticks are repeated in shorter steps (see StepFollowing).
+TEST(Ties, PointsAreCarriedThroughTicksThatAreRepeated) {
+    SceneSpec scene;
+    scene.solver.precision = Precision::double_;
+    scene.bodies.add(support::stiffBlock("b"));
+    scene.bodies[0].holdOn = "collider.spinner";
+    scene.bodies[0].collide = false;
+    scene.colliders = {turning(3)};
+    scene.actions = {support::push(0.1, "block.b@top", {0, 200, 0})};
+    World world(scene);
+    const std::vector<dvec3> start = world.points("block.b@bottom").x;
+    for (int i = 1; i <= 10; ++i) {
+        run(world, 1);
+        const glm::dquat turned = rotationOf({0, 0, 2 * pi * world.time()});
+        const std::vector<dvec3> now = world.points("block.b@bottom").x;
+        for (std::size_t p = 0; p < now.size(); ++p)
+            EXPECT_NEAR(glm::length(now[p] - rotated(turned, start[p])), 0, 1e-14);
+    }
+    const auto changes = world.islands()[0].stepChanges;
+    EXPECT_TRUE(std::any_of(changes.begin(), changes.end(), [](const StepChange& c) { return c.isRepeated; }));
 }
 
 // Drawn to the place on the collider: once that is still the spring is without force there.

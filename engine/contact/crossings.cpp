@@ -45,7 +45,7 @@ dvec3 wayApart(const Elements& elements, const Edge& edge, const Triangle& trian
 std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
     patches.follow(x, x);
-    std::vector<std::pair<int, int>> near;
+    std::vector<PatchPair> near;
     patches.findNear(0.0, near);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
     struct Boxed {
@@ -89,7 +89,8 @@ std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, 
             }
         }
     };
-    for (const auto& [a, b] : near) {
+    for (PatchPair pair : near) {
+        const int a = lowOf(pair), b = highOf(pair);
         const Box &boxA = patches.motion(a).box, &boxB = patches.motion(b).box;
         tryBoth(patches[a], patches[b], boxA, boxB);
         if (a != b) tryBoth(patches[b], patches[a], boxB, boxA);

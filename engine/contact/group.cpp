@@ -103,10 +103,10 @@ bool Group::isFeatureNearest(const MeetingPair& pair, int feature, std::span<con
 void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
                      std::vector<MeetingPair>& pairs) const {
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
-    const double approachedBefore = record.approached - record.coming;
     for (std::size_t k = 0; k < record.pairs.size(); ++k) {
         NearPair& near = record.pairs[k];
-        if (near.d0 - record.approached > nearShare * near.distance) continue;
+        const double reach = nearShare * near.distance;
+        if (near.found - record.travelled > reach || near.atFirst - record.approached > reach) continue;
         MeetingPair pair;
         pair.a = near.a;
         pair.b = near.b;
@@ -137,8 +137,7 @@ void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::
         }
         for (std::size_t i = 0; i < 4; ++i) apart += pair.weights[i] * at(pair.points[i]);
         pair.apart = length(apart);
-        near.d0 = std::max(near.d0, pair.apart + approachedBefore);
-        if (pair.apart > nearShare * pair.keep + record.coming) continue;
+        near.found = std::max(near.found, pair.apart + record.way);
         const double gap = pair.apart - pair.keep;
         dvec3 way(0.0);
         for (std::size_t i = 0; i < 4; ++i)
@@ -163,6 +162,7 @@ void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::
             pair.presses = (first.isLine || isRidge(first, onFirst, -pair.normal, x0)) &&
                            (second.isLine || isRidge(second, onSecond, pair.normal, x0));
         }
+        if (!pair.presses && pair.apart > record.coming + watchShare * pair.keep) continue;
         if (!crossings_.empty() && isTangled(pair)) continue;
         const Surface &a = elements_.surface(surfaceA), &b = elements_.surface(surfaceB);
         pair.friction = (a.isRigid || b.isRigid ? 1.0 : options_.friction) * a.friction * b.friction;

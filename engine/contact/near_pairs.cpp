@@ -12,12 +12,9 @@ namespace {
 
 constexpr int atOnce = 8;            // records a task
 constexpr double leastMargin = 0.4;  // of the distance kept
-constexpr double waysAhead = 2.5;    // like the coming one, for which a list is to last
+constexpr double waysAhead = 4.0;    // like the coming one, for which a list is to last
+constexpr double bentShare = 0.4;    // of the largest thickness: patches bent further are remembered anew
 constexpr double boxSlack = 0.25;    // of it, by which boxes are found near beforehand
-
-bool isEarlier(const std::pair<int, int>& a, const NearPairs::Record& b) {
-    return a.first < b.a || (a.first == b.a && a.second < b.b);
-}
 
 // Boxes of elements in rows, so that many are tried at once.
 struct BoxRows {
@@ -63,9 +60,24 @@ void forEachHit(const BoxRows& rows, const Box& box, std::size_t from, std::vect
 
 void NearPairs::drop() {
     records_.clear();
+    unused_.clear();
+    known_.clear();
     near_.clear();
     patches_.takeBalls();
     stray_.assign(static_cast<std::size_t>(patches_.count()), 0.0);
+}
+
+NearPairs::Record* NearPairs::newRecord(PatchPair pair) {
+    if (unused_.empty()) unused_.push_back(&records_.emplace_back());
+    Record* record = unused_.back();
+    unused_.pop_back();
+    std::vector<NearPair> room = std::move(record->pairs);
+    *record = {};
+    record->pairs = std::move(room);
+    record->pairs.clear();
+    record->a = lowOf(pair);
+    record->b = highOf(pair);
+    return record;
 }
 
 void NearPairs::approach(Record& record) const {
@@ -74,52 +86,57 @@ void NearPairs::approach(Record& record) const {
     const double strayB = stray_[static_cast<std::size_t>(record.b)] - record.strayB;
     const bool isOne = record.a == record.b;
     record.coming = (isOne ? 0.0 : length(a.way - b.way)) + a.stray + b.stray;
-    const dvec3 apart = (a.centre + a.way) - (b.centre + b.way);
-    record.approached = (isOne ? 0.0 : length(apart - record.apart)) + strayA + strayB + a.stray + b.stray;
+    // Between the means, before and after; and of the points about them.
+    double between = 0;
+    if (!isOne) {
+        const dvec3 before = a.centre - b.centre - record.apart, after = before + a.way - b.way;
+        between = std::sqrt(std::max(glm::dot(before, before), glm::dot(after, after)));
+    }
+    const double ownA = strayA + a.stray, ownB = strayB + b.stray;
+    const double bentA = a.times == record.timesA ? a.bent + record.bentA : ownA;
+    const double bentB = b.times == record.timesB ? b.bent + record.bentB : ownB;
+    record.approached = between + std::min(ownA, bentA) + std::min(ownB, bentB);
+    record.travelled = record.way + record.coming;
 }
 
 void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     stray_.resize(static_cast<std::size_t>(patches_.count()), 0.0);
-    patches_.follow(x0, x1);
     double thickest = 0;
     for (const Surface& surface : elements_.surfaces()) thickest = std::max(thickest, surface.thickness);
+    patches_.follow(x0, x1, bentShare * thickest);
     const double room = boxSlack * 2 * thickest;
     slack_ = std::min(room, patches_.findNear(room, found_));
 
     // Of those before, near ones go on, and others for as long as they are true.
-    std::vector<Record> merged;
-    merged.reserve(found_.size() + records_.size() / 4);
+    merged_.clear();
     near_.clear();
-    std::size_t old = 0;
-    const auto pass = [&](const std::pair<int, int>& until, bool isEnd) {
-        for (;
-             old < records_.size() && (isEnd || (!isEarlier(until, records_[old]) &&
-                                                 (records_[old].a != until.first || records_[old].b != until.second)));
-             ++old) {
-            approach(records_[old]);
-            if (records_[old].approached <= records_[old].valid) merged.push_back(std::move(records_[old]));
+    auto old = known_.begin();
+    const auto pass = [&](PatchPair until) {
+        for (; old != known_.end() && old->pair < until; ++old) {
+            approach(*old->record);
+            if (old->record->approached <= old->record->valid)
+                merged_.push_back(*old);
+            else
+                unused_.push_back(old->record);
         }
     };
-    for (const auto& pair : found_) {
-        pass(pair, false);
-        near_.push_back(merged.size());
-        if (old < records_.size() && records_[old].a == pair.first && records_[old].b == pair.second) {
-            merged.push_back(std::move(records_[old++]));
-        } else {
-            merged.emplace_back();
-            merged.back().a = pair.first;
-            merged.back().b = pair.second;
-        }
+    for (PatchPair pair : found_) {
+        pass(pair);
+        if (old != known_.end() && old->pair == pair)
+            merged_.push_back(*old++);
+        else
+            merged_.push_back({pair, newRecord(pair)});
+        near_.push_back(merged_.back().record);
     }
-    pass({}, true);
-    records_ = std::move(merged);
+    pass(~PatchPair{0});
+    std::swap(known_, merged_);
 
     std::atomic<std::size_t> made{0};
     const int count = static_cast<int>(near_.size());
     core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
         std::size_t own = 0;
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            Record& record = records_[near_[static_cast<std::size_t>(k)]];
+            Record& record = *near_[static_cast<std::size_t>(k)];
             if (!record.knowsAbout) record.about = patches_.about(record.a, record.b);
             record.knowsAbout = true;
             const double flatness = patches_.flatness(record.about);
@@ -135,14 +152,16 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         made += own;
     });
     listed_ += made;
-    for (std::size_t i : near_) {
-        const Record& record = records_[i];
-        slack_ = std::min(
-            slack_, record.isFlat ? record.flatSlack : std::min(record.valid - record.approached, record.leastKeep));
+    for (const Record* near : near_) {
+        const Record& record = *near;
+        slack_ =
+            std::min(slack_, record.isFlat ? record.flatSlack
+                                           : std::min(record.valid - record.approached, watchShare * record.leastKeep));
     }
 }
 
 void NearPairs::arrive() {
+    for (const Known& known : known_) known.record->way += known.record->coming;
     for (int p = 0; p < patches_.count(); ++p) stray_[static_cast<std::size_t>(p)] += patches_.motion(p).stray;
 }
 
@@ -154,7 +173,7 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     const double cell = std::min(elements_.shortestEdge(a.surface), elements_.shortestEdge(b.surface));
     // More would list a surface's own neighbours.
     const double own = isBond ? std::min(most, restShare * cell - most) : most;
-    const double ahead = std::min(waysAhead * record.coming, std::max(most, record.coming));
+    const double ahead = std::min(waysAhead * record.coming, std::max(2 * most, record.coming));
     const double margin = std::max({leastMargin * most, own, ahead});
     const double reach = nearShare * most + margin;
     const bool isOne = record.a == record.b;
@@ -167,7 +186,13 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     record.apart = patches_.motion(record.a).centre - patches_.motion(record.b).centre;
     record.strayA = stray_[static_cast<std::size_t>(record.a)];
     record.strayB = stray_[static_cast<std::size_t>(record.b)];
-    record.approached = record.coming;
+    record.approached = record.travelled = record.coming;
+    record.way = 0;
+    const PatchMotion &motionA = patches_.motion(record.a), &motionB = patches_.motion(record.b);
+    record.bentA = motionA.bent;
+    record.bentB = motionB.bent;
+    record.timesA = motionA.times;
+    record.timesB = motionB.times;
     Box boxA, boxB;
     for (int i : a.corners) boxA.add(at(i));
     for (int i : b.corners) boxB.add(at(i));
@@ -211,7 +236,7 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
                                                                         before.weights[2] * rest(c[2]))));
                 }
                 const double d = std::sqrt(square);
-                if (d <= nearShare * keep + margin) record.pairs.push_back({i, t, keep, d});
+                if (d <= nearShare * keep + margin) record.pairs.push_back({i, t, keep, d, d});
             });
         }
     };
@@ -259,7 +284,7 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
                                                       (rest(second.a) + before.t * (rest(second.b) - rest(second.a)))));
             }
             const double d = std::sqrt(square);
-            if (d <= nearShare * keep + margin) record.pairs.push_back({std::min(e, f), std::max(e, f), keep, d});
+            if (d <= nearShare * keep + margin) record.pairs.push_back({std::min(e, f), std::max(e, f), keep, d, d});
         });
     }
     std::sort(record.pairs.begin() + static_cast<std::ptrdiff_t>(record.pointPairs), record.pairs.end(),

@@ -3,6 +3,7 @@
 // little: what comes out of an instant does not depend on when they were made.
 #pragma once
 
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,13 @@ namespace taut::contact {
 struct NearPair {
     int a, b;         // point and triangle; or edges, the lower first
     double distance;  // [m] that they keep
-    double d0;        // [m] between them when that was last found, and what the record had approached before
+    double atFirst;   // [m] between them when they were listed
+    double found;     // [m] between them when that was last found, and what the record had travelled before
 };
+
+// Pairs that are further apart than what is coming, and that share of what they keep, cannot meet in an instant, and
+// need not be watched.
+inline constexpr double watchShare = 0.5;
 
 class NearPairs {
   public:
@@ -38,7 +44,8 @@ class NearPairs {
         int a = 0, b = 0;  // patches
         std::vector<NearPair> pairs;
         std::size_t pointPairs = 0;  // the first of them: of points and triangles
-        double approached = 0;       // [m] at most, since they were listed, the coming way included
+        double travelled = 0;        // [m] at most, since they were listed, the coming way included: a sum of ways
+        double approached = 0;       // [m] likewise, from where they were then
         double coming = 0;           // [m] of that the coming way
         bool isFlat = false;         // nothing of it meets in this instant
 
@@ -46,27 +53,37 @@ class NearPairs {
         double valid = -1;              // [m] until it may have come that much nearer
         dvec3 apart{0.0};               // [m] of the centres when they were listed
         double strayA = 0, strayB = 0;  // [m] of the patches until then
+        double bentA = 0, bentB = 0;    // [m] of them then
+        int timesA = -1, timesB = -1;   // that they were remembered until then
+        double way = 0;                 // [m] sum of the ways since then, the coming one left out
         double flatSlack = 0;           // [m] by which its parts may come nearer still
         bool knowsAbout = false;
         std::vector<int> about;  // patches
     };
     // In the order of the patches; those that are near, of an instant.
     std::size_t nearCount() const { return near_.size(); }
-    Record& near(std::size_t i) { return records_[near_[i]]; }
+    Record& near(std::size_t i) { return *near_[i]; }
 
     std::size_t listed() const { return listed_; }  // lists made so far
     std::uint64_t bytes() const;
 
   private:
+    Record* newRecord(PatchPair pair);
     void approach(Record& record) const;
     void list(Record& record, std::span<const dvec3> x0) const;
 
     const Elements& elements_;
     Patches patches_;
-    std::vector<Record> records_;    // ascending
-    std::vector<std::size_t> near_;  // of records
-    std::vector<double> stray_;      // [m] (patches) sum over all instants
-    std::vector<std::pair<int, int>> found_;
+    struct Known {
+        PatchPair pair;
+        Record* record;
+    };
+    std::deque<Record> records_;         // in no order
+    std::vector<Record*> unused_;        // of them
+    std::vector<Known> known_, merged_;  // ascending
+    std::vector<Record*> near_;
+    std::vector<double> stray_;  // [m] (patches) sum over all instants
+    std::vector<PatchPair> found_;
     double slack_ = 0;
     std::size_t listed_ = 0;
 };

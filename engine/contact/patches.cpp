@@ -79,11 +79,18 @@ Patches::Patches(const Elements& elements)
         patch.points = patch.corners = std::move(others);
         for (int i : patch.points) patchOfPoint_[static_cast<std::size_t>(i)] = count();
         patches_.push_back(std::move(patch));
-        nodes_.push_back({-1, -1, count() - 1, s, elements.surface(s).thickness, {}});
+        nodes_.push_back({-1, -1, count() - 1, s, elements.surface(s).thickness});
         roots.push_back(static_cast<int>(nodes_.size()) - 1);
     }
     if (!roots.empty()) root_ = joinRoots(roots);
     motions_.resize(patches_.size());
+    times_.resize(patches_.size());
+    std::size_t corners = 0;
+    for (const Patch& patch : patches_) {
+        firstRemembered_.push_back(corners);
+        corners += patch.corners.size();
+    }
+    remembered_.assign(corners, dvec3(1e150));
     boxes_.resize(nodes_.size());
     flatness_.resize(patches_.size());
     prepareFlatness();
@@ -141,7 +148,7 @@ int Patches::addTree(std::vector<int> items, const std::vector<dvec3>& centres, 
     std::sort(high.begin(), high.end());
     const int left = addTree(std::move(low), centres, surface, areTriangles);
     const int right = addTree(std::move(high), centres, surface, areTriangles);
-    nodes_.push_back({left, right, -1, surface, elements_.surface(surface).thickness, {}});
+    nodes_.push_back({left, right, -1, surface, elements_.surface(surface).thickness});
     return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -180,7 +187,7 @@ int Patches::addPatch(const std::vector<int>& items, int surface, bool areTriang
         list->erase(std::unique(list->begin(), list->end()), list->end());
     }
     patches_.push_back(std::move(patch));
-    nodes_.push_back({-1, -1, number, surface, elements_.surface(surface).thickness, {}});
+    nodes_.push_back({-1, -1, number, surface, elements_.surface(surface).thickness});
     return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -189,7 +196,7 @@ int Patches::joinRoots(std::span<const int> roots) {
     const int left = joinRoots(roots.first(roots.size() / 2)), right = joinRoots(roots.subspan(roots.size() / 2));
     const Node &a = nodes_[static_cast<std::size_t>(left)], &b = nodes_[static_cast<std::size_t>(right)];
     const int surface = a.surface == b.surface ? a.surface : -1;
-    nodes_.push_back({left, right, -1, surface, std::max(a.thickness, b.thickness), {}});
+    nodes_.push_back({left, right, -1, surface, std::max(a.thickness, b.thickness)});
     return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -201,7 +208,14 @@ void Patches::takeBalls() {
     }
 }
 
-void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+void Patches::remember(std::size_t number, std::span<const dvec3> x) {
+    const PatchMotion& motion = motions_[number];
+    dvec3* remembered = remembered_.data() + firstRemembered_[number];
+    for (int i : patches_[number].corners) *remembered++ = x[static_cast<std::size_t>(i)] - motion.centre;
+    ++times_[number];
+}
+
+void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1, double most) {
     core::parallelFor((count() + atOnce - 1) / atOnce, [&](int task) {
         for (int p = task * atOnce; p < std::min((task + 1) * atOnce, count()); ++p) {
             const Patch& patch = patches_[static_cast<std::size_t>(p)];
@@ -223,7 +237,24 @@ void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1) {
                 square = std::max(square, glm::dot(stray, stray));
             }
             motion.stray = std::sqrt(square);
+            const auto bend = [&] {
+                const dvec3* remembered = remembered_.data() + firstRemembered_[static_cast<std::size_t>(p)];
+                double bent = 0;
+                for (int i : patch.corners) {
+                    const dvec3 before = x0[static_cast<std::size_t>(i)] - motion.centre - *remembered;
+                    const dvec3 after = x1[static_cast<std::size_t>(i)] - motion.centre - motion.way - *remembered;
+                    bent = std::max({bent, glm::dot(before, before), glm::dot(after, after)});
+                    ++remembered;
+                }
+                return std::sqrt(bent);
+            };
+            motion.bent = bend();
             motions_[static_cast<std::size_t>(p)] = motion;
+            if (most > 0 && !(motion.bent <= most)) {
+                remember(static_cast<std::size_t>(p), x0);
+                motions_[static_cast<std::size_t>(p)].bent = bend();
+            }
+            motions_[static_cast<std::size_t>(p)].times = times_[static_cast<std::size_t>(p)];
             if (planes_[static_cast<std::size_t>(patch.surface)]) measureFlatness(static_cast<std::size_t>(p), x0, x1);
         }
     });
@@ -238,7 +269,7 @@ void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     }
 }
 
-double Patches::findNear(double more, std::vector<std::pair<int, int>>& pairs) const {
+double Patches::findNear(double more, std::vector<PatchPair>& pairs) const {
     pairs.clear();
     double slack = std::numeric_limits<double>::infinity();
     if (root_ >= 0) meetItself(root_, more, slack, pairs);
@@ -246,12 +277,13 @@ double Patches::findNear(double more, std::vector<std::pair<int, int>>& pairs) c
     return slack;
 }
 
-void Patches::meetItself(int number, double more, double& slack, std::vector<std::pair<int, int>>& pairs) const {
+void Patches::meetItself(int number, double more, double& slack, std::vector<PatchPair>& pairs) const {
     const Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.surface >= 0 && !elements_.mayMeet(node.surface, node.surface)) return;
-    if (node.patch >= 0) return pairs.emplace_back(node.patch, node.patch), void();
-    if (!node.about.empty()) {
-        const double excess = flatness(node.about) - enough(node.surface);
+    if (node.patch >= 0) return pairs.push_back(patchPair(node.patch, node.patch));
+    const std::vector<int>& about = about_[static_cast<std::size_t>(number)];
+    if (!about.empty()) {
+        const double excess = flatness(about) - enough(node.surface);
         if (excess >= 0) return void(slack = std::min(slack, excess * leastAltitude(node.surface)));
     }
     meetItself(node.left, more, slack, pairs);
@@ -259,13 +291,13 @@ void Patches::meetItself(int number, double more, double& slack, std::vector<std
     meet(node.left, node.right, more, pairs);
 }
 
-void Patches::meet(int a, int b, double more, std::vector<std::pair<int, int>>& pairs) const {
+void Patches::meet(int a, int b, double more, std::vector<PatchPair>& pairs) const {
     const Node &first = nodes_[static_cast<std::size_t>(a)], &second = nodes_[static_cast<std::size_t>(b)];
-    if (first.surface >= 0 && second.surface >= 0 && !elements_.mayMeet(first.surface, second.surface)) return;
     const Box &boxA = boxes_[static_cast<std::size_t>(a)], &boxB = boxes_[static_cast<std::size_t>(b)];
     if (!boxA.overlaps(boxB, nearShare * (first.thickness + second.thickness) + more)) return;
+    if (first.surface >= 0 && second.surface >= 0 && !elements_.mayMeet(first.surface, second.surface)) return;
     if (first.patch >= 0 && second.patch >= 0) {
-        pairs.emplace_back(std::min(first.patch, second.patch), std::max(first.patch, second.patch));
+        pairs.push_back(patchPair(first.patch, second.patch));
         return;
     }
     const auto sizeOf = [](const Box& box) {
@@ -311,7 +343,9 @@ void Patches::prepareFlatness() {
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
         enough_.push_back(hair * nearShare *
                           std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
-    for (Node& node : nodes_) {
+    about_.resize(nodes_.size());
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        const Node& node = nodes_[n];
         if (node.patch >= 0 || node.surface < 0 || !planes_[static_cast<std::size_t>(node.surface)]) continue;
         RestBox box;
         const auto add = [&](auto&& self, const Node& below) -> void {
@@ -325,7 +359,7 @@ void Patches::prepareFlatness() {
             box.high = glm::max(box.high, own.high);
         };
         add(add, node);
-        node.about = about(box, node.surface, patches_.size());
+        about_[n] = about(box, node.surface, patches_.size());
     }
 }
 

@@ -41,6 +41,10 @@ struct PatchMotion {
     dvec3 centre{0.0};   // [m] mean of its points, before
     dvec3 way{0.0};      // [m] of that mean
     double stray = 0.0;  // [m] no point goes further than that from the way of the mean
+    // Seen from the mean no point is further than that from where it was when the patch was last remembered, before and
+    // after [m]; and how often that has been.
+    double bent = 0.0;
+    int times = 0;
 };
 
 // How far a patch of a surface that is flat at rest is from being moved as one, before and after: for all directions t
@@ -52,6 +56,19 @@ struct Flatness {
     double most = 0.0;
 };
 
+// Two patches, the lower above the higher: pairs in order are in the order of the first, then of the second.
+using PatchPair = std::uint64_t;
+inline PatchPair patchPair(int a, int b) {
+    const auto low = static_cast<PatchPair>(a < b ? a : b), high = static_cast<PatchPair>(a < b ? b : a);
+    return low << 32U | high;
+}
+inline int lowOf(PatchPair pair) {
+    return static_cast<int>(pair >> 32U);
+}
+inline int highOf(PatchPair pair) {
+    return static_cast<int>(pair & 0xffffffffU);
+}
+
 class Patches {
   public:
     explicit Patches(const Elements& elements);
@@ -62,14 +79,15 @@ class Patches {
     // The balls there are have become others.
     void takeBalls();
 
-    // Follows the points from x0 to x1 (points) [m].
-    void follow(std::span<const dvec3> x0, std::span<const dvec3> x1);
+    // Follows the points from x0 to x1 (points) [m]. Patches that have bent further than `most` [m] are remembered
+    // anew.
+    void follow(std::span<const dvec3> x0, std::span<const dvec3> x1, double most = 0.0);
     const PatchMotion& motion(int patch) const { return motions_[static_cast<std::size_t>(patch)]; }
 
     // Pairs a <= b of patches whose boxes come within the sum of the thicknesses, and that much more [m], and which may
     // meet; ascending. Those are left out that are flat together; returns by how much [m] their parts may come nearer
     // yet.
-    double findNear(double more, std::vector<std::pair<int, int>>& pairs) const;
+    double findNear(double more, std::vector<PatchPair>& pairs) const;
 
     // How flat all of what lies about two patches of one surface is in this instant: no two parts of it come nearer
     // than that share of their distance at rest. For where the surface is flat and convex at rest and all of it about
@@ -90,7 +108,6 @@ class Patches {
         int patch = -1;             // of a leaf
         int surface = -1;           // -1: several
         double thickness = 0;       // [m] largest
-        std::vector<int> about;     // patches, of a surface that is flat at rest
     };
     struct Plane {  // of a surface that is flat and convex at rest
         dvec3 right, up;
@@ -104,19 +121,24 @@ class Patches {
     int addPatch(const std::vector<int>& items, int surface, bool areTriangles);
     int joinRoots(std::span<const int> roots);
     void shareOut();
+    void remember(std::size_t patch, std::span<const dvec3> x);
     void findPlane(int surface);
     void prepareFlatness();
     std::vector<int> about(const RestBox& box, int surface, std::size_t most) const;
     void measureFlatness(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    void meetItself(int node, double more, double& slack, std::vector<std::pair<int, int>>& pairs) const;
-    void meet(int a, int b, double more, std::vector<std::pair<int, int>>& pairs) const;
+    void meetItself(int node, double more, double& slack, std::vector<PatchPair>& pairs) const;
+    void meet(int a, int b, double more, std::vector<PatchPair>& pairs) const;
 
     const Elements& elements_;
     std::vector<Patch> patches_;
     std::vector<int> patchOfPoint_, patchOfEdge_;
-    std::vector<Node> nodes_;  // children before parents
+    std::vector<Node> nodes_;              // children before parents
+    std::vector<std::vector<int>> about_;  // (nodes) patches, of a surface that is flat at rest
     int root_ = -1;
     std::vector<PatchMotion> motions_;          // (patches)
+    std::vector<dvec3> remembered_;             // [m] of the corners of all patches, from the mean
+    std::vector<std::size_t> firstRemembered_;  // (patches)
+    std::vector<int> times_;                    // (patches) remembered
     std::vector<Box> boxes_;                    // (nodes) of both moments
     std::vector<std::optional<Plane>> planes_;  // (surfaces)
     struct Inverse {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as there may be
 constexpr int mostParts = 64;
-constexpr int fewestMet = 4;       // instants of a tick in which anything touches
+constexpr int fewestMet = 16;      // instants of a tick in which anything touches
 constexpr double calmWay = 2.0;    // of the distance kept, that neighbours may move in an instant without contact
 constexpr double wayOfKeep = 0.5;  // of the distance kept, that two may approach in an instant
 

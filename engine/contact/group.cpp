@@ -227,9 +227,9 @@ const Meeting& Group::meet(const Instant& instant) {
         if (pair.presses) pressed_.push_back(pair);
     if (!pressed_.empty() || !crossings_.empty()) press(instant);
     if (options_.certifies) guard(instant);
-    near_.arrive();
     std::sort(moved_.begin(), moved_.end());
     moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
+    near_.arrive(moved_, instant.x0, instant.x1);
     meeting_.moved = moved_;
     return meeting_;
 }

@@ -80,12 +80,25 @@ NearPairs::Record* NearPairs::newRecord(PatchPair pair) {
     return record;
 }
 
+double NearPairs::comingOf(const Record& record) const {
+    const PatchMotion &a = patches_.motion(record.a), &b = patches_.motion(record.b);
+    return (record.a == record.b ? 0.0 : length(a.way - b.way)) + a.stray + b.stray;
+}
+
+// [m] of what is not listed, when that expires.
+double NearPairs::apartAtLeast(const Record& record) const {
+    const int a = patches_[record.a].surface, b = patches_[record.b].surface;
+    const double most = elements_.surface(a).thickness + elements_.surface(b).thickness;
+    if (!elements_.shareBond(a, b)) return most;
+    return a == b && patches_.isPlane(a) ? std::min(most, restShare * patches_.leastAltitude(a)) : 0.0;
+}
+
 void NearPairs::approach(Record& record) const {
     const PatchMotion &a = patches_.motion(record.a), &b = patches_.motion(record.b);
     const double strayA = stray_[static_cast<std::size_t>(record.a)] - record.strayA;
     const double strayB = stray_[static_cast<std::size_t>(record.b)] - record.strayB;
     const bool isOne = record.a == record.b;
-    record.coming = (isOne ? 0.0 : length(a.way - b.way)) + a.stray + b.stray;
+    record.coming = comingOf(record);
     // Between the means, before and after; and of the points about them.
     double between = 0;
     if (!isOne) {
@@ -142,8 +155,7 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
             const double flatness = patches_.flatness(record.about);
             const int surface = patches_[record.a].surface;
             record.isFlat = flatness >= patches_.enough(surface);
-            if (record.isFlat)
-                record.flatSlack = (flatness - patches_.enough(surface)) * patches_.leastAltitude(surface);
+            if (record.isFlat) record.flatSlack = flatness * patches_.leastAltitude(surface);
             approach(record);
             if (record.isFlat || record.approached <= record.valid) continue;
             list(record, x0);
@@ -154,14 +166,15 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     listed_ += made;
     for (const Record* near : near_) {
         const Record& record = *near;
-        slack_ =
-            std::min(slack_, record.isFlat ? record.flatSlack
-                                           : std::min(record.valid - record.approached, watchShare * record.leastKeep));
+        const double own = std::min(record.valid - record.approached + apartAtLeast(record),
+                                    watchShare * record.leastKeep);
+        slack_ = std::min(slack_, record.isFlat ? record.flatSlack : own);
     }
 }
 
-void NearPairs::arrive() {
-    for (const Known& known : known_) known.record->way += known.record->coming;
+void NearPairs::arrive(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    patches_.correct(moved, x0, x1);
+    for (const Known& known : known_) known.record->way += comingOf(*known.record);
     for (int p = 0; p < patches_.count(); ++p) stray_[static_cast<std::size_t>(p)] += patches_.motion(p).stray;
 }
 

@@ -35,8 +35,8 @@ class NearPairs {
     // Nobody went further than that [m] beyond the ways that were found: whether the lists hold for them too, and no
     // pair that was not near can have met.
     bool holdWithin(double way) const { return 2 * way <= slack_; }
-    // Points were last seen at the end of those ways, and are there now.
-    void arrive();
+    // The end of the instant: of these points (ascending) x1 is not what it was when pairs were found.
+    void arrive(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
 
     Patches& patches() { return patches_; }
 
@@ -56,7 +56,7 @@ class NearPairs {
         double bentA = 0, bentB = 0;    // [m] of them then
         int timesA = -1, timesB = -1;   // that they were remembered until then
         double way = 0;                 // [m] sum of the ways since then, the coming one left out
-        double flatSlack = 0;           // [m] by which its parts may come nearer still
+        double flatSlack = 0;           // [m] its parts are apart at least, where it is flat
         bool knowsAbout = false;
         std::vector<int> about;  // patches
     };
@@ -69,6 +69,8 @@ class NearPairs {
 
   private:
     Record* newRecord(PatchPair pair);
+    double comingOf(const Record& record) const;
+    double apartAtLeast(const Record& record) const;
     void approach(Record& record) const;
     void list(Record& record, std::span<const dvec3> x0) const;
 

@@ -91,6 +91,15 @@ Patches::Patches(const Elements& elements)
         corners += patch.corners.size();
     }
     remembered_.assign(corners, dvec3(1e150));
+    firstAt_.assign(static_cast<std::size_t>(elements.pointCount()) + 1, 0);
+    for (const Patch& patch : patches_)
+        for (int i : patch.corners) ++firstAt_[static_cast<std::size_t>(i) + 1];
+    for (std::size_t i = 1; i < firstAt_.size(); ++i) firstAt_[i] += firstAt_[i - 1];
+    patchesAt_.resize(corners);
+    std::vector<std::size_t> next(firstAt_.begin(), firstAt_.end() - 1);
+    for (int p = 0; p < count(); ++p)
+        for (int i : patches_[static_cast<std::size_t>(p)].corners)
+            patchesAt_[next[static_cast<std::size_t>(i)]++] = p;
     boxes_.resize(nodes_.size());
     flatness_.resize(patches_.size());
     prepareFlatness();
@@ -215,28 +224,46 @@ void Patches::remember(std::size_t number, std::span<const dvec3> x) {
     ++times_[number];
 }
 
+void Patches::findWay(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    const Patch& patch = patches_[number];
+    PatchMotion& motion = motions_[number];
+    dvec3 sum(0.0), ways(0.0);
+    for (int i : patch.corners) {
+        const dvec3 &from = x0[static_cast<std::size_t>(i)], &to = x1[static_cast<std::size_t>(i)];
+        motion.box.add(from);
+        motion.box.add(to);
+        sum += from;
+        ways += to - from;
+    }
+    const double share = 1.0 / static_cast<double>(patch.corners.size());
+    motion.centre = share * sum;
+    motion.way = share * ways;
+    double square = 0;
+    for (int i : patch.corners) {
+        const dvec3 stray = x1[static_cast<std::size_t>(i)] - x0[static_cast<std::size_t>(i)] - motion.way;
+        square = std::max(square, glm::dot(stray, stray));
+    }
+    motion.stray = std::sqrt(square);
+}
+
+void Patches::correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    corrected_.clear();
+    for (int i : points) {
+        const auto own = static_cast<std::size_t>(i);
+        for (std::size_t k = firstAt_[own]; k < firstAt_[own + 1]; ++k) corrected_.push_back(patchesAt_[k]);
+    }
+    std::sort(corrected_.begin(), corrected_.end());
+    corrected_.erase(std::unique(corrected_.begin(), corrected_.end()), corrected_.end());
+    for (int p : corrected_) findWay(static_cast<std::size_t>(p), x0, x1);
+}
+
 void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1, double most) {
     core::parallelFor((count() + atOnce - 1) / atOnce, [&](int task) {
         for (int p = task * atOnce; p < std::min((task + 1) * atOnce, count()); ++p) {
             const Patch& patch = patches_[static_cast<std::size_t>(p)];
-            PatchMotion motion;
-            dvec3 sum(0.0), ways(0.0);
-            for (int i : patch.corners) {
-                const dvec3 &from = x0[static_cast<std::size_t>(i)], &to = x1[static_cast<std::size_t>(i)];
-                motion.box.add(from);
-                motion.box.add(to);
-                sum += from;
-                ways += to - from;
-            }
-            const double share = 1.0 / static_cast<double>(patch.corners.size());
-            motion.centre = share * sum;
-            motion.way = share * ways;
-            double square = 0;
-            for (int i : patch.corners) {
-                const dvec3 stray = x1[static_cast<std::size_t>(i)] - x0[static_cast<std::size_t>(i)] - motion.way;
-                square = std::max(square, glm::dot(stray, stray));
-            }
-            motion.stray = std::sqrt(square);
+            PatchMotion& motion = motions_[static_cast<std::size_t>(p)];
+            motion.box = {};
+            findWay(static_cast<std::size_t>(p), x0, x1);
             const auto bend = [&] {
                 const dvec3* remembered = remembered_.data() + firstRemembered_[static_cast<std::size_t>(p)];
                 double bent = 0;
@@ -249,12 +276,11 @@ void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1, doubl
                 return std::sqrt(bent);
             };
             motion.bent = bend();
-            motions_[static_cast<std::size_t>(p)] = motion;
             if (most > 0 && !(motion.bent <= most)) {
                 remember(static_cast<std::size_t>(p), x0);
-                motions_[static_cast<std::size_t>(p)].bent = bend();
+                motion.bent = bend();
             }
-            motions_[static_cast<std::size_t>(p)].times = times_[static_cast<std::size_t>(p)];
+            motion.times = times_[static_cast<std::size_t>(p)];
             if (planes_[static_cast<std::size_t>(patch.surface)]) measureFlatness(static_cast<std::size_t>(p), x0, x1);
         }
     });
@@ -283,8 +309,8 @@ void Patches::meetItself(int number, double more, double& slack, std::vector<Pat
     if (node.patch >= 0) return pairs.push_back(patchPair(node.patch, node.patch));
     const std::vector<int>& about = about_[static_cast<std::size_t>(number)];
     if (!about.empty()) {
-        const double excess = flatness(about) - enough(node.surface);
-        if (excess >= 0) return void(slack = std::min(slack, excess * leastAltitude(node.surface)));
+        const double own = flatness(about);
+        if (own >= enough(node.surface)) return void(slack = std::min(slack, own * leastAltitude(node.surface)));
     }
     meetItself(node.left, more, slack, pairs);
     meetItself(node.right, more, slack, pairs);

@@ -82,6 +82,8 @@ class Patches {
     // Follows the points from x0 to x1 (points) [m]. Patches that have bent further than `most` [m] are remembered
     // anew.
     void follow(std::span<const dvec3> x0, std::span<const dvec3> x1, double most = 0.0);
+    // Of these points x1 has changed since: the ways of their patches, and how far points stray from them.
+    void correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1);
     const PatchMotion& motion(int patch) const { return motions_[static_cast<std::size_t>(patch)]; }
 
     // Pairs a <= b of patches whose boxes come within the sum of the thicknesses, and that much more [m], and which may
@@ -96,6 +98,7 @@ class Patches {
     double flatness(std::span<const int> about) const;
     // Parts that stay further apart than this share of their distance at rest are not in contact.
     double enough(int surface) const { return enough_[static_cast<std::size_t>(surface)]; }
+    bool isPlane(int surface) const { return planes_[static_cast<std::size_t>(surface)].has_value(); }
     // The least distance at rest of parts of a surface that do not hang together; of those that are flat. [m]
     double leastAltitude(int surface) const { return altitudes_[static_cast<std::size_t>(surface)]; }
     // What lies about them: all patches that the box at rest of both overlaps. None where that cannot be told, or of
@@ -122,6 +125,7 @@ class Patches {
     int joinRoots(std::span<const int> roots);
     void shareOut();
     void remember(std::size_t patch, std::span<const dvec3> x);
+    void findWay(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
     void findPlane(int surface);
     void prepareFlatness();
     std::vector<int> about(const RestBox& box, int surface, std::size_t most) const;
@@ -132,6 +136,9 @@ class Patches {
     const Elements& elements_;
     std::vector<Patch> patches_;
     std::vector<int> patchOfPoint_, patchOfEdge_;
+    std::vector<int> patchesAt_;         // of which points are corners, point by point
+    std::vector<std::size_t> firstAt_;   // (points + 1) of those
+    std::vector<int> corrected_;         // patches, scratch
     std::vector<Node> nodes_;              // children before parents
     std::vector<std::vector<int>> about_;  // (nodes) patches, of a surface that is flat at rest
     int root_ = -1;

@@ -108,11 +108,16 @@ void Touching::readAll() {
     }
 }
 
-// How many the tick is to have; less than nothing where it is a trial, in which nothing should meet.
-int Touching::chooseInstants(const TickTime& time) {
+int Touching::mostInstants() const {
     int most = parts_;
     for (const Island* island : islands_)
         if (island->frozen() == nullptr) most = std::min(most, island->substeps());
+    return most;
+}
+
+// How many the tick is to have; less than nothing where it is a trial, in which nothing should meet.
+int Touching::chooseInstants(const TickTime& time) {
+    const int most = mostInstants();
     if (spec_.instants) return most;
     const contact::Outlook outlook = group_->foresee(x1_, v_, 1.0 / time.ticksPerSecond / fewestMet);
     const auto enough = [&](int fewest, double longest) {
@@ -172,7 +177,7 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         group_->drop();
         group_->begin(x1_);
         instants = chooseInstants(time);
-        if (meetsAfterAll) instants = std::max(instants, std::min(2 * std::max(instants_, fewestMet / 2), parts_));
+        if (meetsAfterAll) instants = mostInstants();
     }
     for (Island* island : islands_) island->endTick(time);
     total_.instants += instants_;
@@ -196,7 +201,7 @@ bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> mov
             return false;
         readAll();
         meet(h);
-        if (isTrial && instants < parts_ && (meeting_.pressing > 0 || meeting_.slides > 0)) return true;
+        if (isTrial && instants < mostInstants() && (meeting_.pressing > 0 || meeting_.slides > 0)) return true;
     }
     return false;
 }

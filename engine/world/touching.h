@@ -54,6 +54,7 @@ class Touching {
     };
     void takeDamage();
     void readAll();
+    int mostInstants() const;
     int chooseInstants(const TickTime& time);
     std::optional<Outcome> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);
     void meet(double h);

@@ -36,6 +36,12 @@ void Group::drop() {
     pressed_.clear();
 }
 
+void Group::goBack(std::span<const dvec3> from, std::span<const dvec3> to) {
+    near_.find(from, to);
+    near_.arrive({}, from, to);
+    mayBeCrossed_ = !crossings_.empty();
+}
+
 void Group::begin(std::span<const dvec3> x) {
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) isMarked_[static_cast<std::size_t>(i)] = 0;
@@ -223,8 +229,17 @@ const Meeting& Group::meet(const Instant& instant) {
     near_.find(instant.x0, instant.x1);
     locate(instant.x0, instant.x1);
     pressed_.clear();
-    for (const MeetingPair& pair : pairs_)
-        if (pair.presses) pressed_.push_back(pair);
+    for (const MeetingPair& pair : pairs_) {
+        if (!pair.presses) continue;
+        pressed_.push_back(pair);
+        dvec3 way(0.0);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto i = static_cast<std::size_t>(pair.points[k]);
+            way += pair.weights[k] * (instant.x1[i] - instant.x0[i]);
+        }
+        const double deep = -std::max(pair.gap(), 0.0) - glm::dot(pair.normal, way);
+        meeting_.deepest = std::max(meeting_.deepest, deep / pair.keep);
+    }
     if (!pressed_.empty() || !crossings_.empty()) press(instant);
     if (options_.certifies) guard(instant);
     std::sort(moved_.begin(), moved_.end());

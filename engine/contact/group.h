@@ -43,6 +43,7 @@ struct Instant {
 struct Meeting {
     std::vector<int> moved;  // points of which x1 or v has changed, ascending
     int pressing = 0;        // pairs with an impulse
+    double deepest = 0;      // how far a pair would have gone beyond touching, over the distance it keeps
     int sweeps = 0, slides = 0, zones = 0, uncertified = 0;
 };
 
@@ -73,6 +74,8 @@ class Group {
 
     // Points have jumped, or something is gone: what was known of them is not true any more.
     void drop();
+    // Points that went from `from` to `to` without contact, back where they were before some instants of this tick.
+    void goBack(std::span<const dvec3> from, std::span<const dvec3> to);
     // Before the instants of a tick: looks for crossings if there may be any. Their pairs are not pressed until the
     // next tick, but led apart.
     void begin(std::span<const dvec3> x);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "taut/core/parallel.h"
 
@@ -10,9 +11,9 @@ namespace {
 
 constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as there may be
 constexpr int mostParts = 64;
-constexpr int fewestMet = 16;      // instants of a tick in which anything touches
-constexpr double calmWay = 2.0;    // of the distance kept, that neighbours may move in an instant without contact
-constexpr double wayOfKeep = 0.5;  // of the distance kept, that two may approach in an instant
+constexpr int fewestMet = 16;       // instants of a tick in which anything touches
+constexpr double calmWay = 2.0;     // of the distance kept, that neighbours may move in an instant without contact
+constexpr double wayOfKeep = 0.25;  // of the distance kept, that two may approach in an instant
 
 }  // namespace
 
@@ -109,26 +110,35 @@ void Touching::readAll() {
 }
 
 int Touching::mostInstants() const {
-    int most = parts_;
+    int most = 0;
     for (const Island* island : islands_)
-        if (island->frozen() == nullptr) most = std::min(most, island->substeps());
-    return most;
+        if (island->frozen() == nullptr) most = std::gcd(most, island->substeps());
+    return std::max(most, 1);
+}
+
+// The next number that all substeps can be divided into, at least half as many again.
+int Touching::moreInstants(int than) const {
+    const int most = mostInstants();
+    int instants = than + (than + 1) / 2;
+    while (instants < most && most % instants != 0) ++instants;
+    return std::min(instants, most);
 }
 
 // How many the tick is to have; less than nothing where it is a trial, in which nothing should meet.
 int Touching::chooseInstants(const TickTime& time) {
     const int most = mostInstants();
-    if (spec_.instants) return most;
+    if (spec_.instants) return std::gcd(most, *spec_.instants);
     const contact::Outlook outlook = group_->foresee(x1_, v_, 1.0 / time.ticksPerSecond / fewestMet);
     const auto enough = [&](int fewest, double longest) {
         int instants = fewest;
-        while (instants < most && tickSeconds_ / instants > longest) instants *= 2;
-        return std::min(instants, most);
+        while (most % instants != 0) --instants;
+        while (instants < most && tickSeconds_ / instants > longest) instants = moreInstants(instants);
+        return instants;
     };
     // Where nothing meets, by what is cheapest.
     if (!outlook.meets) return -enough(1, calmWay / std::max(outlook.stir, 1e-9));
     const double longest = outlook.closing > 0 ? wayOfKeep * outlook.leastKeep / outlook.closing : HUGE_VAL;
-    return enough(fewestMet, longest);
+    return enough(std::min(fewestMet, most), longest);
 }
 
 std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
@@ -154,11 +164,11 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         readAll();
         const bool isTrial = instants < 0;
         instants_ = std::abs(instants);
-        const bool meetsAfterAll = tryTick(time, moving, instants_, faults, isTrial);
+        const bool isCoarse = tryTick(time, moving, instants_, faults, isTrial);
         std::vector<Verdict> verdicts(islands_.size(), Verdict::stands);
-        bool isAgain = meetsAfterAll;
+        bool isAgain = isCoarse;
         for (std::size_t k = 0; k < islands_.size(); ++k) {
-            if (meetsAfterAll && !faults[k]) continue;
+            if (isCoarse) continue;
             verdicts[k] = islands_[k]->judge(time, faults[k]);
             if (verdicts[k] == Verdict::fails) {
                 if (islands_[k]->plan().solver.onDivergence != OnDivergence::freeze)
@@ -173,11 +183,14 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         }
         if (!isAgain) break;
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
+        std::swap(x0_, x1_);
         readAll();
-        group_->drop();
-        group_->begin(x1_);
-        instants = chooseInstants(time);
-        if (meetsAfterAll) instants = mostInstants();
+        group_->goBack(x0_, x1_);
+        if (isCoarse)
+            instants = isTrial ? std::max(std::min(fewestMet, mostInstants()), moreInstants(instants_))
+                               : moreInstants(instants_);
+        else
+            instants = chooseInstants(time);
     }
     for (Island* island : islands_) island->endTick(time);
     total_.instants += instants_;
@@ -185,7 +198,13 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
     return std::nullopt;
 }
 
-// Returns whether a trial without instants but the last met anything; then the tick is not what it should be.
+// Whether an instant was too long for what it found: of a trial anything at all, else what went deep.
+bool Touching::isTooCoarse(int instants, bool isTrial) const {
+    if (spec_.instants || instants >= mostInstants()) return false;
+    return meeting_.deepest > wayOfKeep || meeting_.slides > 0 || (isTrial && meeting_.pressing > 0);
+}
+
+// Ends early where there have to be more instants, and then returns true.
 bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
                        std::vector<std::optional<Fault>>& faults, bool isTrial) {
     const double h = tickSeconds_ / instants;
@@ -201,7 +220,7 @@ bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> mov
             return false;
         readAll();
         meet(h);
-        if (isTrial && instants < mostInstants() && (meeting_.pressing > 0 || meeting_.slides > 0)) return true;
+        if (isTooCoarse(instants, isTrial)) return true;
     }
     return false;
 }

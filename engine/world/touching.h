@@ -55,9 +55,11 @@ class Touching {
     void takeDamage();
     void readAll();
     int mostInstants() const;
+    int moreInstants(int than) const;
     int chooseInstants(const TickTime& time);
     std::optional<Outcome> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);
     void meet(double h);
+    bool isTooCoarse(int instants, bool isTrial) const;
     bool tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
                  std::vector<std::optional<Fault>>& faults, bool isTrial);
 

@@ -43,6 +43,11 @@ class Elements {
     const std::vector<Triangle>& triangles() const { return triangles_; }
     const std::vector<Edge>& edges() const { return edges_; }
     int edgesWithoutBalls() const { return firstBall_; }
+    // Those of a surface: from this one to before the next.
+    int firstTriangleOf(int surface) const {
+        return static_cast<int>(firstTriangleOf_[static_cast<std::size_t>(surface)]);
+    }
+    int firstEdgeOf(int surface) const { return static_cast<int>(firstEdgeOf_[static_cast<std::size_t>(surface)]); }
     int surfaceOf(int point) const { return surfaceOf_[static_cast<std::size_t>(point)]; }
     const std::vector<dvec3>& rest() const { return rest_; }
     int pointCount() const { return static_cast<int>(rest_.size()); }

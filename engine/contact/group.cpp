@@ -109,10 +109,13 @@ bool Group::isFeatureNearest(const MeetingPair& pair, int feature, std::span<con
 void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
                      std::vector<MeetingPair>& pairs) const {
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
+    bool isAsked = record.isFlat;  // whether it is flat
     for (std::size_t k = 0; k < record.pairs.size(); ++k) {
         NearPair& near = record.pairs[k];
         const double reach = nearShare * near.distance;
         if (near.found - record.travelled > reach || near.atFirst - record.approached > reach) continue;
+        if (!isAsked && near_.becomesFlat(record)) return;
+        isAsked = true;
         MeetingPair pair;
         pair.a = near.a;
         pair.b = near.b;
@@ -201,15 +204,12 @@ Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, doubl
     locate(x, xIs_);
     Outlook outlook;
     outlook.leastKeep = 1e300;
-    int stirring = 0;
     for (std::size_t k = 0; k < near_.nearCount(); ++k) {
         const NearPairs::Record& record = near_.near(k);
-        if (record.isFlat) continue;
         const int a = near_.patches()[record.a].surface, b = near_.patches()[record.b].surface;
         outlook.stir += record.coming / (elements_.surface(a).thickness + elements_.surface(b).thickness);
-        ++stirring;
     }
-    if (stirring > 0) outlook.stir /= stirring * seconds;
+    if (near_.nearCount() > 0) outlook.stir /= static_cast<double>(near_.nearCount()) * seconds;
     for (const MeetingPair& pair : pairs_) {
         if (!pair.presses) continue;
         outlook.meets = true;

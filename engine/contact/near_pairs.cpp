@@ -85,6 +85,14 @@ double NearPairs::comingOf(const Record& record) const {
     return (record.a == record.b ? 0.0 : length(a.way - b.way)) + a.stray + b.stray;
 }
 
+bool NearPairs::becomesFlat(Record& record) const {
+    const int surface = patches_[record.a].surface;
+    const double flatness = patches_.flatness(record.about);
+    record.isFlat = flatness >= patches_.enough(surface);
+    if (record.isFlat) record.flatSlack = flatness * patches_.leastAltitude(surface);
+    return record.isFlat;
+}
+
 // [m] of what is not listed, when that expires.
 double NearPairs::apartAtLeast(const Record& record) const {
     const int a = patches_[record.a].surface, b = patches_[record.b].surface;
@@ -152,12 +160,9 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
             Record& record = *near_[static_cast<std::size_t>(k)];
             if (!record.knowsAbout) record.about = patches_.about(record.a, record.b);
             record.knowsAbout = true;
-            const double flatness = patches_.flatness(record.about);
-            const int surface = patches_[record.a].surface;
-            record.isFlat = flatness >= patches_.enough(surface);
-            if (record.isFlat) record.flatSlack = flatness * patches_.leastAltitude(surface);
+            record.isFlat = false;
             approach(record);
-            if (record.isFlat || record.approached <= record.valid) continue;
+            if (record.approached <= record.valid || becomesFlat(record)) continue;
             list(record, x0);
             ++own;
         }
@@ -166,8 +171,8 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     listed_ += made;
     for (const Record* near : near_) {
         const Record& record = *near;
-        const double own = std::min(record.valid - record.approached + apartAtLeast(record),
-                                    watchShare * record.leastKeep);
+        const double own =
+            std::min(record.valid - record.approached + apartAtLeast(record), watchShare * record.leastKeep);
         slack_ = std::min(slack_, record.isFlat ? record.flatSlack : own);
     }
 }

@@ -40,6 +40,10 @@ class NearPairs {
 
     Patches& patches() { return patches_; }
 
+    // Whether nothing of it meets in this instant, since it is flat; asked only where that is not plain from its list.
+    struct Record;
+    bool becomesFlat(Record& record) const;
+
     struct Record {
         int a = 0, b = 0;  // patches
         std::vector<NearPair> pairs;

@@ -63,10 +63,9 @@ Patches::Patches(const Elements& elements)
     for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s) {
         findPlane(s);
         std::vector<int> triangles, lines;
-        for (std::size_t t = 0; t < triangleCentres.size(); ++t)
-            if (elements.triangles()[t].surface == s) triangles.push_back(static_cast<int>(t));
-        for (std::size_t e = 0; e < edgeCentres.size(); ++e)
-            if (elements.edges()[e].surface == s && elements.edges()[e].isLine) lines.push_back(static_cast<int>(e));
+        for (int t = elements.firstTriangleOf(s); t < elements.firstTriangleOf(s + 1); ++t) triangles.push_back(t);
+        for (int e = elements.firstEdgeOf(s); e < elements.firstEdgeOf(s + 1); ++e)
+            if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
         if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, true));
         if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, false));
         // Points of neither, of which damage may have made balls.
@@ -98,8 +97,7 @@ Patches::Patches(const Elements& elements)
     patchesAt_.resize(corners);
     std::vector<std::size_t> next(firstAt_.begin(), firstAt_.end() - 1);
     for (int p = 0; p < count(); ++p)
-        for (int i : patches_[static_cast<std::size_t>(p)].corners)
-            patchesAt_[next[static_cast<std::size_t>(i)]++] = p;
+        for (int i : patches_[static_cast<std::size_t>(p)].corners) patchesAt_[next[static_cast<std::size_t>(i)]++] = p;
     boxes_.resize(nodes_.size());
     flatness_.resize(patches_.size());
     prepareFlatness();

@@ -136,9 +136,9 @@ class Patches {
     const Elements& elements_;
     std::vector<Patch> patches_;
     std::vector<int> patchOfPoint_, patchOfEdge_;
-    std::vector<int> patchesAt_;         // of which points are corners, point by point
-    std::vector<std::size_t> firstAt_;   // (points + 1) of those
-    std::vector<int> corrected_;         // patches, scratch
+    std::vector<int> patchesAt_;           // of which points are corners, point by point
+    std::vector<std::size_t> firstAt_;     // (points + 1) of those
+    std::vector<int> corrected_;           // patches, scratch
     std::vector<Node> nodes_;              // children before parents
     std::vector<std::vector<int>> about_;  // (nodes) patches, of a surface that is flat at rest
     int root_ = -1;

@@ -335,7 +335,7 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
     options.value("--gl", flags.gl, "What draws; the first that works when not given").oneOf({"osmesa", "egl"});
     options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
-    options.flag("--overlay", flags.overlay, "Show time, step and limit, largest strain, and the energies as a graph");
+    options.flag("--overlay", flags.overlay, "Show time, step and limit, largest strain, contacts between bodies, and the energies as a graph");
     options.flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
 }
 

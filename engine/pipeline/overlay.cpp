@@ -31,10 +31,11 @@ std::string stepText(const StepFacts& step) {
 }  // namespace
 
 StepFacts smallestStep(const world::World& world) {
-    StepFacts facts{world.tickSeconds(), std::numeric_limits<double>::infinity()};
+    StepFacts facts{world.tickSeconds(), std::numeric_limits<double>::infinity(), !world.contact().bodies.empty()};
     for (const world::IslandInfo& island : world.islands()) {
         if (island.step > facts.step) continue;
-        facts = {island.step, island.stepLimit > 0.0 ? island.stepLimit : facts.limit};
+        facts.step = island.step;
+        if (island.stepLimit > 0.0) facts.limit = island.stepLimit;
     }
     return facts;
 }
@@ -68,6 +69,10 @@ void Overlay::paint(image::Image& picture, double time, std::span<const OverlayL
     lines.emplace_back(fmt::format("t {:.3f} s", now.time), fmt::format("tick {}", now.tick));
     lines.emplace_back("step h", stepText(step_));
     lines.emplace_back("largest strain", fmt::format("{:.2f} %", 100.0 * now.maxStrain));
+    if (step_.bodiesTouch)
+        lines.emplace_back("between bodies",
+                           fmt::format("{} contact{}, {} crossing{}", now.bodyContacts,
+                                       now.bodyContacts == 1 ? "" : "s", now.crossings, now.crossings == 1 ? "" : "s"));
 
     Painting painting(picture, letters_);
     const glm::vec2 size(picture.width, picture.height);

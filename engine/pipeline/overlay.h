@@ -17,10 +17,11 @@
 
 namespace taut::pipeline {
 
-// The step of the island that has the smallest.
+// The step of the island that has the smallest, and what else holds from the start.
 struct StepFacts {
-    double step = 0.0;   // [s]
-    double limit = 0.0;  // [s] largest stable; infinite: none
+    double step = 0.0;         // [s]
+    double limit = 0.0;        // [s] largest stable; infinite: none
+    bool bodiesTouch = false;  // each other, or themselves
 };
 StepFacts smallestStep(const world::World& world);
 

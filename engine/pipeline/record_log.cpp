@@ -45,6 +45,8 @@ void eachNumber(Metrics& m, const Visit& visit) {
     visit(m.work.evaluations);
     visit(m.work.iterations);
     visit(m.work.unconverged);
+    visit(m.bodyContacts);
+    visit(m.crossings);
 }
 
 template <class Number>

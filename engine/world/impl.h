@@ -6,7 +6,7 @@
 //   actions/           what each kind of action does
 //   hands.cpp          where hands are, and where colliders carry what is tied to them
 //   ramps.cpp          fields of the scene that change while it runs
-//   queries.cpp        metrics, points, hashes
+//   queries.cpp        metrics, contact, warnings, points, hashes
 //   saving.cpp         all of it as bytes
 //   publish.cpp        the view for a picture
 //   rehearsal.cpp      what a run would refuse later
@@ -20,6 +20,7 @@
 #include "taut/world/components.h"
 #include "taut/world/hands.h"
 #include "taut/world/island.h"
+#include "taut/world/touch_watch.h"
 #include "taut/world/touching.h"
 #include "taut/world/world.h"
 
@@ -49,6 +50,7 @@ struct World::Impl {
     ForceList added;  // by addForce()
     std::vector<std::unique_ptr<Island>> islands;
     std::unique_ptr<Touching> touching;  // of those that touch; null when it has to be made anew
+    TouchWatch touchWatch;
     struct Member {
         ecs::Entity entity;
         Body* body;
@@ -123,7 +125,9 @@ struct World::Impl {
     bool isRamping(fields::Affects which) const;
     void takeSprings(Body& body) const;
 
-    Metrics metricsOf(const std::function<bool(const Body&)>& wanted) const;
+    Metrics metricsOf(const std::function<bool(const Body&)>& wanted);
+    bool touchesAny() const;
+    std::vector<BodyCrossing> crossings();
 
     void visit(StateBytes& bytes);
 };

@@ -47,6 +47,11 @@ std::span<const Metric> metricTable() {
         {"volume_ratio", "volume", "", "Volume of blocks over that at rest; 1 of none.", volumeRatio},
         {"penetration_m", "penetration", "m", "Largest depth of a free point inside a collider.",
          plain<&M::penetration>, 1},
+        {"body_contacts", "body_contacts", "",
+         "Number of places where bodies with `touch` press on each other, or on themselves.", plain<&M::bodyContacts>,
+         1},
+        {"crossings", "crossings", "", "Number of edges of bodies with `touch` that go through triangles of such.",
+         plain<&M::crossings>, 1},
     };
     return table;
 }

@@ -41,6 +41,18 @@ void addMarks(const Island& island, view::Marks& marks) {
         marks.dots.push_back({glm::vec3(contact.position), glm::vec3(0.1F, 0.85F, 0.2F), 2.5F});
 }
 
+// Between bodies: what presses, with a line as long as both keep apart, and what goes through what.
+void addTouchMarks(WorldImpl& w, view::Marks& marks) {
+    const glm::vec3 pressing(0.05F, 0.75F, 0.95F), crossing(1.0F, 0.0F, 0.1F);
+    for (const BodyContact& c : w.touchWatch.contacts()) {
+        const dvec3 way = 0.5 * (c.first->spec->thickness + c.second->spec->thickness) * c.normal;
+        marks.lines.push_back({glm::vec3(c.place - way), glm::vec3(c.place + way), pressing});
+        marks.dots.push_back({glm::vec3(c.place), pressing, 2.5F});
+    }
+    if (!w.touchesAny()) return;
+    for (const BodyCrossing& c : w.crossings()) marks.dots.push_back({glm::vec3(c.place), crossing, 4.0F});
+}
+
 view::Light lightOf(const LightSpec& spec) {
     view::Light light;
     light.direction = glm::normalize(glm::vec3(spec.direction));
@@ -99,6 +111,7 @@ view::FrameView World::view(bool debug) const {
     view.showMarks = debug;
     if (!debug) return view;
     for (const auto& island : w.islands) addMarks(*island, view.marks);
+    addTouchMarks(*impl_, view.marks);
     for (const Hand& hand : w.hands)
         view.marks.dots.push_back({glm::vec3(hand.placeAt(w.tick)), glm::vec3(1.0F, 0.35F, 0.05F), 5.0F});
     return view;

@@ -1,4 +1,5 @@
 // What is asked of a world while it stands still between two ticks.
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -8,10 +9,26 @@
 
 namespace taut::world {
 
-Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted) const {
+bool World::Impl::touchesAny() const {
+    return std::any_of(
+        islands.begin(), islands.end(), [](const auto& island) { return touches(island->plan()); });
+}
+
+std::vector<BodyCrossing> World::Impl::crossings() {
+    findTouching();
+    return crossingsOf(*touching);
+}
+
+Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted) {
     Metrics metrics;
     metrics.time = seconds();
     for (const auto& island : islands) island->addMetrics(now(), wanted, metrics);
+    const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
+    for (const BodyContact& contact : touchWatch.contacts())
+        metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
+    if (!touchesAny()) return metrics;
+    for (const BodyCrossing& crossing : crossings())
+        metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
     return metrics;
 }
 
@@ -63,6 +80,25 @@ PointsNow World::points(const Selection& selection) const {
         }
     }
     return points;
+}
+
+ContactInfo World::contact() const {
+    impl_->findTouching();
+    return impl_->touching->info();
+}
+
+bool World::hasTouched() const {
+    return impl_->touchWatch.hasMet() ||
+           std::any_of(
+               impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
+}
+
+std::vector<std::string> World::warnings() const {
+    std::vector<std::string> all = impl_->jointWarnings;
+    for (const auto& island : impl_->islands)
+        for (const std::string& warning : island->warnings()) all.push_back(warning);
+    for (const std::string& warning : impl_->touchWatch.warnings()) all.push_back(warning);
+    return all;
 }
 
 std::vector<BodyHash> World::bodyHashes() const {

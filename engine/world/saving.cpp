@@ -78,6 +78,9 @@ void visitBits(StateBytes& bytes) {
 // Before the bytes of a world with kinds of its own; no frame rate, with which all others begin.
 constexpr std::uint64_t ownKindsMark = 0xfff8'7461'7574'0001ULL;  // a NaN
 
+// Before what bodies that touch were seen to do; no number of islands, which comes without it.
+constexpr std::uint64_t touchMark = 0xfff8'7461'7574'0004ULL;
+
 // The kinds of actions that are not of the engine, of those that begin before the tick: "action shake".
 std::vector<std::string> ownActions(const SceneSpec& scene, std::int64_t tick) {
     const Ticks ticks(scene.run);
@@ -155,6 +158,10 @@ void World::Impl::visit(StateBytes& bytes) {
         bytes(placement.moved);
         bytes.optional(part.move, [&](PoseMove& move) { visitPart(bytes, move); });
     });
+    if (bytes.mark(touchMark, touchWatch.isWorthSaving())) {
+        const std::vector<Body*> all = allBodies();
+        touchWatch.visit(bytes, std::vector<const Body*>(all.begin(), all.end()));
+    }
     auto count = static_cast<std::uint64_t>(islands.size());
     bytes(count);
     if (count != islands.size()) misfit("its bodies hang together in another way");

@@ -1,6 +1,7 @@
 #include "taut/world/touching.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -14,6 +15,12 @@ constexpr int mostParts = 64;
 constexpr int fewestMet = 16;       // instants of a tick in which anything touches
 constexpr double calmWay = 2.0;     // of the distance kept, that neighbours may move in an instant without contact
 constexpr double wayOfKeep = 0.25;  // of the distance kept, that two may approach in an instant
+
+using Clock = std::chrono::steady_clock;  // of what is reported only
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -99,7 +106,7 @@ void Touching::takeDamage() {
     }
     if (!isOther) return;
     group_->elements().refresh();
-    hasJumped_ = true;
+    drop();
 }
 
 void Touching::readAll() {
@@ -143,6 +150,7 @@ int Touching::chooseInstants(const TickTime& time) {
 
 std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
     for (Island* island : islands_) island->beginTick(time);
+    areCrossingsKnown_ = false;
     takeDamage();
     for (const Part& room : rooms_) {
         const IslandPlan& plan = room.island->plan();
@@ -156,8 +164,10 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
     readAll();
     if (hasJumped_) group_->drop();
     hasJumped_ = false;
+    const auto start = Clock::now();
     group_->begin(x1_);
     int instants = chooseInstants(time);
+    total_.seconds += secondsSince(start);
     for (;;) {
         std::vector<std::optional<Fault>> faults(islands_.size());
         for (Island* island : islands_) island->beginTry();
@@ -259,7 +269,11 @@ void Touching::meet(double h) {
             }
         }
     };
+    const auto start = Clock::now();
     meeting_ = group_->meet(instant);
+    total_.seconds += secondsSince(start);
+    total_.locatedInAll += static_cast<std::int64_t>(group_->located());
+    hasMet_ = hasMet_ || meeting_.pressing > 0;
     total_.slides += meeting_.slides;
     total_.zones += meeting_.zones;
     total_.uncertified += meeting_.uncertified;
@@ -268,7 +282,12 @@ void Touching::meet(double h) {
 ContactInfo Touching::info() const {
     ContactInfo info = total_;
     if (isEmpty()) return info;
-    for (const Body* body : bodies_) info.bodies.push_back(body->fullName());
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+        info.bodies.push_back(bodies_[s]->fullName());
+        const int surface = static_cast<int>(s);
+        info.surfaces.push_back({elements().surface(surface).thickness, elements().shortestEdge(surface)});
+    }
+    info.points = static_cast<int>(x1_.size());
     info.mostInstants = parts_;
     info.lastInstants = instants_;
     info.located = static_cast<int>(group_->located());
@@ -279,11 +298,25 @@ ContactInfo Touching::info() const {
 }
 
 std::vector<contact::Touching> Touching::contacts() const {
+    if (isEmpty()) return {};
     return group_->touching(x1_);
 }
 
-std::vector<contact::Crossing> Touching::crossings() const {
-    return group_->crossingsAt(x1_);
+std::span<const contact::Crossing> Touching::crossingsBefore() const {
+    if (isEmpty()) return {};
+    return group_->crossings();
+}
+
+const std::vector<contact::Crossing>& Touching::crossings() {
+    if (isEmpty()) return crossings_;
+    takeDamage();
+    if (areCrossingsKnown_) return crossings_;
+    if (hasJumped_) group_->drop();
+    hasJumped_ = false;
+    readAll();
+    crossings_ = group_->crossingsAt(x1_);
+    areCrossingsKnown_ = true;
+    return crossings_;
 }
 
 }  // namespace taut::world

@@ -36,16 +36,19 @@ class Touching {
     std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving);
 
     // Points have been put elsewhere than ticks led them.
-    void drop() { hasJumped_ = true; }
+    void drop() { hasJumped_ = true, areCrossingsKnown_ = false; }
 
     // What the last tick was like.
     int instants() const { return instants_; }
     const contact::Meeting& meeting() const { return meeting_; }
     ContactInfo info() const;
-    std::vector<contact::Touching> contacts() const;   // at its end
-    std::vector<contact::Crossing> crossings() const;  // now
+    std::vector<contact::Touching> contacts() const;             // at its end
+    std::span<const contact::Crossing> crossingsBefore() const;  // at its start
+    bool hasMet() const { return hasMet_; }                      // anything has pressed, in any tick
+    const std::vector<contact::Crossing>& crossings();           // now
+    dvec3 position(int point) const { return x1_[static_cast<std::size_t>(point)]; }  // [m] as the last of those saw it
     const contact::Elements& elements() const { return group_->elements(); }
-    const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }
+    std::span<const Body* const> bodies() const { return bodies_; }  // (surfaces)
 
   private:
     struct Part {
@@ -72,6 +75,9 @@ class Touching {
     std::vector<std::size_t> damage_;  // (surfaces) severed edges that are known
     std::unique_ptr<contact::Group> group_;
     bool hasJumped_ = true;
+    bool hasMet_ = false;
+    bool areCrossingsKnown_ = false;
+    std::vector<contact::Crossing> crossings_;
     std::vector<dvec3> x0_, x1_, v_;   // (points)
     std::vector<double> inverseMass_;  // (points)
     std::vector<contact::Held> held_;

@@ -227,6 +227,7 @@ std::optional<Divergence> World::Impl::tickIslands(const std::vector<ColliderMot
             alone[i]->freeze(*faults[i], time);
         }
     if (outcome) return diagnose(*outcome->island, outcome->fault);
+    if (!touching->isEmpty()) touchWatch.look(*touching, time.start());
     return std::nullopt;
 }
 
@@ -312,33 +313,16 @@ std::vector<IslandInfo> World::islands() const {
     return all;
 }
 
-ContactInfo World::contact() const {
-    impl_->findTouching();
-    return impl_->touching->info();
-}
-
 ode::Work World::work() const {
     ode::Work work;
     for (const auto& island : impl_->islands) work += island->work();
     return work;
 }
 
-bool World::hasTouched() const {
-    return std::any_of(
-        impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
-}
-
 std::vector<FrozenIsland> World::frozen() const {
     std::vector<FrozenIsland> all;
     for (const auto& island : impl_->islands)
         if (const FrozenIsland* frozen = island->frozen()) all.push_back(*frozen);
-    return all;
-}
-
-std::vector<std::string> World::warnings() const {
-    std::vector<std::string> all = impl_->jointWarnings;
-    for (const auto& island : impl_->islands)
-        for (const std::string& warning : island->warnings()) all.push_back(warning);
     return all;
 }
 
@@ -382,6 +366,7 @@ void World::destroy(ecs::Entity entity) {
         const Island* island = &w.islandOf(*part->body);
         TAUT_EXPECTS(island->plan().bodies.size() == 1);
         w.touching.reset();
+        w.touchWatch.forget(*part->body);
         std::erase_if(
             w.islands, [&](const auto& other) { return other.get() == island; });
         std::erase_if(w.bodies, [&](const Impl::Member& member) { return member.entity == entity; });

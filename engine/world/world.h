@@ -59,6 +59,8 @@ struct Metrics {                      // at a published tick, velocities synchro
     double penetration = 0;     // [m] largest depth of a free, colliding point inside a collider
     double minVolumeRatio = 1;  // smallest V/V0
     ode::Work work{};           // of the methods since the start
+    int bodyContacts = 0;       // pairs of parts of bodies that pressed each other at the end of the last tick
+    int crossings = 0;          // edges of bodies that touch, through triangles of such
 
     double energy() const { return kinetic + elastic + gravitational; }  // [J]
 };
@@ -117,9 +119,17 @@ struct IslandInfo {
 // Of bodies that touch others or themselves, since the scene began or a body came or went.
 struct ContactInfo {
     std::vector<std::string> bodies;  // "cloth.flag", …
-    int mostInstants = 0;             // a tick, at most
-    int lastInstants = 0;             // of the last tick
+    struct Surface {
+        double thickness = 0;     // [m]
+        double shortestEdge = 0;  // [m] at rest; 0: it has none
+    };
+    std::vector<Surface> surfaces;  // (bodies)
+    int points = 0;                 // of their islands
+    int mostInstants = 0;           // a tick, at most
+    int lastInstants = 0;           // of the last tick
     std::int64_t ticks = 0, instants = 0;
+    std::int64_t locatedInAll = 0;       // pairs that were looked at, in all instants
+    double seconds = 0;                  // of wall time, in all instants
     int located = 0, pressing = 0;       // pairs of the last instant: looked at, and with an impulse
     std::int64_t lists = 0;              // of pairs that were made
     std::int64_t slides = 0, zones = 0;  // pairs that had to be slid apart, and times that zones were moved as one
@@ -199,7 +209,7 @@ class World {
     ContactInfo contact() const;                // of bodies that touch
     std::vector<JointInfo> joints() const;      // in the order of the scene, those with colliders last
     ode::Work work() const;                     // of all methods since the start
-    bool hasTouched() const;                    // any contact, at any step since it was made or restored
+    bool hasTouched() const;                    // anything, a collider or a body, since it was made or restored
     std::vector<FrozenIsland> frozen() const;   // in the order of islands()
     std::vector<std::string> warnings() const;  // steps over the limit, working stretch left, frozen, …
 

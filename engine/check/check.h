@@ -8,9 +8,14 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "taut/world/world.h"
+
+namespace taut::world {
+class SurfaceGap;
+}
 
 namespace taut::check {
 
@@ -43,8 +48,11 @@ struct Outcome {
 struct Claim;
 class Now;
 
-// What targets name in a world, each found once as long as no body comes or goes.
-using Selections = std::map<std::string, world::Selection>;
+// What targets name in a world, and what is between two of them, each found once as long as no body comes or goes.
+struct Selections {
+    std::map<std::string, world::Selection> of;
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<world::SurfaceGap>> gaps;
+};
 
 class Check {
   public:

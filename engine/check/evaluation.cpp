@@ -6,13 +6,14 @@
 
 #include "taut/check/function_table.h"
 #include "taut/core/error.h"
+#include "taut/world/surface_gap.h"
 
 namespace taut::check {
 
 const world::Selection& Now::selection(const std::string& target) const {
-    const auto found = selections_.find(target);
-    if (found != selections_.end() && world_.isCurrent(found->second)) return found->second;
-    return selections_.insert_or_assign(target, world_.select(target)).first->second;
+    const auto found = selections_.of.find(target);
+    if (found != selections_.of.end() && world_.isCurrent(found->second)) return found->second;
+    return selections_.of.insert_or_assign(target, world_.select(target)).first->second;
 }
 
 const world::Metrics& Now::metrics(const std::string& bodies) const {
@@ -29,6 +30,20 @@ const world::PointsNow& Now::points(const std::string& target) const {
         throw core::Error(core::ErrorKind::badContent,
                           fmt::format("{} finds no points at {:.6g} s", target, world_.time()));
     return found->second;
+}
+
+world::SurfaceGap& Now::gap(const std::string& first, const std::string& second) const {
+    const world::Selection &a = selection(first), &b = selection(second);
+    for (const auto& [name, found] : {std::pair(first, &a), std::pair(second, &b)})
+        if (found->parts.empty())
+            throw core::Error(core::ErrorKind::badContent,
+                              fmt::format("{} finds no bodies at {:.6g} s", name, world_.time()));
+    if (a.parts.size() == 1 && b.parts.size() == 1 && a.parts[0].body == b.parts[0].body)
+        throw core::Error(core::ErrorKind::badContent,
+                          fmt::format("{} and {} are the same body, with nothing in between", first, second));
+    std::shared_ptr<world::SurfaceGap>& gap = selections_.gaps[{first, second}];
+    if (!gap || gap->generation() != a.generation) gap = std::make_shared<world::SurfaceGap>(a, b);
+    return *gap;
 }
 
 bool Expression::isMeasured() const {

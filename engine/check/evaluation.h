@@ -27,6 +27,8 @@ class Now {
     const world::Metrics& metrics(const std::string& bodies) const;  // empty: of all
     // Throws core::Error(badContent) if there are none.
     const world::PointsNow& points(const std::string& target) const;
+    // The same, or if they are one and the same body.
+    world::SurfaceGap& gap(const std::string& first, const std::string& second) const;
 
   private:
     const world::Selection& selection(const std::string& target) const;

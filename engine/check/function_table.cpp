@@ -21,7 +21,8 @@ const char* word(Takes takes) {
 
 std::vector<Function> joinedTable() {
     std::vector<Function> table = pointFunctions();
-    for (const auto& rows : {bodyFunctions(), numberFunctions()}) table.insert(table.end(), rows.begin(), rows.end());
+    for (const auto& rows : {bodyFunctions(), gapFunctions(), numberFunctions()})
+        table.insert(table.end(), rows.begin(), rows.end());
     return table;
 }
 

@@ -36,6 +36,7 @@ const std::vector<Function>& functionTable();
 // The rows by topic.
 std::vector<Function> pointFunctions();
 std::vector<Function> bodyFunctions();
+std::vector<Function> gapFunctions();
 std::vector<Function> numberFunctions();
 
 }  // namespace taut::check

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "taut/check/function_table.h"
+#include "taut/core/error.h"
 #include "unit/check_support.h"
 
 namespace taut::check {
@@ -126,6 +127,50 @@ TEST(CheckFunctions, DepthInsideAColliderIsMeasured) {
         sceneOf("[net.n]\npoints = [{ name = \"p\", position = [0, -0.25, 0] }]\nthickness = 0\n"
                 "[collider.ground]\nshape = \"plane\"\n"));
     EXPECT_NEAR(valueIn(world, "penetration(net.n)"), 0.25, rounding);
+}
+
+const std::string weightless = "[world]\ngravity = [0, 0, 0]\n";
+
+std::string lineOf(const std::string& name, const std::string& ends, int segments = 1) {
+    return "[rope." + name + "]\nends = " + ends + "\nsegments = " + std::to_string(segments) + "\n";
+}
+
+// Lines across each other, 0.3 and 0.5 m apart; what is cut of one is not there any more.
+TEST(CheckFunctions, GapsAreBetweenTheNearestPartsOfOtherBodies) {
+    world::World world(
+        sceneOf(weightless + lineOf("x", "[[0, 0, 0], [3, 0, 0]]", 3) +
+                lineOf("z1", "[[1.5, 0.3, -1], [1.5, 0.3, 1]]") + lineOf("z2", "[[1.5, -0.5, -1], [1.5, -0.5, 1]]") +
+                "[[at]]\nt = 0.01\ndo = \"cut\"\ntarget = \"rope.x\"\nplane = [[1.5, 0, 0], [1, 0, 0]]\n"));
+    EXPECT_NEAR(valueIn(world, "gap(rope.x, rope.z1)"), 0.3, rounding);
+    EXPECT_NEAR(valueIn(world, "gap(rope.x, rope.z2)"), 0.5, rounding);
+    EXPECT_NEAR(valueIn(world, "gap(rope.z*, rope.x)"), 0.3, rounding);
+    EXPECT_NEAR(valueIn(world, "gap(rope.z*, rope.z*)"), 0.8, rounding);
+    play(world, 2);
+    EXPECT_NEAR(valueIn(world, "gap(rope.x, rope.z1)"), std::hypot(0.3, 0.5), 1e-6);  // to the ends of the cut
+    EXPECT_THROW((void)valueIn(world, "gap(rope.x, rope.x)"), core::Error);
+}
+
+// 0.3 m apart, of which they keep 5 % more than the sum of their thicknesses while they touch.
+TEST(CheckFunctions, TouchingIsWithinTheSumOfThicknesses) {
+    for (const auto& [thickness, isTouching] : {std::pair{"0.1856", 0.0}, {"0.1858", 1.0}}) {
+        const world::World world(sceneOf(weightless + lineOf("x", "[[0, 0, 0], [3, 0, 0]]") + "thickness = 0.1\n" +
+                                         lineOf("z", "[[1.5, 0.3, -1], [1.5, 0.3, 1]]") + "thickness = " + thickness +
+                                         "\n"));
+        EXPECT_EQ(valueIn(world, "touching(rope.z, rope.x)"), isTouching) << thickness;
+    }
+}
+
+// A line through one of the two triangles of a cloth.
+TEST(CheckFunctions, WhatCrossesIsCountedAndHasNoGap) {
+    const std::string cloth =
+        "[material.m]\n[cloth.c]\nmaterial = \"m\"\nsize = [1, 1]\ncells = [1, 1]\ndown = [0, 0, 1]\n"
+        "touch = \"others\"\n";
+    const world::World world(
+        sceneOf(weightless + cloth + lineOf("r", "[[0.2, -1, 0.5], [0.2, 1, 0.5]]") + "touch = \"others\"\n"));
+    EXPECT_EQ(valueIn(world, "gap(cloth.c, rope.r)"), 0.0);
+    EXPECT_EQ(valueIn(world, "crossings()"), 1.0);
+    EXPECT_EQ(valueIn(world, "crossings(rope.r)"), 1.0);
+    EXPECT_EQ(valueIn(world, "body_contacts"), 0.0);
 }
 
 TEST(CheckFunctions, NumbersAreComputedLikeNumbers) {

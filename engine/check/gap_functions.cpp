@@ -1,0 +1,42 @@
+// What is measured between bodies.
+#include "taut/check/function_table.h"
+#include "taut/world/surface_gap.h"
+
+namespace taut::check {
+
+namespace {
+
+using Arguments = std::span<const Expression>;
+
+Quantity gap(const Now& now, Arguments a) {
+    return {glm::dvec3(now.gap(a[0].target, a[1].target).measure(), 0, 0)};
+}
+Quantity touching(const Now& now, Arguments a) {
+    return {glm::dvec3(now.gap(a[0].target, a[1].target).areNear() ? 1 : 0, 0, 0)};
+}
+
+}  // namespace
+
+std::vector<Function> gapFunctions() {
+    const std::vector<Takes> two{Takes::bodies, Takes::bodies};
+    return {
+        {"gap",
+         two,
+         false,
+         false,
+         "m",
+         "Least distance of the surfaces of two bodies, `touch` or not; 0 where they cross.",
+         gap,
+         {}},
+        {"touching",
+         two,
+         false,
+         false,
+         "",
+         "1 while two bodies are as near as the sum of their thicknesses and 5 % more, else 0.",
+         touching,
+         {}},
+    };
+}
+
+}  // namespace taut::check

@@ -1,0 +1,42 @@
+// How far the surfaces of bodies are from those of others; made once, for many questions. Bodies need not touch.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "taut/contact/elements.h"
+#include "taut/contact/patches.h"
+#include "taut/world/world.h"
+
+namespace taut::world {
+
+class SurfaceGap {
+  public:
+    // Of whole bodies, whatever points the selections have, and none against itself. Serves until a body comes or goes.
+    SurfaceGap(const Selection& first, const Selection& second);
+    SurfaceGap(const SurfaceGap&) = delete;
+    SurfaceGap& operator=(const SurfaceGap&) = delete;
+
+    std::int64_t generation() const { return generation_; }  // of the world's bodies
+    // The least distance [m]; 0 where one goes through the other. Infinite where there are no two bodies to measure
+    // between.
+    double measure();
+    // Whether any two of them are as near as those that touch keep: the sum of their thicknesses and 5 % of it.
+    bool areNear();
+
+  private:
+    void look();
+    bool cross(const std::vector<bool>& first, const std::vector<bool>& second);
+    double distance(const std::vector<bool>& first, const std::vector<bool>& second);
+    double least(std::vector<bool> first, const std::vector<bool>& second);
+
+    std::int64_t generation_;
+    std::vector<const Body*> bodies_;       // (surfaces)
+    std::vector<std::size_t> damage_;       // (surfaces) severed edges that are known
+    std::vector<bool> isFirst_, isSecond_;  // (surfaces)
+    std::vector<glm::dvec3> x_;             // (points of each body after the other)
+    std::unique_ptr<contact::Elements> elements_;
+    std::unique_ptr<contact::Patches> patches_;
+};
+
+}  // namespace taut::world

@@ -17,6 +17,7 @@
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/body_size.h"
+#include "taut/world/touch_doubts.h"
 #include "taut/world/world.h"
 
 namespace taut::game {
@@ -61,15 +62,16 @@ TickCost measuredCost(world::World& world) {
 }
 
 bool mayHaveContacts(const world::SceneSpec& spec) {
-    return !spec.colliders.empty() &&
-           std::any_of(
-               spec.bodies.begin(), spec.bodies.end(), [](const world::BodySpec& body) { return body.collide; });
+    const auto collides = [](const world::BodySpec& body) { return body.collide; };
+    return world::bodiesTouch(spec) ||
+           (!spec.colliders.empty() && std::any_of(spec.bodies.begin(), spec.bodies.end(), collides));
 }
 
 struct Facts {
     world::SceneSpec spec;
     std::vector<world::IslandInfo> islands;
     std::vector<world::JointInfo> joints;
+    world::ContactInfo contact;  // of the ticks that were measured
     std::vector<std::string> warnings;
     double tickSeconds = 0.0;
     int ticksPerFrame = 1;
@@ -85,10 +87,12 @@ Facts gatherFacts(const InfoFlags& flags) {
     facts.islands = world.islands();
     facts.joints = world.joints();
     facts.warnings = world.warnings();
+    for (const std::string& doubt : world::touchDoubts(world)) facts.warnings.push_back(doubt);
     facts.tickSeconds = world.tickSeconds();
     facts.ticksPerFrame = world.ticksPerFrame();
     facts.frames = pipeline::frameCount(facts.spec.run);
     facts.cost = measuredCost(world);
+    facts.contact = world.contact();
     return facts;
 }
 
@@ -126,6 +130,32 @@ Json jointJson(const world::JointInfo& joint) {
             {"loose", joint.loose}};
 }
 
+double meanInstants(const world::ContactInfo& contact) {
+    return contact.ticks > 0 ? static_cast<double>(contact.instants) / static_cast<double>(contact.ticks) : 0.0;
+}
+
+// [s] of wall time, of a point and instant.
+double instantSeconds(const world::ContactInfo& contact) {
+    const double instants = static_cast<double>(contact.instants) * contact.points;
+    return instants > 0 ? contact.seconds / instants : 0.0;
+}
+
+Json contactJson(const world::ContactInfo& contact) {
+    if (contact.bodies.empty()) return nullptr;
+    Json bodies = Json::array();
+    for (std::size_t i = 0; i < contact.bodies.size(); ++i)
+        bodies.push_back({{"name", contact.bodies[i]},
+                          {"thickness_m", contact.surfaces[i].thickness},
+                          {"shortest_edge_m", contact.surfaces[i].shortestEdge}});
+    return {{"bodies", std::move(bodies)},
+            {"points", contact.points},
+            {"most_instants", contact.mostInstants},
+            {"mean_instants", meanInstants(contact)},
+            {"ticks", contact.ticks},
+            {"s_per_point_and_instant", instantSeconds(contact)},
+            {"bytes", contact.bytes}};
+}
+
 void printJson(const Facts& facts) {
     Json islands = Json::array(), joints = Json::array();
     for (const world::IslandInfo& island : facts.islands) islands.push_back(islandJson(island));
@@ -141,6 +171,7 @@ void printJson(const Facts& facts) {
                        {"contacts_may_come", mayHaveContacts(facts.spec)},
                        {"islands", std::move(islands)},
                        {"joints", std::move(joints)},
+                       {"contact", contactJson(facts.contact)},
                        {"colliders", facts.spec.colliders.size()},
                        {"warnings", facts.warnings}};
     printResult("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
@@ -170,6 +201,34 @@ void printJoint(const world::JointInfo& joint) {
     printResult("\n{} {} – {}: {} point{}\n", joint.isWeld ? "weld" : "spring joint", joint.a, joint.b, points,
                 points == 1 ? "" : "s");
     for (const auto& pair : joint.pairs) printResult("  {} – {}  {}\n", pair.a, pair.b, pair.points);
+}
+
+std::string lengthText(double metres) {
+    return metres < 0.01 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
+}
+
+void printContact(const world::ContactInfo& contact) {
+    if (contact.bodies.empty()) return;
+    printResult("\ncontact of {}\n", fmt::join(contact.bodies, ", "));
+    printResult("  instants    {} a tick at most{}\n", contact.mostInstants,
+                contact.ticks > 0
+                    ? fmt::format(", {:.3g} in the mean of the first {} ticks", meanInstants(contact), contact.ticks)
+                    : "");
+    if (contact.ticks > 0)
+        printResult("  cost        {:.3g} ns a point and instant, {} points\n", 1e9 * instantSeconds(contact),
+                    contact.points);
+    // Of the body whose layers lie furthest apart for its cells.
+    std::size_t worst = 0;
+    const auto share = [&](std::size_t i) {
+        const world::ContactInfo::Surface& surface = contact.surfaces[i];
+        return surface.shortestEdge > 0 ? surface.thickness / surface.shortestEdge : 0.0;
+    };
+    for (std::size_t i = 1; i < contact.bodies.size(); ++i)
+        if (share(i) > share(worst)) worst = i;
+    const world::ContactInfo::Surface& surface = contact.surfaces[worst];
+    printResult("  distance    layers of {} lie {} apart, its shortest edge is {}\n", contact.bodies[worst],
+                lengthText(2 * surface.thickness), lengthText(surface.shortestEdge));
+    printResult("  memory      {:.3g} MB\n", static_cast<double>(contact.bytes) / 1e6);
 }
 
 // "9.1 to 9.9 ms".
@@ -204,6 +263,7 @@ void printTable(const Facts& facts) {
                 spec.picture.size.y);
     for (const world::IslandInfo& island : facts.islands) printIsland(island);
     for (const world::JointInfo& joint : facts.joints) printJoint(joint);
+    printContact(facts.contact);
 
     int points = 0;
     int springs = 0;

@@ -164,4 +164,24 @@ std::vector<Body> buildBodies(const SceneSpec& spec) {
     return bodies;
 }
 
+double shortestEdge(const Body& body) {
+    const mechanics::Model& model = body.model;
+    double least = HUGE_VAL;
+    const auto look = [&](int a, int b) {
+        const dvec3 d = model.positions[static_cast<std::size_t>(a)] - model.positions[static_cast<std::size_t>(b)];
+        least = std::min(least, std::sqrt(glm::dot(d, d)));
+    };
+    for (const std::array<int, 3>& t : model.triangles)
+        for (std::size_t k = 0; k < 3; ++k) look(t[k], t[(k + 1) % 3]);
+    if (!model.triangles.empty()) return least;
+    for (const mechanics::Spring& s : model.springs)
+        if (s.kind == mechanics::SpringKind::structural) look(s.a, s.b);
+    return least;
+}
+
+bool bodiesTouch(const SceneSpec& spec) {
+    return std::any_of(
+        spec.bodies.begin(), spec.bodies.end(), [](const BodySpec& body) { return body.touch != Touch::nothing; });
+}
+
 }  // namespace taut::world

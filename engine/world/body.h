@@ -58,4 +58,8 @@ std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string&
 
 std::vector<Body*> pointersTo(std::vector<Body>& bodies);
 
+// [m] at the start, of what others touch: its triangles, or its structural springs if it has none. Infinite if it has
+// no edges.
+double shortestEdge(const Body& body);
+
 }  // namespace taut::world

@@ -74,7 +74,8 @@ class Outlook {
             for (std::size_t j = i + 1; j < ways_.size() && ways_[j].whole.low.x < ways_[i].whole.high.x; ++j) {
                 const Way &a = ways_[i], &b = ways_[j];
                 if (++trials_ > mostTrials) return found;
-                if (a.group == b.group || !a.whole.overlaps(b.whole) || !meet(a, b)) continue;
+                const bool bothTouch = a.body->spec->touch != Touch::nothing && b.body->spec->touch != Touch::nothing;
+                if (a.group == b.group || bothTouch || !a.whole.overlaps(b.whole) || !meet(a, b)) continue;
                 const bool isBefore = sortsBefore(*a.body, *b.body);
                 found.emplace_back((isBefore ? a : b).body->fullName(), (isBefore ? b : a).body->fullName());
             }

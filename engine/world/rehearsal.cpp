@@ -9,6 +9,7 @@
 #include "taut/world/kinds.h"
 #include "taut/world/pins.h"
 #include "taut/world/ticks.h"
+#include "taut/world/touch_doubts.h"
 
 namespace taut::world {
 namespace {
@@ -62,8 +63,8 @@ void warnOfEncounters(World& world, std::vector<std::string>& warnings) {
     const auto pairs = encounters(world);
     for (std::size_t i = 0; i < std::min(most, pairs.size()); ++i)
         warnings.push_back(pairs[i].first + " and " + pairs[i].second +
-                           " come into each other's way: bodies do not collide with each other yet, they pass "
-                           "through; keep them apart, or tie them by a joint");
+                           " come into each other's way and pass through each other: give both touch = \"others\", "
+                           "keep them apart, or tie them by a joint");
     if (pairs.size() > most)
         warnings.push_back(std::to_string(pairs.size() - most) + " more pairs of bodies come into each other's way");
 }
@@ -92,6 +93,7 @@ Rehearsal rehearse(const SceneSpec& scene) {
     Rehearsal rehearsal;
     World world(scene);
     warnOfEncounters(world, rehearsal.warnings);
+    for (std::string& doubt : touchDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
     for (const auto& island : WorldAccess::of(world).islands)
         if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
     for (const IslandInfo& island : world.islands())

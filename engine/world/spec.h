@@ -97,4 +97,7 @@ struct SceneSpec {
     std::vector<GoldenSpec> goldens;
 };
 
+// Whether any body of it touches others or itself.
+bool bodiesTouch(const SceneSpec& spec);
+
 }  // namespace taut::world

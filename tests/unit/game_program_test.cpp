@@ -179,6 +179,23 @@ TEST(Program, InfoGivesProcessorTimeAsARangeAndSaysThatContactsCostMore) {
     EXPECT_TRUE(has(ground, "; contacts to come cost more")) << ground;
 }
 
+TEST(Program, InfoTellsOfContactBetweenBodies) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    EXPECT_TRUE(nlohmann::json::parse(run({"info", scene, "--json"}).out)["contact"].is_null());
+    test::writeText(folder / "two.toml",
+                    "schema = 1\n[rope.a]\nends = [[0, 0, 0], [1, 0, 0]]\nsegments = 4\ntouch = \"all\"\n"
+                    "[rope.b]\nends = [[0, 2, 0], [1, 2, 0]]\nsegments = 2\nthickness = 0.2\ntouch = \"others\"\n");
+    const std::string two = (folder / "two.toml").string();
+    const auto contact = nlohmann::json::parse(run({"info", two, "--json"}).out)["contact"];
+    EXPECT_EQ(contact["points"], 5 + 3);
+    EXPECT_EQ(contact["bodies"][0]["shortest_edge_m"], 0.25);
+    EXPECT_GE(contact["most_instants"].get<double>(), contact["mean_instants"].get<double>());
+    const std::string text = run({"info", two}).out;
+    EXPECT_TRUE(has(text, "\ncontact of rope.a, rope.b\n  instants    ")) << text;
+    EXPECT_TRUE(has(text, "layers of rope.b lie 0.4 m apart, its shortest edge is 0.5 m\n")) << text;
+}
+
 TEST(Program, InfoListsWhatJointsTie) {
     const TemporaryFolder folder;
     test::writeText(folder / "tied.toml",

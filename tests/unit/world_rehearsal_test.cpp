@@ -84,8 +84,8 @@ TEST(Rehearsal, WarnsOfAFewBodiesThatComeIntoEachOthersWay) {
     EXPECT_TRUE(rehearsal.faults.empty());
     ASSERT_EQ(rehearsal.warnings.size(), 9U);
     EXPECT_EQ(rehearsal.warnings[0],
-              "rope.r0 and rope.r1 come into each other's way: bodies do not collide with each other yet, they pass "
-              "through; keep them apart, or tie them by a joint");
+              "rope.r0 and rope.r1 come into each other's way and pass through each other: give both touch = "
+              "\"others\", keep them apart, or tie them by a joint");
     EXPECT_EQ(rehearsal.warnings[8], "2 more pairs of bodies come into each other's way");  // of ten
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
@@ -161,7 +162,7 @@ void verify(const PlanContext& context, Plan& plan) {
     if (context.resolution.count == 0) return;
 
     Candidate twice = quarter;
-    twice.count = 2 * trial.candidate.count;
+    twice.count = std::min(2 * trial.candidate.count, std::max(context.resolution.most, trial.candidate.count));
     twice.without.clear();
     twice = withFinerSteps(twice);
     plan.verification.count = twice.count;
@@ -216,6 +217,11 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
     for (const auto& [name, why] : context.resolution.fixed) add(fmt::format("{} keeps its cells: {}.", name, why));
     add(fmt::format("The reference is {}; its own error, cells included, is about {}.", plan.referenceMethod,
                     lengthText(reference.error)));
+    if (context.resolution.most < std::numeric_limits<int>::max())
+        add(fmt::format(
+            "No more than {} cells are tried: with smaller ones bodies that touch would keep further apart than "
+            "those are wide; a smaller thickness would allow more.",
+            context.resolution.most));
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
     if (plan.predicted)
         add(fmt::format(

@@ -48,6 +48,19 @@ void tieBodies(const SceneSpec& spec, std::map<std::string, std::string>& fixed)
         if (namesPlaces(world::parseTarget(mass.target).selector)) tie(mass.target, "a mass hangs at a single point");
 }
 
+// Layers of a body keep twice its thickness, and its own cells must not be smaller than that; as written they may.
+void limitCells(const SceneSpec& spec, Resolution& resolution) {
+    if (!world::bodiesTouch(spec)) return;
+    for (const world::Body& body : world::buildBodies(withoutJitter(spec))) {
+        const auto& scalable = resolution.scalable;
+        const bool isScalable = std::find(scalable.begin(), scalable.end(), body.spec->fullName()) != scalable.end();
+        if (!isScalable || body.spec->touch == world::Touch::nothing || !(body.spec->thickness > 0)) continue;
+        const double finer = std::max(1.0, world::shortestEdge(body) / (2 * body.spec->thickness));
+        resolution.most = static_cast<int>(
+            std::min(static_cast<double>(resolution.most), std::floor(resolution.count * finer * (1 + 1e-9))));
+    }
+}
+
 int scaled(int count, double scale, int least) {
     return std::max(std::min(count, least), static_cast<int>(std::lround(count * scale)));
 }
@@ -113,6 +126,7 @@ Resolution resolutionOf(const SceneSpec& spec) {
         add(block, std::max({block.cells.x, block.cells.y, block.cells.z}));
     for (const world::NetSpec& net : spec.bodies.of<world::NetSpec>())
         resolution.fixed.emplace(net.fullName(), "its points and springs are listed one by one");
+    limitCells(spec, resolution);
     return resolution;
 }
 

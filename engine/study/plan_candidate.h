@@ -2,6 +2,7 @@
 // that comes of it. It runs nothing.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -27,7 +28,9 @@ std::vector<Generator> generatorsOf(const world::SceneSpec& spec);
 
 // Which bodies may be built of more or fewer cells, and why the others may not.
 struct Resolution {
-    int count = 0;                             // cells or segments along the longest edge of all that may; 0: none may
+    int count = 0;  // cells or segments along the longest edge of all that may; 0: none may
+    int most =
+        std::numeric_limits<int>::max();       // beyond it cells of bodies that touch are smaller than they keep apart
     std::vector<std::string> scalable;         // "cloth.flag", …
     std::map<std::string, std::string> fixed;  // by body, why
 };

@@ -48,7 +48,7 @@ ExactMethod exactMethod(const PlanContext& context, int count) {
 }
 
 // Cells along the longest edge, from two on, each about twice the one before, the scene's own among them.
-std::vector<int> ladder(int count) {
+std::vector<int> ladder(int count, int most) {
     std::vector<int> counts;
     for (int c = count; c >= 2; c = (c + 1) / 2) {
         counts.push_back(c);
@@ -56,7 +56,8 @@ std::vector<int> ladder(int count) {
     }
     if (counts.empty()) counts.push_back(count);
     std::reverse(counts.begin(), counts.end());
-    for (int c = 2 * count; c <= mostTimesFiner * count; c *= 2) counts.push_back(c);
+    for (int c = 2 * count; c <= std::min(mostTimesFiner * count, most); c *= 2) counts.push_back(c);
+    if (most < mostTimesFiner * count && most > counts.back()) counts.push_back(most);
     return counts;
 }
 
@@ -156,7 +157,8 @@ double exactEffort(const PlanContext& context, int count) {
 
 ExactRun exactRun(const PlanContext& context, int count, double effortShare) {
     const ExactMethod exact = exactMethod(context, count);
-    const bool isControlled = exact.candidate.method == "rk4" && context.spec.colliders.empty();
+    const bool isControlled =
+        exact.candidate.method == "rk4" && context.spec.colliders.empty() && !world::bodiesTouch(context.spec);
     if (isControlled) {
         ExactRun run = controlledRun(context, count);
         if (run.run.isWhole() && run.run.work.unconverged == 0) return run;
@@ -177,7 +179,7 @@ PlanReference makePlanReference(const PlanContext& context) {
     double before = 0, ofResolution = HUGE_VAL;
     PlanRun last;          // by the cells before
     PlanRun extrapolated;  // from those and the ones before them
-    for (const int count : ladder(context.resolution.count)) {
+    for (const int count : ladder(context.resolution.count, context.resolution.most)) {
         const bool isFirst = reference.count == 0;
         if (!isFirst && 2 * exactEffort(context, count) > context.left(shareOfReference)) {
             context.isCutShort = true;

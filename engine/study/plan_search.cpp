@@ -56,7 +56,8 @@ class Search {
         }
         for (std::size_t i = preferred_; i < names.size(); ++i)
             tryMethod(std::min(count, reference_.count), names[i], true);
-        for (int more = 1; more <= moreCounts && !isFixed && plan_.chosen; ++more)
+        for (int more = 1; more <= moreCounts && count + more <= context_.resolution.most && !isFixed && plan_.chosen;
+             ++more)
             for (const std::string& method : names) tryMethod(count + more, method, false);
     }
 

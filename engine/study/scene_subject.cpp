@@ -113,7 +113,9 @@ class SceneSubject final : public Subject {
     double frame() const override { return 1.0 / spec_.run.fps; }
 
     std::string caution() const override {
-        return spec_.colliders.empty() ? "" : "Contacts are of order 1 in the step, whatever the method.";
+        return spec_.colliders.empty() && !world::bodiesTouch(spec_)
+                   ? ""
+                   : "Contacts are of order 1 in the step, whatever the method.";
     }
 
   private:

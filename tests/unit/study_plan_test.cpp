@@ -110,6 +110,17 @@ TEST(PlanModel, WhatIsTiedToItsPointsKeepsThem) {
     EXPECT_TRUE(has(resolution.fixed.at("rope.a"), "joint"));
 }
 
+// Layers keep 0.02 m, the cells of a square metre are 1/12 of it and more.
+TEST(PlanModel, CellsOfBodiesThatTouchAreNotSmallerThanTheyKeepApart) {
+    world::SceneSpec scene = sceneWithNeed();
+    EXPECT_GT(resolutionOf(scene).most, 1000000);
+    scene.bodies.of<world::ClothSpec>()[0].touch = world::Touch::all;
+    scene.bodies.of<world::ClothSpec>()[0].thickness = 0.01;
+    EXPECT_EQ(resolutionOf(scene).most, 50);
+    scene.bodies.of<world::ClothSpec>()[0].thickness = 0.1;
+    EXPECT_EQ(resolutionOf(scene).most, 12) << "as written they may be";
+}
+
 TEST(PlanModel, EveryGeneratorIsListedAndCanBeLeftOut) {
     world::SceneSpec scene = sceneWithNeed();
     scene.bodies.of<world::ClothSpec>()[0].material = "m";
@@ -174,6 +185,17 @@ TEST(PlanRuns, CountSpringsTimesEvaluations) {
     ASSERT_TRUE(run.isWhole());
     // RK4 evaluates four times a step.
     EXPECT_EQ(run.cost, facts.cost * 4 * facts.leastSubsteps * 3);
+}
+
+TEST(PlanRuns, CountContactBetweenBodies) {
+    world::SceneSpec scene = sceneWithNeed();
+    const Resolution resolution = resolutionOf(scene);
+    PlanGrid grid;
+    const double alone = play(scene, resolution, grid).cost;
+    scene.bodies.of<world::ClothSpec>()[0].touch = world::Touch::all;
+    const PlanRun run = play(scene, resolution, grid);
+    EXPECT_GT(run.cost, alone);
+    EXPECT_GT(run.effort - run.cost, 0);
 }
 
 TEST(PlanRuns, DoNotCountTheStart) {

@@ -65,6 +65,15 @@ std::string manual(const world::Kinds& kinds) {
         "  collider.NAME on one side does the same with points of any body, or draws them by springs; do = \"hold\"\n"
         "  with hold_on ties points while the scene runs, and \"free\" lets them go. They are where the collider is\n"
         "  at every moment, turned with it, and no collider stops them.\n\n"
+        "Bodies that touch\n"
+        "  touch = \"others\" of two bodies keeps their surfaces apart, touch = \"all\" a body's own parts as well: "
+        "by\n"
+        "  the sum of their thicknesses, so thickness should be no more than half of the shortest cell. [contact] has\n"
+        "  their friction, and at how many instants of a tick they are looked at. Bodies that cross as they start\n"
+        "  are drawn apart, and said: taut check names them. metrics.csv has body_contacts, the places that press on\n"
+        "  each other as a frame ends, and crossings, edges that go through triangles; `contacts` are of points with\n"
+        "  colliders alone. --debug shows the former in blue, with a line from surface to surface, crossings in "
+        "red.\n\n"
         "Ramps\n"
         "  do = \"ramp\" changes a number or a list of numbers from its value at that moment:\n\n";
     for (const std::string& line : rampableKeys(sceneSections(kinds))) out += "  " + line + "\n";

@@ -39,8 +39,9 @@ inline OnTriangle nearestOnTriangle(const dvec3& p, const dvec3& a, const dvec3&
     const double abBp = glm::dot(ab, bp), acBp = glm::dot(ac, bp);
     if (abBp >= 0 && acBp <= abBp) return {{0, 1, 0}, Feature::corner1};
     const double areaC = abAp * acBp - abBp * acAp;
-    if (areaC <= 0 && abAp >= 0 && abBp <= 0) {
-        const double s = abAp - abBp > 0 ? abAp / (abAp - abBp) : 0.0;
+    // Of corners a and b in one place the edge to c has it.
+    if (areaC <= 0 && abAp >= 0 && abBp <= 0 && abAp > abBp) {
+        const double s = abAp / (abAp - abBp);
         return {{1 - s, s, 0}, Feature::edge0};
     }
     const dvec3 cp = p - c;

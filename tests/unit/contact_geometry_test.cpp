@@ -1,0 +1,200 @@
+// Nearest places, certificates and piercings, against sampling.
+#include "contact_support.h"
+#include "taut/contact/closest.h"
+#include "taut/contact/guard.h"
+#include "taut/contact/near_pairs.h"
+
+namespace taut::contact {
+namespace {
+
+// Of corners now and then in a line, or at one place.
+std::array<dvec3, 4> fourPoints(Dice& dice, int n) {
+    std::array<dvec3, 4> p{dice.vector(), dice.vector(), dice.vector(), dice.vector()};
+    if (n % 10 == 1) p[3] = 0.5 * (p[1] + p[2]);
+    if (n % 10 == 2) p[2] = p[1];
+    if (n % 10 == 3) p[3] = p[2] + (p[1] - p[0]);  // two segments side by side
+    if (n % 10 == 4) p[1] = p[0];
+    if (n % 10 == 5) p[3] = p[2] = p[1];
+    return p;
+}
+
+TEST(ContactNearest, OnATriangleNoSampleIsNearer) {
+    Dice dice(1);
+    constexpr int grid = 40;
+    for (int n = 0; n < 500; ++n) {
+        const auto p = fourPoints(dice, n);
+        const OnTriangle on = nearestOnTriangle(p[0], p[1], p[2], p[3]);
+        const auto& w = on.weights;
+        for (double weight : w) EXPECT_GE(weight, -1e-15) << n;
+        EXPECT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-14);
+        const double found = glm::distance(p[0], w[0] * p[1] + w[1] * p[2] + w[2] * p[3]);
+        double least = 1e300;
+        for (int i = 0; i <= grid; ++i)
+            for (int j = 0; i + j <= grid; ++j) {
+                const double a = static_cast<double>(i) / grid, b = static_cast<double>(j) / grid;
+                least = std::min(least, glm::distance(p[0], a * p[1] + b * p[2] + (1 - a - b) * p[3]));
+            }
+        EXPECT_LE(found, least + 1e-12) << n;
+        // Its feature is the one that the weights name.
+        const int zeros = (w[0] == 0 ? 1 : 0) + (w[1] == 0 ? 1 : 0) + (w[2] == 0 ? 1 : 0);
+        const int kind = on.feature == Feature::face ? 0 : (on.feature < Feature::corner0 ? 1 : 2);
+        EXPECT_GE(zeros, kind) << n;
+    }
+}
+
+TEST(ContactNearest, OnSegmentsNoSampleIsNearer) {
+    Dice dice(2);
+    constexpr int grid = 60;
+    for (int n = 0; n < 500; ++n) {
+        const auto p = fourPoints(dice, n);
+        const OnSegments on = nearestOnSegments(p[0], p[1], p[2], p[3]);
+        EXPECT_EQ(on.s, clampShare(on.s));
+        EXPECT_EQ(on.t, clampShare(on.t));
+        const auto distance = [&](double s, double t) {
+            return glm::distance(p[0] + s * (p[1] - p[0]), p[2] + t * (p[3] - p[2]));
+        };
+        double least = 1e300;
+        for (int i = 0; i <= grid; ++i)
+            for (int j = 0; j <= grid; ++j)
+                least = std::min(least, distance(static_cast<double>(i) / grid, static_cast<double>(j) / grid));
+        EXPECT_LE(distance(on.s, on.t), least + 1e-12) << n;
+    }
+}
+
+// Of the sides of a pair at places p, as the group finds them.
+MeetingPair pairAt(const std::array<dvec3, 4>& p, bool isPoint) {
+    MeetingPair pair{};
+    pair.points = {0, 1, 2, 3};
+    pair.isPoint = isPoint;
+    if (isPoint) {
+        const OnTriangle on = nearestOnTriangle(p[0], p[1], p[2], p[3]);
+        pair.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
+    } else {
+        const OnSegments on = nearestOnSegments(p[0], p[1], p[2], p[3]);
+        pair.weights = {1 - on.s, on.s, on.t - 1, -on.t};
+    }
+    dvec3 apart(0.0);
+    for (std::size_t k = 0; k < 4; ++k) apart += pair.weights[k] * p[k];
+    pair.apart = glm::length(apart);
+    pair.normal = apart / pair.apart;
+    return pair;
+}
+
+// Least distance of the sides at any of many times; and whether the four became one plane inside both at any.
+bool passThroughEachOther(const std::array<dvec3, 4>& from, const std::array<dvec3, 4>& to, bool isPoint) {
+    const auto at = [&](double t) {
+        std::array<dvec3, 4> x;
+        for (std::size_t k = 0; k < 4; ++k) x[k] = from[k] + t * (to[k] - from[k]);
+        return x;
+    };
+    const auto volume = [&](double t) {
+        const auto x = at(t);
+        return test::sixVolumes(x[0], x[1], x[2], x[3]);
+    };
+    constexpr int times = 400;
+    for (int k = 0; k < times; ++k) {
+        double low = static_cast<double>(k) / times, high = static_cast<double>(k + 1) / times;
+        const bool isAbove = volume(low) > 0;
+        if (isAbove == (volume(high) > 0)) continue;
+        for (int i = 0; i < 50; ++i) (((volume(0.5 * (low + high)) > 0) == isAbove) ? low : high) = 0.5 * (low + high);
+        if (pairAt(at(low), isPoint).apart < 1e-9) return true;
+    }
+    return false;
+}
+
+// Ways of about the distance, as common motion, turns and approaches; half of the passages are real.
+TEST(ContactCertificate, IsNeverGivenToWhatPassesThroughEachOther) {
+    Dice dice(5);
+    int passages = 0, certified = 0, clear = 0;
+    for (int n = 0; n < 6000; ++n) {
+        const bool isPoint = n % 2 == 0;
+        const std::array<dvec3, 4> from{dice.vector(), dice.vector(), dice.vector(), dice.vector()};
+        std::array<dvec3, 4> to = from;
+        const dvec3 common = 5.0 * dice.vector(), first = dice.vector();
+        for (std::size_t k = 0; k < 4; ++k) {
+            to[k] += common + 0.3 * dice.vector();
+            if (k < (isPoint ? 1U : 2U)) to[k] += first;
+        }
+        const MeetingPair pair = pairAt(from, isPoint);
+        const std::vector<dvec3> x0(from.begin(), from.end()), x1(to.begin(), to.end());
+        const bool isCertain = isCertified(pair, x0, x1), passes = passThroughEachOther(from, to, isPoint);
+        EXPECT_FALSE(isCertain && passes) << n;
+        passages += passes ? 1 : 0;
+        certified += isCertain ? 1 : 0;
+        clear += passes ? 0 : 1;
+    }
+    EXPECT_GT(passages, 300);
+    // It is of use only if it is given to nearly all others.
+    EXPECT_GT(certified, 0.85 * clear);
+}
+
+// What does not approach is certified however fast it goes.
+TEST(ContactCertificate, IsGivenToWhatMovesAlike) {
+    Dice dice(6);
+    for (int n = 0; n < 200; ++n) {
+        const std::array<dvec3, 4> from{dice.vector(), dice.vector(), dice.vector(), dice.vector()};
+        const MeetingPair pair = pairAt(from, n % 2 == 0);
+        const dvec3 way = 1e3 * dice.vector();
+        std::vector<dvec3> x0(from.begin(), from.end()), x1;
+        for (const dvec3& x : x0) x1.push_back(x + way);
+        EXPECT_TRUE(isCertified(pair, x0, x1)) << n;
+    }
+}
+
+// Two formulations of the same question; edges of triangles that cross in general, or only nearly.
+TEST(ContactPiercing, IsWhatTheSignsOfVolumesSay) {
+    Dice dice(8);
+    int through = 0;
+    for (int n = 0; n < 4000; ++n) {
+        const std::array<dvec3, 3> t{dice.vector(), dice.vector(), dice.vector()};
+        const dvec3 p = dice.vector(), q = dice.vector();
+        Piercing found;
+        const bool isThrough = pierces(p, q, t[0], t[1], t[2], found);
+        EXPECT_EQ(isThrough, test::goesThrough(p, q, t)) << n;
+        if (!isThrough) continue;
+        ++through;
+        const dvec3 on = found.weights[0] * t[0] + found.weights[1] * t[1] + found.weights[2] * t[2];
+        EXPECT_LT(glm::distance(on, p + found.s * (q - p)), 1e-12);
+    }
+    EXPECT_GT(through, 300);
+}
+
+// A rope of segments of L = 10 mm that is 2 × 10 mm thick: neighbours but one are L apart at rest and keep 0.7 L, those
+// after them 2 L and keep 1.4 L, all others the thickness.
+TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
+    constexpr double L = 0.01, thickness = 0.01;
+    constexpr int segments = 6;
+    Surface surface;
+    surface.thickness = thickness;
+    std::vector<dvec3> rest;
+    for (int i = 0; i <= segments; ++i) {
+        rest.push_back({i * L, 0.0, 0.0});
+        surface.points.push_back(i);
+        if (i > 0) surface.lines.push_back({i - 1, i});
+    }
+    const Elements elements({surface}, rest);
+    NearPairs near(elements);
+    near.find(rest, rest);
+    int listed = 0;
+    for (std::size_t r = 0; r < near.nearCount(); ++r)
+        for (const NearPair& pair : near.near(r).pairs) {
+            const int between = std::abs(pair.a - pair.b) - 1;  // segments
+            EXPECT_NEAR(pair.distance, std::min(2 * thickness, 0.7 * between * L), 1e-15) << pair.a << ", " << pair.b;
+            EXPECT_NEAR(pair.d0, between * L, 1e-15);
+            ++listed;
+        }
+    EXPECT_GE(listed, 4 + 3);  // those that are up to 2 L apart
+}
+
+// So nothing of it is in contact as it was built, however thick it is.
+TEST(ContactDistance, LeavesAThickSheetAsItWasBuilt) {
+    Flight flight;
+    Surface& sheet = flight.addSheet(dvec3(0.0), {0.1, 0, 0}, {0, 0, 0.1}, 8, {0.0, -3.0, 1.0}, 1e-3, 0.03);
+    sheet.meetsItself = true;
+    const std::vector<dvec3> before = flight.v;
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(flight.fly(1e-3).pressing, 0);
+    EXPECT_EQ(flight.v, before);
+}
+
+}  // namespace
+}  // namespace taut::contact

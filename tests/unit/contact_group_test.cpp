@@ -1,0 +1,133 @@
+// What comes out of an instant hangs on that instant alone: not on lists made before, nor on threads. And what is gone
+// is not met.
+#include "contact_support.h"
+#include "taut/core/parallel.h"
+
+namespace taut::contact {
+namespace {
+
+// A sheet of loose points over another, which is held; some of its points are pulled to and fro, and pressed down.
+struct Kneading {
+    Flight flight;
+    int instant = 0;
+
+    explicit Kneading(int cells = 10) {
+        flight.addSheet({0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.0, 0.3}, cells, dvec3(0.0), 2e-3, 0.005);
+        Surface& upper = flight.addSheet({0.02, 0.0102, 0.01}, {0.28, 0.0, 0.03}, {-0.03, 0.0, 0.28}, cells,
+                                         {0.1, 0.0, 0.05}, 1e-3, 0.005);
+        upper.meetsItself = true;
+        for (std::size_t i = 0; i < flight.x.size() / 2; ++i) flight.inverseMass[i] = i % 3 == 0 ? 0.0 : 500.0;
+    }
+    // Springs of a kind to where the points began, and a swing.
+    void next(double h) {
+        if (start_.empty()) start_ = flight.x;
+        ++instant;
+        const double phase = 0.05 * instant;
+        for (std::size_t i = 0; i < flight.x.size(); ++i) {
+            if (!(flight.inverseMass[i] > 0)) continue;
+            const bool isUpper = i >= flight.x.size() / 2;
+            // A polynomial, not sin, so that all machines agree.
+            const double saw = phase - 2 * std::floor(0.5 * phase), swing = saw * (2 - saw) * (1 - saw);
+            dvec3 force = 400.0 * (start_[i] - flight.x[i]) - 2.0 * flight.v[i];
+            if (isUpper)
+                force += dvec3(0.0, (i % 7 == 0 ? -90.0 : -9.81) + 200.0 * swing, i % 5 == 0 ? 20.0 * swing : 0.0);
+            flight.v[i] += h * force;
+        }
+        flight.fly(h);
+    }
+
+  private:
+    std::vector<dvec3> start_;
+};
+
+TEST(ContactGroup, GivesTheSameBitsWheneverListsWereMade) {
+    for (const double h : {2.5e-4, 1e-3}) {
+        Kneading lasting, anew;
+        std::size_t met = 0;
+        for (int i = 0; i < 400; ++i) {
+            lasting.next(h);
+            anew.next(h);
+            anew.flight.group->drop();
+            met += lasting.flight.group->near() > 0 ? 1 : 0;
+            ASSERT_EQ(lasting.flight.x, anew.flight.x) << "instant " << i << " of " << h << " s";
+            ASSERT_EQ(lasting.flight.v, anew.flight.v) << "instant " << i << " of " << h << " s";
+        }
+        EXPECT_GT(met, 50U);
+        EXPECT_LT(lasting.flight.group->listed(), anew.flight.group->listed());
+    }
+}
+
+TEST(ContactGroup, GivesTheSameBitsWithAnyNumberOfThreads) {
+    std::vector<std::vector<dvec3>> found;
+    for (const int threads : {1, 2, 7}) {
+        core::ThreadLimit limit(threads);
+        limit.run([&] {
+            Kneading kneading(16);
+            for (int i = 0; i < 60; ++i) kneading.next(1e-3);
+            found.push_back(kneading.flight.x);
+        });
+    }
+    EXPECT_EQ(found[0], found[1]);
+    EXPECT_EQ(found[0], found[2]);
+}
+
+// A hole of triangles that are gone; a ball goes through it, and is kept elsewhere.
+TEST(ContactGroup, LetsThroughWhereTrianglesAreGone) {
+    for (const bool hasHole : {false, true}) {
+        Flight flight;
+        flight.addSheet({-0.2, 0.0, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 4, dvec3(0.0), 0.0, 0.005);
+        flight.addBall({0.05, 0.03, 0.05}, {0.0, -2.0, 0.0}, 0.1, 0.005);
+        flight.addBall({-0.15, 0.03, 0.0}, {0.0, -2.0, 0.0}, 0.1, 0.005);
+        flight.fly(1e-4);
+        if (hasHole) {
+            // Both triangles of the square (2, 2), and what is between them.
+            flight.group->elements().setGone(
+                0, [](std::size_t t) { return t / 2 == 2 * 4 + 2; }, [](int a, int b) { return a == 13 && b == 17; });
+            flight.group->elements().refresh();
+            flight.group->drop();
+        }
+        for (int i = 0; i < 60; ++i) flight.fly(1e-3);
+        EXPECT_EQ(flight.x[25].y < -0.05, hasHole);
+        EXPECT_NEAR(flight.x[26].y, 0.01, 1e-9);
+    }
+}
+
+// A point of which all triangles are gone, and all edges severed, is a ball: it is met and meets.
+TEST(ContactGroup, LeavesBallsWhereAllIsGone) {
+    Flight flight;
+    flight.addSheet({-0.2, 0.0, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 4, dvec3(0.0), 0.0, 0.005);
+    flight.addBall({0.0, 0.05, 0.0}, {0.0, -2.0, 0.0}, 0.1, 0.005);   // over the point in the middle
+    flight.addBall({0.05, 0.05, 0.0}, {0.0, -2.0, 0.0}, 0.1, 0.005);  // over an edge that is not there any more
+    flight.fly(1e-4);
+    flight.group->elements().setGone(
+        0, [](std::size_t) { return true; }, [](int, int) { return true; });
+    flight.group->elements().refresh();
+    flight.group->drop();
+    for (int i = 0; i < 60; ++i) flight.fly(1e-3);
+    EXPECT_NEAR(flight.x[25].y, 0.01, 1e-9);
+    EXPECT_LT(flight.x[26].y, -0.05);
+}
+
+// Two triangles born through each other: led apart, they end without a crossing and with the momentum they had.
+TEST(ContactGroup, LeadsApartWhatIsCrossed) {
+    const auto crossingsAfter = [](bool untangles) {
+        Flight flight;
+        flight.options.untangles = untangles;
+        flight.addSheet({-0.1, 0.0, -0.1}, {0.2, 0, 0}, {0, 0, 0.2}, 4, dvec3(0.0), 1e-3, 0.002);
+        flight.addTriangle({dvec3(0.013, 0.03, 0.011), dvec3(-0.017, 0.03, 0.012), dvec3(0.003, -0.006, 0.007)},
+                           dvec3(0.0), 1e-3, 0.002);
+        const test::Skin skin = flight.skin();
+        EXPECT_GT(countPiercings(skin, flight.x), 0);
+        for (int i = 0; i < 300 && countPiercings(skin, flight.x) > 0; ++i) {
+            flight.fly(1e-3);
+            if (i % 10 == 9) flight.group->begin(flight.x);
+        }
+        EXPECT_LT(glm::length(flight.momentum()), 1e-15);
+        return countPiercings(skin, flight.x);
+    };
+    EXPECT_EQ(crossingsAfter(true), 0);
+    EXPECT_GT(crossingsAfter(false), 0);
+}
+
+}  // namespace
+}  // namespace taut::contact

@@ -1,0 +1,234 @@
+// Impacts of points, edges and sheets that nothing else moves, against what momentum and energy leave over.
+#include "contact_support.h"
+
+namespace taut::contact {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// A point of m1 against the middle of a triangle of m2 in three equal corners: what counts of the triangle there is m2.
+Flight pointOnTriangle(double m1, double m2, double speed) {
+    Flight flight;
+    flight.addBall({0.0, 0.02, 0.0}, {0.0, -speed, 0.0}, m1, 0.004);
+    flight.addTriangle({dvec3(0.0, 0.0, 0.1), dvec3(0.1 * std::sin(2 * pi / 3), 0.0, 0.1 * std::cos(2 * pi / 3)),
+                        dvec3(0.1 * std::sin(4 * pi / 3), 0.0, 0.1 * std::cos(4 * pi / 3))},
+                       dvec3(0.0), m2 / 3, 0.004);
+    return flight;
+}
+
+// Crossed at right angles in their middles.
+Flight edgeOnEdge(double m1, double m2, double speed) {
+    Flight flight;
+    flight.addLine({-0.1, 0.02, 0.0}, {0.1, 0.02, 0.0}, {0.0, -speed, 0.0}, m1 / 2, 0.004);
+    flight.addLine({0.0, 0.0, -0.1}, {0.0, 0.0, 0.1}, dvec3(0.0), m2 / 2, 0.004);
+    return flight;
+}
+
+// Two masses on a line, restitution e: v1 = (m1 - e m2)/(m1 + m2) v, v2 = (1 + e) m1/(m1 + m2) v.
+TEST(ContactImpact, SharesTheSpeedByMassAndRestitution) {
+    for (const bool areEdges : {false, true})
+        for (const double m2 : {0.2, 0.7})
+            for (const double e : {0.0, 0.5, 1.0}) {
+                SCOPED_TRACE(std::to_string(areEdges) + ", m2 " + std::to_string(m2) + ", e " + std::to_string(e));
+                const double m1 = 0.2, speed = 3.0;
+                Flight flight = areEdges ? edgeOnEdge(m1, m2, speed) : pointOnTriangle(m1, m2, speed);
+                flight.options.pressing.restitution = e;
+                flight.options.pressing.restSpeed = 1e-3;
+                for (int i = 0; i < 40; ++i) flight.fly(5e-4);  // on the way for 4 ms
+                const std::size_t firstOfSecond = areEdges ? 2 : 1;
+                for (std::size_t i = 0; i < flight.v.size(); ++i) {
+                    const double ought = i < firstOfSecond ? (m1 - e * m2) / (m1 + m2) : (1 + e) * m1 / (m1 + m2);
+                    EXPECT_NEAR(flight.v[i].y, -ought * speed, 1e-6 * speed) << i;
+                    EXPECT_NEAR(flight.v[i].x, 0.0, 1e-12);
+                    EXPECT_NEAR(flight.v[i].z, 0.0, 1e-12);
+                }
+            }
+}
+
+// Off the middle: 1/m = 1/m1 + (α² + β² + γ²)/m of a corner; the impulse (1 + e) m v is shared as α, β, γ.
+TEST(ContactImpact, TurnsATriangleAsTheLeversSay) {
+    const std::array<double, 3> shares{0.6, 0.3, 0.1};
+    const std::array<dvec3, 3> corners{dvec3(0.0), dvec3(0.0, 0.0, 0.2), dvec3(0.2, 0.0, 0.0)};
+    dvec3 above(0.0, 0.009, 0.0);
+    double inverse = 1.0 / 0.1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        above += shares[k] * corners[k];
+        inverse += shares[k] * shares[k] / 0.5;
+    }
+    Flight flight;
+    flight.addBall(above, {0.0, -2.0, 0.0}, 0.1, 0.004);
+    flight.addTriangle(corners, dvec3(0.0), 0.5, 0.004);
+    flight.options.pressing.restitution = 1.0;
+    flight.options.pressing.restSpeed = 1e-3;
+    flight.fly(1e-3);
+    const double impulse = 2 * 2.0 / inverse;
+    EXPECT_NEAR(flight.v[0].y, -2.0 + impulse / 0.1, 1e-12);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(flight.v[1 + k].y, -shares[k] * impulse / 0.5, 1e-12);
+}
+
+// Two sheets of loose points, turned and shifted against each other, that meet at 4 m/s.
+Flight twoSheets(double friction) {
+    Flight flight;
+    flight.options.friction = friction;
+    flight.addSheet({0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.0, 0.3}, 6, {0.0, 2.0, 0.0}, 1e-3, 0.004);
+    flight.addSheet({0.03, 0.012, 0.02}, {0.27, 0.01, 0.1}, {-0.1, 0.01, 0.27}, 6, {0.3, -2.0, 0.1}, 2e-3, 0.004);
+    return flight;
+}
+
+// Every impulse acts on both sides alike. Of 2e-13 about half is the rounding of the sums of the test.
+TEST(ContactImpact, KeepsLinearMomentum) {
+    Flight flight = twoSheets(0.3);
+    const dvec3 before = flight.momentum();
+    double scale = 0;
+    for (std::size_t i = 0; i < flight.v.size(); ++i) scale += flight.mass(i) * glm::length(flight.v[i]);
+    const double start = flight.kinetic();
+    for (int i = 0; i < 60; ++i) flight.fly(5e-4);
+    EXPECT_LT(flight.kinetic(), 0.9 * start);  // they met
+    EXPECT_LT(glm::length(flight.momentum() - before), 1e-13 * scale);
+}
+
+// Along the way between the places that touch an impulse has no moment; only what overlap is taken back has. About the
+// centre of mass.
+TEST(ContactImpact, KeepsAngularMomentumWithoutFriction) {
+    Flight flight = twoSheets(0.0);
+    double mass = 0;
+    dvec3 centre(0.0);
+    for (std::size_t i = 0; i < flight.x.size(); ++i) {
+        mass += flight.mass(i);
+        centre += flight.mass(i) * flight.x[i];
+    }
+    for (dvec3& x : flight.x) x -= centre / mass;
+    const dvec3 drift = flight.momentum() / mass;
+    for (dvec3& v : flight.v) v -= drift;
+    const dvec3 before = flight.angularMomentum();
+    double scale = 0;
+    for (std::size_t i = 0; i < flight.v.size(); ++i)
+        scale += flight.mass(i) * glm::length(glm::cross(flight.x[i], flight.v[i]));
+    const double start = flight.kinetic();
+    for (int i = 0; i < 60; ++i) flight.fly(5e-4);
+    EXPECT_LT(flight.kinetic(), 0.9 * start);
+    EXPECT_LT(glm::length(flight.angularMomentum() - before), 1e-3 * scale);
+}
+
+// Gauss-Seidel descends from no impulse, so that no number of sweeps adds any: 1e-12 is rounding.
+TEST(ContactImpact, AddsNoKineticEnergyInAnyInstant) {
+    for (const double friction : {0.0, 0.3, 2.0})
+        for (const int sweeps : {1, 2, 10}) {
+            Flight flight = twoSheets(friction);
+            flight.options.pressing.sweeps = sweeps;
+            const double start = flight.kinetic();
+            double before = start;
+            for (int i = 0; i < 60; ++i) {
+                flight.fly(5e-4);
+                const double now = flight.kinetic();
+                EXPECT_LE(now, before + 1e-12 * start)
+                    << "instant " << i << ", " << sweeps << " sweeps, μ " << friction;
+                before = now;
+            }
+            EXPECT_LT(before, start);
+        }
+}
+
+// Whether any edge was in a triangle at any of many times on the straight ways of an instant.
+bool meetOnTheWay(const test::Skin& skin, const std::vector<dvec3>& from, const std::vector<dvec3>& to, int times) {
+    std::vector<dvec3> x(from.size());
+    for (int k = 1; k <= times; ++k) {
+        for (std::size_t i = 0; i < x.size(); ++i)
+            x[i] = from[i] + (static_cast<double>(k) / times) * (to[i] - from[i]);
+        if (countPiercings(skin, x) > 0) return true;
+    }
+    return false;
+}
+
+// Two small triangles, the one held or free, the other at 100 m/s from any side, in any phase: how many have been
+// in each other at any time.
+int countThrough(double step, const GroupOptions& options, int phases) {
+    Dice dice(7);
+    int through = 0;
+    for (int n = 0; n < phases; ++n) {
+        Flight flight;
+        flight.options = options;
+        const auto corners = [&](const dvec3& middle) {
+            const dvec3 a = 0.05 * dice.direction(), b = 0.05 * dice.direction();
+            return std::array<dvec3, 3>{middle + a, middle + b, middle - a - b};
+        };
+        const dvec3 from = dice.direction();
+        flight.addTriangle(corners(0.02 * dice.vector()), dvec3(0.0), n % 2 == 0 ? 0.0 : 0.02, 0.001);
+        flight.addTriangle(corners((0.12 + 100 * step * dice.between(0.0, 1.0)) * from), -100.0 * from, 0.01, 0.001);
+        const test::Skin skin = flight.skin();
+        bool isThrough = false;
+        for (int i = 0; i < 3 + static_cast<int>(0.003 / step) && !isThrough; ++i) {
+            const std::vector<dvec3> before = flight.x;
+            flight.fly(step);
+            isThrough = meetOnTheWay(skin, before, flight.x, 2 + static_cast<int>(step / 2e-5));  // 2 mm
+        }
+        through += isThrough ? 1 : 0;
+    }
+    return through;
+}
+
+TEST(ContactImpact, LetsNothingThroughAtAHundredMetresASecond) {
+    for (const double step : {1e-4, 5e-4, 1e-3, 4e-3})  // 1 to 40 cm an instant, for 2 mm kept
+        EXPECT_EQ(countThrough(step, {}, 200), 0) << step;
+}
+
+// What certificates are for: impulses alone go by where the sides were nearest at the start.
+TEST(ContactImpact, LetsSomeThroughWithoutCertificates) {
+    GroupOptions options;
+    options.certifies = false;
+    EXPECT_GT(countThrough(1e-3, options, 200), 0);
+}
+
+// Of what overlaps at the start: a fifth of it is taken back an instant, and no speed is given.
+TEST(ContactImpact, TakesOverlapBackByAFifthAnInstantWithoutSpeed) {
+    Flight flight;
+    flight.addBall({0.0, 0.003, 0.0}, dvec3(0.0), 0.1, 0.004);
+    flight.addTriangle({dvec3(-0.1, 0, -0.1), dvec3(0.1, 0, -0.1), dvec3(0, 0, 0.2)}, dvec3(0.0), 0.2, 0.004);
+    const double mass = 0.1 + 3 * 0.2;
+    const auto centre = [&] {
+        dvec3 sum(0.0);
+        for (std::size_t i = 0; i < 4; ++i) sum += flight.mass(i) * flight.x[i];
+        return sum / mass;
+    };
+    const dvec3 before = centre();
+    double gap = 0.003 - 0.008;
+    for (int i = 0; i < 10; ++i) {
+        flight.fly(1e-3);
+        gap *= 0.8;
+        EXPECT_NEAR(flight.x[0].y - (flight.x[1].y + flight.x[2].y + 2 * flight.x[3].y) / 4, gap + 0.008, 1e-9) << i;
+        for (const dvec3& v : flight.v) EXPECT_EQ(v, dvec3(0.0));
+    }
+    EXPECT_LT(glm::length(centre() - before), 1e-15);
+}
+
+// A point on a held plane under g, μ = 0.4: it slides where the slope is steeper than that, tan 21.8° = 0.4, by
+// g (sin α - μ cos α) t; else it stays. Ten sweeps of one pair are exact.
+TEST(ContactFriction, HoldsUpToItsAngleAndSlowsBeyondIt) {
+    const auto slides = [](double degrees, double friction) {
+        const double angle = degrees * pi / 180;
+        const dvec3 down(std::cos(angle), -std::sin(angle), 0.0), up(std::sin(angle), std::cos(angle), 0.0);
+        Flight flight;
+        flight.options.friction = friction;
+        flight.addBall(0.008 * up, dvec3(0.0), 0.1, 0.004);
+        const dvec3 aside(0, 0, 1);
+        flight.addTriangle({-2.0 * down - 2.0 * aside, 4.0 * down, -2.0 * down + 2.0 * aside}, dvec3(0.0), 0.0, 0.004);
+        const double h = 1e-3;
+        for (int i = 0; i < 500; ++i) {
+            flight.v[0].y -= 9.81 * h;
+            flight.fly(h);
+        }
+        return glm::dot(flight.x[0], down);
+    };
+    const auto theory = [](double degrees, double friction) {
+        const double angle = degrees * pi / 180;
+        return 0.5 * 9.81 * (std::sin(angle) - friction * std::cos(angle)) * 0.25;
+    };
+    EXPECT_LT(std::abs(slides(21.0, 0.4)), 1e-6);
+    for (const double degrees : {22.5, 30.0})
+        EXPECT_NEAR(slides(degrees, 0.4) / theory(degrees, 0.4), 1.0, 0.01) << degrees;  // half a step of 500: 0.2 %
+    // Twice the friction is told from it.
+    EXPECT_LT(std::abs(slides(30.0, 0.8)), 1e-6);
+}
+
+}  // namespace
+}  // namespace taut::contact

@@ -20,7 +20,9 @@ list(APPEND TAUT_PHYSICS_TESTS
   oscillator_limits_test.cpp
   precision_test.cpp
   sdirk2_test.cpp
-  step_following_test.cpp)
+  step_following_test.cpp
+  touching_bodies_test.cpp
+  touching_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::world taut::mechanics taut::ode Boost::headers)
 list(APPEND TAUT_PHYSICS_TESTS shipped_scenes_test.cpp tearing_test.cpp)
 list(APPEND TAUT_PHYSICS_LINKS taut::scene)

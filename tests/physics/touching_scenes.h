@@ -1,0 +1,67 @@
+// Bodies that touch: what several tests of them begin with.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/piercings.h"
+#include "taut/world/actions.h"
+#include "taut/world/bodies/block.h"
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/bodies/rope.h"
+
+namespace taut::test::touching {
+
+constexpr double g = 9.81;      // [m/s²]
+constexpr double keep = 0.008;  // [m] that two sheets keep
+
+// Double precision, steps as "auto" finds them; linen of 0.2 kg/m² and 200 N/m without drag.
+inline world::SceneSpec scene(double friction = 0.3) {
+    world::SceneSpec spec;
+    spec.solver.precision = world::Precision::double_;
+    spec.contact.friction = friction;
+    world::MaterialSpec linen;
+    linen.stretch = 200.0;
+    linen.bend = 0.2;
+    linen.dampingTime = 1e-3;
+    linen.drag = 0.0;
+    spec.materials["linen"] = linen;
+    return spec;
+}
+
+// cells along the longer side, squares.
+inline world::ClothSpec sheet(const std::string& name, const dvec3& origin, const dvec3& across, const dvec3& down,
+                              int cells) {
+    world::ClothSpec cloth;
+    cloth.name = name;
+    cloth.material = "linen";
+    cloth.origin = origin;
+    cloth.size = {glm::length(across), glm::length(down)};
+    cloth.across = glm::normalize(across);
+    cloth.down = glm::normalize(down);
+    const double cell = std::max(cloth.size.x, cloth.size.y) / cells;
+    cloth.cells = {static_cast<int>(std::lround(cloth.size.x / cell)),
+                   static_cast<int>(std::lround(cloth.size.y / cell))};
+    cloth.thickness = keep / 2;
+    cloth.touch = world::Touch::all;
+    return cloth;
+}
+
+inline world::ColliderSpec ground(double height, double friction = 0.3) {
+    world::ColliderSpec plane;
+    plane.name = "ground";
+    plane.shape = "plane";
+    plane.position = {0.0, height, 0.0};
+    plane.friction = friction;
+    return plane;
+}
+
+inline double largestDifference(const std::vector<dvec3>& a, const std::vector<dvec3>& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
+    return most;
+}
+
+}  // namespace taut::test::touching

@@ -54,13 +54,20 @@ double visit(const MeetingPair& pair, double mass, double open, double bounce, s
     return most * std::sqrt(square);
 }
 
-// Of velocities, or of shifts, to which surfaces have no speed.
-void holdUp(std::span<const Held> held, std::span<dvec3> u, bool areShifts) {
-    for (const Held& h : held) {
-        dvec3& own = u[static_cast<std::size_t>(h.point)];
-        const double along = glm::dot(own, h.normal) - (areShifts ? 0.0 : h.speed);
-        if (along < 0) own -= along * h.normal;
-    }
+// Likewise of a point and what holds it, for an impulse by mass; speed [m/s] is the surface's along the normal.
+void support(const Held& held, double speed, std::span<dvec3> u, double& normal, dvec3* rub) {
+    dvec3& own = u[static_cast<std::size_t>(held.point)];
+    const double along = glm::dot(own, held.normal) - speed;
+    const double wanted = std::max(0.0, normal - along);
+    own += (wanted - normal) * held.normal;
+    normal = wanted;
+    if (rub == nullptr || !(held.friction > 0)) return;
+    const dvec3 relative = own - held.carried;
+    dvec3 next = *rub - (relative - glm::dot(relative, held.normal) * held.normal);
+    const double square = glm::dot(next, next), limit = held.friction * normal;
+    if (square > limit * limit) next = square > 0 ? next * (limit / std::sqrt(square)) : dvec3(0.0);
+    own += next - *rub;
+    *rub = next;
 }
 
 }  // namespace
@@ -115,8 +122,8 @@ void Pressing::findClusters(std::span<const MeetingPair> pairs, std::span<const 
     std::sort(order.begin(), order.end());
     rows_.clear();
     clusterStart_.clear();
-    heldRows_.clear();
-    heldStart_.clear();
+    supports_.clear();
+    supportStart_.clear();
     std::vector<std::pair<int, std::size_t>> holds;
     for (std::size_t h = 0; h < held.size(); ++h) {
         const int i = held[h].point;
@@ -127,16 +134,16 @@ void Pressing::findClusters(std::span<const MeetingPair> pairs, std::span<const 
     for (std::size_t k = 0; k < order.size(); ++k) {
         if (k == 0 || order[k].first != order[k - 1].first) {
             clusterStart_.push_back(k);
-            heldStart_.push_back(heldRows_.size());
+            supportStart_.push_back(supports_.size());
             for (; next < holds.size() && holds[next].first <= order[k].first; ++next)
-                if (holds[next].first == order[k].first) heldRows_.push_back(held[holds[next].second]);
+                if (holds[next].first == order[k].first) supports_.push_back({held[holds[next].second]});
         }
         Row row;
         row.pair = order[k].second;
         rows_.push_back(row);
     }
     clusterStart_.push_back(rows_.size());
-    heldStart_.push_back(heldRows_.size());
+    supportStart_.push_back(supports_.size());
 }
 
 void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> held,
@@ -164,15 +171,15 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
     const auto solveCluster = [&](int c) {
         const auto k = static_cast<std::size_t>(c);
         const std::span<Row> rows(rows_.data() + clusterStart_[k], clusterStart_[k + 1] - clusterStart_[k]);
-        const std::span<const Held> supports(heldRows_.data() + heldStart_[k], heldStart_[k + 1] - heldStart_[k]);
+        const std::span<Support> supports(supports_.data() + supportStart_[k], supportStart_[k + 1] - supportStart_[k]);
         double keep = 1e300;
         for (const Row& row : rows) keep = std::min(keep, pairs[static_cast<std::size_t>(row.pair)].keep);
         const double little = settled * keep / h;
-        const auto sweep = [&](auto&& visitRow, std::span<dvec3> of, double enough) {
+        const auto sweep = [&](auto&& visitRow, auto&& visitSupport, double enough) {
             for (int s = 1;; ++s) {
                 double most = 0;
                 for (Row& row : rows) most = std::max(most, visitRow(row, pairs[static_cast<std::size_t>(row.pair)]));
-                holdUp(supports, of, of.data() == shift.data());
+                for (Support& one : supports) visitSupport(one);
                 if (s >= options.sweeps || most < enough) return s;
             }
         };
@@ -180,13 +187,13 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
             [&](Row& row, const MeetingPair& pair) {
                 return visit(pair, row.mass, row.open, row.bounce, inverseMass, u, row.impulse, row.rub);
             },
-            u, little);
+            [&](Support& one) { support(one.held, one.held.speed, u, one.impulse, &one.rub); }, little);
         sweep(
             [&](Row& row, const MeetingPair& pair) {
                 if (!(row.impulse > 0)) return 0.0;
                 return visit(pair, row.mass, row.open, row.bounceV, inverseMass, v, row.impulseV, row.rubV);
             },
-            v, little);
+            [&](Support& one) { support(one.held, one.held.speed, v, one.impulseV, &one.rubV); }, little);
         bool overlaps = false;
         for (Row& row : rows) {
             const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
@@ -204,7 +211,7 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
                     press(pair, change * pair.normal, inverseMass, shift);
                     return std::abs(change) / row.mass / h;
                 },
-                shift, little);
+                [&](Support& one) { support(one.held, 0.0, shift, one.push, nullptr); }, little);
         for (const Row& row : rows) impulses_[static_cast<std::size_t>(row.pair)] = row.impulse;
     };
     // Few rows are solved sooner than they are shared out.

@@ -15,11 +15,13 @@
 
 namespace taut::contact {
 
-// A point that a collider holds: it does not go into it.
+// A point that a collider holds: it does not go into it, and what presses it there lets friction hold it the more.
 struct Held {
     int point;
-    dvec3 normal;  // unit, out of the collider
-    double speed;  // [m/s] of the surface along it
+    dvec3 normal;           // unit, out of the collider
+    double speed;           // [m/s] of the surface along it
+    dvec3 carried{0.0};     // [m/s] of the surface
+    double friction = 0.0;  // Coulomb's μ of point and surface [-]
 };
 
 struct PressingOptions {
@@ -52,15 +54,21 @@ class Pressing {
         dvec3 rub{0.0}, rubV{0.0};
         double push = 0, recover = 0;  // [m] so far, and to be
     };
+    // What a collider gives a point besides what it gave it before, by its mass.
+    struct Support {
+        Held held;
+        double impulse = 0, impulseV = 0, push = 0;  // [m/s], [m/s], [m]
+        dvec3 rub{0.0}, rubV{0.0};
+    };
     void findClusters(std::span<const MeetingPair> pairs, std::span<const Held> held, std::size_t pointCount,
                       std::span<const double> inverseMass);
     int root(int point);
 
     std::vector<Row> rows_;                  // cluster by cluster, in the order of the pairs
     std::vector<std::size_t> clusterStart_;  // of rows
-    std::vector<Held> heldRows_;
-    std::vector<std::size_t> heldStart_;  // (clusters + 1)
-    std::vector<int> parent_, touched_;   // (points), points
+    std::vector<Support> supports_;
+    std::vector<std::size_t> supportStart_;  // (clusters + 1)
+    std::vector<int> parent_, touched_;      // (points), points
     std::vector<double> impulses_;
     int mostSweeps_ = 0;
 };

@@ -239,7 +239,7 @@ void Touching::meet(double h) {
     held_.clear();
     for (const Part& room : rooms_)
         for (const collision::Contact& c : room.island->contacts())
-            held_.push_back({room.first + c.point, c.normal, glm::dot(c.normal, c.carried)});
+            held_.push_back({room.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
     contact::Instant instant;
     instant.h = h;
     instant.x0 = x0_;

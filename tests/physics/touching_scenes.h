@@ -64,4 +64,15 @@ inline double largestDifference(const std::vector<dvec3>& a, const std::vector<d
     return most;
 }
 
+// Of the fastest of their points, by what they do in a tick and not by velocities. [m/s]
+inline double fastest(world::World& world, const std::vector<std::string>& bodies) {
+    std::vector<std::vector<dvec3>> before;
+    for (const std::string& name : bodies) before.push_back(positionsOf(world, name));
+    EXPECT_FALSE(world.advance());
+    double most = 0;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        most = std::max(most, largestDifference(before[b], positionsOf(world, bodies[b])) / world.tickSeconds());
+    return most;
+}
+
 }  // namespace taut::test::touching

@@ -201,6 +201,32 @@ TEST(ContactImpact, TakesOverlapBackByAFifthAnInstantWithoutSpeed) {
     EXPECT_LT(glm::length(centre() - before), 1e-15);
 }
 
+// A point on the ground with μ that another presses down by λ while it slides: what the ground gives it by that is μ λ,
+// or all that it slides with.
+TEST(ContactFriction, OfTheGroundBearsWhatIsOnTop) {
+    for (const double slide : {0.1, 3.0}) {  // [m/s]
+        MeetingPair pair{};
+        pair.points = {0, 1, 2, 3};
+        pair.weights = {1.0, -1.0, 0.0, 0.0};
+        pair.normal = {0.0, 1.0, 0.0};
+        pair.apart = pair.keep = 0.01;
+        pair.isPoint = pair.presses = true;
+        Held held{1, {0.0, 1.0, 0.0}, 0.0};
+        held.friction = 0.4;
+        const std::vector<double> inverseMass{1.0, 2.0, 0.0, 0.0};
+        std::vector<dvec3> u{{0.0, -1.0, 0.0}, {slide, 0.0, 0.0}, dvec3(0.0), dvec3(0.0)}, v = u, shift(4, dvec3(0.0));
+        PressingOptions options;
+        options.sweeps = 100;
+        Pressing pressing;
+        pressing.solve(std::span(&pair, 1), std::span(&held, 1), inverseMass, 1.0, options, u, v, shift);
+        const double ought = std::max(0.0, slide - 0.4 * 1.0 * 2.0);  // λ = 1 kg · 1 m/s, on half a kilogram
+        for (const auto& of : {u, v}) {
+            EXPECT_LT(glm::distance(of[0], dvec3(0.0)), 2e-5);  // where sweeps end
+            EXPECT_LT(glm::distance(of[1], dvec3(ought, 0.0, 0.0)), 2e-5);
+        }
+    }
+}
+
 // A point on a held plane under g, μ = 0.4: it slides where the slope is steeper than that, tan 21.8° = 0.4, by
 // g (sin α - μ cos α) t; else it stays. Ten sweeps of one pair are exact.
 TEST(ContactFriction, HoldsUpToItsAngleAndSlowsBeyondIt) {

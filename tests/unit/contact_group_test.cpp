@@ -71,6 +71,33 @@ TEST(ContactGroup, GivesTheSameBitsWithAnyNumberOfThreads) {
     EXPECT_EQ(found[0], found[2]);
 }
 
+// A pair that went away and came back before its list was made anew.
+TEST(ContactGroup, MeetsWhatWentAwayAndCameBack) {
+    Flight flight;
+    flight.addBall({0.0, 0.0101, 0.0}, {0.0, 1.0, 0.0}, 0.01, 0.005);
+    flight.addTriangle({dvec3(-1, 0, -1), dvec3(1, 0, -1), dvec3(0, 0, 2)}, dvec3(0.0), 0.0, 0.005);
+    for (int i = 0; i < 30; ++i) {
+        if (i == 3) flight.v[0].y = -1.0;  // 3 mm away
+        flight.fly(1e-3);
+        EXPECT_GE(flight.x[0].y, 0.01 - 1e-12) << i;
+    }
+}
+
+// A corner of a sheet that a ball pushes at another, and that is braked each time before: it goes only where contact
+// leads it.
+TEST(ContactGroup, MeetsWhatContactLeadsToIt) {
+    Flight flight;
+    flight.addSheet({-0.2, 0.0, -0.2}, {0.2, 0, 0}, {0, 0, 0.2}, 2, dvec3(0.0), 0.01, 0.005);
+    const std::size_t corner = 8;  // at the origin
+    flight.addBall({0.0, -0.0101, 0.0}, {0.0, 1.0, 0.0}, 0.0, 0.005);
+    flight.addBall({0.0, 0.027, 0.0}, dvec3(0.0), 0.1, 0.005);
+    for (int i = 0; i < 60; ++i) {
+        for (std::size_t k = 0; k < 9; ++k) flight.v[k] = dvec3(0.0);
+        flight.fly(1e-3);
+        EXPECT_GT(flight.x[10].y - flight.x[corner].y, 0.009) << i;
+    }
+}
+
 // A hole of triangles that are gone; a ball goes through it, and is kept elsewhere.
 TEST(ContactGroup, LetsThroughWhereTrianglesAreGone) {
     for (const bool hasHole : {false, true}) {

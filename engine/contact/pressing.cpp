@@ -8,7 +8,6 @@
 namespace taut::contact {
 namespace {
 
-constexpr double recovery = 0.2;    // share of an overlap that is taken back an instant
 constexpr double fastestOut = 1.0;  // [m/s] that it is taken back with
 constexpr double settled = 1e-3;    // of the distance kept, an instant: smaller changes end the sweeps
 
@@ -197,7 +196,7 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
         bool overlaps = false;
         for (Row& row : rows) {
             const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
-            row.recover = pair.gap() < 0 ? std::min(-recovery * pair.gap(), fastestOut * h) : 0.0;
+            row.recover = pair.gap() < 0 ? std::min(-options.recovery * pair.gap(), fastestOut * h) : 0.0;
             overlaps = overlaps || row.recover > 0;
         }
         if (overlaps)

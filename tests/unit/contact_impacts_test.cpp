@@ -179,26 +179,88 @@ TEST(ContactImpact, LetsSomeThroughWithoutCertificates) {
     EXPECT_GT(countThrough(1e-3, options, 200), 0);
 }
 
+// Without friction the guard takes the approach alone and leaves the sliding; zones, its last resort, take both.
+TEST(ContactImpact, LeavesWhatItCatchesOnTheWayItsSliding) {
+    const auto left = [](bool slides) {
+        Dice dice(7);
+        double kinetic = 0;
+        for (int n = 0; n < 200; ++n) {
+            Flight flight;
+            flight.options.friction = 0;
+            flight.options.slides = slides;
+            const auto corners = [&](const dvec3& middle) {
+                const dvec3 a = 0.05 * dice.direction(), b = 0.05 * dice.direction();
+                return std::array<dvec3, 3>{middle + a, middle + b, middle - a - b};
+            };
+            const dvec3 from = dice.direction();
+            flight.addTriangle(corners(0.02 * dice.vector()), dvec3(0.0), 0.02, 0.001);
+            flight.addTriangle(corners((0.12 + 0.1 * dice.between(0.0, 1.0)) * from), -100.0 * from, 0.01, 0.001);
+            for (int i = 0; i < 6; ++i) flight.fly(1e-3);
+            kinetic += flight.kinetic();
+        }
+        return kinetic;
+    };
+    EXPECT_GT(left(true), 1.3 * left(false));
+}
+
 // Of what overlaps at the start: a fifth of it is taken back an instant, and no speed is given.
 TEST(ContactImpact, TakesOverlapBackByAFifthAnInstantWithoutSpeed) {
-    Flight flight;
-    flight.addBall({0.0, 0.003, 0.0}, dvec3(0.0), 0.1, 0.004);
-    flight.addTriangle({dvec3(-0.1, 0, -0.1), dvec3(0.1, 0, -0.1), dvec3(0, 0, 0.2)}, dvec3(0.0), 0.2, 0.004);
-    const double mass = 0.1 + 3 * 0.2;
-    const auto centre = [&] {
-        dvec3 sum(0.0);
-        for (std::size_t i = 0; i < 4; ++i) sum += flight.mass(i) * flight.x[i];
-        return sum / mass;
+    const auto gapsAre = [](double recovery) {
+        Flight flight;
+        flight.options.pressing.recovery = recovery;
+        flight.addBall({0.0, 0.003, 0.0}, dvec3(0.0), 0.1, 0.004);
+        flight.addTriangle({dvec3(-0.1, 0, -0.1), dvec3(0.1, 0, -0.1), dvec3(0, 0, 0.2)}, dvec3(0.0), 0.2, 0.004);
+        const double mass = 0.1 + 3 * 0.2;
+        const auto centre = [&] {
+            dvec3 sum(0.0);
+            for (std::size_t i = 0; i < 4; ++i) sum += flight.mass(i) * flight.x[i];
+            return sum / mass;
+        };
+        const dvec3 before = centre();
+        double gap = 0.003 - 0.008, most = 0;
+        for (int i = 0; i < 10; ++i) {
+            flight.fly(1e-2);
+            gap *= 0.8;
+            const double under = (flight.x[1].y + flight.x[2].y + 2 * flight.x[3].y) / 4;
+            most = std::max(most, std::abs(flight.x[0].y - under - 0.008 - gap));
+            for (const dvec3& v : flight.v) EXPECT_EQ(v, dvec3(0.0));
+        }
+        EXPECT_LT(glm::length(centre() - before), 1e-15);
+        return most;
     };
-    const dvec3 before = centre();
-    double gap = 0.003 - 0.008;
-    for (int i = 0; i < 10; ++i) {
-        flight.fly(1e-3);
-        gap *= 0.8;
-        EXPECT_NEAR(flight.x[0].y - (flight.x[1].y + flight.x[2].y + 2 * flight.x[3].y) / 4, gap + 0.008, 1e-9) << i;
-        for (const dvec3& v : flight.v) EXPECT_EQ(v, dvec3(0.0));
-    }
-    EXPECT_LT(glm::length(centre() - before), 1e-15);
+    EXPECT_LT(gapsAre(PressingOptions{}.recovery), 1e-9);
+    EXPECT_GT(gapsAre(5 * PressingOptions{}.recovery), 1e-3);
+}
+
+// An impulse along the way between the nearest places has no moment. Of weights in another order it would have one.
+TEST(ContactImpact, TurnsNothingAsAWhole) {
+    const auto moment = [](bool areSwapped) {
+        const std::array<dvec3, 3> corners{dvec3(0.0), dvec3(0.0, 0.0, 0.2), dvec3(0.2, 0.0, 0.0)};
+        MeetingPair pair{};
+        pair.points = {0, 1, 2, 3};
+        pair.weights = {1.0, -0.6, -0.3, -0.1};
+        pair.normal = {0.0, 1.0, 0.0};
+        pair.apart = pair.keep = 0.008;
+        pair.isPoint = pair.presses = true;
+        std::vector<dvec3> x{pair.apart * pair.normal};
+        for (std::size_t k = 0; k < 3; ++k) {
+            x[0] -= pair.weights[k + 1] * corners[k];
+            x.push_back(corners[k]);
+        }
+        if (areSwapped) std::swap(pair.weights[1], pair.weights[2]);
+        const std::vector<double> inverseMass{5.0, 2.0, 3.0, 4.0};
+        std::vector<dvec3> u(4, dvec3(0.0)), v(4, dvec3(0.0)), shift(4, dvec3(0.0));
+        u[0] = v[0] = {0.0, -2.0, 0.0};
+        const std::vector<dvec3> before = u;
+        Pressing pressing;
+        pressing.solve(std::span(&pair, 1), {}, inverseMass, 1e-3, {}, u, v, shift);
+        EXPECT_GT(pressing.impulses()[0], 0.1);
+        dvec3 sum(0.0);
+        for (std::size_t i = 0; i < 4; ++i) sum += glm::cross(x[i], u[i] - before[i]) / inverseMass[i];
+        return glm::length(sum) / pressing.impulses()[0];  // [m]
+    };
+    EXPECT_LT(moment(false), 1e-16);
+    EXPECT_GT(moment(true), 0.05);
 }
 
 // A point on the ground with μ that another presses down by λ while it slides: what the ground gives it by that is μ λ,

@@ -146,4 +146,8 @@ class Colliders {
     std::unique_ptr<Impl> impl_;
 };
 
+// The outlines of a shape's forms, one each, where the collider is at the origin; those without anything left out.
+struct Outline;
+std::vector<Outline> outlinesOf(const Shape& shape);
+
 }  // namespace taut::collision

@@ -94,6 +94,7 @@ void turnOutside(Facets& facets) {
         std::swap(t.ab, t.ac);
         t.normal = -t.normal;
     }
+    for (std::size_t i = 0; i < facets.corners.size(); i += 3) std::swap(facets.corners[i + 1], facets.corners[i + 2]);
 }
 
 }  // namespace

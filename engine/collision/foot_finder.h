@@ -53,6 +53,7 @@ class FootFinder {
     const MeshTree& tree() const { return tree_; }
     const Box& bounds() const { return bounds_; }
     bool isClosed() const { return facets_.isClosed; }
+    const Facets& facets() const { return facets_; }
 
   private:
     // A triangle in single precision, from the middle of all: heights over its plane and beyond its three edges.

@@ -7,6 +7,7 @@
 
 #include "taut/collision/closed_shape.h"
 #include "taut/collision/geometry.h"
+#include "taut/collision/outline.h"
 
 namespace taut::collision {
 
@@ -35,6 +36,9 @@ class Form {
 
     // What loops over arrays of points may take a convex form for; none: its points are tried one by one.
     virtual ClosedShape closed() const { return {}; }
+
+    // Its corners and sharp edges; none: points of what it meets suffice.
+    virtual Outline outline() const { return {}; }
 };
 
 // How near a path may come before it counts as touching: a start that is nearer than the thickness already must not

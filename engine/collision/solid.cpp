@@ -50,6 +50,19 @@ void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid
     for (const Shape::Part& part : shape.parts) appendSolids(part.shape, inCollider.of(frameOf(part.pose)), solids);
 }
 
+std::vector<Outline> outlinesOf(const Shape& shape) {
+    std::vector<Solid> solids;
+    appendSolids(shape, Frame{}, solids);
+    std::vector<Outline> outlines;
+    for (const Solid& solid : solids) {
+        Outline outline = solid.form->outline();
+        if (outline.corners.empty()) continue;
+        for (dvec3& vertex : outline.vertices) vertex = solid.inCollider.toWorld(vertex);
+        outlines.push_back(std::move(outline));
+    }
+    return outlines;
+}
+
 void place(Solid& solid, const Pose& from, const Pose& to) {
     solid.from = frameOf(from).of(solid.inCollider);
     solid.to = frameOf(to).of(solid.inCollider);

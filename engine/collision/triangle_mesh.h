@@ -27,6 +27,8 @@ class TriangleMesh final : public Form {
 
     std::optional<Box> bounds() const override { return finder_.bounds(); }
 
+    Outline outline() const override { return outlineOf(finder_.facets()); }
+
   private:
     static bool isInFront(const Path& path, const Triangle& t);
     bool findWayOut(const Path& path, const Foot& end, Touch& touch) const;

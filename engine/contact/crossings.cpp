@@ -18,6 +18,7 @@ dvec3 unit(const dvec3& v) {
 // Volino and Magnenat-Thalmann, "Resolving surface collisions through intersection contour minimization", 2006.
 dvec3 wayApart(const Elements& elements, const Edge& edge, const Triangle& triangle, std::span<const dvec3> x) {
     const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    if (elements.isRigid(edge.surface)) return -outOfEdge(edge, triangle, x);
     const dvec3 along = unit(at(edge.b) - at(edge.a));
     const std::array<int, 3>& c = triangle.points;
     const dvec3 normal = unit(glm::cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0])));
@@ -42,6 +43,21 @@ dvec3 wayApart(const Elements& elements, const Edge& edge, const Triangle& trian
 
 }  // namespace
 
+dvec3 acrossEdge(const Edge& edge, int beside, std::span<const dvec3> x) {
+    const dvec3& from = x[static_cast<std::size_t>(edge.a)];
+    const dvec3 along = x[static_cast<std::size_t>(edge.b)] - from, way = x[static_cast<std::size_t>(beside)] - from;
+    return unit(way - (glm::dot(way, along) / glm::dot(along, along)) * along);
+}
+
+dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec3> x) {
+    const std::array<int, 3>& c = triangle.points;
+    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    const dvec3 normal = unit(glm::cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0])));
+    if (edge.wings[0] < 0 || edge.wings[1] < 0) return dvec3(0.0);
+    const double out = -glm::dot(normal, acrossEdge(edge, edge.wings[0], x) + acrossEdge(edge, edge.wings[1], x));
+    return out < 0 ? -normal : normal;
+}
+
 std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
     patches.follow(x, x);
@@ -59,6 +75,8 @@ std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, 
         for (int e : ofEdges.edges) {
             const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
             if (edge.isGone || edge.a == edge.b) continue;
+            // What is round, or has one face, has no side that is out.
+            if (elements.isRigid(edge.surface) && (edge.wings[0] < 0 || edge.wings[1] < 0)) continue;
             Box box;
             box.add(at(edge.a));
             box.add(at(edge.b));

@@ -8,7 +8,10 @@
 namespace taut::contact {
 
 Elements::Elements(std::vector<Surface> surfaces, std::vector<dvec3> rest)
-    : surfaces_(std::move(surfaces)), rest_(std::move(rest)), surfaceOf_(rest_.size(), -1) {
+    : surfaces_(std::move(surfaces)),
+      rest_(std::move(rest)),
+      surfaceOf_(rest_.size(), -1),
+      isStill_(surfaces_.size(), 0) {
     for (int s = 0; s < static_cast<int>(surfaces_.size()); ++s) addSurface(s);
     firstTriangleOf_.push_back(triangles_.size());
     firstEdgeOf_.push_back(edges_.size());
@@ -35,8 +38,12 @@ void Elements::addSurface(int number) {
     for (const std::array<int, 3>& t : surface.triangles)
         triangles_.push_back(
             {t, {edgeOf(t[0], t[1], false), edgeOf(t[1], t[2], false), edgeOf(t[2], t[0], false)}, number});
-    for (const std::array<int, 2>& line : surface.lines)
-        if (line[0] != line[1]) edgeOf(line[0], line[1], true);
+    for (std::size_t l = 0; l < surface.lines.size(); ++l) {
+        const std::array<int, 2>& line = surface.lines[l];
+        if (line[0] == line[1]) continue;
+        const auto e = static_cast<std::size_t>(edgeOf(line[0], line[1], true));
+        if (l < surface.wings.size()) edges_[e].wings = surface.wings[l];
+    }
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t e = firstEdgeOf_.back(); e < edges_.size(); ++e) {
         const dvec3 d = rest_[static_cast<std::size_t>(edges_[e].b)] - rest_[static_cast<std::size_t>(edges_[e].a)];

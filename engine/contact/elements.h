@@ -24,6 +24,7 @@ struct Edge {
     bool isLine;  // of no triangle: it pushes with its ends too
     bool isGone = false;
     std::array<int, 2> triangles{-1, -1};  // on either side, the lower first; more than two count as a border
+    std::array<int, 2> wings{-1, -1};      // points, as of a surface
 };
 
 class Elements {
@@ -61,14 +62,20 @@ class Elements {
     double shortestEdge(int surface) const { return shortest_[static_cast<std::size_t>(surface)]; }  // [m] at rest
 
     bool shareBond(int surfaceA, int surfaceB) const {
-        return surface(surfaceA).bond == surface(surfaceB).bond && !surface(surfaceA).isRigid;
+        return surface(surfaceA).bond == surface(surfaceB).bond && !isRigid(surfaceA) && !isRigid(surfaceB);
     }
     // Whether anything of the one may meet anything of the other.
     bool mayMeet(int surfaceA, int surfaceB) const {
         const Surface &a = surface(surfaceA), &b = surface(surfaceB);
         if (surfaceA == surfaceB) return a.meetsItself && !a.isRigid;
-        return a.meetsOthers && b.meetsOthers && !(a.isRigid && b.isRigid);
+        if (a.isRigid || b.isRigid) return a.isRigid != b.isRigid && a.meetsRigid && b.meetsRigid;
+        return a.meetsOthers && b.meetsOthers;
     }
+    bool isRigid(int number) const { return surface(number).isRigid; }
+
+    // Of a rigid surface: its points are where they were when it was last followed, and stay there.
+    void setStill(int surface, bool isStill) { isStill_[static_cast<std::size_t>(surface)] = isStill ? 1 : 0; }
+    bool isStill(int surface) const { return isStill_[static_cast<std::size_t>(surface)] != 0; }
 
     std::uint64_t bytes() const;
 
@@ -86,6 +93,7 @@ class Elements {
     std::vector<int> ring_, firstTriangle_;
     std::vector<std::size_t> ringStart_;
     std::vector<double> shortest_;  // (surfaces)
+    std::vector<char> isStill_;     // (surfaces)
 };
 
 }  // namespace taut::contact

@@ -5,6 +5,7 @@
 
 #include "taut/contact/closest.h"
 #include "taut/contact/guard.h"
+#include "taut/contact/rigid_side.h"
 #include "taut/core/parallel.h"
 
 namespace taut::contact {
@@ -13,7 +14,6 @@ namespace {
 constexpr int recordsAtOnce = 16;
 constexpr int mostSlides = 8, mostZones = 12;
 constexpr double pressShare = 0.05;  // of the distance kept: a gap below it is a contact
-constexpr double valley = 0.2;       // sine of the angle by which a face may rise beside an edge that presses
 constexpr double apartSpeed = 0.3;   // [m/s] that crossings are led apart with
 constexpr double nothing = 1e-9;     // [m] no direction can be told of less
 
@@ -79,7 +79,7 @@ bool Group::isRidge(const Edge& edge, const dvec3& on, const dvec3& outward, std
             if (rise > 0 && rise * rise > valley * valley * glm::dot(inwards, inwards)) return false;
         }
     }
-    return true;
+    return areWingsBehind(edge, outward, x);
 }
 
 // Of a point whose nearest place on a triangle is on an edge or a corner: whether that is so of all triangles there,
@@ -140,9 +140,16 @@ void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::
             const OnSegments on = nearestOnSegments(at(first.a), at(first.b), at(second.a), at(second.b));
             pair.points = {first.a, first.b, second.a, second.b};
             pair.weights = {1 - on.s, on.s, on.t - 1, -on.t};
-            areInside = on.areInside || first.isLine || second.isLine;
             surfaceA = first.surface;
             surfaceB = second.surface;
+            areInside = on.areInside || first.isLine || second.isLine;
+            // Ends of a rigid edge meet triangles as corners; ends of others meet its faces elsewhere.
+            const bool isRigidFirst = elements_.isRigid(surfaceA), isRigidSecond = elements_.isRigid(surfaceB);
+            if (isRigidFirst || isRigidSecond) {
+                const Edge& soft = isRigidFirst ? second : first;
+                const double share = isRigidFirst ? on.t : on.s;
+                areInside = on.areInside || (soft.isLine && share > 0 && share < 1);
+            }
         }
         for (std::size_t i = 0; i < 4; ++i) apart += pair.weights[i] * at(pair.points[i]);
         pair.apart = length(apart);
@@ -163,13 +170,14 @@ void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::
         }
         pair.presses = areInside && (gap < pressShare * pair.keep || gap + glm::dot(pair.normal, way) < 0);
         if (pair.presses && pair.isPoint && feature >= 0) pair.presses = isFeatureNearest(pair, feature, x0);
+        if (pair.presses && pair.isPoint && elements_.isRigid(surfaceA))
+            pair.presses = isCornerNearest(elements_, near.a, -pair.normal, x0);
         if (pair.presses && !pair.isPoint) {
             const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
                        &second = elements_.edges()[static_cast<std::size_t>(near.b)];
             const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
             const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
-            pair.presses = (first.isLine || isRidge(first, onFirst, -pair.normal, x0)) &&
-                           (second.isLine || isRidge(second, onSecond, pair.normal, x0));
+            pair.presses = isRidge(first, onFirst, -pair.normal, x0) && isRidge(second, onSecond, pair.normal, x0);
         }
         if (!pair.presses && pair.apart > record.coming + watchShare * pair.keep) continue;
         if (!crossings_.empty() && isTangled(pair)) continue;
@@ -213,6 +221,7 @@ Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, doubl
     for (const MeetingPair& pair : pairs_) {
         if (!pair.presses) continue;
         outlook.meets = true;
+        outlook.meetsRigid = outlook.meetsRigid || hasRigidSide(elements_, pair);
         dvec3 speed(0.0);
         for (std::size_t k = 0; k < 4; ++k) speed += pair.weights[k] * v[static_cast<std::size_t>(pair.points[k])];
         outlook.closing = std::max(outlook.closing, -glm::dot(pair.normal, speed));
@@ -230,7 +239,7 @@ const Meeting& Group::meet(const Instant& instant) {
     locate(instant.x0, instant.x1);
     pressed_.clear();
     for (const MeetingPair& pair : pairs_) {
-        if (!pair.presses) continue;
+        if (!pair.presses || !mayYield(elements_, pair, instant.inverseMass)) continue;
         pressed_.push_back(pair);
         dvec3 way(0.0);
         for (std::size_t k = 0; k < 4; ++k) {
@@ -301,6 +310,7 @@ void Group::leadApart(const Instant& instant) {
             speedV += crossing.weights[k] * glm::dot(v_[i], crossing.apart);
         }
         if (!(inverse > 0) || crossing.apart == dvec3(0.0)) continue;
+        if (!mayYield(elements_, crossing, instant.inverseMass)) continue;
         const double impulse = std::max(0.0, apartSpeed - speed) / inverse;
         const double impulseV = std::max(0.0, apartSpeed - speedV) / inverse;
         for (std::size_t k = 0; k < 5; ++k) {

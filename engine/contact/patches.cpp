@@ -100,6 +100,7 @@ Patches::Patches(const Elements& elements)
         for (int i : patches_[static_cast<std::size_t>(p)].corners) patchesAt_[next[static_cast<std::size_t>(i)]++] = p;
     boxes_.resize(nodes_.size());
     flatness_.resize(patches_.size());
+    isKnown_.assign(patches_.size(), 0);
     prepareFlatness();
     takeBalls();
 }
@@ -259,6 +260,10 @@ void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1, doubl
     core::parallelFor((count() + atOnce - 1) / atOnce, [&](int task) {
         for (int p = task * atOnce; p < std::min((task + 1) * atOnce, count()); ++p) {
             const Patch& patch = patches_[static_cast<std::size_t>(p)];
+            const bool isStill = elements_.isStill(patch.surface);
+            char& isKnown = isKnown_[static_cast<std::size_t>(p)];
+            if (isStill && isKnown != 0) continue;
+            isKnown = isStill ? 1 : 0;
             PatchMotion& motion = motions_[static_cast<std::size_t>(p)];
             motion.box = {};
             findWay(static_cast<std::size_t>(p), x0, x1);

@@ -156,6 +156,7 @@ class Patches {
     std::vector<Inverse> inverses_;   // (triangles) of those in planes
     std::vector<RestBox> restBoxes_;  // (patches) likewise
     std::vector<Flatness> flatness_;  // (patches)
+    std::vector<char> isKnown_;       // (patches) of still surfaces: where they are
 };
 
 }  // namespace taut::contact

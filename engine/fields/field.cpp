@@ -54,6 +54,7 @@ std::string description(const Field& field) {
             if (!field.values.empty()) return fmt::format("{}{}", fmt::join(field.values, " or "), unit);
             return (field.multipleOf > 1 ? fmt::format("a multiple of {}", field.multipleOf) : "a whole number") + unit;
         case FieldKind::flag: return "true or false";
+        case FieldKind::flagOrChoice: return fmt::format("true, false or \"{}\"", fmt::join(field.choices, "\" or \""));
         case FieldKind::text: return "a text";
         case FieldKind::choice: return "one of " + joined(field.choices);
         case FieldKind::stepLength: return "\"auto\" or a number" + unit;

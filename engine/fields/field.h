@@ -18,8 +18,9 @@ class Problems;
 
 enum class FieldKind {
     number,
-    whole,  // a whole number
-    flag,   // true or false
+    whole,         // a whole number
+    flag,          // true or false
+    flagOrChoice,  // true, false or one of `choices`
     text,
     choice,       // one of `choices`
     stepLength,   // "auto" or a number

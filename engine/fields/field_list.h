@@ -103,6 +103,19 @@ class FieldList {
             [=](Spec& s, const Value& value) { s.*member = std::get<bool>(value); },
             [=](const Spec& s) -> Value { return s.*member; });
     }
+    // A flag, or a word that sets both it and another.
+    FieldList& flagOr(const char* key, bool Spec::*member, const char* word, bool Spec::*other, const char* help) {
+        add(
+            key, FieldKind::flagOrChoice, "", anyNumber, help,
+            [=](Spec& s, const Value& value) {
+                const bool* flag = std::get_if<bool>(&value);
+                s.*member = flag == nullptr || *flag;
+                s.*other = flag == nullptr;
+            },
+            [=](const Spec& s) -> Value { return s.*other ? Value(std::string(word)) : Value(s.*member); });
+        last().choices = {word};
+        return *this;
+    }
     template <class Text, class Base>  // std::string or std::optional<std::string>
     FieldList& text(const char* key, Text Base::*member, Role role, const char* help) {
         return add(

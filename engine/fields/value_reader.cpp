@@ -19,6 +19,7 @@ class ValueReader {
             case FieldKind::number: return wrapped(number(node, field_.key));
             case FieldKind::whole: return whole(node);
             case FieldKind::flag: return flag(node);
+            case FieldKind::flagOrChoice: return node.kind == NodeKind::flag ? flag(node) : choice(node);
             case FieldKind::text: return wrapped(text(node, field_.key));
             case FieldKind::choice: return choice(node);
             case FieldKind::stepLength: return stepLength(node);

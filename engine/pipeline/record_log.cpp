@@ -42,6 +42,7 @@ void eachNumber(Metrics& m, const Visit& visit) {
     visit(m.restVolume);
     visit(m.penetration);
     visit(m.minVolumeRatio);
+    visit(m.facePenetration);
     visit(m.work.evaluations);
     visit(m.work.iterations);
     visit(m.work.unconverged);

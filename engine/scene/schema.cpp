@@ -41,6 +41,11 @@ Json valueSchema(const Field& field) {
         case FieldKind::number: return numberSchema(field, false);
         case FieldKind::whole: return wholeSchema(field);
         case FieldKind::flag: return {{"type", "boolean"}};
+        case FieldKind::flagOrChoice: {
+            Json values = {true, false};
+            for (const std::string& choice : field.choices) values.push_back(choice);
+            return {{"enum", values}};
+        }
         case FieldKind::text: return {{"type", "string"}};
         case FieldKind::choice: return {{"enum", field.choices}};
         case FieldKind::stepLength: return {{"anyOf", {{{"const", "auto"}}, numberSchema(field, false)}}};

@@ -68,6 +68,7 @@ struct BodySpec {
     double friction = 1.0;          // factor on the collider's friction
     double thickness = 0.005;       // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
     bool collide = true;
+    bool meetsFaces = false;  // of colliders with its own, where `touch` does not say so
     Touch touch = Touch::nothing;
     FinishSpec finish;
     SolverOverride solver;

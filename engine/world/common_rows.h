@@ -76,7 +76,11 @@ std::vector<fields::Field> bodyRows() {
         .number("friction", &Spec::friction, "", Range{0.0, 100.0}, "Factor on the collider's friction.")
         .number("thickness", &Spec::thickness, "m", Range{0.0, 10.0},
                 "Distance kept from colliders; bodies that touch keep the sum of theirs.")
-        .flag("collide", &Spec::collide, "Whether colliders stop it. Points that start inside one come out at 1 m/s.")
+        .flagOr(
+            "collide", &Spec::collide, "faces", &Spec::meetsFaces,
+            "Whether colliders stop it: its points, and with \"faces\" its triangles and edges, which their corners "
+            "and sharp edges do not go through; so too where `touch` is not \"nothing\". Points that start inside "
+            "one come out at 1 m/s.")
         .choice("touch", &Spec::touch, {"nothing", "others", "all"},
                 "What of other bodies stops it: nothing, those that touch others too, or all, its own parts as well.")
         .table("finish", &Spec::finish, finishSection(), "How it looks.")

@@ -84,6 +84,7 @@ struct World::Impl {
     void checkForces() const;
     collision::Colliders colliders() const;  // where they are now
     void rebuildColliders();
+    std::vector<MetCollider> met() const;  // colliders as Touching asks for them
     ecs::Entity addCollider(const ColliderSpec& collider);
     Member addBody(std::unique_ptr<Body> body);
     ecs::Entity spawn(Body body);

@@ -52,6 +52,9 @@ std::span<const Metric> metricTable() {
          1},
         {"crossings", "crossings", "", "Number of edges of bodies with `touch` that go through triangles of such.",
          plain<&M::crossings>, 1},
+        {"face_penetration_m", "face_penetration", "m",
+         "Largest height that a collider's corner or sharp edge stands out of a triangle, of bodies that meet those.",
+         plain<&M::facePenetration>, 1},
     };
     return table;
 }

@@ -23,6 +23,8 @@ Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted) {
     Metrics metrics;
     metrics.time = seconds();
     for (const auto& island : islands) island->addMetrics(now(), wanted, metrics);
+    findTouching();
+    metrics.facePenetration = touching->facePenetration(wanted);
     const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
     for (const BodyContact& contact : touchWatch.contacts())
         metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
@@ -30,6 +32,14 @@ Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted) {
     for (const BodyCrossing& crossing : crossings())
         metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
     return metrics;
+}
+
+std::vector<MetCollider> World::Impl::met() const {
+    std::vector<MetCollider> all;
+    registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        all.push_back({collision::outlinesOf(part.model->shape), part.spec.friction, placement.to});
+    });
+    return all;
 }
 
 Metrics World::metrics() const {

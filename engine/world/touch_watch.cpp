@@ -37,8 +37,9 @@ std::vector<BodyCrossing> crossingsOf(Touching& touching) {
         const auto& elements = touching.elements();
         const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
         const int triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
-        const auto bodyOf = [&](int surface) { return touching.bodies()[static_cast<std::size_t>(surface)]; };
-        all.push_back({crossing.place, depthOf(touching, crossing), bodyOf(edge), bodyOf(triangle), crossing.edge});
+        if (!touching.isOfBody(edge)) continue;  // a collider's stands out of a face
+        all.push_back({crossing.place, depthOf(touching, crossing), &touching.bodyOf(edge), &touching.bodyOf(triangle),
+                       crossing.edge});
     }
     return all;
 }
@@ -46,18 +47,18 @@ std::vector<BodyCrossing> crossingsOf(Touching& touching) {
 void TouchWatch::look(const Touching& touching, double start) {
     contacts_.clear();
     hasMet_ = hasMet_ || touching.hasMet();
-    const auto bodies = touching.bodies();
     for (const contact::Touching& c : touching.contacts())
-        contacts_.push_back({c.place, c.normal, c.impulse, bodies[static_cast<std::size_t>(c.surfaceA)],
-                             bodies[static_cast<std::size_t>(c.surfaceB)]});
+        if (touching.isOfBody(c.surfaceA) && touching.isOfBody(c.surfaceB))
+            contacts_.push_back(
+                {c.place, c.normal, c.impulse, &touching.bodyOf(c.surfaceA), &touching.bodyOf(c.surfaceB)});
     if (touching.crossingsBefore().empty()) return;
     std::map<std::pair<std::string, std::string>, std::set<int>> edges;
     for (const contact::Crossing& crossing : touching.crossingsBefore()) {
         const auto& elements = touching.elements();
-        const Body* a =
-            bodies[static_cast<std::size_t>(elements.edges()[static_cast<std::size_t>(crossing.edge)].surface)];
-        const Body* b =
-            bodies[static_cast<std::size_t>(elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface)];
+        const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
+        if (!touching.isOfBody(edge)) continue;
+        const Body* a = &touching.bodyOf(edge);
+        const Body* b = &touching.bodyOf(elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface);
         if (sortsBefore(*b, *a)) std::swap(a, b);
         edges[{a->fullName(), b->fullName()}].insert(crossing.edge);
     }

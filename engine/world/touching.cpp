@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "taut/contact/standing_out.h"
 #include "taut/core/parallel.h"
 
 namespace taut::world {
@@ -22,6 +23,14 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+bool meetsColliders(const BodySpec& spec) {
+    return spec.collide && (spec.meetsFaces || spec.touch != Touch::nothing);
+}
+
+bool isMet(const BodySpec& spec) {
+    return spec.touch != Touch::nothing || meetsColliders(spec);
+}
+
 }  // namespace
 
 int partsOfTick(double tickSeconds, const ContactSpec& spec) {
@@ -33,7 +42,7 @@ int partsOfTick(double tickSeconds, const ContactSpec& spec) {
 
 bool touches(const IslandPlan& plan) {
     return std::any_of(
-        plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return body->spec->touch != Touch::nothing; });
+        plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return isMet(*body->spec); });
 }
 
 contact::Surface surfaceOf(const Body& body, int offset, int bond) {
@@ -43,6 +52,7 @@ contact::Surface surfaceOf(const Body& body, int offset, int bond) {
     surface.friction = body.spec->friction;
     surface.meetsItself = body.spec->touch == Touch::all;
     surface.meetsOthers = body.spec->touch != Touch::nothing;
+    surface.meetsRigid = meetsColliders(*body.spec);
     surface.bond = bond;
     const auto at = [&](int i) { return offset + body.pointOf[static_cast<std::size_t>(i)]; };
     for (const std::array<int, 3>& t : model.triangles) surface.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
@@ -57,7 +67,8 @@ contact::Surface surfaceOf(const Body& body, int offset, int bond) {
     return surface;
 }
 
-Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds)
+Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds,
+                   const std::function<std::vector<MetCollider>()>& colliders)
     : spec_(spec), tickSeconds_(tickSeconds), parts_(partsOfTick(tickSeconds, spec)) {
     std::vector<contact::Surface> surfaces;
     std::vector<dvec3> rest;
@@ -65,7 +76,7 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
         if (!touches(island->plan())) continue;
         const int offset = static_cast<int>(rest.size());
         for (const Body* body : island->plan().bodies) {
-            if (body->spec->touch == Touch::nothing) continue;
+            if (!isMet(*body->spec)) continue;
             surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
             bodies_.push_back(body);
         }
@@ -75,12 +86,23 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
         rooms_.push_back({island.get(), offset, static_cast<int>(rest.size())});
     }
     if (islands_.empty()) return;
+    if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return meetsColliders(*body->spec); }))
+        rigids_ = MetColliders(colliders(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
     inverseMass_.resize(rest.size());
     damage_.assign(bodies_.size(), 0);
     contact::GroupOptions options;
     options.friction = spec.friction;
     group_ = std::make_unique<contact::Group>(std::move(surfaces), std::move(rest), options);
+    rigids_.placeAll(x1_);
+    x0_ = x1_;
+}
+
+double Touching::facePenetration(const std::function<bool(const Body&)>& wanted) {
+    if (isEmpty() || rigids_.isEmpty()) return 0.0;
+    readAll();
+    return contact::standOut(group_->elements(), group_->crossingsAt(x1_), x1_,
+                             [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); });
 }
 
 void Touching::takeDamage() {
@@ -144,6 +166,8 @@ int Touching::chooseInstants(const TickTime& time) {
     };
     // Where nothing meets, by what is cheapest.
     if (!outlook.meets) return -enough(1, calmWay / std::max(outlook.stir, 1e-9));
+    // All of a body may hang on one corner, which its few points there press hard.
+    if (outlook.meetsRigid) return most;
     const double longest = outlook.closing > 0 ? wayOfKeep * outlook.leastKeep / outlook.closing : HUGE_VAL;
     return enough(std::min(fewestMet, most), longest);
 }
@@ -161,7 +185,9 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
                 moves ? 1.0 / plan.points[static_cast<std::size_t>(own)].mass : 0.0;
         }
     }
+    hasJumped_ = rigids_.lead(moving, tickSeconds_, group_->elements(), v_) || hasJumped_;
     readAll();
+    rigids_.place(0.0, x1_);
     if (hasJumped_) group_->drop();
     hasJumped_ = false;
     const auto start = Clock::now();
@@ -172,6 +198,7 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         std::vector<std::optional<Fault>> faults(islands_.size());
         for (Island* island : islands_) island->beginTry();
         readAll();
+        rigids_.place(0.0, x1_);
         const bool isTrial = instants < 0;
         instants_ = std::abs(instants);
         const bool isCoarse = tryTick(time, moving, instants_, faults, isTrial);
@@ -195,6 +222,7 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
         std::swap(x0_, x1_);
         readAll();
+        rigids_.place(0.0, x1_);
         group_->goBack(x0_, x1_);
         if (isCoarse)
             instants = isTrial ? std::max(std::min(fewestMet, mostInstants()), moreInstants(instants_))
@@ -229,6 +257,7 @@ bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> mov
         if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); }))
             return false;
         readAll();
+        rigids_.place(static_cast<double>(c + 1) / instants, x1_);
         meet(h);
         if (isTooCoarse(instants, isTrial)) return true;
     }

@@ -2,12 +2,14 @@
 // the next. It is made anew when a body comes or goes, and knows nothing that the islands do not.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "taut/contact/group.h"
 #include "taut/world/island.h"
+#include "taut/world/met_colliders.h"
 
 namespace taut::world {
 
@@ -22,8 +24,9 @@ contact::Surface surfaceOf(const Body& body, int offset, int bond);
 
 class Touching {
   public:
-    // Of the islands with bodies that touch; expects that they stay.
-    Touching(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds);
+    // Of the islands with bodies that touch; expects that they stay. Colliders are asked for if any body meets them.
+    Touching(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds,
+             const std::function<std::vector<MetCollider>()>& colliders);
 
     bool isEmpty() const { return islands_.empty(); }
     std::span<Island* const> islands() const { return islands_; }
@@ -48,7 +51,11 @@ class Touching {
     const std::vector<contact::Crossing>& crossings();           // now
     dvec3 position(int point) const { return x1_[static_cast<std::size_t>(point)]; }  // [m] as the last of those saw it
     const contact::Elements& elements() const { return group_->elements(); }
-    std::span<const Body* const> bodies() const { return bodies_; }  // (surfaces)
+    // Of the surface of a body; those of colliders come after them, and are rigid.
+    const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }
+    bool isOfBody(int surface) const { return surface < static_cast<int>(bodies_.size()); }
+    // How far colliders stand out of triangles of those bodies, between two ticks [m]: contact::standOut().
+    double facePenetration(const std::function<bool(const Body&)>& wanted);
 
   private:
     struct Part {
@@ -73,6 +80,7 @@ class Touching {
     std::vector<Part> rooms_;          // (islands)
     std::vector<const Body*> bodies_;  // (surfaces)
     std::vector<std::size_t> damage_;  // (surfaces) severed edges that are known
+    MetColliders rigids_;
     std::unique_ptr<contact::Group> group_;
     bool hasJumped_ = true;
     bool hasMet_ = false;

@@ -139,6 +139,7 @@ void World::Impl::rebuildColliders() {
         names.push_back("collider." + part.spec.name);
     });
     for (const auto& island : islands) island->setColliders(all.clone(), names);
+    touching.reset();
 }
 
 ecs::Entity World::Impl::spawn(Body body) {
@@ -198,7 +199,8 @@ std::vector<ColliderMotion> World::Impl::movingColliders() {
 }
 
 void World::Impl::findTouching() {
-    if (!touching) touching = std::make_unique<Touching>(islands, spec.contact, 1.0 / ticksPerSecond);
+    if (touching) return;
+    touching = std::make_unique<Touching>(islands, spec.contact, 1.0 / ticksPerSecond, [this] { return met(); });
 }
 
 // Those that touch go together, all others side by side.

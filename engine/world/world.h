@@ -52,11 +52,13 @@ struct Metrics {                      // at a published tick, velocities synchro
     glm::dvec3 angularMomentum{0.0};  // [kg m²/s] about the origin
     double maxStrain = 0;             // largest |l - L|/L of any spring but those of bending
     int contacts = 0;
-    int invertedCells = 0;      // V/V0 <= 0
-    int brokenSprings = 0;      // cut or torn since the start
-    double volume = 0;          // [m³] of the cells of blocks
-    double restVolume = 0;      // [m³] of the same cells without force
-    double penetration = 0;     // [m] largest depth of a free, colliding point inside a collider
+    int invertedCells = 0;   // V/V0 <= 0
+    int brokenSprings = 0;   // cut or torn since the start
+    double volume = 0;       // [m³] of the cells of blocks
+    double restVolume = 0;   // [m³] of the same cells without force
+    double penetration = 0;  // [m] largest depth of a free, colliding point inside a collider
+    double facePenetration =
+        0;  // [m] largest height of a collider's corner or edge out of a triangle of what meets them
     double minVolumeRatio = 1;  // smallest V/V0
     ode::Work work{};           // of the methods since the start
     int bodyContacts = 0;       // pairs of parts of bodies that pressed each other at the end of the last tick

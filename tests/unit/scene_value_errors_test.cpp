@@ -32,9 +32,16 @@ TEST(SceneErrors, ValuesOfTheWrongTypeAreReported) {
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"
          "collide = 1\n",
-         "s.toml:4:11: error: collide must be true or false, not 1\n"
+         "s.toml:4:11: error: collide must be true, false or \"faces\", not 1\n"
          "  collide = 1\n"
          "            ^"},
+        {"a word that a flag has not",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "collide = \"face\"\n",
+         "s.toml:4:11: error: collide must be true, false or \"faces\", not \"face\"\n"
+         "  collide = \"face\"\n"
+         "            ^ did you mean \"faces\"?"},
         {"a date for a number",
          "[run]\n"
          "seconds = 1979-05-27\n",

@@ -1,4 +1,5 @@
 list(APPEND TAUT_UNIT_TESTS
+  contact_faces_test.cpp
   world_actions_test.cpp
   world_bodies_test.cpp
   world_components_test.cpp
@@ -6,6 +7,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_divergence_test.cpp
   world_encounters_test.cpp
   world_envelope_test.cpp
+  world_faces_test.cpp
   world_forces_test.cpp
   world_freeze_test.cpp
   world_hands_test.cpp

@@ -11,7 +11,8 @@ std::shared_ptr<const Form> makeCapsule(const ShapeSizes& sizes) {
     expectSize(radius, "capsule: the radius");
     expectSize(sizes.height, "capsule: the height");
     const double half = 0.5 * sizes.height;
-    return byFormula<ClosedKind::capsule>({radius, half}, roundBounds(radius, half + radius));
+    return byFormula<ClosedKind::capsule>({radius, half}, roundBounds(radius, half + radius),
+                                          {{{0.0, -half, 0.0}, {0.0, half, 0.0}}, {{0, 1}}, {0, 1}, radius});
 }
 
 }  // namespace

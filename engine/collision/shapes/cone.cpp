@@ -12,7 +12,7 @@ std::shared_ptr<const Form> makeCone(const ShapeSizes& sizes) {
     expectSize(sizes.height, "cone: the height");
     const double half = 0.5 * sizes.height;
     return byFormula<ClosedKind::cone>({radius, half, std::sqrt(radius * radius + sizes.height * sizes.height)},
-                                       roundBounds(radius, half));
+                                       roundBounds(radius, half), outlineOfCone(radius, half));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ std::shared_ptr<const Form> makeCylinder(const ShapeSizes& sizes) {
     expectSize(radius, "cylinder: the radius");
     expectSize(sizes.height, "cylinder: the height");
     const double half = 0.5 * sizes.height;
-    return byFormula<ClosedKind::cylinder>({radius, half}, roundBounds(radius, half));
+    return byFormula<ClosedKind::cylinder>({radius, half}, roundBounds(radius, half), outlineOfCylinder(radius, half));
 }
 
 }  // namespace

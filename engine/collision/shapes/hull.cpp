@@ -21,6 +21,7 @@ class Hull final : public Form {
     bool sweep(const Path& path, Touch& touch, bool& crossed) const override;
     std::optional<Box> bounds() const override { return finder_.bounds(); }
     bool isConvex() const override { return true; }
+    Outline outline() const override { return outlineOf(finder_.facets()); }
 
   private:
     FootFinder finder_;

@@ -28,6 +28,7 @@ template <ClosedKind kind>
 struct ShapeByFormula {
     ClosedShape shape;
     Box filled;
+    Outline edges{};
 
     Nearest nearest(const dvec3& p) const {
         const ClosedDistance at = closedDistance<kind>(shape.size, p.x, p.y, p.z);
@@ -35,15 +36,17 @@ struct ShapeByFormula {
     }
     Box bounds() const { return filled; }
     ClosedShape closed() const { return shape; }
+    Outline outline() const { return edges; }
 };
 
 struct FormulaSizes {
     double a = 0.0, b = 0.0, c = 0.0;
 };
 template <ClosedKind kind>
-std::shared_ptr<const Form> byFormula(const FormulaSizes& sizes, const Box& filled) {
+std::shared_ptr<const Form> byFormula(const FormulaSizes& sizes, const Box& filled, Outline edges = {}) {
     using Formula = ShapeByFormula<kind>;
-    return std::make_shared<ConvexForm<Formula>>(Formula{{kind, {sizes.a, sizes.b, sizes.c}}, filled});
+    return std::make_shared<ConvexForm<Formula>>(
+        Formula{{kind, {sizes.a, sizes.b, sizes.c}}, filled, std::move(edges)});
 }
 
 }  // namespace taut::collision

@@ -8,7 +8,8 @@ namespace {
 
 std::shared_ptr<const Form> makeSphere(const ShapeSizes& sizes) {
     expectSize(sizes.radius, "sphere: the radius");
-    return byFormula<ClosedKind::sphere>({sizes.radius}, roundBounds(sizes.radius, sizes.radius));
+    return byFormula<ClosedKind::sphere>({sizes.radius}, roundBounds(sizes.radius, sizes.radius),
+                                         {{dvec3(0.0)}, {}, {0}, sizes.radius});
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+#include "taut/collision/outline.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "taut/collision/facets.h"
+#include "taut/core/trig.h"
+
+namespace taut::collision {
+namespace {
+
+// The way from an edge to a place beside it, straight off the edge; unit, or zero.
+dvec3 across(const dvec3& from, const dvec3& to, const dvec3& beside) {
+    const dvec3 along = to - from, way = beside - from;
+    const dvec3 off = way - (glm::dot(way, along) / glm::dot(along, along)) * along;
+    const double size = std::sqrt(glm::dot(off, off));
+    return size > 0.0 ? off / size : dvec3(0.0);
+}
+
+dvec3 cornerOf(const Triangle& t, std::size_t k) {
+    return k == 0 ? t.corner : t.corner + (k == 1 ? t.ab : t.ac);
+}
+
+void addRim(double radius, double height, Outline& outline) {
+    for (int i = 0; i < rimCorners; ++i) {
+        const double angle = 2.0 * core::pi * i / rimCorners;
+        outline.vertices.emplace_back(radius * core::cosine(angle), height, radius * core::sine(angle));
+    }
+}
+
+void takeAllAsCorners(Outline& outline) {
+    for (int i = 0; i < static_cast<int>(outline.vertices.size()); ++i) outline.corners.push_back(i);
+}
+
+}  // namespace
+
+Outline outlineOf(const Facets& facets) {
+    struct Side {
+        std::uint32_t a, b;      // vertices, the lower first
+        std::uint32_t triangle;  //
+        std::uint32_t apex;      // of its corners, 0 … 2
+    };
+    std::vector<Side> sides;
+    for (std::size_t i = 0; i < facets.corners.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = facets.corners[i + k], b = facets.corners[i + (k + 1) % 3];
+            sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(i / 3),
+                             static_cast<std::uint32_t>((k + 2) % 3)});
+        }
+    std::sort(sides.begin(), sides.end(), [](const Side& p, const Side& q) {
+        return std::array{p.a, p.b, p.triangle} < std::array{q.a, q.b, q.triangle};
+    });
+
+    Outline outline;
+    std::vector<int> numbers(facets.isBorder.size(), -1);
+    const auto take = [&](const Side& side, std::size_t k) {
+        int& number = numbers[facets.corners[3 * side.triangle + k]];
+        if (number < 0) {
+            number = static_cast<int>(outline.vertices.size());
+            outline.vertices.push_back(cornerOf(facets.triangles[side.triangle], k));
+        }
+        return number;
+    };
+    const double least = core::cosine(leastSharpness);
+    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+        while (last < sides.size() && sides[last].a == sides[first].a && sides[last].b == sides[first].b) ++last;
+        const Side& one = sides[first];
+        const Triangle& t = facets.triangles[one.triangle];
+        const dvec3 a = cornerOf(t, (one.apex + 1) % 3), b = cornerOf(t, (one.apex + 2) % 3);
+        const bool areTwo = last - first == 2;
+        if (areTwo) {
+            const Side& other = sides[first + 1];
+            const dvec3 apex = cornerOf(facets.triangles[other.triangle], other.apex);
+            if (glm::dot(across(a, b, cornerOf(t, one.apex)), across(a, b, apex)) <= -least) continue;
+            if (facets.isClosed && glm::dot(t.normal, apex - a) >= 0.0) continue;
+        }
+        Outline::Edge edge{take(one, (one.apex + 1) % 3), take(one, (one.apex + 2) % 3)};
+        if (last - first <= 2) edge.wingA = take(one, one.apex);
+        if (areTwo) edge.wingB = take(sides[first + 1], sides[first + 1].apex);
+        outline.edges.push_back(edge);
+    }
+    for (const Outline::Edge& edge : outline.edges) outline.corners.insert(outline.corners.end(), {edge.a, edge.b});
+    std::sort(outline.corners.begin(), outline.corners.end());
+    outline.corners.erase(std::unique(outline.corners.begin(), outline.corners.end()), outline.corners.end());
+    return outline;
+}
+
+Outline outlineOfCylinder(double radius, double halfHeight) {
+    Outline outline;
+    addRim(radius, halfHeight, outline);
+    addRim(radius, -halfHeight, outline);
+    for (int i = 0; i < rimCorners; ++i) {
+        const int next = (i + 1) % rimCorners, opposite = (i + rimCorners / 2) % rimCorners;
+        outline.edges.push_back({i, next, opposite, rimCorners + i});
+        outline.edges.push_back({rimCorners + i, rimCorners + next, rimCorners + opposite, i});
+    }
+    takeAllAsCorners(outline);
+    return outline;
+}
+
+// Eight lines down its side keep what meets the tip off it.
+Outline outlineOfCone(double radius, double halfHeight) {
+    Outline outline;
+    addRim(radius, -halfHeight, outline);
+    outline.vertices.emplace_back(0.0, halfHeight, 0.0);
+    for (int i = 0; i < rimCorners; ++i) {
+        const int next = (i + 1) % rimCorners;
+        outline.edges.push_back({i, next, (i + rimCorners / 2) % rimCorners, rimCorners});
+        if (i % (rimCorners / 8) == 0)
+            outline.edges.push_back({i, rimCorners, next, (i + rimCorners - 1) % rimCorners});
+    }
+    takeAllAsCorners(outline);
+    return outline;
+}
+
+}  // namespace taut::collision

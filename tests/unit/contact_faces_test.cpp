@@ -109,6 +109,39 @@ TEST(ContactFaces, ARidgeStandsOutByTheHeightOverTwoTriangles) {
                 0.5 * d / std::sqrt(1 + d * d), 1e-15);
 }
 
+// Towards its end, at a height that it keeps anyway: the plane that stands on the edge would take a part of 5 m/s.
+TEST(ContactFaces, AnEdgeDoesNotStopWhatComesAlongAFaceBesideIt) {
+    constexpr double height = 0.0104, before = 0.003, h = 1e-3, speed = 5.0;
+    Scene scene;
+    scene.x = {{-1, height, -before}, {1, height, -before}, {0, height, -1}};
+    const int a = scene.add({-2, 0, 0}), b = scene.add({2, 0, 0});
+    scene.rigid.points = {a, b};
+    scene.rigid.lines = {{a, b}};
+    const int top = scene.add({0, 0, -1}), side = scene.add({0, -1, 0});
+    for (const bool hasFaces : {true, false}) {
+        if (hasFaces)
+            scene.rigid.wings = {{top, side}};
+        else
+            scene.rigid.wings.clear();
+        Group group = scene.group();
+        std::vector<dvec3> x1 = scene.x, v(x1.size(), dvec3(0.0));
+        for (std::size_t i = 0; i < 3; ++i) {
+            v[i] = {0, 0, speed};
+            x1[i] += h * v[i];
+        }
+        const std::vector<double> inverse = masses(scene);
+        Instant instant;
+        instant.h = h;
+        instant.x0 = scene.x;
+        instant.x1 = x1;
+        instant.v = v;
+        instant.inverseMass = inverse;
+        group.begin(scene.x);
+        EXPECT_EQ(group.meet(instant).pressing, hasFaces ? 0 : 1);
+        EXPECT_EQ(v[0].z == speed, hasFaces);
+    }
+}
+
 TEST(ContactFaces, WhatMeetsOnlyRigidSurfacesMeetsNeitherItselfNorOthers) {
     Scene scene;
     scene.addTip({0, -1, 0});

@@ -215,7 +215,7 @@ void printContact(const world::ContactInfo& contact) {
                     ? fmt::format(", {:.3g} in the mean of the first {} ticks", meanInstants(contact), contact.ticks)
                     : "");
     if (contact.ticks > 0)
-        printResult("  cost        {:.3g} ns a point and instant, {} points\n", 1e9 * instantSeconds(contact),
+        printResult("  cost        {:.3g} us a point and instant, {} points\n", 1e6 * instantSeconds(contact),
                     contact.points);
     // Of the body whose layers lie furthest apart for its cells.
     std::size_t worst = 0;

@@ -31,11 +31,11 @@ std::vector<Function> bodyFunctions() {
         function.unit = metric.unit;
         function.help = metric.help;
         function.value = [&metric](const Now& now, std::span<const Expression> arguments) -> Quantity {
-            return {asVector(metric.value(now.metrics(bodiesOf(arguments))))};
+            return {asVector(metric.value(now.metrics(bodiesOf(arguments), metric.measures)))};
         };
         if (metric.extreme == 0) continue;
         function.place = [&metric](const Now& now, std::span<const Expression> arguments) {
-            return extremeBody(now, bodiesOf(arguments), [&](const world::Metrics& metrics) {
+            return extremeBody(now, bodiesOf(arguments), metric.measures, [&](const world::Metrics& metrics) {
                 return metric.extreme * asVector(metric.value(metrics)).x;
             });
         };

@@ -16,10 +16,11 @@ const world::Selection& Now::selection(const std::string& target) const {
     return selections_.of.insert_or_assign(target, world_.select(target)).first->second;
 }
 
-const world::Metrics& Now::metrics(const std::string& bodies) const {
-    const auto found = metrics_.find(bodies);
+const world::Metrics& Now::metrics(const std::string& bodies, world::Measures what) const {
+    const auto key = std::pair(bodies, what);
+    const auto found = metrics_.find(key);
     if (found != metrics_.end()) return found->second;
-    return metrics_.emplace(bodies, bodies.empty() ? world_.metrics() : world_.metrics(selection(bodies)))
+    return metrics_.emplace(key, bodies.empty() ? world_.metrics(what) : world_.metrics(selection(bodies), what))
         .first->second;
 }
 

@@ -24,7 +24,7 @@ class Now {
     // The selections may be those of moments before, in the same world.
     Now(const world::World& world, Selections& selections) : world_(world), selections_(selections) {}
     const world::World& world() const { return world_; }
-    const world::Metrics& metrics(const std::string& bodies) const;  // empty: of all
+    const world::Metrics& metrics(const std::string& bodies, world::Measures what) const;  // empty: of all
     // Throws core::Error(badContent) if there are none.
     const world::PointsNow& points(const std::string& target) const;
     // The same, or if they are one and the same body.
@@ -35,7 +35,7 @@ class Now {
 
     const world::World& world_;
     Selections& selections_;
-    mutable std::map<std::string, world::Metrics> metrics_;
+    mutable std::map<std::pair<std::string, world::Measures>, world::Metrics> metrics_;
     mutable std::map<std::string, world::PointsNow> points_;
 };
 

@@ -47,12 +47,12 @@ std::string extremePoint(const Now& now, const std::string& target,
     return place;
 }
 
-std::string extremeBody(const Now& now, const std::string& bodies,
+std::string extremeBody(const Now& now, const std::string& bodies, world::Measures what,
                         const std::function<double(const world::Metrics&)>& measure) {
     double largest = -std::numeric_limits<double>::infinity();
     std::string place;
     for (const std::string& body : bodiesOf(now, bodies)) {
-        const double value = measure(now.metrics(body));
+        const double value = measure(now.metrics(body, what));
         if (!(value > largest)) continue;
         largest = value;
         place = body;

@@ -13,7 +13,7 @@ std::string extremePoint(const Now& now, const std::string& target,
                          const std::function<double(const world::PointsNow&, std::size_t)>& measure);
 
 // The body that has the largest measure of those that a target names; empty: of all.
-std::string extremeBody(const Now& now, const std::string& bodies,
+std::string extremeBody(const Now& now, const std::string& bodies, world::Measures what,
                         const std::function<double(const world::Metrics&)>& measure);
 
 }  // namespace taut::check

@@ -70,9 +70,9 @@ void Overlay::paint(image::Image& picture, double time, std::span<const OverlayL
     lines.emplace_back("step h", stepText(step_));
     lines.emplace_back("largest strain", fmt::format("{:.2f} %", 100.0 * now.maxStrain));
     if (step_.bodiesTouch)
-        lines.emplace_back("between bodies",
-                           fmt::format("{} contact{}, {} crossing{}", now.bodyContacts,
-                                       now.bodyContacts == 1 ? "" : "s", now.crossings, now.crossings == 1 ? "" : "s"));
+        lines.emplace_back(
+            "bodies", fmt::format("{} contact{}, {} crossing{}", now.bodyContacts, now.bodyContacts == 1 ? "" : "s",
+                                  now.crossings, now.crossings == 1 ? "" : "s"));
 
     Painting painting(picture, letters_);
     const glm::vec2 size(picture.width, picture.height);

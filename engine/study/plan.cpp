@@ -222,6 +222,8 @@ void addRemarks(const PlanContext& context, const PlanReference& reference, Plan
             "No more than {} cells are tried: with smaller ones bodies that touch would keep further apart than "
             "those are wide; a smaller thickness would allow more.",
             context.resolution.most));
+    if (world::bodiesTouch(context.spec))
+        add("Contact between bodies is never left out; the cost has it, by its instants and the pairs it looked at.");
     if (reference.run.hasContacts) add("There are contacts, which are of order 1 in the step, whatever the method.");
     if (plan.predicted)
         add(fmt::format(

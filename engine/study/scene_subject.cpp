@@ -54,7 +54,7 @@ class SceneTrial final : public Trial {
             for (std::size_t i = 0; i < positions.size(); ++i)
                 for (int p = 0; p < 3 && !isHeld(*part.body, i); ++p) seen.values.push_back(positions[i][p]);
         });
-        const world::Metrics metrics = world_.metrics();
+        const world::Metrics metrics = world_.metrics(world::Measures::butCrossings);
         seen.kinetic = metrics.kinetic;
         seen.energy = metrics.energy();
         seen.hasTouched = world_.hasTouched();

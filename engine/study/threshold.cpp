@@ -92,7 +92,7 @@ class Search {
         for (const world::IslandInfo& info : world.islands()) mass += info.mass;
         for (long long tick = 0; tick < ticks && !isStopped(); ++tick) {
             if (world.advance()) break;
-            result_.kinetic = std::max(result_.kinetic, world.metrics().kinetic);
+            result_.kinetic = std::max(result_.kinetic, world.metrics(world::Measures::butCrossings).kinetic);
         }
         result_.allowance = 4 * result_.kinetic + 0.5 * mass * slowSpeed * slowSpeed;
         result_.criterion = fmt::format(
@@ -127,7 +127,7 @@ class Search {
         for (long long n = 1; n <= steps; ++n) {
             if (const auto divergence = world.advance()) return divergence->body;
             if (n % lookEvery != 0 && n != steps) continue;
-            if (!(world.metrics().kinetic <= result_.allowance)) return firstToGo(world);
+            if (!(world.metrics(world::Measures::butCrossings).kinetic <= result_.allowance)) return firstToGo(world);
             if (isStopped()) break;
         }
         return "";

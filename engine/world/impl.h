@@ -126,7 +126,7 @@ struct World::Impl {
     bool isRamping(fields::Affects which) const;
     void takeSprings(Body& body) const;
 
-    Metrics metricsOf(const std::function<bool(const Body&)>& wanted);
+    Metrics metricsOf(const std::function<bool(const Body&)>& wanted, Measures what);
     bool touchesAny() const;
     std::vector<BodyCrossing> crossings();
 

@@ -51,7 +51,7 @@ std::span<const Metric> metricTable() {
          "Number of places where bodies with `touch` press on each other, or on themselves.", plain<&M::bodyContacts>,
          1},
         {"crossings", "crossings", "", "Number of edges of bodies with `touch` that go through triangles of such.",
-         plain<&M::crossings>, 1},
+         plain<&M::crossings>, 1, Measures::all},
         {"face_penetration_m", "face_penetration", "m",
          "Largest height that a collider's corner or sharp edge stands out of a triangle, of bodies that meet those.",
          plain<&M::facePenetration>, 1},

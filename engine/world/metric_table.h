@@ -20,6 +20,7 @@ struct Metric {
     std::string_view help;
     MetricValue (*value)(const Metrics& metrics) = nullptr;
     int extreme = 0;  // which body a claim names as the place: 1 the one with the largest value, -1 smallest, 0 none
+    Measures measures = Measures::butCrossings;  // what it needs
 
     bool isVector() const { return std::holds_alternative<glm::dvec3>(value({})); }
 };

@@ -19,7 +19,7 @@ std::vector<BodyCrossing> World::Impl::crossings() {
     return crossingsOf(*touching);
 }
 
-Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted) {
+Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted, Measures what) {
     Metrics metrics;
     metrics.time = seconds();
     for (const auto& island : islands) island->addMetrics(now(), wanted, metrics);
@@ -28,7 +28,7 @@ Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted) {
     const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
     for (const BodyContact& contact : touchWatch.contacts())
         metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
-    if (!touchesAny()) return metrics;
+    if (what == Measures::butCrossings || !touchesAny()) return metrics;
     for (const BodyCrossing& crossing : crossings())
         metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
     return metrics;
@@ -42,8 +42,8 @@ std::vector<MetCollider> World::Impl::met() const {
     return all;
 }
 
-Metrics World::metrics() const {
-    return impl_->metricsOf([](const Body&) { return true; });
+Metrics World::metrics(Measures what) const {
+    return impl_->metricsOf([](const Body&) { return true; }, what);
 }
 
 Metrics World::metrics(const std::string& bodies) const {
@@ -67,11 +67,11 @@ bool World::isCurrent(const Selection& selection) const {
     return selection.generation == impl_->generation;
 }
 
-Metrics World::metrics(const Selection& selection) const {
+Metrics World::metrics(const Selection& selection, Measures what) const {
     TAUT_EXPECTS(isCurrent(selection));
     std::set<const Body*> bodies;
     for (const Selection::Part& part : selection.parts) bodies.insert(part.body);
-    return impl_->metricsOf([&](const Body& body) { return bodies.contains(&body); });
+    return impl_->metricsOf([&](const Body& body) { return bodies.contains(&body); }, what);
 }
 
 PointsNow World::points(const Selection& selection) const {

@@ -63,10 +63,10 @@ void TouchWatch::look(const Touching& touching, double start) {
         edges[{a->fullName(), b->fullName()}].insert(crossing.edge);
     }
     for (const auto& [names, crossed] : edges) {
-        const auto isKnown = [&](const Said& said) { return said.first == names.first && said.second == names.second; };
-        if (std::none_of(said_.begin(), said_.end(), isKnown))
-            said_.push_back(
-                {names.first, names.second, crossingText(names.first, names.second, start, crossed.size())});
+        const auto& [first, second] = names;
+        bool isKnown = false;
+        for (const Said& said : said_) isKnown = isKnown || (said.first == first && said.second == second);
+        if (!isKnown) said_.push_back({first, second, crossingText(first, second, start, crossed.size())});
     }
 }
 

@@ -62,10 +62,13 @@ struct Metrics {                      // at a published tick, velocities synchro
     double minVolumeRatio = 1;  // smallest V/V0
     ode::Work work{};           // of the methods since the start
     int bodyContacts = 0;       // pairs of parts of bodies that pressed each other at the end of the last tick
-    int crossings = 0;          // edges of bodies that touch, through triangles of such
+    int crossings = 0;          // edges of bodies that touch, through triangles of such; 0 where not looked for
 
     double energy() const { return kinetic + elastic + gravitational; }  // [J]
 };
+
+// Crossings cost the most, up to some microseconds for each point of bodies that touch.
+enum class Measures { all, butCrossings };
 
 // Points of a target at a published tick, velocities synchronised; body by body, in the order of authoring.
 struct PointsNow {
@@ -191,13 +194,13 @@ class World {
     std::uint64_t stateHash() const;                                 // chained over ticks
     std::vector<BodyHash> bodyHashes() const;                        // in the order of the state hash; not chained
     std::vector<std::uint64_t> pointHashes(ecs::Entity body) const;  // of x and the stored v, in the order of authoring
-    Metrics metrics() const;
+    Metrics metrics(Measures what = Measures::all) const;
     Metrics metrics(const std::string& bodies) const;   // of those that "cloth.*" names; zeros where it names none
     PointsNow points(const std::string& target) const;  // empty where it names none
     // A selection serves until a body comes or goes; expects one that is current, of this world.
     Selection select(const std::string& target) const;
     bool isCurrent(const Selection& selection) const;
-    Metrics metrics(const Selection& selection) const;
+    Metrics metrics(const Selection& selection, Measures what = Measures::all) const;
     PointsNow points(const Selection& selection) const;
 
     // Everything that the ticks so far have changed, as bytes, and back into a world that was built from the same scene

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "taut/contact/closest.h"
 
@@ -38,7 +40,57 @@ dvec3 wayApart(const Elements& elements, const Edge& edge, const Triangle& trian
         if (glm::dot(line, across) < 0) line = -line;
         sum += line - (2 * glm::dot(along, line) / slope) * normal;
     }
-    return unit(sum);
+    return sum;
+}
+
+// Two triangles that cut each other do so along a line from one crossing to the next: those are of one contour, and
+// the sides of an edge in one of them are the other way round in the other. All of a contour goes the same way, or the
+// middle of a straight one would have none, and its ends only draw their surface together.
+void agreeOnWays(const Elements& elements, std::vector<Crossing>& crossings) {
+    struct Link {
+        int low, high;  // triangles
+        int crossing;
+        bool isLow;  // the edge is of the lower
+    };
+    std::vector<Link> links;
+    for (std::size_t c = 0; c < crossings.size(); ++c)
+        for (int t : elements.edges()[static_cast<std::size_t>(crossings[c].edge)].triangles)
+            if (t >= 0)
+                links.push_back({std::min(t, crossings[c].triangle), std::max(t, crossings[c].triangle),
+                                 static_cast<int>(c), t < crossings[c].triangle});
+    std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+        return std::tie(a.low, a.high, a.crossing) < std::tie(b.low, b.high, b.crossing);
+    });
+    std::vector<int> parent(crossings.size());
+    std::vector<char> isOther(crossings.size(), 0);  // way round than the parent
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto find = [&](int c) {
+        bool other = false;
+        while (parent[static_cast<std::size_t>(c)] != c) {
+            other = other != (isOther[static_cast<std::size_t>(c)] != 0);
+            c = parent[static_cast<std::size_t>(c)];
+        }
+        return std::pair(c, other);
+    };
+    for (std::size_t k = 1; k < links.size(); ++k) {
+        if (links[k].low != links[k - 1].low || links[k].high != links[k - 1].high) continue;
+        const auto [a, otherA] = find(links[k - 1].crossing);
+        const auto [b, otherB] = find(links[k].crossing);
+        if (a == b) continue;
+        const bool differ = (otherA != otherB) != (links[k].isLow != links[k - 1].isLow);
+        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        isOther[static_cast<std::size_t>(std::max(a, b))] = differ ? 1 : 0;
+    }
+    std::vector<dvec3> sums(crossings.size(), dvec3(0.0));
+    for (std::size_t c = 0; c < crossings.size(); ++c) {
+        const auto [root, other] = find(static_cast<int>(c));
+        sums[static_cast<std::size_t>(root)] += other ? -crossings[c].apart : crossings[c].apart;
+    }
+    for (std::size_t c = 0; c < crossings.size(); ++c) {
+        const auto [root, other] = find(static_cast<int>(c));
+        const dvec3 way = unit(sums[static_cast<std::size_t>(root)]);
+        crossings[c].apart = other ? -way : way;
+    }
 }
 
 }  // namespace
@@ -116,6 +168,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, 
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
         return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
     });
+    agreeOnWays(elements, crossings);
     return crossings;
 }
 

@@ -177,8 +177,15 @@ void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::
                        &second = elements_.edges()[static_cast<std::size_t>(near.b)];
             const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
             const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
-            pair.presses = isRidge(first, onFirst, -pair.normal, x0) && isRidge(second, onSecond, pair.normal, x0);
+            // A ball beside a triangle is a point of a pair with it.
+            const bool isBall = first.a == first.b || second.a == second.b;
+            if (isBall && (first.triangles[0] >= 0 || second.triangles[0] >= 0))
+                pair.presses = false;
+            else
+                pair.presses = isRidge(first, onFirst, -pair.normal, x0) && isRidge(second, onSecond, pair.normal, x0);
         }
+        if (pair.presses && gap >= pressShare * pair.keep && misses(pair, x0, x1, 1.0 - pressShare))
+            pair.presses = false;
         if (!pair.presses && pair.apart > record.coming + watchShare * pair.keep) continue;
         if (!crossings_.empty() && isTangled(pair)) continue;
         const Surface &a = elements_.surface(surfaceA), &b = elements_.surface(surfaceB);

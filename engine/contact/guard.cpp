@@ -10,6 +10,7 @@
 namespace taut::contact {
 namespace {
 
+constexpr double aslant = 0.98;    // cosine of the angle by which a way past turns the direction between the sides
 constexpr double leftApart = 0.2;  // of the distance at the start of the instant
 
 using Corners = std::array<dvec3, 4>;
@@ -51,6 +52,50 @@ dvec3 nearestWay(const Corners& c, bool isPoint) {
     return c[0] + on.s * (c[1] - c[0]) - (c[2] + on.t * (c[3] - c[2]));
 }
 
+struct OnSides {
+    std::array<double, 4> weights;
+    dvec3 apart;
+};
+
+OnSides nearestPlaces(const Corners& c, bool isPoint) {
+    OnSides found{{}, dvec3(0.0)};
+    if (isPoint) {
+        const OnTriangle on = nearestOnTriangle(c[0], c[1], c[2], c[3]);
+        found.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
+    } else {
+        const OnSegments on = nearestOnSegments(c[0], c[1], c[2], c[3]);
+        found.weights = {1 - on.s, on.s, on.t - 1, -on.t};
+    }
+    for (std::size_t k = 0; k < 4; ++k) found.apart += found.weights[k] * c[k];
+    return found;
+}
+
+// Whether the direction between the sides at some moment of the way, halved down to where they are nearest, separates
+// them by that much at both ends. Of sides that are moved without turning it does if any does.
+bool separatesOnTheWay(const MeetingPair& pair, const Corners& before, const Corners& after, double enough,
+                       double mostAlike) {
+    constexpr int halvings = 12;
+    const int side = pair.firstSide();
+    double from = 0, to = 1, t = 1;
+    for (int k = 0; k <= halvings; ++k) {
+        Corners now;
+        for (std::size_t i = 0; i < 4; ++i) now[i] = before[i] + t * (after[i] - before[i]);
+        const OnSides on = nearestPlaces(now, pair.isPoint);
+        const double size = length(on.apart);
+        if (!(size > enough)) return false;
+        const dvec3 axis = on.apart / size;
+        if (glm::dot(axis, pair.normal) < mostAlike && height(before, side, axis) > enough &&
+            height(after, side, axis) > enough)
+            return true;
+        double parting = 0;
+        for (std::size_t i = 0; i < 4; ++i) parting += on.weights[i] * glm::dot(axis, after[i] - before[i]);
+        if (k == 0 && parting <= 0) return false;
+        (parting < 0 ? from : to) = t;
+        t = 0.5 * (from + to);
+    }
+    return false;
+}
+
 }  // namespace
 
 bool isCertified(const MeetingPair& pair, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -71,7 +116,12 @@ bool isCertified(const MeetingPair& pair, std::span<const dvec3> x0, std::span<c
     const dvec3 last = nearestWay(after, pair.isPoint);
     if (separates(before, after, side, last)) return true;
     const double size = length(last);
-    return size > 0 && separates(before, after, side, pair.normal + last / size);
+    if (size > 0 && separates(before, after, side, pair.normal + last / size)) return true;
+    return separatesOnTheWay(pair, before, after, 0.0, 2.0);
+}
+
+bool misses(const MeetingPair& pair, std::span<const dvec3> x0, std::span<const dvec3> x1, double share) {
+    return separatesOnTheWay(pair, cornersOf(pair, x0), cornersOf(pair, x1), share * pair.keep, aslant);
 }
 
 bool slideApart(const MeetingPair& pair, std::span<const double> inverseMass, std::span<dvec3> x1, std::span<dvec3> v,

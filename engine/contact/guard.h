@@ -12,6 +12,10 @@ namespace taut::contact {
 // lies above all of the other at both ends, and so in between.
 bool isCertified(const MeetingPair& pair, std::span<const dvec3> x0, std::span<const dvec3> x1);
 
+// Whether the sides surely pass each other at nearly what they are to keep, `share` of it, though they come nearer in
+// the direction in which they are nearest at first.
+bool misses(const MeetingPair& pair, std::span<const dvec3> x0, std::span<const dvec3> x1, double share);
+
 // Of a pair without: the points of its two sides that went furthest into each other come apart, to a fifth of what they
 // were, and their velocities stop approaching. It takes the approach alone and leaves the sliding (Harmon et al. 2008).
 // Returns whether any point was moved; then both, or the one that can, are appended.

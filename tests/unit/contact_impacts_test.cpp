@@ -179,6 +179,50 @@ TEST(ContactImpact, LetsSomeThroughWithoutCertificates) {
     EXPECT_GT(countThrough(1e-3, options, 200), 0);
 }
 
+// Past each other in planes that are 2 D apart, in any direction and phase.
+TEST(ContactImpact, LeavesAloneWhatMisses) {
+    Dice dice(3);
+    for (const double step : {1e-4, 5e-4, 1e-3}) {
+        int touched = 0;
+        for (int n = 0; n < 200; ++n) {
+            constexpr double keep = 0.008;
+            Flight flight;
+            const dvec3 up = dice.direction(), along = glm::normalize(glm::cross(up, dice.direction())),
+                        aside = glm::cross(along, up);
+            const auto corner = [&](double height) {
+                return height * up + 0.05 * dice.number() * along + 0.05 * dice.number() * aside;
+            };
+            const std::array<dvec3, 3> low{corner(-keep - 0.02), corner(-keep), corner(-keep - 0.01)};
+            std::array<dvec3, 3> high{corner(keep + 0.02), corner(keep), corner(keep + 0.01)};
+            for (dvec3& p : high) p -= (0.2 + 100 * step * dice.between(0.0, 1.0)) * along;
+            flight.addTriangle(low, dvec3(0.0), 0.01, keep / 2);
+            flight.addTriangle(high, 100.0 * along, 0.01, keep / 2);
+            const std::vector<dvec3> before = flight.v;
+            for (int i = 0; i < 4 + static_cast<int>(0.004 / step); ++i) flight.fly(step);
+            touched += flight.v != before ? 1 : 0;
+        }
+        EXPECT_EQ(touched, 0) << "of 200, " << step << " s";
+    }
+}
+
+// A ball over 40 cells of a flat sheet, pressed to it by its weight: the edges that it passes are no obstacles.
+TEST(ContactFriction, IsAllThatSlowsWhatSlidesOnAFlatSheet) {
+    for (const double h : {1e-3, 2.5e-4}) {
+        Flight flight;
+        flight.options.friction = 0.0;
+        flight.addSheet({-0.1, 0.0, -0.5}, {1.0, 0, 0}, {0, 0, 1.0}, 50, dvec3(0.0), 0.0, 0.004);
+        flight.addBall({0.0031, 0.008, -0.0217}, {5.0, 0.0, 0.3}, 0.01, 0.004);
+        const int instants = static_cast<int>(std::lround(0.16 / h));
+        for (int i = 0; i < instants; ++i) {
+            flight.v.back().y -= 9.81 * h;
+            flight.fly(h);
+            ASSERT_NEAR(flight.x.back().y, 0.008, 4e-4) << i << ", " << h << " s";
+        }
+        EXPECT_GT(flight.v.back().x, 0.99 * 5.0) << h << " s";
+        EXPECT_LT(flight.v.back().x, 5.0 + 1e-9) << h << " s";
+    }
+}
+
 // Without friction the guard takes the approach alone and leaves the sliding; zones, its last resort, take both.
 TEST(ContactImpact, LeavesWhatItCatchesOnTheWayItsSliding) {
     const auto left = [](bool slides) {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as there may be
 constexpr int mostParts = 64;
-constexpr int fewestMet = 16;       // instants of a tick in which anything touches
 constexpr double calmWay = 2.0;     // of the distance kept, that neighbours may move in an instant without contact
 constexpr double wayOfKeep = 0.25;  // of the distance kept, that two may approach in an instant
 
@@ -157,7 +156,7 @@ int Touching::moreInstants(int than) const {
 int Touching::chooseInstants(const TickTime& time) {
     const int most = mostInstants();
     if (spec_.instants) return std::gcd(most, *spec_.instants);
-    const contact::Outlook outlook = group_->foresee(x1_, v_, 1.0 / time.ticksPerSecond / fewestMet);
+    const contact::Outlook outlook = group_->foresee(x1_, v_, 1.0 / time.ticksPerSecond / parts_);
     const auto enough = [&](int fewest, double longest) {
         int instants = fewest;
         while (most % instants != 0) --instants;
@@ -169,7 +168,7 @@ int Touching::chooseInstants(const TickTime& time) {
     // All of a body may hang on one corner, which its few points there press hard.
     if (outlook.meetsRigid) return most;
     const double longest = outlook.closing > 0 ? wayOfKeep * outlook.leastKeep / outlook.closing : HUGE_VAL;
-    return enough(std::min(fewestMet, most), longest);
+    return enough(std::min(parts_, most), longest);
 }
 
 std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
@@ -225,7 +224,7 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         rigids_.place(0.0, x1_);
         group_->goBack(x0_, x1_);
         if (isCoarse)
-            instants = isTrial ? std::max(std::min(fewestMet, mostInstants()), moreInstants(instants_))
+            instants = isTrial ? std::max(std::min(parts_, mostInstants()), moreInstants(instants_))
                                : moreInstants(instants_);
         else
             instants = chooseInstants(time);

@@ -11,37 +11,11 @@
 namespace taut::contact {
 namespace {
 
-constexpr std::size_t patchSize = 12;         // elements at most
-constexpr int atOnce = 16;                    // patches a task
-constexpr double jitter = 0.05, gaps = 2e-3;  // of an edge, of the area
-constexpr std::size_t mostAbout = 48;         // patches
+constexpr int atOnce = 16;  // patches a task
 
 double widest(const dvec3& size, int& axis) {
     axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     return size[axis];
-}
-
-double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-// Of the convex hull, by Andrew's monotone chain.
-double hullArea(std::vector<glm::dvec2> points) {
-    std::sort(points.begin(), points.end(),
-              [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-    std::vector<glm::dvec2> hull;
-    for (int side = 0; side < 2; ++side) {
-        const std::size_t start = hull.size();
-        for (const glm::dvec2& p : points) {
-            while (hull.size() >= start + 2 && twiceArea(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-            hull.push_back(p);
-        }
-        hull.pop_back();
-        std::reverse(points.begin(), points.end());
-    }
-    double area = 0;
-    for (std::size_t i = 2; i < hull.size(); ++i) area += 0.5 * twiceArea(hull[0], hull[i - 1], hull[i]);
-    return area;
 }
 
 }  // namespace
@@ -103,41 +77,6 @@ Patches::Patches(const Elements& elements)
     isKnown_.assign(patches_.size(), 0);
     prepareFlatness();
     takeBalls();
-}
-
-// Flat if all points lie in one plane, and convex if the triangles fill their convex hull; but for what breaks
-// symmetry.
-void Patches::findPlane(int number) {
-    planes_.emplace_back();
-    const Surface& surface = elements_.surface(number);
-    if (surface.triangles.empty() || !surface.meetsItself) return;
-    const auto at = [&](int i) { return elements_.rest()[static_cast<std::size_t>(i)]; };
-    dvec3 normal(0.0);
-    double area = 0;
-    for (const std::array<int, 3>& t : surface.triangles) {
-        const dvec3 own = glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
-        normal += own;
-        area += 0.5 * length(own);
-    }
-    const double total = length(normal);
-    if (!(total > 0)) return;
-    normal /= total;
-    const dvec3 origin = at(surface.triangles.front()[0]);
-    dvec3 right(0.0);
-    for (int i : surface.points) {
-        const dvec3 d = at(i) - origin;
-        if (length(d) > length(right)) right = d;
-    }
-    right /= length(right);
-    const dvec3 up = glm::cross(normal, right);
-    std::vector<glm::dvec2> flat;
-    for (int i : surface.points) {
-        const dvec3 d = at(i) - origin;
-        if (std::abs(glm::dot(d, normal)) > jitter * elements_.shortestEdge(number)) return;
-        flat.emplace_back(glm::dot(d, right), glm::dot(d, up));
-    }
-    if (area < (1 - gaps) * hullArea(std::move(flat))) return;
-    planes_.back() = Plane{right, up};
 }
 
 int Patches::addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, bool areTriangles) {
@@ -340,156 +279,6 @@ void Patches::meet(int a, int b, double more, std::vector<PatchPair>& pairs) con
         meet(a, second.left, more, pairs);
         meet(a, second.right, more, pairs);
     }
-}
-
-void Patches::prepareFlatness() {
-    inverses_.resize(elements_.triangles().size());
-    restBoxes_.resize(patches_.size());
-    altitudes_.assign(elements_.surfaces().size(), 1e300);
-    for (std::size_t p = 0; p < patches_.size(); ++p) {
-        const std::optional<Plane>& plane = planes_[static_cast<std::size_t>(patches_[p].surface)];
-        if (!plane) continue;
-        const auto flat = [&](int i) {
-            const dvec3& x = elements_.rest()[static_cast<std::size_t>(i)];
-            return Rest2(glm::dot(x, plane->right), glm::dot(x, plane->up));
-        };
-        for (int i : patches_[p].corners) {
-            restBoxes_[p].low = glm::min(restBoxes_[p].low, flat(i));
-            restBoxes_[p].high = glm::max(restBoxes_[p].high, flat(i));
-        }
-        for (int t : patches_[p].triangles) {
-            const std::array<int, 3>& corners = elements_.triangles()[static_cast<std::size_t>(t)].points;
-            const Rest2 u = flat(corners[1]) - flat(corners[0]), v = flat(corners[2]) - flat(corners[0]);
-            const double det = u.x * v.y - u.y * v.x;
-            inverses_[static_cast<std::size_t>(t)] = {v.y / det, -v.x / det, -u.y / det, u.x / det};
-            const Rest2 w = v - u;
-            const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
-            double& altitude = altitudes_[static_cast<std::size_t>(patches_[p].surface)];
-            altitude = std::min(altitude, std::abs(det) / std::sqrt(longest));
-        }
-    }
-    constexpr double hair = 1.02;  // for what is not quite flat or convex
-    for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
-        enough_.push_back(hair * nearShare *
-                          std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
-    about_.resize(nodes_.size());
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-        const Node& node = nodes_[n];
-        if (node.patch >= 0 || node.surface < 0 || !planes_[static_cast<std::size_t>(node.surface)]) continue;
-        RestBox box;
-        const auto add = [&](auto&& self, const Node& below) -> void {
-            if (below.patch < 0) {
-                self(self, nodes_[static_cast<std::size_t>(below.left)]);
-                self(self, nodes_[static_cast<std::size_t>(below.right)]);
-                return;
-            }
-            const RestBox& own = restBoxes_[static_cast<std::size_t>(below.patch)];
-            box.low = glm::min(box.low, own.low);
-            box.high = glm::max(box.high, own.high);
-        };
-        add(add, node);
-        about_[n] = about(box, node.surface, patches_.size());
-    }
-}
-
-void Patches::measureFlatness(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    const Patch& patch = patches_[number];
-    Flatness flatness;
-    struct Gradient {
-        dvec3 right, up;
-    };
-    std::array<Gradient, 2 * patchSize> gradients;
-    std::size_t count = 0;
-    for (int t : patch.triangles) {
-        const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(t)];
-        if (triangle.isGone) {
-            flatness_[number] = flatness;
-            return;
-        }
-        const Inverse& inverse = inverses_[static_cast<std::size_t>(t)];
-        for (const auto& x : {x0, x1}) {
-            const dvec3 origin = x[static_cast<std::size_t>(triangle.points[0])];
-            const dvec3 u = x[static_cast<std::size_t>(triangle.points[1])] - origin;
-            const dvec3 v = x[static_cast<std::size_t>(triangle.points[2])] - origin;
-            gradients[count] = {inverse.a * u + inverse.c * v, inverse.b * u + inverse.d * v};
-            flatness.right += gradients[count].right;
-            flatness.up += gradients[count].up;
-            ++count;
-        }
-    }
-    const double size = length(flatness.right);
-    if (!(size > 0)) return void(flatness_[number] = {});
-    flatness.right /= size;
-    flatness.up -= glm::dot(flatness.up, flatness.right) * flatness.right;
-    const double height = length(flatness.up);
-    if (!(height > 0)) return void(flatness_[number] = {});
-    flatness.up /= height;
-    double least = 1e300, most = 0;
-    for (std::size_t g = 0; g < count; ++g) {
-        const Gradient& f = gradients[g];
-        const double a = glm::dot(flatness.right, f.right), d = glm::dot(flatness.up, f.up);
-        const double b = 0.5 * (glm::dot(flatness.right, f.up) + glm::dot(flatness.up, f.right));
-        const double half = 0.5 * (a - d);
-        least = std::min(least, 0.5 * (a + d) - std::sqrt(half * half + b * b));
-        const double p = glm::dot(f.right, f.right), q = glm::dot(f.up, f.up), r = glm::dot(f.right, f.up);
-        most = std::max(most, 0.5 * (p + q) + std::sqrt(0.25 * (p - q) * (p - q) + r * r));
-    }
-    flatness.normal = glm::cross(flatness.right, flatness.up);
-    flatness.least = least;
-    flatness.most = std::sqrt(most);
-    flatness_[number] = flatness;
-}
-
-std::vector<int> Patches::about(int a, int b) const {
-    const int surface = patches_[static_cast<std::size_t>(a)].surface;
-    if (surface != patches_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
-        return {};
-    const RestBox &boxA = restBoxes_[static_cast<std::size_t>(a)], &boxB = restBoxes_[static_cast<std::size_t>(b)];
-    return about({glm::min(boxA.low, boxB.low), glm::max(boxA.high, boxB.high)}, surface, mostAbout);
-}
-
-std::vector<int> Patches::about(const RestBox& all, int surface, std::size_t most) const {
-    std::vector<int> found;
-    for (std::size_t p = 0; p < patches_.size(); ++p) {
-        if (patches_[p].surface != surface) continue;
-        const RestBox& box = restBoxes_[p];
-        if (box.low.x > all.high.x || box.low.y > all.high.y || all.low.x > box.high.x || all.low.y > box.high.y)
-            continue;
-        if (found.size() == most) return {};
-        found.push_back(static_cast<int>(p));
-    }
-    return found;
-}
-
-double Patches::flatness(std::span<const int> about) const {
-    if (about.empty()) return -1.0;
-    const double least = enough(patches_[static_cast<std::size_t>(about.front())].surface);
-    dvec3 right(0.0), up(0.0);
-    for (int p : about) {
-        const Flatness& own = flatness_[static_cast<std::size_t>(p)];
-        if (own.least < least) return -1.0;
-        right += own.right;
-        up += own.up;
-    }
-    const double size = length(right);
-    if (!(size > 0)) return -1.0;
-    right /= size;
-    up -= glm::dot(up, right) * right;
-    const double height = length(up);
-    if (!(height > 0)) return -1.0;
-    up /= height;
-    const dvec3 normal = glm::cross(right, up);
-    double flattest = 1e300;
-    for (int p : about) {
-        const Flatness& own = flatness_[static_cast<std::size_t>(p)];
-        // Turned by an angle, from R of the patch to that of all, F t may be led that much further away from R t.
-        const double trace = glm::dot(right, own.right) + glm::dot(up, own.up) + glm::dot(normal, own.normal);
-        const double cosine = std::min(1.0, 0.5 * (trace - 1.0));
-        if (!(cosine > 0)) return -1.0;
-        const double aside = std::sqrt(std::max(0.0, own.most * own.most - own.least * own.least));
-        flattest = std::min(flattest, own.least * cosine - aside * std::sqrt(1.0 - cosine * cosine));
-    }
-    return flattest;
 }
 
 }  // namespace taut::contact

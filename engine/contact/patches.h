@@ -28,6 +28,8 @@ struct Box {
     }
 };
 
+inline constexpr std::size_t patchSize = 12;  // triangles, or edges, at most
+
 struct Patch {
     int surface = 0;
     // All that there is belongs to one patch; an edge or a point to the first that has it.

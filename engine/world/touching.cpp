@@ -144,6 +144,11 @@ int Touching::mostInstants() const {
     return std::max(most, 1);
 }
 
+// Of a tick in which anything touches. With a single step between two instants what lies on a slope creeps.
+int Touching::fewestMet() const {
+    return std::min(parts_, std::max(1, mostInstants() / 2));
+}
+
 // The next number that all substeps can be divided into, at least half as many again.
 int Touching::moreInstants(int than) const {
     const int most = mostInstants();
@@ -168,7 +173,7 @@ int Touching::chooseInstants(const TickTime& time) {
     // All of a body may hang on one corner, which its few points there press hard.
     if (outlook.meetsRigid) return most;
     const double longest = outlook.closing > 0 ? wayOfKeep * outlook.leastKeep / outlook.closing : HUGE_VAL;
-    return enough(std::min(parts_, most), longest);
+    return enough(fewestMet(), longest);
 }
 
 std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
@@ -224,8 +229,7 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         rigids_.place(0.0, x1_);
         group_->goBack(x0_, x1_);
         if (isCoarse)
-            instants = isTrial ? std::max(std::min(parts_, mostInstants()), moreInstants(instants_))
-                               : moreInstants(instants_);
+            instants = isTrial ? std::max(fewestMet(), moreInstants(instants_)) : moreInstants(instants_);
         else
             instants = chooseInstants(time);
     }

@@ -65,6 +65,7 @@ class Touching {
     void takeDamage();
     void readAll();
     int mostInstants() const;
+    int fewestMet() const;
     int moreInstants(int than) const;
     int chooseInstants(const TickTime& time);
     std::optional<Outcome> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);

@@ -180,7 +180,7 @@ TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
         for (const NearPair& pair : near.near(r).pairs) {
             const int between = std::abs(pair.a - pair.b) - 1;  // segments
             EXPECT_NEAR(pair.distance, std::min(2 * thickness, 0.7 * between * L), 1e-15) << pair.a << ", " << pair.b;
-            EXPECT_NEAR(pair.d0, between * L, 1e-15);
+            EXPECT_NEAR(pair.atFirst, between * L, 1e-15);
             ++listed;
         }
     EXPECT_GE(listed, 4 + 3);  // those that are up to 2 L apart

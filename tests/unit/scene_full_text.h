@@ -24,6 +24,9 @@ freeze_strain = 0.5
 [world]
 gravity = [0.5, -1.62, 0.25]
 air_density_kg_per_m3 = 0.02
+[contact]
+friction = 0.45
+instants = 8
 [run]
 fps = 30
 seconds = 4.5
@@ -72,6 +75,7 @@ seed = 9
 friction = 0.9
 thickness = 0.01
 collide = false
+touch = "others"
 finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, thread_m = 0.02, roughness = 0.5, sheen = 0.6, texture = "square.png" }
 solver = { integrator = "euler", dt = 2e-4, safety = 0.7, newton_steps = 5, cg_tolerance = 1e-8, cg_iterations = 400 }
 array = { count = [2, 3, 4], step_x = [1, 0, 0], step_y = [0, 2, 0], step_z = [0, 0, 3] }

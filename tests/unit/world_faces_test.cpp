@@ -31,7 +31,7 @@ ColliderSpec onCorner(const dvec3& top, double a = 0.3) {
 }
 
 // Level, of 0.6 m, its middle in the middle of a triangle of its cells.
-ClothSpec sheet(double height, int cells = 6) {
+ClothSpec sheetAt(double height, int cells = 6) {
     ClothSpec cloth = support::cloth("c", cells);
     cloth.size = {0.6, 0.6};
     const double cell = 0.6 / cells;
@@ -84,7 +84,7 @@ double lowest(World& world) {
 TEST(Faces, ASheetRestsAtItsThicknessOverACorner) {
     const dvec3 top{0, 0.5, 0};
     for (const bool meets : {false, true}) {
-        ClothSpec cloth = sheet(0.52);
+        ClothSpec cloth = sheetAt(0.52);
         cloth.hold = {"corners"};
         cloth.meetsFaces = meets;
         World world(sceneOf(cloth, onCorner(top)));
@@ -101,7 +101,7 @@ TEST(Faces, ASheetRestsAtItsThicknessOverACorner) {
 }
 
 TEST(Faces, ACornerAtFiveMetresASecondDoesNotGoThroughAHangingCloth) {
-    ClothSpec cloth = sheet(0);
+    ClothSpec cloth = sheetAt(0);
     cloth.origin = {-0.3 + 0.1 / 3, 1, 0};
     cloth.down = {0, -1, 0};
     cloth.hold = {"top"};
@@ -120,7 +120,7 @@ TEST(Faces, ACornerAtFiveMetresASecondDoesNotGoThroughAHangingCloth) {
 }
 
 TEST(Faces, ACornerThatIsThroughAtTheStartComesOut) {
-    ClothSpec cloth = sheet(0.48);
+    ClothSpec cloth = sheetAt(0.48);
     World world(sceneOf(cloth, onCorner({0, 0.5, 0})));
     EXPECT_NEAR(world.metrics().facePenetration, 0.02, 1e-6);  // the scene's, in single precision
     run(world, 30);
@@ -129,7 +129,7 @@ TEST(Faces, ACornerThatIsThroughAtTheStartComesOut) {
 }
 
 TEST(Faces, ABallSmallerThanACellHoldsATriangleAtItsRadius) {
-    ClothSpec cloth = sheet(0.58, 2);
+    ClothSpec cloth = sheetAt(0.58, 2);
     cloth.hold = {"corners"};
     World world(sceneOf(cloth, support::ball("ball", {0, 0.5, 0}, 0.05)));
     run(world, 120);
@@ -156,12 +156,12 @@ TEST(Faces, ARopeLiesOnAnEdgeBetweenItsPoints) {
 }
 
 SceneSpec moving() {
-    ClothSpec cloth = sheet(0.56);
+    ClothSpec cloth = sheetAt(0.56);
     ColliderSpec box = onCorner({0, 0.5, 0});
     const dvec3 at = box.position, turn = box.rotation;
     box.keys = {{0.1, at, turn, Ease::linear}, {0.3, at + dvec3(0.1, 0.05, 0), turn + dvec3(0, 0.5, 0), Ease::linear}};
     SceneSpec scene = sceneOf(cloth, box);
-    ClothSpec other = sheet(0.6, 4);
+    ClothSpec other = sheetAt(0.6, 4);
     other.name = "d";
     other.touch = Touch::others;
     other.meetsFaces = false;
@@ -198,7 +198,7 @@ TEST(Faces, TheStateIsTheSameWithAnyNumberOfThreadsAndFromAnyTickOn) {
 
 // Faster than 100 m/s it has no way: what lies between does not feel it.
 TEST(Faces, AColliderThatJumpsPassesWhatLiesBetween) {
-    ClothSpec cloth = sheet(0);
+    ClothSpec cloth = sheetAt(0);
     cloth.origin = {-0.3, 1, 0};
     cloth.down = {0, -1, 0};
     cloth.hold = {"top"};
@@ -213,7 +213,7 @@ TEST(Faces, AColliderThatJumpsPassesWhatLiesBetween) {
 }
 
 TEST(Faces, CollidersThatComeAreMetAndThoseThatGoAreNot) {
-    SceneSpec scene = sceneOf(sheet(0.52), onCorner({0, 0.5, 0}));
+    SceneSpec scene = sceneOf(sheetAt(0.52), onCorner({0, 0.5, 0}));
     const ColliderSpec box = scene.colliders[0];
     scene.colliders.clear();
     World world(scene);

@@ -1,0 +1,175 @@
+// Where near pairs are in an instant, and which of them press.
+#include <algorithm>
+#include <cmath>
+
+#include "taut/contact/closest.h"
+#include "taut/contact/group.h"
+#include "taut/contact/guard.h"
+#include "taut/contact/rigid_side.h"
+#include "taut/core/parallel.h"
+
+namespace taut::contact {
+namespace {
+
+constexpr int recordsAtOnce = 16;
+constexpr double pressShare = 0.05;  // of the distance kept: a gap below it is a contact
+constexpr double nothing = 1e-9;     // [m] no direction can be told of less
+
+}  // namespace
+
+// Pairs of crossed surfaces would be held where they are.
+bool Group::isTangled(const MeetingPair& pair) const {
+    bool first = false, second = false;
+    for (int k = 0; k < 4; ++k) {
+        const bool isMarked = isMarked_[static_cast<std::size_t>(pair.points[static_cast<std::size_t>(k)])] != 0;
+        (k < pair.firstSide() ? first : second) |= isMarked;
+    }
+    return first && second;
+}
+
+// Whether no face beside the edge is nearer to what lies outward of a place on it.
+bool Group::isRidge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const {
+    for (int t : edge.triangles) {
+        if (t < 0) continue;
+        for (int i : elements_.triangles()[static_cast<std::size_t>(t)].points) {
+            if (i == edge.a || i == edge.b) continue;
+            const dvec3 inwards = x[static_cast<std::size_t>(i)] - on;
+            const double rise = glm::dot(inwards, outward);
+            if (rise > 0 && rise * rise > valley * valley * glm::dot(inwards, inwards)) return false;
+        }
+    }
+    return areWingsBehind(edge, outward, x);
+}
+
+// Of a point whose nearest place on a triangle is on an edge or a corner: whether that is so of all triangles there,
+// and this is the first of them, so that the point is pressed away from it once.
+bool Group::isFeatureNearest(const MeetingPair& pair, int feature, std::span<const dvec3> x) const {
+    const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(pair.b)];
+    if (feature < 3) {
+        const Edge& edge =
+            elements_.edges()[static_cast<std::size_t>(triangle.edges[static_cast<std::size_t>(feature)])];
+        if (edge.triangles[0] != pair.b) return false;
+        if (edge.triangles[1] < 0) return true;
+        const Triangle& other = elements_.triangles()[static_cast<std::size_t>(edge.triangles[1])];
+        for (int i : other.points)
+            if (i != edge.a && i != edge.b)
+                return !(glm::dot(x[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(edge.a)], pair.normal) >
+                         0);
+        return true;
+    }
+    const int corner = triangle.points[static_cast<std::size_t>(feature - 3)];
+    if (elements_.firstTriangle(corner) != pair.b) return false;
+    const dvec3& at = x[static_cast<std::size_t>(corner)];
+    for (int other : elements_.neighbours(corner))
+        if (glm::dot(x[static_cast<std::size_t>(other)] - at, pair.normal) > 0) return false;
+    return true;
+}
+
+void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
+                     std::vector<MeetingPair>& pairs) const {
+    const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
+    bool isAsked = record.isFlat;  // whether it is flat
+    for (std::size_t k = 0; k < record.pairs.size(); ++k) {
+        NearPair& near = record.pairs[k];
+        const double reach = nearShare * near.distance;
+        if (near.found - record.travelled > reach || near.atFirst - record.approached > reach) continue;
+        if (!isAsked && near_.becomesFlat(record)) return;
+        isAsked = true;
+        MeetingPair pair;
+        pair.a = near.a;
+        pair.b = near.b;
+        pair.isPoint = k < record.pointPairs;
+        pair.keep = near.distance;
+        dvec3 apart(0.0);
+        int feature = -1;
+        bool areInside = true;
+        int surfaceA = 0, surfaceB = 0;
+        if (pair.isPoint) {
+            const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(near.b)];
+            const std::array<int, 3>& c = triangle.points;
+            const OnTriangle on = nearestOnTriangle(at(near.a), at(c[0]), at(c[1]), at(c[2]));
+            pair.points = {near.a, c[0], c[1], c[2]};
+            pair.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
+            feature = static_cast<int>(on.feature) - static_cast<int>(Feature::edge0);
+            surfaceA = elements_.surfaceOf(near.a);
+            surfaceB = triangle.surface;
+        } else {
+            const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
+                       &second = elements_.edges()[static_cast<std::size_t>(near.b)];
+            const OnSegments on = nearestOnSegments(at(first.a), at(first.b), at(second.a), at(second.b));
+            pair.points = {first.a, first.b, second.a, second.b};
+            pair.weights = {1 - on.s, on.s, on.t - 1, -on.t};
+            surfaceA = first.surface;
+            surfaceB = second.surface;
+            areInside = on.areInside || first.isLine || second.isLine;
+            // Ends of a rigid edge meet triangles as corners; ends of others meet its faces elsewhere.
+            const bool isRigidFirst = elements_.isRigid(surfaceA), isRigidSecond = elements_.isRigid(surfaceB);
+            if (isRigidFirst || isRigidSecond) {
+                const Edge& soft = isRigidFirst ? second : first;
+                const double share = isRigidFirst ? on.t : on.s;
+                areInside = on.areInside || (soft.isLine && share > 0 && share < 1);
+            }
+        }
+        for (std::size_t i = 0; i < 4; ++i) apart += pair.weights[i] * at(pair.points[i]);
+        pair.apart = length(apart);
+        near.found = std::max(near.found, pair.apart + record.way);
+        const double gap = pair.apart - pair.keep;
+        dvec3 way(0.0);
+        for (std::size_t i = 0; i < 4; ++i)
+            way += pair.weights[i] * (x1[static_cast<std::size_t>(pair.points[i])] - at(pair.points[i]));
+        if (pair.apart > nothing) {
+            pair.normal = apart / pair.apart;
+        } else {
+            // Through each other, or nearly: which side is which cannot be told.
+            const dvec3 p = at(pair.points[1]) - at(pair.points[pair.isPoint ? 3 : 0]);
+            const dvec3 q = at(pair.points[pair.isPoint ? 2 : 3]) - at(pair.points[pair.isPoint ? 3 : 2]);
+            const dvec3 across = glm::cross(p, q);
+            const double size = length(across);
+            pair.normal = size > 0 ? across / size : dvec3(0.0, 1.0, 0.0);
+        }
+        pair.presses = areInside && (gap < pressShare * pair.keep || gap + glm::dot(pair.normal, way) < 0);
+        if (pair.presses && pair.isPoint && feature >= 0) pair.presses = isFeatureNearest(pair, feature, x0);
+        if (pair.presses && pair.isPoint && elements_.isRigid(surfaceA))
+            pair.presses = isCornerNearest(elements_, near.a, -pair.normal, x0);
+        if (pair.presses && !pair.isPoint) {
+            const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
+                       &second = elements_.edges()[static_cast<std::size_t>(near.b)];
+            const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
+            const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
+            // A ball beside a triangle is a point of a pair with it.
+            const bool isBall = first.a == first.b || second.a == second.b;
+            if (isBall && (first.triangles[0] >= 0 || second.triangles[0] >= 0))
+                pair.presses = false;
+            else
+                pair.presses = isRidge(first, onFirst, -pair.normal, x0) && isRidge(second, onSecond, pair.normal, x0);
+        }
+        if (pair.presses && gap >= pressShare * pair.keep && misses(pair, x0, x1, 1.0 - pressShare))
+            pair.presses = false;
+        if (!pair.presses && pair.apart > record.coming + watchShare * pair.keep) continue;
+        if (!crossings_.empty() && isTangled(pair)) continue;
+        const Surface &a = elements_.surface(surfaceA), &b = elements_.surface(surfaceB);
+        pair.friction = (a.isRigid || b.isRigid ? 1.0 : options_.friction) * a.friction * b.friction;
+        pairs.push_back(pair);
+    }
+}
+
+void Group::locate(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    const int count = static_cast<int>(near_.nearCount());
+    const int tasks = (count + recordsAtOnce - 1) / recordsAtOnce;
+    located_.resize(static_cast<std::size_t>(std::max(tasks, static_cast<int>(located_.size()))));
+    core::parallelFor(tasks, [&](int task) {
+        std::vector<MeetingPair>& own = located_[static_cast<std::size_t>(task)];
+        own.clear();
+        for (int k = task * recordsAtOnce; k < std::min((task + 1) * recordsAtOnce, count); ++k) {
+            NearPairs::Record& record = near_.near(static_cast<std::size_t>(k));
+            if (!record.isFlat) locateIn(record, x0, x1, own);
+        }
+    });
+    pairs_.clear();
+    for (int task = 0; task < tasks; ++task) {
+        const std::vector<MeetingPair>& own = located_[static_cast<std::size_t>(task)];
+        pairs_.insert(pairs_.end(), own.begin(), own.end());
+    }
+}
+
+}  // namespace taut::contact

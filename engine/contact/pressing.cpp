@@ -9,7 +9,7 @@ namespace taut::contact {
 namespace {
 
 constexpr double fastestOut = 1.0;  // [m/s] that it is taken back with
-constexpr double settled = 1e-3;    // of the distance kept, an instant: smaller changes end the sweeps
+constexpr double settled = 1e-4;    // of the distance kept, an instant: smaller changes end the sweeps
 
 dvec3 between(const MeetingPair& pair, std::span<const dvec3> u) {
     dvec3 sum(0.0);

@@ -144,9 +144,9 @@ int Touching::mostInstants() const {
     return std::max(most, 1);
 }
 
-// Of a tick in which anything touches. With a single step between two instants what lies on a slope creeps.
+// Of a tick in which anything touches.
 int Touching::fewestMet() const {
-    return std::min(parts_, std::max(1, mostInstants() / 2));
+    return std::min(parts_, mostInstants());
 }
 
 // The next number that all substeps can be divided into, at least half as many again.

@@ -241,6 +241,78 @@ def make_curtain():
     return len(vertices), length[-1]
 
 
+# ---- the cape: a part of a cone, in rows about the neck, in number of points like the rings of the poncho ----
+
+
+def make_cape():
+    top, length, steep, arc, spacing = 0.122, 1.0, math.radians(38), math.radians(250), 0.034
+    rows = round(length / (spacing * math.sqrt(3) / 2))
+    vertices, uv, triangles, first = [], [], [], []
+    for r in range(rows + 1):
+        down = length * r / rows
+        radius = top + down * math.sin(steep)
+        count = round(arc * radius / spacing)
+        first.append((len(vertices), count))
+        for n in range(count + 1):
+            angle = -math.pi / 2 + arc * (n / count - 0.5)
+            vertices.append((radius * math.cos(angle), 1.53 - down * math.cos(steep), radius * math.sin(angle)))
+            uv.append((arc * radius * n / count, down))
+    for inner, outer in zip(first, first[1:]):
+        i = o = 0
+        while i < inner[1] or o < outer[1]:
+            a, b = inner[0] + i, outer[0] + o
+            if i == inner[1] or (o < outer[1] and (o + 0.5) * inner[1] < (i + 0.5) * outer[1]):
+                triangles.append((a, b + 1, b))
+                o += 1
+            else:
+                triangles.append((a, a + 1, b))
+                i += 1
+    edges_of(triangles)
+    write_obj("cape.obj", "A cape: a part of a cone about the y axis, open to +z.", vertices, triangles, uv)
+    return len(vertices)
+
+
+# ---- the ball: an icosahedron whose triangles are divided and drawn out to a sphere ----
+
+
+def make_ball():
+    golden = (1 + math.sqrt(5)) / 2
+    vertices = [v for a in (-1, 1) for b in (-golden, golden) for v in ((0, a, b), (a, b, 0), (b, 0, a))]
+    near = lambda i, j: abs(sum((vertices[i][n] - vertices[j][n]) ** 2 for n in range(3)) - 4) < 1e-9
+    triangles = []
+    for i in range(12):
+        for j in range(i + 1, 12):
+            for k in range(j + 1, 12):
+                if near(i, j) and near(j, k) and near(i, k):
+                    a, b, c = (vertices[m] for m in (i, j, k))
+                    outwards = (
+                        a[0] * (b[1] * c[2] - b[2] * c[1])
+                        + a[1] * (b[2] * c[0] - b[0] * c[2])
+                        + a[2] * (b[0] * c[1] - b[1] * c[0])
+                    )
+                    triangles.append((i, j, k) if outwards > 0 else (i, k, j))
+    for _ in range(3):
+        middle, finer = {}, []
+
+        def between(a, b):
+            edge = (min(a, b), max(a, b))
+            if edge not in middle:
+                middle[edge] = len(vertices)
+                vertices.append(tuple(vertices[a][n] + vertices[b][n] for n in range(3)))
+            return middle[edge]
+
+        vertices = [tuple(x / math.sqrt(sum(y * y for y in v)) for x in v) for v in vertices]
+        for a, b, c in triangles:
+            ab, bc, ca = between(a, b), between(b, c), between(c, a)
+            finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        triangles = finer
+    vertices = [tuple(x / math.sqrt(sum(y * y for y in v)) for x in v) for v in vertices]
+    assert_watertight(vertices, triangles)
+    uv = [(v[1] + 1, v[0] + 1) for v in vertices]  # bands about the y axis
+    write_obj("ball.obj", "A ball of radius 1 about the origin. Watertight.", vertices, triangles, uv)
+    return len(vertices)
+
+
 # ---- pictures ----
 
 
@@ -325,5 +397,7 @@ if __name__ == "__main__":
     print("dummy", make_dummy(), "vertices")
     print("poncho", make_poncho(), "vertices")
     print("curtain", *make_curtain(), "vertices, metres of cloth")
+    print("cape", make_cape(), "vertices")
+    print("ball", make_ball(), "vertices")
     write_png("poncho.png", 768, poncho_colour)
     write_png("flag.png", 512, flag_colour)

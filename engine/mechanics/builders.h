@@ -20,6 +20,9 @@ struct RopeShape {
     int segments = 20;
     double length = 0.0;       // natural length [m]; 0 means the distance; longer hangs slack along `sag`
     glm::dvec3 sag{0, -1, 0};  // direction of the slack, unit
+    // Places that it is laid through on its way from start to end, along a curve without corners: neither slack nor
+    // stretched, `length` is not looked at.
+    std::vector<glm::dvec3> through{};
     double mass = 1.0;         // whole rope [kg]
     double stretch = 1e4;      // EA [N]
     double bend = 0.0;         // EA of the span-2 springs [N]

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "taut/core/bisect.h"
@@ -92,6 +93,65 @@ void bendArc(const RopeShape& shape, double distance, double link, std::vector<d
     }
 }
 
+// The way through given places, finely divided: Catmull and Rom's cubics, which leave each place in the direction from
+// the one before to the one behind it.
+std::vector<dvec3> smoothWay(const RopeShape& shape) {
+    constexpr int parts = 64;
+    std::vector<dvec3> places{shape.start};
+    places.insert(places.end(), shape.through.begin(), shape.through.end());
+    places.push_back(shape.end);
+    const auto last = places.size() - 1;
+    std::vector<dvec3> way{shape.start};
+    for (std::size_t i = 0; i < last; ++i) {
+        const dvec3 a = places[i], b = places[i + 1];
+        const dvec3 leaving = i > 0 ? 0.5 * (b - places[i - 1]) : b - a;
+        const dvec3 arriving = i + 1 < last ? 0.5 * (places[i + 2] - a) : b - a;
+        for (int k = 1; k <= parts; ++k) {
+            const double t = static_cast<double>(k) / parts, r = 1.0 - t;
+            way.push_back(r * r * (1.0 + 2.0 * t) * a + t * t * (1.0 + 2.0 * r) * b +
+                          t * r * (r * leaving - t * arriving));
+        }
+    }
+    return way;
+}
+
+// Points a link apart from each other along a way, from its start; what reaches beyond the end goes on straight.
+// Returns how far along the way the last one lies [m].
+double layLinks(const std::vector<dvec3>& way, double link, std::vector<dvec3>& positions) {
+    std::size_t piece = 0;
+    double before = 0.0, share = 0.0;
+    dvec3 at = positions.front() = way.front();
+    const auto step = [&](std::size_t i) { return way[i + 1] - way[i]; };
+    for (std::size_t n = 1; n < positions.size(); ++n) {
+        while (piece + 2 < way.size() && glm::length(way[piece + 1] - at) < link) {
+            before += glm::length(step(piece));
+            ++piece;
+            share = 0.0;
+        }
+        // |way[piece] + share step - at| = link, the greater root.
+        const dvec3 from = way[piece] - at, along = step(piece);
+        const double a = glm::dot(along, along), b = glm::dot(from, along);
+        const double rest = glm::dot(from, from) - link * link;
+        if (a > 0.0) share = std::max(share, (-b + std::sqrt(std::max(b * b - a * rest, 0.0))) / a);
+        at = way[piece] + share * along;
+        positions[n] = at;
+    }
+    return before + share * glm::length(step(piece));
+}
+
+// Lays all points along a way, as many links of one length as they make. Returns that length.
+double layAlong(const std::vector<dvec3>& way, std::vector<dvec3>& positions) {
+    double length = 0.0;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) length += glm::length(way[i + 1] - way[i]);
+    if (!(length > 0.0)) throw core::Error(core::ErrorKind::badContent, "a rope needs places that differ");
+    const double most = length / static_cast<double>(positions.size() - 1);
+    const double link =
+        core::rootOf([&](double l) { return length - layLinks(way, l, positions); }, 0.0, 2.0 * most, 60);
+    layLinks(way, link, positions);
+    positions.back() = way.back();
+    return link;
+}
+
 void placePoints(const RopeShape& shape, double distance, double length, std::vector<dvec3>& positions) {
     const int n = shape.segments;
     positions.front() = shape.start;
@@ -103,7 +163,6 @@ void placePoints(const RopeShape& shape, double distance, double length, std::ve
             positions[static_cast<std::size_t>(i)] =
                 shape.start + (shape.end - shape.start) * (static_cast<double>(i) / n);
     }
-    for (dvec3& p : positions) p = detail::withoutNegativeZero(p);
 }
 
 }  // namespace
@@ -114,12 +173,17 @@ Model buildRope(const RopeShape& shape) {
     const int n = shape.segments;
     const double distance = glm::length(shape.end - shape.start);
     const double length = shape.length > 0.0 ? shape.length : distance;
-    if (!(length > 0.0)) throw core::Error(core::ErrorKind::badContent, "a rope needs a length or two distinct ends");
-    const double link = length / n;
+    if (!(length > 0.0) && shape.through.empty())
+        throw core::Error(core::ErrorKind::badContent, "a rope needs a length or two distinct ends");
+    double link = length / n;
 
     Model model;
     detail::addRestingPoints(model, n + 1, shape.dragRate);
-    placePoints(shape, distance, length, model.positions);
+    if (shape.through.empty())
+        placePoints(shape, distance, length, model.positions);
+    else
+        link = layAlong(smoothWay(shape), model.positions);
+    for (dvec3& p : model.positions) p = detail::withoutNegativeZero(p);
     for (int i = 0; i <= n; ++i) {
         const auto at = static_cast<std::size_t>(i);
         const bool isEnd = i == 0 || i == n;

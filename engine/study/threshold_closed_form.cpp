@@ -21,7 +21,7 @@ double ropeFrequency(const world::RopeSpec& rope) {
     };
     const bool isHeld = holds("ends") || (holds("start") && holds("end"));
     const double distance = glm::length(rope.end - rope.start);
-    const bool isStraight = rope.length == 0.0 || rope.length <= distance;
+    const bool isStraight = rope.through.empty() && (rope.length == 0.0 || rope.length <= distance);
     if (!isHeld || !isStraight || rope.bend != 0.0 || rope.segments < 2) return unknown;
     const double natural = rope.length == 0.0 ? distance : rope.length;
     const double k = rope.stretch * rope.segments / natural;

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "mechanics_lattice_facts.h"
 #include "taut/core/error.h"
 #include "taut/mechanics/builders.h"
-#include "mechanics_lattice_facts.h"
 
 namespace taut::mechanics {
 namespace {
@@ -174,6 +176,28 @@ TEST(RopeBuilder, GroupsAreItsEnds) {
     EXPECT_EQ(model.groups.at("start"), std::vector<int>{0});
     EXPECT_EQ(model.groups.at("end"), std::vector<int>{3});
     EXPECT_EQ(model.groups.at("ends"), (std::vector<int>{0, 3}));
+}
+
+// Catmull and Rom's curve through places on a straight line stays on it, and through places that lie mirrored it is
+// mirrored; its links have their natural length.
+TEST(RopeBuilder, LaidThroughPlacesItGoesThroughThemUnstretched) {
+    RopeShape shape;
+    shape.start = {-1.0, 0.0, 0.0};
+    shape.end = {1.0, 0.0, 0.0};
+    shape.segments = 200;
+    shape.through = {{-0.5, 0.3, 0.1}, {0.0, 0.5, 0.0}, {0.5, 0.3, -0.1}};
+    const Model model = buildRope(shape);
+    EXPECT_EQ(brokenRule(model), "");
+    for (const Spring& s : model.springs) EXPECT_NEAR(chord(model, s.a), s.restLength, 1e-9);
+    for (const glm::dvec3& place : shape.through) {
+        double nearest = 1.0;
+        for (const glm::dvec3& p : model.positions) nearest = std::min(nearest, glm::length(p - place));
+        EXPECT_LT(nearest, 0.5 * model.springs.front().restLength * 1.01);
+    }
+    const glm::dvec3 quarter = at(model.positions, 50), mirrored = at(model.positions, 150);
+    EXPECT_LT(glm::length(mirrored - glm::dvec3(-quarter.x, quarter.y, -quarter.z)), 1e-9);
+    EXPECT_EQ(at(model.positions, 0), shape.start);
+    EXPECT_EQ(at(model.positions, 200), shape.end);
 }
 
 }  // namespace

@@ -188,6 +188,14 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "s.toml:3:8: error: the two ends are the same point\n"
          "  ends = [[1, 2, 3], [1, 2, 3]]\n"
          "         ^"},
+        {"a length for a rope that is as long as its way",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "length_m = 2\n"
+         "through = [{ position = [0.5, 1, 0] }]\n",
+         "s.toml:4:12: error: a rope with `through` is as long as its way\n"
+         "  length_m = 2\n"
+         "             ^ leave length_m out"},
         {"copies in one place",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"

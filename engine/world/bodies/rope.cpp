@@ -83,6 +83,15 @@ class RopeDrawing final : public BodyDrawing {
     std::vector<Piece> pieces_;
 };
 
+Section ropePlaceSection() {
+    Section section;
+    section.fields = FieldList<RopePlaceSpec>()
+                         .vector("position", &RopePlaceSpec::position, "m", placeRange, "The place.")
+                         .required()
+                         .take();
+    return section;
+}
+
 }  // namespace
 
 Section RopeSpec::section() {
@@ -94,6 +103,8 @@ Section RopeSpec::section() {
         .whole("segments", &RopeSpec::segments, "", countRange, "Number of segments.")
         .number("length_m", &RopeSpec::length, "m", Range{0.0, 1e6},
                 "Natural length; 0 means the distance of the ends. A longer rope starts hanging on its catenary.")
+        .tables("through", &RopeSpec::through, ropePlaceSection(),
+                "Places that it is laid through on its way from one end to the other, in a curve, as long as that is.")
         .number("mass_kg", &RopeSpec::mass, "kg", positive, "Mass of the whole rope.")
         .number("stretch_N", &RopeSpec::stretch, "N", positive, "Stiffness EA: force that doubles its length.")
         .ramps(Affects::springs)
@@ -106,18 +117,24 @@ Section RopeSpec::section() {
                          .take();
     section.check = [](const fields::CheckInput& input, void* target) {
         const auto& rope = *static_cast<const RopeSpec*>(target);
-        if (input.isClean && rope.start == rope.end) {
+        if (!input.isClean) return;
+        if (rope.start == rope.end && rope.through.empty())
             input.problems.addError(input.at("ends"), "the two ends are the same point");
-        }
+        if (rope.length > 0.0 && !rope.through.empty())
+            input.problems.addError(input.at("length_m"), "a rope with `through` is as long as its way",
+                                    "leave length_m out");
     };
     return section;
 }
 
 mechanics::Model RopeSpec::build(const SceneSpec&) const {
+    std::vector<dvec3> places;
+    for (const RopePlaceSpec& place : through) places.push_back(place.position);
     return mechanics::buildRope({.start = start,
                                  .end = end,
                                  .segments = segments,
                                  .length = length,
+                                 .through = std::move(places),
                                  .mass = mass,
                                  .stretch = stretch,
                                  .bend = bend,

@@ -6,11 +6,16 @@
 
 namespace taut::world {
 
+struct RopePlaceSpec {
+    dvec3 position{0.0};  // [m]
+};
+
 struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
     static constexpr const char* kindName = "rope";
     dvec3 start{0.0}, end{1.0, 0.0, 0.0};  // ends = [[…], […]] in the file [m]
     int segments = 40;
-    double length = 0.0;        // natural length [m]; 0: the distance of the ends
+    double length = 0.0;  // natural length [m]; 0: the distance of the ends
+    std::vector<RopePlaceSpec> through;
     double mass = 1.0;          // [kg]
     double stretch = 1e4;       // EA [N]
     double bend = 0.0;          // EA of the span-2 springs [N]

@@ -266,6 +266,9 @@ restart = true
 debug = true
 camera = "turning"
 size = [320, 180]
+[rope.winding]
+ends = [[0, 5, 1], [1, 5, 1]]
+through = [{ position = [0.4, 5.2, 1] }, { position = [0.6, 5, 1.3] }]
 )toml";
 
 }  // namespace taut::scene

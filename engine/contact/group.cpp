@@ -69,7 +69,6 @@ Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, doubl
     for (const MeetingPair& pair : pairs_) {
         if (!pair.presses) continue;
         outlook.meets = true;
-        outlook.meetsRigid = outlook.meetsRigid || hasRigidSide(elements_, pair);
         dvec3 speed(0.0);
         for (std::size_t k = 0; k < 4; ++k) speed += pair.weights[k] * v[static_cast<std::size_t>(pair.points[k])];
         outlook.closing = std::max(outlook.closing, -glm::dot(pair.normal, speed));

@@ -24,10 +24,6 @@ bool mayYield(const Points& points, const Weights& weights, std::size_t first, s
 
 }  // namespace
 
-bool hasRigidSide(const Elements& elements, const MeetingPair& pair) {
-    return isRigidAt(elements, pair.points[0]) || isRigidAt(elements, pair.points[3]);
-}
-
 bool isCornerNearest(const Elements& elements, int point, const dvec3& outward, std::span<const dvec3> x) {
     for (int i : elements.neighbours(point)) {
         const dvec3 along = x[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(point)];

@@ -11,8 +11,6 @@ namespace taut::contact {
 // Sine of the angle by which a face, or an edge at a corner, may rise beside what presses.
 inline constexpr double valley = 0.2;
 
-bool hasRigidSide(const Elements& elements, const MeetingPair& pair);
-
 // Whether no edge at a corner leads nearer to what lies outward of it.
 bool isCornerNearest(const Elements& elements, int point, const dvec3& outward, std::span<const dvec3> x);
 // Whether neither face beside an edge does.

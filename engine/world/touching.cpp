@@ -170,8 +170,6 @@ int Touching::chooseInstants(const TickTime& time) {
     };
     // Where nothing meets, by what is cheapest.
     if (!outlook.meets) return -enough(1, calmWay / std::max(outlook.stir, 1e-9));
-    // All of a body may hang on one corner, which its few points there press hard.
-    if (outlook.meetsRigid) return most;
     const double longest = outlook.closing > 0 ? wayOfKeep * outlook.leastKeep / outlook.closing : HUGE_VAL;
     return enough(fewestMet(), longest);
 }

@@ -241,22 +241,19 @@ double distanceBetween(const Elements& elements, Patches& patches, std::span<con
     patches.follow(x, x);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
     double least = 1e300;
-    struct Near {
-        double bound;
-        int a, b;
-    };
-    std::vector<Near> order;
-    for (int a = 0; a < patches.count(); ++a) {
-        if (!isFirst(patches[a].surface)) continue;
-        for (int b = 0; b < patches.count(); ++b) {
-            if (!isSecond(patches[b].surface)) continue;
-            const Box &p = patches.motion(a).box, &q = patches.motion(b).box;
-            const dvec3 gap = glm::max(dvec3(0.0), glm::max(p.low - q.high, q.low - p.high));
-            order.push_back({glm::dot(gap, gap), a, b});
+    // Calls each(a, b) for patches of both sides whose boxes are nearer than the least so far.
+    const auto forEachNear = [&](auto&& each) {
+        for (int a = 0; a < patches.count(); ++a) {
+            if (!isFirst(patches[a].surface)) continue;
+            for (int b = 0; b < patches.count(); ++b) {
+                if (!isSecond(patches[b].surface)) continue;
+                const Box &p = patches.motion(a).box, &q = patches.motion(b).box;
+                const dvec3 gap = glm::max(dvec3(0.0), glm::max(p.low - q.high, q.low - p.high));
+                const double bound = glm::dot(gap, gap);
+                if (bound < least) each(a, b, bound);
+            }
         }
-    }
-    std::sort(
-        order.begin(), order.end(), [](const Near& a, const Near& b) { return a.bound < b.bound; });
+    };
     const auto points = [&](const Patch& of, const Patch& triangles) {
         for (int i : of.points)
             for (int t : triangles.triangles) {
@@ -269,22 +266,32 @@ double distanceBetween(const Elements& elements, Patches& patches, std::span<con
                 least = std::min(least, glm::dot(d, d));
             }
     };
-    for (const Near& near : order) {
-        if (near.bound >= least) break;
-        const Patch &a = patches[near.a], &b = patches[near.b];
+    const auto measure = [&](int first, int second) {
+        const Patch &a = patches[first], &b = patches[second];
         points(a, b);
         points(b, a);
         for (int e : a.edges)
             for (int f : b.edges) {
-                const Edge &first = elements.edges()[static_cast<std::size_t>(e)],
-                           &second = elements.edges()[static_cast<std::size_t>(f)];
-                if (first.isGone || second.isGone) continue;
-                const OnSegments on = nearestOnSegments(at(first.a), at(first.b), at(second.a), at(second.b));
-                const dvec3 d = at(first.a) + on.s * (at(first.b) - at(first.a)) -
-                                (at(second.a) + on.t * (at(second.b) - at(second.a)));
+                const Edge &own = elements.edges()[static_cast<std::size_t>(e)],
+                           &other = elements.edges()[static_cast<std::size_t>(f)];
+                if (own.isGone || other.isGone) continue;
+                const OnSegments on = nearestOnSegments(at(own.a), at(own.b), at(other.a), at(other.b));
+                const dvec3 d =
+                    at(own.a) + on.s * (at(own.b) - at(own.a)) - (at(other.a) + on.t * (at(other.b) - at(other.a)));
                 least = std::min(least, glm::dot(d, d));
             }
-    }
+    };
+    // The two that are nearest by their boxes, and then what may be nearer still.
+    int first = -1, second = -1;
+    double nearest = 1e300;
+    forEachNear([&](int a, int b, double bound) {
+        if (first >= 0 && !(bound < nearest)) return;
+        nearest = bound;
+        first = a;
+        second = b;
+    });
+    if (first >= 0) measure(first, second);
+    forEachNear([&](int a, int b, double) { measure(a, b); });
     return std::sqrt(least);
 }
 

@@ -1,0 +1,82 @@
+// What it costs that bodies touch, a point and instant of contact, the steps between the instants left in: a sheet that
+// falls on its edge while it piles up and when it lies, one that hangs and meets nothing, and two that lie on a ball.
+#include <benchmark/benchmark.h>
+
+#include "taut/world/bodies/cloth.h"
+#include "taut/world/world.h"
+
+namespace taut {
+namespace {
+
+world::ClothSpec sheet(const std::string& name, const glm::dvec3& origin, const glm::dvec3& down) {
+    world::ClothSpec cloth;
+    cloth.name = name;
+    cloth.material = "cotton";
+    cloth.origin = origin;
+    cloth.down = down;
+    cloth.size = {1.0, 1.0};
+    cloth.cells = {40, 40};
+    cloth.thickness = 0.004;
+    cloth.jitter = 0.001;
+    cloth.touch = world::Touch::all;
+    return cloth;
+}
+
+world::SceneSpec scene() {
+    world::SceneSpec spec;
+    world::MaterialSpec cotton;
+    cotton.stretch = 200.0;
+    spec.materials["cotton"] = cotton;
+    return spec;
+}
+
+world::SceneSpec folding() {
+    world::SceneSpec spec = scene();
+    spec.bodies.add(sheet("sheet", {-0.5, 1.02, 0.0}, {0, -1, 0}));
+    world::ColliderSpec ground;
+    ground.shape = "plane";
+    spec.colliders.push_back(ground);
+    return spec;
+}
+
+world::SceneSpec hanging() {
+    world::SceneSpec spec = scene();
+    world::ClothSpec cloth = sheet("sheet", {-0.5, 1.0, 0.0}, {0, -1, 0});
+    cloth.hold = {"top"};
+    cloth.velocity = {0.0, 0.0, 1.0};
+    spec.bodies.add(cloth);
+    return spec;
+}
+
+world::SceneSpec draped() {
+    world::SceneSpec spec = scene();
+    spec.bodies.add(sheet("lower", {-0.5, 0.85, -0.5}, {0, 0, 1}));
+    spec.bodies.add(sheet("upper", {-0.48, 0.9, -0.51}, {0, 0, 1}));
+    world::ColliderSpec ball;
+    ball.shape = "sphere";
+    ball.radius = 0.3;
+    ball.position = {0.0, 0.5, 0.0};
+    spec.colliders.push_back(ball);
+    return spec;
+}
+
+// After so many ticks.
+void touching(benchmark::State& state, const world::SceneSpec& spec, int ticks) {
+    world::World world(spec, {.threads = 1});
+    for (int i = 0; i < ticks; ++i) (void)world.advance();
+    const auto before = world.contact().instants;
+    for (auto _ : state) (void)world.advance();
+    double points = 0;
+    for (const world::IslandInfo& island : world.islands()) points += island.points;
+    const auto instants = static_cast<double>(world.contact().instants - before);
+    state.counters["instants a tick"] = instants / static_cast<double>(state.iterations());
+    state.counters["per point and instant"] =
+        benchmark::Counter(points * instants, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(touching, piles up, folding(), 25)->Unit(benchmark::kMillisecond)->Iterations(20);
+BENCHMARK_CAPTURE(touching, lies, folding(), 180)->Unit(benchmark::kMillisecond)->Iterations(20);
+BENCHMARK_CAPTURE(touching, meets nothing, hanging(), 10)->Unit(benchmark::kMillisecond)->Iterations(60);
+BENCHMARK_CAPTURE(touching, two on a ball, draped(), 90)->Unit(benchmark::kMillisecond)->Iterations(20);
+
+}  // namespace
+}  // namespace taut

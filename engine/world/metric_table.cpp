@@ -54,7 +54,7 @@ std::span<const Metric> metricTable() {
          plain<&M::crossings>, 1, Measures::all},
         {"face_penetration_m", "face_penetration", "m",
          "Largest height that a collider's corner or sharp edge stands out of a triangle, of bodies that meet those.",
-         plain<&M::facePenetration>, 1},
+         plain<&M::facePenetration>, 1, Measures::all},
     };
     return table;
 }

@@ -23,14 +23,13 @@ Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted, M
     Metrics metrics;
     metrics.time = seconds();
     for (const auto& island : islands) island->addMetrics(now(), wanted, metrics);
-    findTouching();
-    metrics.facePenetration = touching->facePenetration(wanted);
     const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
     for (const BodyContact& contact : touchWatch.contacts())
         metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
     if (what == Measures::butCrossings || !touchesAny()) return metrics;
     for (const BodyCrossing& crossing : crossings())
         metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
+    metrics.facePenetration = touching->facePenetration(wanted);
     return metrics;
 }
 

@@ -99,8 +99,7 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
 
 double Touching::facePenetration(const std::function<bool(const Body&)>& wanted) {
     if (isEmpty() || rigids_.isEmpty()) return 0.0;
-    readAll();
-    return contact::standOut(group_->elements(), group_->crossingsAt(x1_), x1_,
+    return contact::standOut(group_->elements(), crossings(), x1_,
                              [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); });
 }
 

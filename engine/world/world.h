@@ -67,8 +67,8 @@ struct Metrics {                      // at a published tick, velocities synchro
     double energy() const { return kinetic + elastic + gravitational; }  // [J]
 };
 
-// Crossings, those of edges of colliders among them, cost the most: up to some microseconds for each point of bodies that
-// touch.
+// Crossings, those of edges of colliders among them, cost the most: up to some microseconds for each point of bodies
+// that touch.
 enum class Measures { all, butCrossings };
 
 // Points of a target at a published tick, velocities synchronised; body by body, in the order of authoring.

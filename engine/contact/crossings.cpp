@@ -113,8 +113,10 @@ dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec
 std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
     patches.follow(x, x);
+    std::vector<Box> boxes;
+    for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
     std::vector<PatchPair> near;
-    patches.findNear(0.0, near);
+    patches.findNear(boxes, 0.0, near);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
     struct Boxed {
         int item;

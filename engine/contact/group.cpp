@@ -33,8 +33,7 @@ void Group::drop() {
 }
 
 void Group::goBack(std::span<const dvec3> from, std::span<const dvec3> to) {
-    near_.find(from, to);
-    near_.arrive({}, from, to);
+    near_.go(from, to);
     mayBeCrossed_ = !crossings_.empty();
 }
 
@@ -60,12 +59,15 @@ Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, doubl
     locate(x, xIs_);
     Outlook outlook;
     outlook.leastKeep = 1e300;
-    for (std::size_t k = 0; k < near_.nearCount(); ++k) {
-        const NearPairs::Record& record = near_.near(k);
-        const int a = near_.patches()[record.a].surface, b = near_.patches()[record.b].surface;
-        outlook.stir += record.coming / (elements_.surface(a).thickness + elements_.surface(b).thickness);
+    const Patches& patches = near_.patches();
+    int moving = 0;
+    for (int p = 0; p < patches.count(); ++p) {
+        const Surface& surface = elements_.surface(patches[p].surface);
+        if (surface.isRigid) continue;
+        outlook.stir += 2 * patches.motion(p).stray / surface.thickness;
+        ++moving;
     }
-    if (near_.nearCount() > 0) outlook.stir /= static_cast<double>(near_.nearCount()) * seconds;
+    if (moving > 0) outlook.stir /= moving * seconds;
     for (const MeetingPair& pair : pairs_) {
         if (!pair.presses) continue;
         outlook.meets = true;

@@ -49,10 +49,10 @@ struct Meeting {
 
 // What comes in a time, if all go on as they are.
 struct Outlook {
-    bool meets = false;       // something is or comes in contact
-    double closing = 0.0;     // [m/s] of what does, at most
-    double leastKeep = 0;     // [m] that it keeps, at least
-    double stir = 0;  // [1/s] speed of neighbouring patches against each other, over the distance kept, in the mean
+    bool meets = false;    // something is or comes in contact
+    double closing = 0.0;  // [m/s] of what does, at most
+    double leastKeep = 0;  // [m] that it keeps, at least
+    double stir = 0;  // [1/s] speed of points against their patches, over a quarter of the distance kept, in the mean
 };
 
 // Two surfaces in contact, for pictures.

@@ -68,13 +68,21 @@ bool Group::isFeatureNearest(const MeetingPair& pair, int feature, std::span<con
 void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
                      std::vector<MeetingPair>& pairs) const {
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
-    bool isAsked = record.isFlat;  // whether it is flat
+    record.asleepTravelled = record.asleepApproached = 1e300;
+    const auto sleep = [&](const NearPair& near) {
+        const double found = near.found - nearShare * near.distance, first = near.atFirst - nearShare * near.distance;
+        if (found - record.travelled > first - record.approached)
+            record.asleepTravelled = std::min(record.asleepTravelled, found);
+        else
+            record.asleepApproached = std::min(record.asleepApproached, first);
+    };
     for (std::size_t k = 0; k < record.pairs.size(); ++k) {
         NearPair& near = record.pairs[k];
         const double reach = nearShare * near.distance;
-        if (near.found - record.travelled > reach || near.atFirst - record.approached > reach) continue;
-        if (!isAsked && near_.becomesFlat(record)) return;
-        isAsked = true;
+        if (near.found - record.travelled > reach || near.atFirst - record.approached > reach) {
+            sleep(near);
+            continue;
+        }
         MeetingPair pair;
         pair.a = near.a;
         pair.b = near.b;
@@ -113,6 +121,8 @@ void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::
         for (std::size_t i = 0; i < 4; ++i) apart += pair.weights[i] * at(pair.points[i]);
         pair.apart = length(apart);
         near.found = std::max(near.found, pair.apart + record.way);
+        sleep(near);
+        if (record.isFlat) continue;
         const double gap = pair.apart - pair.keep;
         dvec3 way(0.0);
         for (std::size_t i = 0; i < 4; ++i)
@@ -154,15 +164,15 @@ void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::
 }
 
 void Group::locate(std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    const int count = static_cast<int>(near_.nearCount());
+    const int count = static_cast<int>(near_.awakeCount());
     const int tasks = (count + recordsAtOnce - 1) / recordsAtOnce;
     located_.resize(static_cast<std::size_t>(std::max(tasks, static_cast<int>(located_.size()))));
     core::parallelFor(tasks, [&](int task) {
         std::vector<MeetingPair>& own = located_[static_cast<std::size_t>(task)];
         own.clear();
         for (int k = task * recordsAtOnce; k < std::min((task + 1) * recordsAtOnce, count); ++k) {
-            NearPairs::Record& record = near_.near(static_cast<std::size_t>(k));
-            if (!record.isFlat) locateIn(record, x0, x1, own);
+            NearPairs::Record& record = near_.awake(static_cast<std::size_t>(k));
+            locateIn(record, x0, x1, own);
         }
     });
     pairs_.clear();

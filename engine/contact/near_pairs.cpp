@@ -15,6 +15,8 @@ constexpr double leastMargin = 0.4;  // of the distance kept
 constexpr double waysAhead = 4.0;    // like the coming one, for which a list is to last
 constexpr double bentShare = 0.4;    // of the largest thickness: patches bent further are remembered anew
 constexpr double boxSlack = 0.25;    // of it, by which boxes are found near beforehand
+constexpr double flatShare = 0.1;    // of it: what is flat with less to spare is listed nevertheless
+constexpr double instantsAhead = 4;  // for which they are to last
 
 // Boxes of elements in rows, so that many are tried at once.
 struct BoxRows {
@@ -63,6 +65,8 @@ void NearPairs::drop() {
     unused_.clear();
     known_.clear();
     near_.clear();
+    awake_.clear();
+    roomy_.clear();
     patches_.takeBalls();
     stray_.assign(static_cast<std::size_t>(patches_.count()), 0.0);
 }
@@ -77,28 +81,19 @@ NearPairs::Record* NearPairs::newRecord(PatchPair pair) {
     record->pairs.clear();
     record->a = lowOf(pair);
     record->b = highOf(pair);
+    record->about = patches_.about(record->a, record->b);
+    const int a = patches_[record->a].surface, b = patches_[record->b].surface;
+    const double most = elements_.surface(a).thickness + elements_.surface(b).thickness;
+    if (!elements_.shareBond(a, b))
+        record->apartAtLeast = most;
+    else if (a == b && patches_.isPlane(a))
+        record->apartAtLeast = std::min(most, restShare * patches_.leastAltitude(a));
     return record;
 }
 
 double NearPairs::comingOf(const Record& record) const {
     const PatchMotion &a = patches_.motion(record.a), &b = patches_.motion(record.b);
     return (record.a == record.b ? 0.0 : length(a.way - b.way)) + a.stray + b.stray;
-}
-
-bool NearPairs::becomesFlat(Record& record) const {
-    const int surface = patches_[record.a].surface;
-    const double flatness = patches_.flatness(record.about);
-    record.isFlat = flatness >= patches_.enough(surface);
-    if (record.isFlat) record.flatSlack = flatness * patches_.leastAltitude(surface);
-    return record.isFlat;
-}
-
-// [m] of what is not listed, when that expires.
-double NearPairs::apartAtLeast(const Record& record) const {
-    const int a = patches_[record.a].surface, b = patches_[record.b].surface;
-    const double most = elements_.surface(a).thickness + elements_.surface(b).thickness;
-    if (!elements_.shareBond(a, b)) return most;
-    return a == b && patches_.isPlane(a) ? std::min(most, restShare * patches_.leastAltitude(a)) : 0.0;
 }
 
 void NearPairs::approach(Record& record) const {
@@ -120,13 +115,30 @@ void NearPairs::approach(Record& record) const {
     record.travelled = record.way + record.coming;
 }
 
-void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    stray_.resize(static_cast<std::size_t>(patches_.count()), 0.0);
-    double thickest = 0;
-    for (const Surface& surface : elements_.surfaces()) thickest = std::max(thickest, surface.thickness);
-    patches_.follow(x0, x1, bentShare * thickest);
-    const double room = boxSlack * 2 * thickest;
-    slack_ = std::min(room, patches_.findNear(room, found_));
+bool NearPairs::staysWhereSearched() const {
+    if (roomy_.empty()) return false;
+    for (int p = 0; p < patches_.count(); ++p) {
+        const Box &box = patches_.motion(p).box, &roomy = roomy_[static_cast<std::size_t>(p)];
+        if (!(box.low.x >= roomy.low.x && box.low.y >= roomy.low.y && box.low.z >= roomy.low.z &&
+              box.high.x <= roomy.high.x && box.high.y <= roomy.high.y && box.high.z <= roomy.high.z))
+            return false;
+    }
+    return true;
+}
+
+// For as many instants like this one as pay.
+void NearPairs::search(double room) {
+    roomy_.resize(static_cast<std::size_t>(patches_.count()));
+    for (int p = 0; p < patches_.count(); ++p) {
+        const PatchMotion& motion = patches_.motion(p);
+        Box& roomy = roomy_[static_cast<std::size_t>(p)];
+        roomy = motion.box;
+        const dvec3 way = instantsAhead * motion.way;
+        const double aside = room + instantsAhead * motion.stray;
+        roomy.low += glm::min(way, dvec3(0.0)) - aside;
+        roomy.high += glm::max(way, dvec3(0.0)) + aside;
+    }
+    patches_.findNear(roomy_, room, found_);
 
     // Of those before, near ones go on, and others for as long as they are true.
     merged_.clear();
@@ -151,36 +163,97 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     }
     pass(~PatchPair{0});
     std::swap(known_, merged_);
+}
 
-    std::atomic<std::size_t> made{0};
-    const int count = static_cast<int>(near_.size());
-    core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
-        std::size_t own = 0;
+void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    stray_.resize(static_cast<std::size_t>(patches_.count()), 0.0);
+    double thickest = 0;
+    for (const Surface& surface : elements_.surfaces()) thickest = std::max(thickest, surface.thickness);
+    patches_.follow(x0, x1, bentShare * thickest);
+    const double room = boxSlack * 2 * thickest;
+    if (!staysWhereSearched()) search(room);
+
+    const int count = static_cast<int>(near_.size()), tasks = (count + atOnce - 1) / atOnce;
+    core::parallelFor(tasks, [&](int task) {
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
             Record& record = *near_[static_cast<std::size_t>(k)];
-            if (!record.knowsAbout) record.about = patches_.about(record.a, record.b);
-            record.knowsAbout = true;
-            record.isFlat = false;
             approach(record);
-            if (record.approached <= record.valid || becomesFlat(record)) continue;
-            list(record, x0);
-            ++own;
+            record.isNew = record.approached > record.valid;
+            record.isFlat = false;
+        }
+    });
+    awake_.clear();
+    about_.clear();
+    for (Record* record : near_) {
+        if (!record->isNew && record->travelled < record->asleepTravelled &&
+            record->approached < record->asleepApproached)
+            continue;
+        awake_.push_back(record);
+        about_.insert(about_.end(), record->about.begin(), record->about.end());
+    }
+    patches_.measureFlatness(about_, x0, x1);
+    std::atomic<std::size_t> made{0};
+    const int stirring = static_cast<int>(awake_.size());
+    core::parallelFor((stirring + atOnce - 1) / atOnce, [&](int task) {
+        std::size_t own = 0;
+        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, stirring); ++k) {
+            Record& record = *awake_[static_cast<std::size_t>(k)];
+            const int surface = patches_[record.a].surface;
+            const double more = patches_.flatness(record.about) - patches_.enough(surface);
+            const double apart = more * patches_.leastAltitude(surface);
+            record.isFlat = more >= 0;
+            if (record.isFlat && apart >= flatShare * elements_.surface(surface).thickness) {
+                restart(record, apart);
+            } else if (record.isNew) {
+                list(record, x0);
+                ++own;
+            }
         }
         made += own;
     });
     listed_ += made;
-    for (const Record* near : near_) {
-        const Record& record = *near;
-        const double own =
-            std::min(record.valid - record.approached + apartAtLeast(record), watchShare * record.leastKeep);
-        slack_ = std::min(slack_, record.isFlat ? record.flatSlack : own);
-    }
+    slacks_.assign(static_cast<std::size_t>(tasks), room);
+    core::parallelFor(tasks, [&](int task) {
+        double& least = slacks_[static_cast<std::size_t>(task)];
+        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
+            const Record& record = *near_[static_cast<std::size_t>(k)];
+            least = std::min(
+                {least, record.valid - record.approached + record.apartAtLeast, watchShare * record.leastKeep});
+        }
+    });
+    slack_ = room;
+    for (double least : slacks_) slack_ = std::min(slack_, least);
+}
+
+void NearPairs::go(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    patches_.follow(x0, x1);
+    for (const Known& known : known_) known.record->way += comingOf(*known.record);
+    for (int p = 0; p < patches_.count(); ++p) stray_[static_cast<std::size_t>(p)] += patches_.motion(p).stray;
 }
 
 void NearPairs::arrive(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1) {
     patches_.correct(moved, x0, x1);
     for (const Known& known : known_) known.record->way += comingOf(*known.record);
     for (int p = 0; p < patches_.count(); ++p) stray_[static_cast<std::size_t>(p)] += patches_.motion(p).stray;
+}
+
+// Nothing of it is near until it has come that much nearer [m].
+void NearPairs::restart(Record& record, double valid) const {
+    record.pairs.clear();
+    record.pointPairs = 0;
+    record.asleepTravelled = record.asleepApproached = 1e300;
+    record.leastKeep = 1e300;
+    record.valid = valid;
+    record.apart = patches_.motion(record.a).centre - patches_.motion(record.b).centre;
+    record.strayA = stray_[static_cast<std::size_t>(record.a)];
+    record.strayB = stray_[static_cast<std::size_t>(record.b)];
+    record.approached = record.travelled = record.coming;
+    record.way = 0;
+    const PatchMotion &motionA = patches_.motion(record.a), &motionB = patches_.motion(record.b);
+    record.bentA = motionA.bent;
+    record.bentB = motionB.bent;
+    record.timesA = motionA.times;
+    record.timesB = motionB.times;
 }
 
 void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
@@ -198,24 +271,15 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
     const auto rest = [&](int i) -> const dvec3& { return elements_.rest()[static_cast<std::size_t>(i)]; };
 
-    record.pairs.clear();
-    record.pointPairs = 0;
-    record.valid = margin;
-    record.apart = patches_.motion(record.a).centre - patches_.motion(record.b).centre;
-    record.strayA = stray_[static_cast<std::size_t>(record.a)];
-    record.strayB = stray_[static_cast<std::size_t>(record.b)];
-    record.approached = record.travelled = record.coming;
-    record.way = 0;
-    const PatchMotion &motionA = patches_.motion(record.a), &motionB = patches_.motion(record.b);
-    record.bentA = motionA.bent;
-    record.bentB = motionB.bent;
-    record.timesA = motionA.times;
-    record.timesB = motionB.times;
+    restart(record, margin);
     Box boxA, boxB;
     for (int i : a.corners) boxA.add(at(i));
     for (int i : b.corners) boxB.add(at(i));
-    record.leastKeep = most;
-    if (!boxA.overlaps(boxB, reach)) return;
+    if (!boxA.overlaps(boxB, reach)) {
+        const dvec3 between = glm::max(dvec3(0.0), glm::max(boxA.low - boxB.high, boxB.low - boxA.high));
+        record.valid = std::max(margin, length(between) - nearShare * most);
+        return;
+    }
 
     thread_local Scratch scratch;
     const auto grown = [&](Box box, double by) {
@@ -307,8 +371,10 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     }
     std::sort(record.pairs.begin() + static_cast<std::ptrdiff_t>(record.pointPairs), record.pairs.end(),
               [](const NearPair& p, const NearPair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); });
-    record.leastKeep = most;
-    for (const NearPair& pair : record.pairs) record.leastKeep = std::min(record.leastKeep, pair.distance);
+    for (const NearPair& pair : record.pairs) {
+        record.leastKeep = std::min(record.leastKeep, pair.distance);
+        record.asleepTravelled = std::min(record.asleepTravelled, pair.atFirst - nearShare * pair.distance);
+    }
 }
 
 std::uint64_t NearPairs::bytes() const {

@@ -32,6 +32,8 @@ class NearPairs {
 
     // Lists all that comes within reach on the way from x0 to x1 (points) [m].
     void find(std::span<const dvec3> x0, std::span<const dvec3> x1);
+    // On the way from x0 to x1 nobody meets anybody.
+    void go(std::span<const dvec3> x0, std::span<const dvec3> x1);
     // Nobody went further than that [m] beyond the ways that were found: whether the lists hold for them too, and no
     // pair that was not near can have met.
     bool holdWithin(double way) const { return 2 * way <= slack_; }
@@ -40,10 +42,6 @@ class NearPairs {
 
     Patches& patches() { return patches_; }
 
-    // Whether nothing of it meets in this instant, since it is flat; asked only where that is not plain from its list.
-    struct Record;
-    bool becomesFlat(Record& record) const;
-
     struct Record {
         int a = 0, b = 0;  // patches
         std::vector<NearPair> pairs;
@@ -51,31 +49,35 @@ class NearPairs {
         double travelled = 0;        // [m] at most, since they were listed, the coming way included: a sum of ways
         double approached = 0;       // [m] likewise, from where they were then
         double coming = 0;           // [m] of that the coming way
+        bool isNew = false;          // its list has expired in this instant
         bool isFlat = false;         // nothing of it meets in this instant
 
-        double leastKeep = 0;           // [m] of the pairs
-        double valid = -1;              // [m] until it may have come that much nearer
+        double leastKeep = 0;  // [m] of the pairs
+        // None of them is near until it has travelled that far, or come that much nearer [m].
+        double asleepTravelled = 0, asleepApproached = 0;
+        double valid = -1;              // [m] until it may have come that much nearer it names all that is near
         dvec3 apart{0.0};               // [m] of the centres when they were listed
         double strayA = 0, strayB = 0;  // [m] of the patches until then
         double bentA = 0, bentB = 0;    // [m] of them then
         int timesA = -1, timesB = -1;   // that they were remembered until then
         double way = 0;                 // [m] sum of the ways since then, the coming one left out
-        double flatSlack = 0;           // [m] its parts are apart at least, where it is flat
-        bool knowsAbout = false;
-        std::vector<int> about;  // patches
+        double apartAtLeast = 0;        // [m] of what it does not name, when it ceases to be valid
+        std::vector<int> about;         // patches
     };
-    // In the order of the patches; those that are near, of an instant.
-    std::size_t nearCount() const { return near_.size(); }
-    Record& near(std::size_t i) { return *near_[i]; }
+    // In the order of the patches; those of which a pair may be near in an instant.
+    std::size_t awakeCount() const { return awake_.size(); }
+    Record& awake(std::size_t i) { return *awake_[i]; }
 
     std::size_t listed() const { return listed_; }  // lists made so far
     std::uint64_t bytes() const;
 
   private:
+    void search(double room);
+    bool staysWhereSearched() const;
     Record* newRecord(PatchPair pair);
     double comingOf(const Record& record) const;
-    double apartAtLeast(const Record& record) const;
     void approach(Record& record) const;
+    void restart(Record& record, double valid) const;
     void list(Record& record, std::span<const dvec3> x0) const;
 
     const Elements& elements_;
@@ -87,8 +89,11 @@ class NearPairs {
     std::deque<Record> records_;         // in no order
     std::vector<Record*> unused_;        // of them
     std::vector<Known> known_, merged_;  // ascending
-    std::vector<Record*> near_;
-    std::vector<double> stray_;  // [m] (patches) sum over all instants
+    std::vector<Record*> near_, awake_;
+    std::vector<double> stray_;   // [m] (patches) sum over all instants
+    std::vector<Box> roomy_;      // (patches) while all stay within, near_ names all that are near
+    std::vector<double> slacks_;  // (tasks) scratch
+    std::vector<int> about_;      // scratch
     std::vector<PatchPair> found_;
     double slack_ = 0;
     std::size_t listed_ = 0;

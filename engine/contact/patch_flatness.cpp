@@ -5,12 +5,14 @@
 
 #include "taut/contact/closest.h"
 #include "taut/contact/patches.h"
+#include "taut/core/parallel.h"
 
 namespace taut::contact {
 namespace {
 
 constexpr double jitter = 0.05, gaps = 2e-3;  // of an edge, of the area
 constexpr std::size_t mostAbout = 48;         // patches
+constexpr int measuredAtOnce = 16;            // patches a task
 
 double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -102,27 +104,24 @@ void Patches::prepareFlatness() {
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
         enough_.push_back(hair * nearShare *
                           std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
-    about_.resize(nodes_.size());
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-        const Node& node = nodes_[n];
-        if (node.patch >= 0 || node.surface < 0 || !planes_[static_cast<std::size_t>(node.surface)]) continue;
-        RestBox box;
-        const auto add = [&](auto&& self, const Node& below) -> void {
-            if (below.patch < 0) {
-                self(self, nodes_[static_cast<std::size_t>(below.left)]);
-                self(self, nodes_[static_cast<std::size_t>(below.right)]);
-                return;
-            }
-            const RestBox& own = restBoxes_[static_cast<std::size_t>(below.patch)];
-            box.low = glm::min(box.low, own.low);
-            box.high = glm::max(box.high, own.high);
-        };
-        add(add, node);
-        about_[n] = about(box, node.surface, patches_.size());
-    }
 }
 
-void Patches::measureFlatness(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
+void Patches::measureFlatness(std::span<const int> patches, std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    toMeasure_.clear();
+    for (int p : patches) {
+        char& isMeasured = isMeasured_[static_cast<std::size_t>(p)];
+        if (isMeasured != 0) continue;
+        isMeasured = 1;
+        toMeasure_.push_back(p);
+    }
+    const int count = static_cast<int>(toMeasure_.size());
+    core::parallelFor((count + measuredAtOnce - 1) / measuredAtOnce, [&](int task) {
+        for (int k = task * measuredAtOnce; k < std::min((task + 1) * measuredAtOnce, count); ++k)
+            measureOne(static_cast<std::size_t>(toMeasure_[static_cast<std::size_t>(k)]), x0, x1);
+    });
+}
+
+void Patches::measureOne(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
     const Patch& patch = patches_[number];
     Flatness flatness;
     struct Gradient {
@@ -172,20 +171,17 @@ void Patches::measureFlatness(std::size_t number, std::span<const dvec3> x0, std
 
 std::vector<int> Patches::about(int a, int b) const {
     const int surface = patches_[static_cast<std::size_t>(a)].surface;
-    if (surface != patches_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
-        return {};
-    const RestBox &boxA = restBoxes_[static_cast<std::size_t>(a)], &boxB = restBoxes_[static_cast<std::size_t>(b)];
-    return about({glm::min(boxA.low, boxB.low), glm::max(boxA.high, boxB.high)}, surface, mostAbout);
-}
-
-std::vector<int> Patches::about(const RestBox& all, int surface, std::size_t most) const {
     std::vector<int> found;
+    if (surface != patches_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
+        return found;
+    const RestBox &boxA = restBoxes_[static_cast<std::size_t>(a)], &boxB = restBoxes_[static_cast<std::size_t>(b)];
+    const RestBox box{glm::min(boxA.low, boxB.low), glm::max(boxA.high, boxB.high)};
     for (std::size_t p = 0; p < patches_.size(); ++p) {
         if (patches_[p].surface != surface) continue;
-        const RestBox& box = restBoxes_[p];
-        if (box.low.x > all.high.x || box.low.y > all.high.y || all.low.x > box.high.x || all.low.y > box.high.y)
+        const RestBox& own = restBoxes_[p];
+        if (own.low.x > box.high.x || own.low.y > box.high.y || box.low.x > own.high.x || box.low.y > own.high.y)
             continue;
-        if (found.size() == most) return {};
+        if (found.size() == mostAbout) return {};
         found.push_back(static_cast<int>(p));
     }
     return found;

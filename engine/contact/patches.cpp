@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "taut/contact/closest.h"
@@ -74,6 +73,7 @@ Patches::Patches(const Elements& elements)
         for (int i : patches_[static_cast<std::size_t>(p)].corners) patchesAt_[next[static_cast<std::size_t>(i)]++] = p;
     boxes_.resize(nodes_.size());
     flatness_.resize(patches_.size());
+    isMeasured_.assign(patches_.size(), 0);
     isKnown_.assign(patches_.size(), 0);
     prepareFlatness();
     takeBalls();
@@ -223,39 +223,32 @@ void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1, doubl
                 motion.bent = bend();
             }
             motion.times = times_[static_cast<std::size_t>(p)];
-            if (planes_[static_cast<std::size_t>(patch.surface)]) measureFlatness(static_cast<std::size_t>(p), x0, x1);
         }
     });
+    std::fill(isMeasured_.begin(), isMeasured_.end(), 0);
+}
+
+void Patches::findNear(std::span<const Box> boxes, double more, std::vector<PatchPair>& pairs) {
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
         const Node& node = nodes_[n];
         if (node.patch >= 0) {
-            boxes_[n] = motions_[static_cast<std::size_t>(node.patch)].box;
+            boxes_[n] = boxes[static_cast<std::size_t>(node.patch)];
         } else {
             boxes_[n] = boxes_[static_cast<std::size_t>(node.left)];
             boxes_[n].add(boxes_[static_cast<std::size_t>(node.right)]);
         }
     }
-}
-
-double Patches::findNear(double more, std::vector<PatchPair>& pairs) const {
     pairs.clear();
-    double slack = std::numeric_limits<double>::infinity();
-    if (root_ >= 0) meetItself(root_, more, slack, pairs);
+    if (root_ >= 0) meetItself(root_, more, pairs);
     std::sort(pairs.begin(), pairs.end());
-    return slack;
 }
 
-void Patches::meetItself(int number, double more, double& slack, std::vector<PatchPair>& pairs) const {
+void Patches::meetItself(int number, double more, std::vector<PatchPair>& pairs) const {
     const Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.surface >= 0 && !elements_.mayMeet(node.surface, node.surface)) return;
     if (node.patch >= 0) return pairs.push_back(patchPair(node.patch, node.patch));
-    const std::vector<int>& about = about_[static_cast<std::size_t>(number)];
-    if (!about.empty()) {
-        const double own = flatness(about);
-        if (own >= enough(node.surface)) return void(slack = std::min(slack, own * leastAltitude(node.surface)));
-    }
-    meetItself(node.left, more, slack, pairs);
-    meetItself(node.right, more, slack, pairs);
+    meetItself(node.left, more, pairs);
+    meetItself(node.right, more, pairs);
     meet(node.left, node.right, more, pairs);
 }
 

@@ -88,16 +88,17 @@ class Patches {
     void correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1);
     const PatchMotion& motion(int patch) const { return motions_[static_cast<std::size_t>(patch)]; }
 
-    // Pairs a <= b of patches whose boxes come within the sum of the thicknesses, and that much more [m], and which may
-    // meet; ascending. Those are left out that are flat together; returns by how much [m] their parts may come nearer
-    // yet.
-    double findNear(double more, std::vector<PatchPair>& pairs) const;
+    // Pairs a <= b of patches whose boxes (patches) come within the sum of the thicknesses, and that much more [m], and
+    // which may meet; ascending.
+    void findNear(std::span<const Box> boxes, double more, std::vector<PatchPair>& pairs);
 
     // How flat all of what lies about two patches of one surface is in this instant: no two parts of it come nearer
     // than that share of their distance at rest. For where the surface is flat and convex at rest and all of it about
     // them is moved nearly as one, |f(p) - f(q)| >= ∫ t·RᵀF t ds >= least |p - q| along the straight way at rest.
-    // Negative where that cannot be told.
+    // Negative where that cannot be told. Expects that what lies about them was measured.
     double flatness(std::span<const int> about) const;
+    // Of patches followed from x0 to x1; those that were measured since then already stand.
+    void measureFlatness(std::span<const int> patches, std::span<const dvec3> x0, std::span<const dvec3> x1);
     // Parts that stay further apart than this share of their distance at rest are not in contact.
     double enough(int surface) const { return enough_[static_cast<std::size_t>(surface)]; }
     bool isPlane(int surface) const { return planes_[static_cast<std::size_t>(surface)].has_value(); }
@@ -130,25 +131,23 @@ class Patches {
     void findWay(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
     void findPlane(int surface);
     void prepareFlatness();
-    std::vector<int> about(const RestBox& box, int surface, std::size_t most) const;
-    void measureFlatness(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    void meetItself(int node, double more, double& slack, std::vector<PatchPair>& pairs) const;
+    void measureOne(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
+    void meetItself(int node, double more, std::vector<PatchPair>& pairs) const;
     void meet(int a, int b, double more, std::vector<PatchPair>& pairs) const;
 
     const Elements& elements_;
     std::vector<Patch> patches_;
     std::vector<int> patchOfPoint_, patchOfEdge_;
-    std::vector<int> patchesAt_;           // of which points are corners, point by point
-    std::vector<std::size_t> firstAt_;     // (points + 1) of those
-    std::vector<int> corrected_;           // patches, scratch
-    std::vector<Node> nodes_;              // children before parents
-    std::vector<std::vector<int>> about_;  // (nodes) patches, of a surface that is flat at rest
+    std::vector<int> patchesAt_;        // of which points are corners, point by point
+    std::vector<std::size_t> firstAt_;  // (points + 1) of those
+    std::vector<int> corrected_;        // patches, scratch
+    std::vector<Node> nodes_;           // children before parents
     int root_ = -1;
     std::vector<PatchMotion> motions_;          // (patches)
     std::vector<dvec3> remembered_;             // [m] of the corners of all patches, from the mean
     std::vector<std::size_t> firstRemembered_;  // (patches)
     std::vector<int> times_;                    // (patches) remembered
-    std::vector<Box> boxes_;                    // (nodes) of both moments
+    std::vector<Box> boxes_;                    // (nodes) scratch
     std::vector<std::optional<Plane>> planes_;  // (surfaces)
     struct Inverse {
         double a, b, c, d;  // of the two edges at corner 0, in the plane
@@ -158,6 +157,8 @@ class Patches {
     std::vector<Inverse> inverses_;   // (triangles) of those in planes
     std::vector<RestBox> restBoxes_;  // (patches) likewise
     std::vector<Flatness> flatness_;  // (patches)
+    std::vector<char> isMeasured_;    // (patches) since they were followed last
+    std::vector<int> toMeasure_;      // patches, scratch
     std::vector<char> isKnown_;       // (patches) of still surfaces: where they are
 };
 

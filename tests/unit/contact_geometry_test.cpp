@@ -176,8 +176,8 @@ TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
     NearPairs near(elements);
     near.find(rest, rest);
     int listed = 0;
-    for (std::size_t r = 0; r < near.nearCount(); ++r)
-        for (const NearPair& pair : near.near(r).pairs) {
+    for (std::size_t r = 0; r < near.awakeCount(); ++r)
+        for (const NearPair& pair : near.awake(r).pairs) {
             const int between = std::abs(pair.a - pair.b) - 1;  // segments
             EXPECT_NEAR(pair.distance, std::min(2 * thickness, 0.7 * between * L), 1e-15) << pair.a << ", " << pair.b;
             EXPECT_NEAR(pair.atFirst, between * L, 1e-15);

@@ -16,7 +16,8 @@ constexpr double waysAhead = 4.0;    // like the coming one, for which a list is
 constexpr double bentShare = 0.4;    // of the largest thickness: patches bent further are remembered anew
 constexpr double boxSlack = 0.25;    // of it, by which boxes are found near beforehand
 constexpr double flatShare = 0.1;    // of it: what is flat with less to spare is listed nevertheless
-constexpr double instantsAhead = 4;  // for which they are to last
+constexpr double mostAhead = 8;      // instants for which they are to last
+constexpr double roomAhead = 2;      // of that slack, that boxes may grow for it in the mean
 
 // Boxes of elements in rows, so that many are tried at once.
 struct BoxRows {
@@ -42,6 +43,11 @@ struct Scratch {
     BoxRows first, second;
     std::vector<long> hits;
 };
+
+// [m] between two boxes, at least.
+double gapOf(const Box& a, const Box& b) {
+    return length(glm::max(dvec3(0.0), glm::max(a.low - b.high, b.low - a.high)));
+}
 
 // Calls each(item) for those of the rows that overlap the box.
 template <class Each>
@@ -83,11 +89,11 @@ NearPairs::Record* NearPairs::newRecord(PatchPair pair) {
     record->b = highOf(pair);
     record->about = patches_.about(record->a, record->b);
     const int a = patches_[record->a].surface, b = patches_[record->b].surface;
-    const double most = elements_.surface(a).thickness + elements_.surface(b).thickness;
+    record->most = elements_.surface(a).thickness + elements_.surface(b).thickness;
     if (!elements_.shareBond(a, b))
-        record->apartAtLeast = most;
+        record->apartAtLeast = record->most;
     else if (a == b && patches_.isPlane(a))
-        record->apartAtLeast = std::min(most, restShare * patches_.leastAltitude(a));
+        record->apartAtLeast = std::min(record->most, restShare * patches_.leastAltitude(a));
     return record;
 }
 
@@ -115,6 +121,23 @@ void NearPairs::approach(Record& record) const {
     record.travelled = record.way + record.coming;
 }
 
+// Whether all of one patch stays further from all of the other than any pair of them is near, along the way between
+// their middles, before and after, and so in between.
+bool NearPairs::passesBy(const Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1) const {
+    const PatchMotion &a = patches_.motion(record.a), &b = patches_.motion(record.b);
+    const dvec3 between = a.centre - b.centre + 0.5 * (a.way - b.way);
+    const double size = length(between);
+    if (!(size > 0)) return false;
+    const dvec3 axis = between / size;
+    for (const auto& x : {x0, std::span<const dvec3>(x1)}) {
+        double low = 1e300, high = -1e300;
+        for (int i : patches_[record.a].corners) low = std::min(low, glm::dot(axis, x[static_cast<std::size_t>(i)]));
+        for (int i : patches_[record.b].corners) high = std::max(high, glm::dot(axis, x[static_cast<std::size_t>(i)]));
+        if (!(low - high > nearShare * record.most)) return false;
+    }
+    return true;
+}
+
 bool NearPairs::staysWhereSearched() const {
     if (roomy_.empty()) return false;
     for (int p = 0; p < patches_.count(); ++p) {
@@ -128,13 +151,19 @@ bool NearPairs::staysWhereSearched() const {
 
 // For as many instants like this one as pay.
 void NearPairs::search(double room) {
+    double sum = 0;
+    for (int p = 0; p < patches_.count(); ++p) sum += length(patches_.motion(p).way) + patches_.motion(p).stray;
+    const double mean = sum / std::max(1, patches_.count());
+    const double instants = mean * mostAhead > roomAhead * room ? roomAhead * room / mean : mostAhead;
+    const bool lasts = instants > 1;
     roomy_.resize(static_cast<std::size_t>(patches_.count()));
     for (int p = 0; p < patches_.count(); ++p) {
         const PatchMotion& motion = patches_.motion(p);
         Box& roomy = roomy_[static_cast<std::size_t>(p)];
         roomy = motion.box;
-        const dvec3 way = instantsAhead * motion.way;
-        const double aside = room + instantsAhead * motion.stray;
+        if (!lasts) continue;
+        const dvec3 way = instants * motion.way;
+        const double aside = room + instants * motion.stray;
         roomy.low += glm::min(way, dvec3(0.0)) - aside;
         roomy.high += glm::max(way, dvec3(0.0)) + aside;
     }
@@ -178,13 +207,24 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
             Record& record = *near_[static_cast<std::size_t>(k)];
             approach(record);
+            record.isFlat = record.isPassing = false;
             record.isNew = record.approached > record.valid;
-            record.isFlat = false;
+            if (!record.isNew) continue;
+            const double between = gapOf(patches_.motion(record.a).before, patches_.motion(record.b).before);
+            const double apart = between - nearShare * record.most;
+            if (apart > record.coming) {
+                record.isNew = false;
+                restart(record, apart);
+            } else if (apart > 0 && passesBy(record, x0, x1)) {
+                record.isNew = false;
+                record.isPassing = true;
+            }
         }
     });
     awake_.clear();
     about_.clear();
     for (Record* record : near_) {
+        if (record->isPassing) continue;
         if (!record->isNew && record->travelled < record->asleepTravelled &&
             record->approached < record->asleepApproached)
             continue;
@@ -217,8 +257,8 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         double& least = slacks_[static_cast<std::size_t>(task)];
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
             const Record& record = *near_[static_cast<std::size_t>(k)];
-            least = std::min(
-                {least, record.valid - record.approached + record.apartAtLeast, watchShare * record.leastKeep});
+            const double unlisted = record.isPassing ? 0.0 : record.valid - record.approached;
+            least = std::min({least, unlisted + record.apartAtLeast, watchShare * record.leastKeep});
         }
     });
     slack_ = room;
@@ -258,8 +298,7 @@ void NearPairs::restart(Record& record, double valid) const {
 
 void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     const Patch &a = patches_[record.a], &b = patches_[record.b];
-    const Surface &surfaceA = elements_.surface(a.surface), &surfaceB = elements_.surface(b.surface);
-    const double most = surfaceA.thickness + surfaceB.thickness;
+    const double most = record.most;
     const bool isBond = elements_.shareBond(a.surface, b.surface);
     const double cell = std::min(elements_.shortestEdge(a.surface), elements_.shortestEdge(b.surface));
     // More would list a surface's own neighbours.
@@ -272,14 +311,7 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     const auto rest = [&](int i) -> const dvec3& { return elements_.rest()[static_cast<std::size_t>(i)]; };
 
     restart(record, margin);
-    Box boxA, boxB;
-    for (int i : a.corners) boxA.add(at(i));
-    for (int i : b.corners) boxB.add(at(i));
-    if (!boxA.overlaps(boxB, reach)) {
-        const dvec3 between = glm::max(dvec3(0.0), glm::max(boxA.low - boxB.high, boxB.low - boxA.high));
-        record.valid = std::max(margin, length(between) - nearShare * most);
-        return;
-    }
+    const Box &boxA = patches_.motion(record.a).before, &boxB = patches_.motion(record.b).before;
 
     thread_local Scratch scratch;
     const auto grown = [&](Box box, double by) {

@@ -50,8 +50,10 @@ class NearPairs {
         double approached = 0;       // [m] likewise, from where they were then
         double coming = 0;           // [m] of that the coming way
         bool isNew = false;          // its list has expired in this instant
+        bool isPassing = false;      // both pass each other by in this instant
         bool isFlat = false;         // nothing of it meets in this instant
 
+        double most = 0;       // [m] that pairs keep: the sum of the thicknesses
         double leastKeep = 0;  // [m] of the pairs
         // None of them is near until it has travelled that far, or come that much nearer [m].
         double asleepTravelled = 0, asleepApproached = 0;
@@ -74,6 +76,7 @@ class NearPairs {
   private:
     void search(double room);
     bool staysWhereSearched() const;
+    bool passesBy(const Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
     Record* newRecord(PatchPair pair);
     double comingOf(const Record& record) const;
     void approach(Record& record) const;

@@ -10,9 +10,11 @@
 namespace taut::contact {
 namespace {
 
-constexpr double jitter = 0.05, gaps = 2e-3;  // of an edge, of the area
-constexpr std::size_t mostAbout = 48;         // patches
-constexpr int measuredAtOnce = 16;            // patches a task
+constexpr double bumps = 0.05, gaps = 2e-3;  // of an edge, of the area
+constexpr double plenty = 1.15;              // of what is enough: no more is asked for
+constexpr double reachIn = 1e-3;             // of an edge
+constexpr std::size_t mostAbout = 48;        // patches
+constexpr int measuredAtOnce = 16;           // patches a task
 
 double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -35,6 +37,13 @@ double hullArea(std::vector<glm::dvec2> points) {
     double area = 0;
     for (std::size_t i = 2; i < hull.size(); ++i) area += 0.5 * twiceArea(hull[0], hull[i - 1], hull[i]);
     return area;
+}
+
+// The least of t·RᵀF t for all unit t, by the symmetric part of RᵀF: R has columns right and up, F those two.
+double leastAlong(const dvec3& right, const dvec3& up, const dvec3& fRight, const dvec3& fUp) {
+    const double a = glm::dot(right, fRight), d = glm::dot(up, fUp);
+    const double b = 0.5 * (glm::dot(right, fUp) + glm::dot(up, fRight)), half = 0.5 * (a - d);
+    return 0.5 * (a + d) - std::sqrt(half * half + b * b);
 }
 
 }  // namespace
@@ -67,7 +76,7 @@ void Patches::findPlane(int number) {
     std::vector<glm::dvec2> flat;
     for (int i : surface.points) {
         const dvec3 d = at(i) - origin;
-        if (std::abs(glm::dot(d, normal)) > jitter * elements_.shortestEdge(number)) return;
+        if (std::abs(glm::dot(d, normal)) > bumps * elements_.shortestEdge(number)) return;
         flat.emplace_back(glm::dot(d, right), glm::dot(d, up));
     }
     if (area < (1 - gaps) * hullArea(std::move(flat))) return;
@@ -78,8 +87,10 @@ void Patches::prepareFlatness() {
     inverses_.resize(elements_.triangles().size());
     restBoxes_.resize(patches_.size());
     altitudes_.assign(elements_.surfaces().size(), 1e300);
+    firstGradient_.assign(1, 0);
     for (std::size_t p = 0; p < patches_.size(); ++p) {
         const std::optional<Plane>& plane = planes_[static_cast<std::size_t>(patches_[p].surface)];
+        firstGradient_.push_back(firstGradient_.back() + (plane ? 2 * patches_[p].triangles.size() : 0));
         if (!plane) continue;
         const auto flat = [&](int i) {
             const dvec3& x = elements_.rest()[static_cast<std::size_t>(i)];
@@ -100,6 +111,7 @@ void Patches::prepareFlatness() {
             altitude = std::min(altitude, std::abs(det) / std::sqrt(longest));
         }
     }
+    gradients_.resize(firstGradient_.back());
     constexpr double hair = 1.02;  // for what is not quite flat or convex
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
         enough_.push_back(hair * nearShare *
@@ -124,10 +136,7 @@ void Patches::measureFlatness(std::span<const int> patches, std::span<const dvec
 void Patches::measureOne(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
     const Patch& patch = patches_[number];
     Flatness flatness;
-    struct Gradient {
-        dvec3 right, up;
-    };
-    std::array<Gradient, 2 * patchSize> gradients;
+    Gradient* gradients = gradients_.data() + firstGradient_[number];
     std::size_t count = 0;
     for (int t : patch.triangles) {
         const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(t)];
@@ -156,10 +165,7 @@ void Patches::measureOne(std::size_t number, std::span<const dvec3> x0, std::spa
     double least = 1e300, most = 0;
     for (std::size_t g = 0; g < count; ++g) {
         const Gradient& f = gradients[g];
-        const double a = glm::dot(flatness.right, f.right), d = glm::dot(flatness.up, f.up);
-        const double b = 0.5 * (glm::dot(flatness.right, f.up) + glm::dot(flatness.up, f.right));
-        const double half = 0.5 * (a - d);
-        least = std::min(least, 0.5 * (a + d) - std::sqrt(half * half + b * b));
+        least = std::min(least, leastAlong(flatness.right, flatness.up, f.right, f.up));
         const double p = glm::dot(f.right, f.right), q = glm::dot(f.up, f.up), r = glm::dot(f.right, f.up);
         most = std::max(most, 0.5 * (p + q) + std::sqrt(0.25 * (p - q) * (p - q) + r * r));
     }
@@ -175,7 +181,9 @@ std::vector<int> Patches::about(int a, int b) const {
     if (surface != patches_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
         return found;
     const RestBox &boxA = restBoxes_[static_cast<std::size_t>(a)], &boxB = restBoxes_[static_cast<std::size_t>(b)];
-    const RestBox box{glm::min(boxA.low, boxB.low), glm::max(boxA.high, boxB.high)};
+    // A straight way between both stays in it; and what reaches into it by a hair need not be looked at.
+    const double in = reachIn * elements_.shortestEdge(surface);
+    const RestBox box{glm::min(boxA.low, boxB.low) + in, glm::max(boxA.high, boxB.high) - in};
     for (std::size_t p = 0; p < patches_.size(); ++p) {
         if (patches_[p].surface != surface) continue;
         const RestBox& own = restBoxes_[p];
@@ -213,7 +221,15 @@ double Patches::flatness(std::span<const int> about) const {
         const double cosine = std::min(1.0, 0.5 * (trace - 1.0));
         if (!(cosine > 0)) return -1.0;
         const double aside = std::sqrt(std::max(0.0, own.most * own.most - own.least * own.least));
-        flattest = std::min(flattest, own.least * cosine - aside * std::sqrt(1.0 - cosine * cosine));
+        const double bound = own.least * cosine - aside * std::sqrt(1.0 - cosine * cosine);
+        if (bound >= plenty * least) {
+            flattest = std::min(flattest, bound);
+            continue;
+        }
+        const std::size_t last = firstGradient_[static_cast<std::size_t>(p) + 1];
+        for (std::size_t g = firstGradient_[static_cast<std::size_t>(p)]; g < last; ++g)
+            flattest = std::min(flattest, leastAlong(right, up, gradients_[g].right, gradients_[g].up));
+        if (flattest < least) return -1.0;
     }
     return flattest;
 }

@@ -12,9 +12,66 @@ namespace {
 
 constexpr int atOnce = 16;  // patches a task
 
-double widest(const dvec3& size, int& axis) {
-    axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-    return size[axis];
+constexpr double alike = 1e-6;       // what differs by that share is the same but for rounding
+constexpr double middleShare = 0.2;  // of the items: as far from the middle as that they may be parted
+constexpr double wideShare = 0.6;    // of the widest gap there, which another has to have
+
+dvec3 unitAcross(const dvec3& along) {
+    const dvec3 size = glm::abs(along);
+    const dvec3 other =
+        size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0) : (size.y <= size.z ? dvec3(0, 1, 0) : dvec3(0, 0, 1));
+    const dvec3 across = glm::cross(along, other);
+    return across / length(across);
+}
+
+// Axes that turn with a surface: along the shortest edge of its first triangle, beside that in its plane, and across;
+// along its first edge where there are no triangles.
+Axes axesOf(const Elements& elements, int surface) {
+    const auto at = [&](int i) { return elements.rest()[static_cast<std::size_t>(i)]; };
+    dvec3 along(1.0, 0.0, 0.0), beside(0.0);
+    const int firstTriangle = elements.firstTriangleOf(surface), firstEdge = elements.firstEdgeOf(surface);
+    if (firstTriangle < elements.firstTriangleOf(surface + 1)) {
+        const std::array<int, 3>& c = elements.triangles()[static_cast<std::size_t>(firstTriangle)].points;
+        double shortest = 1e300;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const dvec3 edge = at(c[(k + 1) % 3]) - at(c[k]);
+            if (!(length(edge) < (1 - alike) * shortest)) continue;
+            shortest = length(edge);
+            along = edge;
+            beside = at(c[(k + 2) % 3]) - at(c[k]);
+        }
+    } else if (firstEdge < elements.firstEdgeOf(surface + 1)) {
+        const Edge& first = elements.edges()[static_cast<std::size_t>(firstEdge)];
+        along = at(first.b) - at(first.a);
+        double furthest = 0;
+        for (int i : elements.surface(surface).points) {
+            const dvec3 d = at(i) - at(first.a);
+            const dvec3 aside = d - (glm::dot(d, along) / glm::dot(along, along)) * along;
+            if (!(length(aside) > (1 + alike) * furthest + alike * length(along))) continue;
+            furthest = length(aside);
+            beside = aside;
+        }
+    }
+    if (!(length(along) > 0)) along = dvec3(1.0, 0.0, 0.0);
+    along /= length(along);
+    beside -= glm::dot(beside, along) * along;
+    beside = length(beside) > 0 ? beside / length(beside) : unitAcross(along);
+    return {along, beside, glm::cross(along, beside)};
+}
+
+// How many of places in order are the lower half: the gap nearest to the middle that is about as wide as any near it,
+// so that the rows of a grid stay whole.
+std::size_t halfOf(const std::vector<double>& places) {
+    const std::size_t n = places.size(), middle = n / 2;
+    const auto off = std::max<std::size_t>(1, static_cast<std::size_t>(middleShare * static_cast<double>(n)));
+    const std::size_t first = middle > off ? middle - off : 1, last = std::min(n - 1, middle + off);
+    double widest = 0;
+    for (std::size_t k = first; k <= last; ++k) widest = std::max(widest, places[k] - places[k - 1]);
+    for (std::size_t d = 0; d <= off; ++d) {
+        if (middle >= first + d && places[middle - d] - places[middle - d - 1] >= wideShare * widest) return middle - d;
+        if (middle + d <= last && places[middle + d] - places[middle + d - 1] >= wideShare * widest) return middle + d;
+    }
+    return middle;
 }
 
 }  // namespace
@@ -39,8 +96,9 @@ Patches::Patches(const Elements& elements)
         for (int t = elements.firstTriangleOf(s); t < elements.firstTriangleOf(s + 1); ++t) triangles.push_back(t);
         for (int e = elements.firstEdgeOf(s); e < elements.firstEdgeOf(s + 1); ++e)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
-        if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, true));
-        if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, false));
+        const Axes axes = axesOf(elements, s);
+        if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
+        if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, axes, false));
         // Points of neither, of which damage may have made balls.
         std::vector<int> others;
         for (int i : elements.surface(s).points)
@@ -79,22 +137,34 @@ Patches::Patches(const Elements& elements)
     takeBalls();
 }
 
-int Patches::addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, bool areTriangles) {
+int Patches::addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, const Axes& axes,
+                     bool areTriangles) {
     if (items.size() <= patchSize) return addPatch(items, surface, areTriangles);
-    Box box;
-    for (int i : items) box.add(centres[static_cast<std::size_t>(i)]);
-    int axis = 0;
-    widest(box.high - box.low, axis);
-    const auto middle = items.begin() + std::ssize(items) / 2;
-    std::nth_element(items.begin(), middle, items.end(), [&](int a, int b) {
-        const double x = centres[static_cast<std::size_t>(a)][axis], y = centres[static_cast<std::size_t>(b)][axis];
-        return x < y || (x == y && a < b);
-    });
-    std::vector<int> low(items.begin(), middle), high(middle, items.end());
+    std::size_t longest = 0;
+    double size = -1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        double low = 1e300, high = -1e300;
+        for (int i : items) {
+            const double place = glm::dot(axes[k], centres[static_cast<std::size_t>(i)]);
+            low = std::min(low, place);
+            high = std::max(high, place);
+        }
+        if (!(high - low > (1 + alike) * size)) continue;
+        size = high - low;
+        longest = k;
+    }
+    std::vector<std::pair<double, int>> inOrder;
+    for (int i : items) inOrder.emplace_back(glm::dot(axes[longest], centres[static_cast<std::size_t>(i)]), i);
+    std::sort(inOrder.begin(), inOrder.end());
+    std::vector<double> places;
+    for (const auto& [place, i] : inOrder) places.push_back(place);
+    const std::size_t half = halfOf(places);
+    std::vector<int> low, high;
+    for (std::size_t k = 0; k < inOrder.size(); ++k) (k < half ? low : high).push_back(inOrder[k].second);
     std::sort(low.begin(), low.end());
     std::sort(high.begin(), high.end());
-    const int left = addTree(std::move(low), centres, surface, areTriangles);
-    const int right = addTree(std::move(high), centres, surface, areTriangles);
+    const int left = addTree(std::move(low), centres, surface, axes, areTriangles);
+    const int right = addTree(std::move(high), centres, surface, axes, areTriangles);
     nodes_.push_back({left, right, -1, surface, elements_.surface(surface).thickness});
     return static_cast<int>(nodes_.size()) - 1;
 }
@@ -166,13 +236,15 @@ void Patches::findWay(std::size_t number, std::span<const dvec3> x0, std::span<c
     const Patch& patch = patches_[number];
     PatchMotion& motion = motions_[number];
     dvec3 sum(0.0), ways(0.0);
+    motion.before = {};
     for (int i : patch.corners) {
         const dvec3 &from = x0[static_cast<std::size_t>(i)], &to = x1[static_cast<std::size_t>(i)];
-        motion.box.add(from);
+        motion.before.add(from);
         motion.box.add(to);
         sum += from;
         ways += to - from;
     }
+    motion.box.add(motion.before);
     const double share = 1.0 / static_cast<double>(patch.corners.size());
     motion.centre = share * sum;
     motion.way = share * ways;

@@ -2,6 +2,7 @@
 // near each other in an instant. Patches hang on what the surfaces are at rest, never on where they are.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -30,6 +31,8 @@ struct Box {
 
 inline constexpr std::size_t patchSize = 12;  // triangles, or edges, at most
 
+using Axes = std::array<dvec3, 3>;
+
 struct Patch {
     int surface = 0;
     // All that there is belongs to one patch; an edge or a point to the first that has it.
@@ -39,7 +42,7 @@ struct Patch {
 
 // How a patch moves in an instant.
 struct PatchMotion {
-    Box box;             // of its points, before and after
+    Box before, box;     // of its points; of those before and after
     dvec3 centre{0.0};   // [m] mean of its points, before
     dvec3 way{0.0};      // [m] of that mean
     double stray = 0.0;  // [m] no point goes further than that from the way of the mean
@@ -123,7 +126,8 @@ class Patches {
         Rest2 low{1e300}, high{-1e300};
     };
 
-    int addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, bool areTriangles);
+    int addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, const Axes& axes,
+                bool areTriangles);
     int addPatch(const std::vector<int>& items, int surface, bool areTriangles);
     int joinRoots(std::span<const int> roots);
     void shareOut();
@@ -156,10 +160,15 @@ class Patches {
     std::vector<double> enough_;      // (surfaces) see enough()
     std::vector<Inverse> inverses_;   // (triangles) of those in planes
     std::vector<RestBox> restBoxes_;  // (patches) likewise
-    std::vector<Flatness> flatness_;  // (patches)
-    std::vector<char> isMeasured_;    // (patches) since they were followed last
-    std::vector<int> toMeasure_;      // patches, scratch
-    std::vector<char> isKnown_;       // (patches) of still surfaces: where they are
+    struct Gradient {
+        dvec3 right, up;  // where those of the plane are led
+    };
+    std::vector<Flatness> flatness_;          // (patches)
+    std::vector<Gradient> gradients_;         // of the triangles of patches, before and after
+    std::vector<std::size_t> firstGradient_;  // (patches + 1)
+    std::vector<char> isMeasured_;            // (patches) since they were followed last
+    std::vector<int> toMeasure_;              // patches, scratch
+    std::vector<char> isKnown_;               // (patches) of still surfaces: where they are
 };
 
 }  // namespace taut::contact

@@ -37,6 +37,11 @@ void holdPoints(Body& body) {
     body.carried.erase(std::unique(body.carried.begin(), body.carried.end()), body.carried.end());
 }
 
+bool starts(const Body& body, int point) {
+    return !body.model.held[static_cast<std::size_t>(point)] &&
+           !std::binary_search(body.carried.begin(), body.carried.end(), point);
+}
+
 void setInMotion(Body& body) {
     mechanics::Model& model = body.model;
     dvec3 centre(0.0);
@@ -47,14 +52,12 @@ void setInMotion(Body& body) {
     }
     centre /= mass;
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
-        if (model.held[i] || std::binary_search(body.carried.begin(), body.carried.end(), static_cast<int>(i))) {
+        if (!starts(body, static_cast<int>(i))) {
             model.velocities[i] = dvec3(0.0);
             continue;
         }
         model.velocities[i] += body.spec->velocity + glm::cross(body.spec->spin, model.positions[i] - centre);
-        if (body.spec->jitter > 0)
-            for (int axis = 0; axis < 3; ++axis)
-                model.positions[i][axis] += body.spec->jitter * randomNumber(body.seed, static_cast<int>(i), axis);
+        if (body.spec->jitter > 0) model.positions[i] += jitterOf(body, static_cast<int>(i));
     }
 }
 
@@ -93,6 +96,13 @@ void addMasses(std::vector<Body>& bodies, const SceneSpec& spec) {
 }
 
 }  // namespace
+
+dvec3 jitterOf(const Body& body, int point) {
+    if (!(body.spec->jitter > 0) || !starts(body, point)) return dvec3(0.0);
+    dvec3 jitter;
+    for (int axis = 0; axis < 3; ++axis) jitter[axis] = body.spec->jitter * randomNumber(body.seed, point, axis);
+    return jitter;
+}
 
 bool sortsBefore(const Body& a, const Body& b) {
     if (a.kind() != b.kind()) return a.kind() < b.kind();

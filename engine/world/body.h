@@ -50,6 +50,8 @@ Body buildBody(const BodySpec& spec, const SceneSpec& scene);
 // Holds the points that its spec names, in place or for a collider to carry, and gives the others their starting
 // velocity and jitter. Throws core::Error(badContent) where `hold` names nothing.
 void startBody(Body& body);
+// [m] of that, what jitter has added to a point of the model.
+dvec3 jitterOf(const Body& body, int point);
 
 // Whether a target names the body.
 bool names(const std::string& target, const Body& body);

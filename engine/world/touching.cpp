@@ -74,13 +74,18 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
     for (const auto& island : islands) {
         if (!touches(island->plan())) continue;
         const int offset = static_cast<int>(rest.size());
+        const std::vector<dvec3>& start = island->plan().positions;
+        rest.insert(rest.end(), start.begin(), start.end());
         for (const Body* body : island->plan().bodies) {
             if (!isMet(*body->spec)) continue;
             surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
             bodies_.push_back(body);
+            for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
+                const int point = offset + body->pointOf[i];
+                rest[static_cast<std::size_t>(point)] =
+                    body->model.positions[i] - jitterOf(*body, static_cast<int>(i));
+            }
         }
-        const std::vector<dvec3>& start = island->plan().positions;
-        rest.insert(rest.end(), start.begin(), start.end());
         islands_.push_back(island.get());
         rooms_.push_back({island.get(), offset, static_cast<int>(rest.size())});
     }

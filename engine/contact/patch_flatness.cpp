@@ -50,7 +50,7 @@ double leastAlong(const dvec3& right, const dvec3& up, const dvec3& fRight, cons
 
 // Flat if all points lie in one plane, and convex if the triangles fill their convex hull; but for what breaks
 // symmetry.
-void Patches::findPlane(int number) {
+void Patches::findPlane(int number, const dvec3& along) {
     planes_.emplace_back();
     const Surface& surface = elements_.surface(number);
     if (surface.triangles.empty() || !surface.meetsItself) return;
@@ -66,11 +66,7 @@ void Patches::findPlane(int number) {
     if (!(total > 0)) return;
     normal /= total;
     const dvec3 origin = at(surface.triangles.front()[0]);
-    dvec3 right(0.0);
-    for (int i : surface.points) {
-        const dvec3 d = at(i) - origin;
-        if (length(d) > length(right)) right = d;
-    }
+    dvec3 right = along - glm::dot(along, normal) * normal;
     right /= length(right);
     const dvec3 up = glm::cross(normal, right);
     std::vector<glm::dvec2> flat;

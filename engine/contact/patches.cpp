@@ -91,12 +91,12 @@ Patches::Patches(const Elements& elements)
         edgeCentres.push_back(0.5 * (at(edge.a) + at(edge.b)));
     }
     for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s) {
-        findPlane(s);
+        const Axes axes = axesOf(elements, s);
+        findPlane(s, axes[0]);
         std::vector<int> triangles, lines;
         for (int t = elements.firstTriangleOf(s); t < elements.firstTriangleOf(s + 1); ++t) triangles.push_back(t);
         for (int e = elements.firstEdgeOf(s); e < elements.firstEdgeOf(s + 1); ++e)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
-        const Axes axes = axesOf(elements, s);
         if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
         if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, axes, false));
         // Points of neither, of which damage may have made balls.

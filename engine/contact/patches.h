@@ -133,7 +133,7 @@ class Patches {
     void shareOut();
     void remember(std::size_t patch, std::span<const dvec3> x);
     void findWay(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    void findPlane(int surface);
+    void findPlane(int surface, const dvec3& along);
     void prepareFlatness();
     void measureOne(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
     void meetItself(int node, double more, std::vector<PatchPair>& pairs) const;

@@ -17,7 +17,7 @@ constexpr double bentShare = 0.4;    // of the largest thickness: patches bent f
 constexpr double boxSlack = 0.25;    // of it, by which boxes are found near beforehand
 constexpr double flatShare = 0.1;    // of it: what is flat with less to spare is listed nevertheless
 constexpr double mostAhead = 8;      // instants for which they are to last
-constexpr double roomAhead = 2;      // of that slack, that boxes may grow for it in the mean
+constexpr double mostRoom = 4;       // of that slack, that boxes may grow for it
 
 // Boxes of elements in rows, so that many are tried at once.
 struct BoxRows {
@@ -70,7 +70,6 @@ void NearPairs::drop() {
     records_.clear();
     unused_.clear();
     known_.clear();
-    near_.clear();
     awake_.clear();
     roomy_.clear();
     patches_.takeBalls();
@@ -151,17 +150,16 @@ bool NearPairs::staysWhereSearched() const {
 
 // For as many instants like this one as pay.
 void NearPairs::search(double room) {
-    double sum = 0;
-    for (int p = 0; p < patches_.count(); ++p) sum += length(patches_.motion(p).way) + patches_.motion(p).stray;
-    const double mean = sum / std::max(1, patches_.count());
-    const double instants = mean * mostAhead > roomAhead * room ? roomAhead * room / mean : mostAhead;
-    const bool lasts = instants > 1;
+    double most = 0;
+    for (int p = 0; p < patches_.count(); ++p)
+        most = std::max(most, length(patches_.motion(p).way) + patches_.motion(p).stray);
+    const double instants = mostAhead * most > mostRoom * room ? mostRoom * room / most : mostAhead;
     roomy_.resize(static_cast<std::size_t>(patches_.count()));
     for (int p = 0; p < patches_.count(); ++p) {
         const PatchMotion& motion = patches_.motion(p);
         Box& roomy = roomy_[static_cast<std::size_t>(p)];
         roomy = motion.box;
-        if (!lasts) continue;
+        if (instants < 1) continue;
         const dvec3 way = instants * motion.way;
         const double aside = room + instants * motion.stray;
         roomy.low += glm::min(way, dvec3(0.0)) - aside;
@@ -169,43 +167,35 @@ void NearPairs::search(double room) {
     }
     patches_.findNear(roomy_, room, found_);
 
-    // Of those before, near ones go on, and others for as long as they are true.
     merged_.clear();
-    near_.clear();
     auto old = known_.begin();
-    const auto pass = [&](PatchPair until) {
-        for (; old != known_.end() && old->pair < until; ++old) {
-            approach(*old->record);
-            if (old->record->approached <= old->record->valid)
-                merged_.push_back(*old);
-            else
-                unused_.push_back(old->record);
-        }
+    const auto forgetUntil = [&](PatchPair pair) {
+        for (; old != known_.end() && old->pair < pair; ++old) unused_.push_back(old->record);
     };
     for (PatchPair pair : found_) {
-        pass(pair);
+        forgetUntil(pair);
         if (old != known_.end() && old->pair == pair)
             merged_.push_back(*old++);
         else
             merged_.push_back({pair, newRecord(pair)});
-        near_.push_back(merged_.back().record);
     }
-    pass(~PatchPair{0});
+    forgetUntil(~PatchPair{0});
     std::swap(known_, merged_);
 }
 
 void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     stray_.resize(static_cast<std::size_t>(patches_.count()), 0.0);
     double thickest = 0;
-    for (const Surface& surface : elements_.surfaces()) thickest = std::max(thickest, surface.thickness);
+    for (const Surface& surface : elements_.surfaces())
+        if (!surface.isRigid) thickest = std::max(thickest, surface.thickness);
     patches_.follow(x0, x1, bentShare * thickest);
     const double room = boxSlack * 2 * thickest;
     if (!staysWhereSearched()) search(room);
 
-    const int count = static_cast<int>(near_.size()), tasks = (count + atOnce - 1) / atOnce;
+    const int count = static_cast<int>(known_.size()), tasks = (count + atOnce - 1) / atOnce;
     core::parallelFor(tasks, [&](int task) {
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            Record& record = *near_[static_cast<std::size_t>(k)];
+            Record& record = *known_[static_cast<std::size_t>(k)].record;
             approach(record);
             record.isFlat = record.isPassing = false;
             record.isNew = record.approached > record.valid;
@@ -223,7 +213,7 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     });
     awake_.clear();
     about_.clear();
-    for (Record* record : near_) {
+    for (const auto& [pair, record] : known_) {
         if (record->isPassing) continue;
         if (!record->isNew && record->travelled < record->asleepTravelled &&
             record->approached < record->asleepApproached)
@@ -256,7 +246,7 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     core::parallelFor(tasks, [&](int task) {
         double& least = slacks_[static_cast<std::size_t>(task)];
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            const Record& record = *near_[static_cast<std::size_t>(k)];
+            const Record& record = *known_[static_cast<std::size_t>(k)].record;
             const double unlisted = record.isPassing ? 0.0 : record.valid - record.approached;
             least = std::min({least, unlisted + record.apartAtLeast, watchShare * record.leastKeep});
         }

@@ -92,9 +92,9 @@ class NearPairs {
     std::deque<Record> records_;         // in no order
     std::vector<Record*> unused_;        // of them
     std::vector<Known> known_, merged_;  // ascending
-    std::vector<Record*> near_, awake_;
+    std::vector<Record*> awake_;
     std::vector<double> stray_;   // [m] (patches) sum over all instants
-    std::vector<Box> roomy_;      // (patches) while all stay within, near_ names all that are near
+    std::vector<Box> roomy_;      // (patches) while all stay within, all that are near are known
     std::vector<double> slacks_;  // (tasks) scratch
     std::vector<int> about_;      // scratch
     std::vector<PatchPair> found_;

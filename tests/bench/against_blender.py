@@ -1,47 +1,107 @@
-# Runs inside Blender: the cloth of against_blender.toml with Blender's own, 2 s at 24 frames a second, quality 5, no
-# self-collision; what is not set here is as Blender sets it. Prints the user processor time of stepping through the
-# frames, which leaves out Blender's start, and where the cloth is in the end. After `--` stands the air damping.
+# Runs inside Blender: the sheet of a scene file of taut, with Blender's own cloth; what is not set here is as Blender
+# sets it. Prints the user processor time of stepping through the frames, which leaves out Blender's start, and where
+# the sheet is in the end. After `--` stands the file, and then any of
+#   cells=40  quality=5 collision_quality=2  air=0 (its damping)  meshes=FOLDER (every frame as OBJ; takes time)
+import math
 import resource
 import sys
+import tomllib
 
 import bpy
+from mathutils import Vector
 
-points = 71  # along an edge
-side = 1.8  # [m]
-frames = 48
+arguments = sys.argv[sys.argv.index("--") + 1 :]
+given = dict(word.split("=", 1) for word in arguments[1:])
+with open(arguments[0], "rb") as file:
+    told = tomllib.load(file)
+sheet = told["cloth"]["sheet"]
+material = told["material"][sheet["material"]]
+cells = int(given.get("cells", sheet["cells"][0]))
+side = sheet["size"][0]  # [m]
+frames = round(told["run"]["fps"] * told["run"]["seconds"])
+assert sheet["size"] == [side, side] and sheet["cells"][0] == sheet["cells"][1]
+
+
+def place(taut):  # whose y is up, as Blender's z is
+    return Vector((taut[0], -taut[2], taut[1]))
+
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
-scene.render.fps = 24
+scene.render.fps = told["run"]["fps"]
 scene.frame_start, scene.frame_end = 1, frames + 1
 scene.gravity = (0.0, 0.0, -9.81)
 
-bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32, radius=0.5, location=(0.0, 0.0, 0.6))
-bpy.context.object.modifiers.new("Collision", "COLLISION")
+for collider in told["collider"].values():
+    if collider["shape"] == "sphere":
+        bpy.ops.mesh.primitive_uv_sphere_add(
+            segments=64, ring_count=32, radius=collider["radius"], location=place(collider["position"])
+        )
+    else:
+        assert collider["shape"] == "plane"
+        bpy.ops.mesh.primitive_plane_add(size=20.0)
+    bpy.context.object.modifiers.new("Collision", "COLLISION")
+    bpy.context.object.collision.thickness_outer = 0.002
+    bpy.context.object.collision.cloth_friction = 100 * collider["friction"]
 
-bpy.ops.mesh.primitive_grid_add(
-    x_subdivisions=points - 1, y_subdivisions=points - 1, size=side, location=(0.0, 0.0, 1.15)
-)
-sheet = bpy.context.object
-assert len(sheet.data.vertices) == points**2
-cloth = sheet.modifiers.new("Cloth", "CLOTH")
+corner, across, down = (place(sheet[key]) for key in ("origin", "across", "down"))
+lines = [side * k / cells for k in range(cells + 1)]
+vertices = [corner + u * across.normalized() + v * down.normalized() for v in lines for u in lines]
+quads = [
+    (p, p + cells + 1, p + cells + 2, p + 1)
+    for p in (j * (cells + 1) + i for j in range(cells) for i in range(cells))
+]
+mesh = bpy.data.meshes.new("sheet")
+mesh.from_pydata(vertices, [], quads)
+body = bpy.data.objects.new("sheet", mesh)
+scene.collection.objects.link(body)
+mesh.calc_loop_triangles()
+triangles = [tuple(triangle.vertices) for triangle in mesh.loop_triangles]
+
+cloth = body.modifiers.new("Cloth", "CLOTH")
 cloth.point_cache.frame_start, cloth.point_cache.frame_end = 1, frames + 1
-cloth.collision_settings.use_collision = True
-cloth.collision_settings.use_self_collision = False
 settings = cloth.settings
-settings.quality = 5
-settings.air_damping = float(sys.argv[-1])
-settings.mass = 0.15 * side**2 / points**2  # [kg] of a vertex
-# Blender divides a stiffness by the mean length of a spring: these are forces [N], of 300 and 100 N/m.
-settings.tension_stiffness = settings.compression_stiffness = 300.0 * side / (points - 1)
-settings.shear_stiffness = 100.0 * side / (points - 1)
+settings.quality = int(given.get("quality", 5))
+settings.air_damping = float(given.get("air", 0))
+# Blender's cloth falls by 9.81 mm in a frame squared, at whatever frame rate, and its springs pull as if a frame were a
+# second: masses of 1000 times theirs, and frames of 1/√1000 s, have forces and times be what they are called.
+settings.mass = 1000 * material["density_kg_per_m2"] * side**2 / len(vertices)  # of a vertex
+settings.time_scale = math.sqrt(1000) / scene.render.fps
+# Blender divides a stiffness by the mean length of a spring: these are forces [N].
+settings.tension_stiffness = settings.compression_stiffness = material["stretch_N_per_m"] * side / cells
+settings.shear_stiffness = material["shear_N_per_m"] * side / cells
+
+# Of the sum of two distances Blender keeps 8/9. Frictions are in hundredths, between parts of a cloth in fiftieths.
+meeting = cloth.collision_settings
+meeting.use_collision = True
+meeting.distance_min = sheet["thickness"] * 9 / 8 - 0.002
+meeting.collision_quality = int(given.get("collision_quality", 2))
+if sheet.get("touch") == "all":
+    meeting.use_self_collision = True
+    meeting.self_distance_min = sheet["thickness"] * 9 / 8
+    meeting.self_friction = 50 * told["contact"]["friction"]
+
+
+def places():
+    evaluated = body.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return [vertex.co for vertex in evaluated.data.vertices]
+
+
+def write(number):
+    with open(f"{given['meshes']}/{number:04d}.obj", "w") as file:
+        for x in places():
+            file.write(f"v {x.x!r} {x.z!r} {-x.y!r}\n")
+        for a, b, c in triangles:
+            file.write(f"f {a + 1} {b + 1} {c + 1}\n")
+
 
 scene.frame_set(1)
 before = resource.getrusage(resource.RUSAGE_SELF).ru_utime
-for frame in range(2, frames + 2):
-    scene.frame_set(frame)
+for frame in range(1, frames + 1):
+    scene.frame_set(frame + 1)
+    if "meshes" in given:
+        write(frame)
 spent = resource.getrusage(resource.RUSAGE_SELF).ru_utime - before
 
-vertices = sheet.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.vertices
-heights = [(sheet.matrix_world @ vertex.co).z for vertex in vertices]
+heights = [x.z for x in places()]
 print(f"cloth: {spent:.3f} s, middle at {heights[len(heights) // 2]:.3f} m, a corner at {heights[0]:.3f} m")

@@ -117,7 +117,8 @@ std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::
     try {
         auto figures = std::make_shared<check::Figures>(check::Figures::parse(text));
         for (const check::Mention& mention : figures->mentions())
-            if (const std::string fault = scene::targetFault(spec, mention.target, mention.hasPoints); !fault.empty())
+            if (const std::string fault = scene::targetFault(spec, mention.target, mention.hasPoints, mention.against);
+                !fault.empty())
                 fail(fault);
         return figures;
     } catch (const check::Fault& fault) {
@@ -335,7 +336,8 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
     options.value("--gl", flags.gl, "What draws; the first that works when not given").oneOf({"osmesa", "egl"});
     options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
-    options.flag("--overlay", flags.overlay, "Show time, step and limit, largest strain, contacts between bodies, and the energies as a graph");
+    options.flag("--overlay", flags.overlay,
+                 "Show time, step and limit, largest strain, contacts between bodies, and the energies as a graph");
     options.flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
 }
 

@@ -30,6 +30,7 @@ std::vector<Function> bodyFunctions() {
         function.isVector = metric.isVector();
         function.unit = metric.unit;
         function.help = metric.help;
+        function.counts = metric.counts;
         function.value = [&metric](const Now& now, std::span<const Expression> arguments) -> Quantity {
             return {asVector(metric.value(now.metrics(bodiesOf(arguments), metric.measures)))};
         };

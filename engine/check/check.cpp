@@ -55,6 +55,17 @@ Compared worst(const Claim& claim, const Now& now) {
     return worst;
 }
 
+void addCalls(const Expression& expression, std::span<const Mention> mentions, std::vector<Call>& calls) {
+    if (expression.part == Part::call) {
+        Call call{expression.begin, expression.function, {}};
+        for (const Expression& inner : expression.inside)
+            for (const Mention& mention : mentions)
+                if (inner.part == Part::target && mention.at == inner.begin) call.targets.push_back(mention);
+        calls.push_back(std::move(call));
+    }
+    for (const Expression& inner : expression.inside) addCalls(inner, mentions, calls);
+}
+
 }  // namespace
 
 std::span<const Relation> relations() {
@@ -78,6 +89,12 @@ Check Check::parse(std::string_view text) {
 
 const std::vector<Mention>& Check::mentions() const {
     return mentions_;
+}
+
+std::vector<Call> Check::calls() const {
+    std::vector<Call> calls;
+    for (const Expression& term : claim_->terms) addCalls(term, mentions_, calls);
+    return calls;
 }
 
 Outcome Check::evaluate(const world::World& world) const {

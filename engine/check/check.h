@@ -19,6 +19,8 @@ class SurfaceGap;
 
 namespace taut::check {
 
+struct Function;
+
 // Why a text is no claim.
 struct Fault : std::runtime_error {
     Fault(std::size_t where, const std::string& message, std::string help = {})
@@ -31,7 +33,16 @@ struct Fault : std::runtime_error {
 struct Mention {
     std::size_t at = 0;      // byte of the text
     std::string target;      // "cloth.*", "cloth.flag@left"
-    bool hasPoints = false;  // it may have a @SELECTOR, and must find points when it is evaluated
+    bool hasPoints = false;  // it may have a @SELECTOR
+    bool isNeeded = false;   // there must be such when it is evaluated
+    std::string against;     // of the second of two bodies that something is measured between: the first
+};
+
+// A function that a claim calls.
+struct Call {
+    std::size_t at = 0;  // byte of the text
+    const Function* function = nullptr;
+    std::vector<Mention> targets;
 };
 
 // What became of a claim at one moment: of its comparison that fails by most, or is nearest to it.
@@ -61,6 +72,7 @@ class Check {
 
     // In the order of the text.
     const std::vector<Mention>& mentions() const;
+    std::vector<Call> calls() const;
 
     // At a published tick. Throws core::Error(badContent) for a target that finds no points.
     Outcome evaluate(const world::World& world) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "taut/check/evaluation.h"
+#include "taut/world/metric_table.h"
 
 namespace taut::check {
 
@@ -28,6 +29,9 @@ struct Function {
     std::function<Quantity(const Now& now, std::span<const Expression> arguments)> value;
     std::function<std::string(const Now& now, std::span<const Expression> arguments)> place;  // empty: nowhere
 
+    world::Counts counts = world::Counts::everyBody;
+
+    bool isBetween() const { return takes == std::vector{Takes::bodies, Takes::bodies}; }
     std::string signature() const;  // "distance(POINTS or [x, y, z], POINTS or [x, y, z])"
 };
 

@@ -35,7 +35,8 @@ std::vector<Function> gapFunctions() {
          "",
          "1 while two bodies are as near as the sum of their thicknesses and 5 % more, else 0.",
          touching,
-         {}},
+         {},
+         world::Counts::whatTouches},
     };
 }
 

@@ -274,6 +274,7 @@ class Parser {
             if (i > 0 && !take(","))
                 fail(at_, fmt::format("\",\" is missing before the next argument, not {}", found()));
             expression.inside.push_back(argument(function, function.takes[i]));
+            if (i == 1 && function.isBetween()) mentions_.back().against = expression.inside[0].target;
         }
         if (next() == ',') wrongCount(function, begin);
         expect(")", "behind the arguments of " + function.name);
@@ -293,11 +294,11 @@ class Parser {
             if (!expression.isVector) fail(at, fmt::format("{} takes a vector", function.name));
             return expression;
         }
-        return target(takes);
+        return target(function, takes);
     }
 
     // Up to the comma or the bracket that ends the argument; a selector such as @(0.5,1) has its own.
-    Expression target(Takes takes) {
+    Expression target(const Function& function, Takes takes) {
         const std::size_t begin = at_;
         for (int open = 0; !isAtEnd() && (open > 0 || (next() != ',' && next() != ')')); ++at_)
             open += next() == '(' ? 1 : next() == ')' ? -1 : 0;
@@ -309,7 +310,8 @@ class Parser {
         expression.target = text_.substr(begin, expression.end - begin);
         if (expression.target.find('.') == std::string::npos)
             fail(begin, fmt::format("\"{}\" is no target", expression.target), "write KIND.NAME, e.g. cloth.flag");
-        mentions_.push_back({begin, expression.target, takes != Takes::bodies});
+        const bool hasPoints = takes != Takes::bodies;
+        mentions_.push_back({begin, expression.target, hasPoints, hasPoints || function.isBetween(), {}});
         return expression;
     }
 

@@ -143,6 +143,13 @@ std::optional<TargetFault> BodyIndex::surfaceFault(const std::string& target) co
     return std::nullopt;
 }
 
+std::optional<TargetFault> BodyIndex::betweenFault(const std::string& first, const std::string& second) const {
+    const std::vector<std::string> bodies = names(first);
+    if (bodies.size() != 1 || bodies != names(second)) return std::nullopt;
+    return TargetFault{fmt::format("{} and {} are the same body, with nothing in between", first, second),
+                       "name another body"};
+}
+
 std::optional<TargetFault> BodyIndex::selectorFault(const std::string& title, const std::string& selector) const {
     for (const BodyEntry& body : bodies_)
         if (body.title() == title) return selectorFaultIn(body, selector);

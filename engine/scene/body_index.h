@@ -44,6 +44,9 @@ class BodyIndex {
     // KIND.NAME of bodies with a surface.
     std::optional<TargetFault> surfaceFault(const std::string& target) const;
 
+    // Of a target that is measured against another: whether both are one and the same body.
+    std::optional<TargetFault> betweenFault(const std::string& first, const std::string& second) const;
+
     // A selector alone, of the body with this title.
     std::optional<TargetFault> selectorFault(const std::string& title, const std::string& selector) const;
 

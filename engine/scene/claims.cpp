@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "taut/check/check.h"
+#include "taut/check/function_table.h"
 #include "taut/scene/body_index.h"
 #include "taut/scene/timeline.h"
 #include "taut/world/actions.h"
@@ -49,6 +50,7 @@ class Claims {
         try {
             spec.parsed = std::make_shared<const check::Check>(check::Check::parse(spec.that));
             for (const check::Mention& mention : spec.parsed->mentions()) checkMention(spec, that, mention);
+            for (const check::Call& call : spec.parsed->calls()) doubtCall(that, call);
         } catch (const check::Fault& fault) {
             problems_.addError(problems_.placeInside(that.place, that.text, fault.at), fault.what(), fault.remedy);
         }
@@ -58,8 +60,11 @@ class Claims {
         const Place place = problems_.placeInside(that.place, that.text, mention.at);
         const auto fault = mention.hasPoints ? bodies_.targetFault(mention.target) : bodies_.bodyFault(mention.target);
         if (fault) return problems_.addError(place, fault->message, fault->remedy);
-        if (!mention.hasPoints) return;
-        // Points must be there whenever they are asked for.
+        if (!mention.against.empty())
+            if (const auto same = bodies_.betweenFault(mention.against, mention.target))
+                return problems_.addError(place, same->message, same->remedy);
+        if (!mention.isNeeded) return;
+        // They must be there whenever they are asked for.
         const double begin = spec.at ? *spec.at : spec.from.value_or(0.0);
         std::optional<double> birth;
         for (const std::string& name : bodies_.names(mention.target)) {
@@ -71,6 +76,34 @@ class Claims {
         problems_.addError(place,
                            fmt::format("{} is not there at {} s: it is spawned at {} s", mention.target, begin, *birth),
                            "give the check a later from");
+    }
+
+    // What a function never finds anything of, it is hardly asked for.
+    void doubtCall(const Node& that, const check::Call& call) {
+        if (call.function->counts == world::Counts::everyBody) return;
+        const bool isOfFaces = call.function->counts == world::Counts::whatMeetsFaces;
+        const auto countsAny = [&](const std::string& target) {
+            const std::vector<const BodyEntry*> named = bodies_.matches(target);
+            return std::any_of(scene_.spec.bodies.begin(), scene_.spec.bodies.end(), [&](const world::BodySpec& body) {
+                const auto isIt = [&](const BodyEntry* entry) { return entry->title() == body.fullName(); };
+                return (body.touch != world::Touch::nothing || (isOfFaces && body.meetsFaces)) &&
+                       (target.empty() || std::any_of(named.begin(), named.end(), isIt));
+            });
+        };
+        const auto doubt = [&](std::size_t at, const std::string& lack) {
+            const std::string what = isOfFaces ? lack + " corners or edges of colliders" : lack;
+            problems_.addWarning(
+                problems_.placeInside(that.place, that.text, at),
+                fmt::format("{}: {}", what,
+                            call.function->isBetween() ? "however near they are, they go through each other"
+                                                       : call.function->name + " is always 0"),
+                isOfFaces ? "give it collide = \"faces\", or touch" : "give it touch = \"others\" or \"all\"");
+        };
+        for (const check::Mention& mention : call.targets)
+            if (!countsAny(mention.target))
+                doubt(mention.at, mention.target + (isOfFaces ? " meets no" : " touches nothing"));
+        if (call.targets.empty() && !countsAny(""))
+            doubt(call.at, isOfFaces ? "no body meets" : "no body touches anything");
     }
 
     // When a body is spawned; nothing if it is there from the start.

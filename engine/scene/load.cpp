@@ -169,9 +169,11 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     return {std::move(scene.spec), problems.warnings(), std::move(keys)};
 }
 
-std::string targetFault(const world::SceneSpec& scene, const std::string& target, bool mayHavePoints) {
+std::string targetFault(const world::SceneSpec& scene, const std::string& target, bool mayHavePoints,
+                        const std::string& against) {
     const BodyIndex bodies(scene, world::builtIn(), {});
-    const auto fault = mayHavePoints ? bodies.targetFault(target) : bodies.bodyFault(target);
+    auto fault = mayHavePoints ? bodies.targetFault(target) : bodies.bodyFault(target);
+    if (!fault && !against.empty()) fault = bodies.betweenFault(against, target);
     if (!fault) return {};
     return fault->message + (fault->remedy.empty() ? "" : "; " + fault->remedy);
 }

@@ -41,8 +41,10 @@ Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options);
 // The same for a text. fileName is used in messages, and its folder to look up models and textures.
 Loaded loadSceneText(std::string_view text, const std::string& fileName, const LoadOptions& options);
 
-// Why KIND.NAME or, if points may be meant, KIND.NAME@SELECTOR names nothing in the scene; empty if it does.
-std::string targetFault(const world::SceneSpec& scene, const std::string& target, bool mayHavePoints);
+// Why KIND.NAME or, if points may be meant, KIND.NAME@SELECTOR names nothing in the scene, or but the body that it is
+// to be measured against; empty if it does.
+std::string targetFault(const world::SceneSpec& scene, const std::string& target, bool mayHavePoints,
+                        const std::string& against = {});
 
 // The format as a JSON schema (draft 2020-12), for editors.
 std::string jsonSchema(const world::Kinds& kinds = world::builtIn());

@@ -49,12 +49,12 @@ std::span<const Metric> metricTable() {
          plain<&M::penetration>, 1},
         {"body_contacts", "body_contacts", "",
          "Number of places where bodies with `touch` press on each other, or on themselves.", plain<&M::bodyContacts>,
-         1},
+         1, Measures::butCrossings, Counts::whatTouches},
         {"crossings", "crossings", "", "Number of edges of bodies with `touch` that go through triangles of such.",
-         plain<&M::crossings>, 1, Measures::all},
+         plain<&M::crossings>, 1, Measures::all, Counts::whatTouches},
         {"face_penetration_m", "face_penetration", "m",
          "Largest height that a collider's corner or sharp edge stands out of a triangle, of bodies that meet those.",
-         plain<&M::facePenetration>, 1, Measures::all},
+         plain<&M::facePenetration>, 1, Measures::all, Counts::whatMeetsFaces},
     };
     return table;
 }

@@ -13,6 +13,9 @@ namespace taut::world {
 
 using MetricValue = std::variant<double, std::int64_t, glm::dvec3>;
 
+// Of which bodies a value can be other than 0.
+enum class Counts { everyBody, whatTouches, whatMeetsFaces };
+
 struct Metric {
     std::string_view columns;   // of metrics.csv, with their unit; of a vector three with commas between them
     std::string_view function;  // of claims; empty: none
@@ -21,6 +24,7 @@ struct Metric {
     MetricValue (*value)(const Metrics& metrics) = nullptr;
     int extreme = 0;  // which body a claim names as the place: 1 the one with the largest value, -1 smallest, 0 none
     Measures measures = Measures::butCrossings;  // what it needs
+    Counts counts = Counts::everyBody;
 
     bool isVector() const { return std::holds_alternative<glm::dvec3>(value({})); }
 };

@@ -259,6 +259,25 @@ TEST(SceneErrors, ClaimsAboutWhatIsNotThereAreReported) {
          "s.toml:5:30: error: there is no cloth.c\n"
          "  that = \"distance(rope.r@end, cloth.c@left) < 1\"\n"
          "                               ^"},
+        {"what is between a body and itself",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "[[check]]\n"
+         "that = \"gap(rope.r, rope.*) > 0.01\"\n",
+         "s.toml:5:21: error: rope.r and rope.* are the same body, with nothing in between\n"
+         "  that = \"gap(rope.r, rope.*) > 0.01\"\n"
+         "                      ^ name another body"},
+        {"what is between bodies before the spawn of one",
+         "at = [{ t = 2, do = \"spawn\", target = \"rope.r\" }]\n"
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "[rope.q]\n"
+         "ends = [[0, 1, 0], [1, 1, 0]]\n"
+         "[[check]]\n"
+         "that = \"gap(rope.q, rope.r) > 0.01\"\n",
+         "s.toml:8:21: error: rope.r is not there at 0 s: it is spawned at 2 s\n"
+         "  that = \"gap(rope.q, rope.r) > 0.01\"\n"
+         "                      ^ give the check a later from"},
         {"a body before its spawn",
          "at = [{ t = 2, do = \"spawn\", target = \"rope.r\" }]\n"
          "[rope.r]\n"
@@ -318,6 +337,47 @@ TEST(SceneErrors, ClaimsAboutWhatIsNotThereAreReported) {
          "  ^ that is a text: The claim, e.g. \"max_strain(cloth.*) < 0.1\"; it must hold all the time unless a moment "
          "or a span is given"},
     });
+}
+
+TEST(SceneWarnings, ClaimsThatCountWhatNeverHappensAreDoubted) {
+    const AssetFolder folder;
+    const auto warningsOf = [&](const std::string& touch, const std::string& claim) {
+        std::vector<std::string> warnings = folder
+                                                .load(
+                                                    "schema = 1\n"
+                                                    "[rope.r]\n"
+                                                    "ends = [[0, 0, 0], [1, 0, 0]]\n"
+                                                    "[rope.touching]\n"
+                                                    "ends = [[0, 1, 0], [1, 1, 0]]\n" +
+                                                    touch +
+                                                    "[[check]]\n"
+                                                    "that = \"" +
+                                                    claim + "\"\n")
+                                                .warnings;
+        for (std::string& warning : warnings) warning = folder.withoutFolder(warning);
+        return warnings;
+    };
+    using Texts = std::vector<std::string>;
+    const std::string touch = "touch = \"others\"\n";
+    EXPECT_EQ(warningsOf(touch, "1 > 2 * crossings(rope.r)"),
+              (Texts{"s.toml:8:27: warning: rope.r touches nothing: crossings is always 0\n"
+                     "  that = \"1 > 2 * crossings(rope.r)\"\n"
+                     "                            ^ give it touch = \"others\" or \"all\""}));
+    EXPECT_EQ(warningsOf("", "body_contacts() < 1"),
+              (Texts{"s.toml:7:9: warning: no body touches anything: body_contacts is always 0\n"
+                     "  that = \"body_contacts() < 1\"\n"
+                     "          ^ give it touch = \"others\" or \"all\""}));
+    EXPECT_EQ(warningsOf(touch, "touching(rope.touching, rope.r) < 1"),
+              (Texts{"s.toml:8:33: warning: rope.r touches nothing: however near they are, they go through each other\n"
+                     "  that = \"touching(rope.touching, rope.r) < 1\"\n"
+                     "                                  ^ give it touch = \"others\" or \"all\""}));
+    EXPECT_EQ(warningsOf("", "face_penetration(rope.*) < 1"),
+              (Texts{"s.toml:7:26: warning: rope.* meets no corners or edges of colliders: face_penetration is always "
+                     "0\n"
+                     "  that = \"face_penetration(rope.*) < 1\"\n"
+                     "                           ^ give it collide = \"faces\", or touch"}));
+    EXPECT_EQ(warningsOf("collide = \"faces\"\n", "face_penetration() < 1"), Texts());
+    EXPECT_EQ(warningsOf(touch, "crossings(rope.*) + crossings() + gap(rope.r, rope.touching) < 1"), Texts());
 }
 
 }  // namespace

@@ -20,13 +20,24 @@ double depthOf(const Touching& touching, const contact::Crossing& crossing) {
     return std::min(a, b) / size;
 }
 
-std::string crossingText(const std::string& first, const std::string& second, double start, std::size_t edges) {
-    char text[200];
+constexpr std::uint64_t spansMark = 0xfff8'7461'7574'0005ULL;  // a NaN
+
+// When: "since 1.20 s", "from 1.20 s to 1.35 s".
+std::string crossingText(const std::string& first, const std::string& second, const std::string& when,
+                         std::int64_t edges, std::int64_t times, bool isOn) {
     const bool isOne = first == second;
-    std::snprintf(text, sizeof text, "%s crossed %s since %.2f s (%zu edge%s); %s being drawn apart",
-                  isOne ? "has" : "have", isOne ? "itself" : "each other", start, edges, edges == 1 ? "" : "s",
-                  isOne ? "it is" : "they are");
-    return (isOne ? first : first + " and " + second) + " " + text;
+    std::string text = isOne ? first : first + " and " + second;
+    if (isOn) text += isOne ? " has" : " have";
+    text += std::string(" crossed ") + (isOne ? "itself " : "each other ") + when + " (" + std::to_string(edges) +
+            (edges == 1 ? " edge" : " edges") + (times > 1 ? ", " + std::to_string(times) + " times in all)" : ")");
+    if (isOn) return text + (isOne ? "; it is being drawn apart" : "; they are being drawn apart");
+    return text + (isOne ? "; it has come apart" : "; they have come apart");
+}
+
+std::string moment(double seconds) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.2f s", seconds);
+    return text;
 }
 
 }  // namespace
@@ -51,7 +62,6 @@ void TouchWatch::look(const Touching& touching, double start) {
         if (touching.isOfBody(c.surfaceA) && touching.isOfBody(c.surfaceB))
             contacts_.push_back(
                 {c.place, c.normal, c.impulse, &touching.bodyOf(c.surfaceA), &touching.bodyOf(c.surfaceB)});
-    if (touching.crossingsBefore().empty()) return;
     std::map<std::pair<std::string, std::string>, std::set<int>> edges;
     for (const contact::Crossing& crossing : touching.crossingsBefore()) {
         const auto& elements = touching.elements();
@@ -62,22 +72,40 @@ void TouchWatch::look(const Touching& touching, double start) {
         if (sortsBefore(*b, *a)) std::swap(a, b);
         edges[{a->fullName(), b->fullName()}].insert(crossing.edge);
     }
+    for (Said& said : said_) {
+        const bool isOn = edges.count({said.first, said.second}) > 0;
+        if (said.isOn) said.until = start;
+        if (isOn && !said.isOn) ++said.times;
+        if (!isOn || said.isOn) edges.erase({said.first, said.second});
+        said.isOn = isOn;
+    }
     for (const auto& [names, crossed] : edges) {
-        const auto& [first, second] = names;
-        bool isKnown = false;
-        for (const Said& said : said_) isKnown = isKnown || (said.first == first && said.second == second);
-        if (!isKnown) said_.push_back({first, second, crossingText(first, second, start, crossed.size())});
+        const std::string &first = names.first, &second = names.second;
+        auto said = std::find_if(said_.begin(), said_.end(),
+                                 [&](const Said& s) { return s.first == first && s.second == second; });
+        if (said == said_.end()) {
+            said_.push_back({first, second, {}});
+            said = said_.end() - 1;
+        }
+        said->since = said->until = start;
+        said->edges = std::ssize(crossed);
+        said->text = crossingText(first, second, "since " + moment(start), said->edges, said->times, true);
     }
 }
 
 void TouchWatch::forget(const Body& body) {
-    std::erase_if(
-        contacts_, [&](const BodyContact& c) { return c.first == &body || c.second == &body; });
+    std::erase_if(contacts_, [&](const BodyContact& c) { return c.first == &body || c.second == &body; });
+    for (Said& said : said_)
+        if (said.first == body.fullName() || said.second == body.fullName()) said.isOn = false;
 }
 
 std::vector<std::string> TouchWatch::warnings() const {
     std::vector<std::string> all;
-    for (const Said& said : said_) all.push_back(said.text);
+    for (const Said& said : said_)
+        all.push_back(said.isOn ? said.text
+                                : crossingText(said.first, said.second,
+                                               "from " + moment(said.since) + " to " + moment(said.until), said.edges,
+                                               said.times, false));
     return all;
 }
 
@@ -95,6 +123,14 @@ void TouchWatch::visit(StateBytes& bytes, std::span<const Body* const> bodies) {
             *body = bodies[static_cast<std::size_t>(number)];
         }
     });
+    if (!bytes.mark(spansMark, !said_.empty())) return;
+    for (Said& said : said_) {
+        bytes(said.since);
+        bytes(said.until);
+        bytes(said.edges);
+        bytes(said.times);
+        bytes(said.isOn);
+    }
 }
 
 }  // namespace taut::world

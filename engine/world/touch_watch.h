@@ -36,6 +36,7 @@ class TouchWatch {
 
     const std::vector<BodyContact>& contacts() const { return contacts_; }  // at the end of the last tick
     bool hasMet() const { return hasMet_; }                                 // since it was made
+    // Which bodies cross, or have.
     std::vector<std::string> warnings() const;
 
     bool isWorthSaving() const { return !said_.empty() || !contacts_.empty(); }
@@ -44,8 +45,11 @@ class TouchWatch {
 
   private:
     struct Said {
-        std::string first, second;  // bodies; of one that has crossed itself the same
-        std::string text;
+        std::string first, second;          // bodies; of one that has crossed itself the same
+        std::string text;                   // as long as they do
+        double since = 0, until = 0;        // [s] the last time
+        std::int64_t edges = 0, times = 1;  // the last time, as it began; how often in all
+        bool isOn = true;
     };
     std::vector<BodyContact> contacts_;
     std::vector<Said> said_;

@@ -69,6 +69,27 @@ TEST(TouchWatch, SaysOnceSinceWhenBodiesCross) {
                                                           "0.10 s (1 edge); they are being drawn apart"}));
 }
 
+// Nothing holds the line: it falls through the floor.
+TEST(TouchWatch, SaysUntilWhenAndHowOftenBodiesCrossed) {
+    SceneSpec through = scene(true);
+    through.bodies.of<RopeSpec>()[0].hold.clear();
+    World world(through);
+    support::run(world, 1);
+    EXPECT_EQ(world.warnings(), (std::vector<std::string>{"cloth.floor and rope.line have crossed each other since "
+                                                          "0.00 s (1 edge); they are being drawn apart"}));
+    for (int i = 0; i < 30 && world.metrics().crossings > 0; ++i) support::run(world, 1);
+    ASSERT_EQ(world.metrics().crossings, 0);
+    char until[40];
+    std::snprintf(until, sizeof until, "%.2f s", world.time());
+    support::run(world, 2);
+    const std::string expected = std::string("cloth.floor and rope.line crossed each other from 0.00 s to ") + until +
+                                 " (1 edge); they have come apart";
+    EXPECT_EQ(world.warnings(), std::vector<std::string>{expected});
+    World restored(through);
+    restored.restore(world.save());
+    EXPECT_EQ(restored.warnings(), std::vector<std::string>{expected});
+}
+
 // Two triangles with a corner in common, an edge of one through the other.
 TEST(TouchWatch, KnowsWhatCrossesItself) {
     SceneSpec scene;

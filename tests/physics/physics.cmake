@@ -22,6 +22,7 @@ list(APPEND TAUT_PHYSICS_TESTS
   sdirk2_test.cpp
   step_following_test.cpp
   touching_bodies_test.cpp
+  touching_energy_test.cpp
   touching_funnel_test.cpp
   touching_long_test.cpp
   touching_test.cpp)

@@ -24,7 +24,11 @@ std::string insideWarning(const Body& body, const std::string& collider, int poi
 
 Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
                bool keepsStep, int parts)
-    : tickSeconds_(1.0 / ticksPerSecond), parts_(parts), plan_(std::move(plan)), forces_(forces) {
+    : tickSeconds_(1.0 / ticksPerSecond),
+      fewest_(std::min(parts, leastParts)),
+      parts_(parts),
+      plan_(std::move(plan)),
+      forces_(forces) {
     dynamics_ = makeDynamics(plan_, forces_);
     const mechanics::FastestNow now = dynamics_->fastestNow();
     choice_ = chooseStep(
@@ -200,7 +204,7 @@ void Island::tryAgain(const TickTime& time, Verdict verdict) {
 
 // Few substeps become a power of two.
 int Island::inParts(int substeps) const {
-    if (!plan_.solver.dt) substeps = std::max(substeps, std::min(parts_, leastParts));
+    if (!plan_.solver.dt) substeps = std::max(substeps, fewest_);
     if (substeps >= parts_) return (substeps + parts_ - 1) / parts_ * parts_;
     int parts = 1;
     while (parts < substeps) parts *= 2;

@@ -86,6 +86,10 @@ class Island {
     void tryAgain(const TickTime& time, Verdict verdict);
     void endTick(const TickTime& time);
     int substeps() const { return choice_.substeps; }
+    // Of its fastest motion, where its method has to resolve it, else 0. [1/s]
+    double fastestToResolve() const { return std::isfinite(choice_.limit) ? choice_.mode.omega : 0.0; }
+    // A tick has at least so many substeps from the next one on, where none are given, and can be divided into them.
+    void takeParts(int parts) { parts_ = fewest_ = parts; }
     // Where points of the island are, and velocities as the method stores them (points) [m], [m/s].
     void read(std::span<dvec3> x, std::span<dvec3> v) const;
     // After a part: points (ascending) were moved by contact with other bodies; out of colliders again.
@@ -208,6 +212,7 @@ class Island {
     bool shortensForContact_ = false;  // the step
     StepChoice choice_;
     double tickSeconds_;                     // [s]
+    int fewest_ = 1;                         // substeps of a tick
     int parts_ = 1;                          // a tick, that all substeps are to be divided into
     int ownSubsteps_ = 1;                    // a tick, where they do not follow the state
     int contactFactor_ = 1, calmTicks_ = 0;  // by which contact makes them more; since when it does not need that

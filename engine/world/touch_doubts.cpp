@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "taut/world/impl.h"
@@ -40,6 +41,25 @@ void doubtThickness(std::span<const Body* const> bodies, std::vector<std::string
             "thickness <= {:.3g}",
             body->spec->fullName(), inLength(2 * thickness), inLength(edge), 0.5 * edge));
     }
+}
+
+// As many as asked for, if they go into the substeps of all.
+void doubtInstants(const WorldImpl& world, std::vector<std::string>& doubts) {
+    if (!world.spec.contact.instants) return;
+    const Island* stiffest = nullptr;
+    int instants = *world.spec.contact.instants;
+    for (const auto& island : world.islands) {
+        if (!touches(island->plan())) continue;
+        instants = std::gcd(instants, island->substeps());
+        if (stiffest == nullptr || island->fastestToResolve() > stiffest->fastestToResolve()) stiffest = island.get();
+    }
+    if (stiffest == nullptr) return;
+    const double turn = stiffest->fastestToResolve() / world.ticksPerSecond / instants;
+    if (!(turn > longestTurn)) return;
+    doubts.push_back(fmt::format(
+        "{} instants of contact a tick are few for {}: its springs swing {:.2g} times in one, and contact may drive "
+        "them; leave out instants",
+        instants, stiffest->plan().bodies.front()->fullName(), turn / (2 * 3.14159265358979)));
 }
 
 void doubtLoneliness(std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
@@ -89,6 +109,7 @@ std::vector<std::string> touchDoubts(World& world) {
     const std::vector<const Body*> bodies = touchingBodies(w);
     doubtLoneliness(bodies, doubts);
     doubtThickness(bodies, doubts);
+    doubtInstants(w, doubts);
     doubtCrossings(w, doubts);
     return doubts;
 }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as there may be
 constexpr int mostParts = 64;
+constexpr int mostStiffParts = 512;
 constexpr double calmWay = 2.0;     // of the distance kept, that neighbours may move in an instant without contact
 constexpr double wayOfKeep = 0.25;  // of the distance kept, that two may approach in an instant
 
@@ -90,6 +91,7 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
         rooms_.push_back({island.get(), offset, static_cast<int>(rest.size())});
     }
     if (islands_.empty()) return;
+    shortenForStiff();
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return meetsColliders(*body->spec); }))
         rigids_ = MetColliders(colliders(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
@@ -100,6 +102,18 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
     group_ = std::make_unique<contact::Group>(std::move(surfaces), std::move(rest), options);
     rigids_.placeAll(x1_);
     x0_ = x1_;
+}
+
+// Contact moves points of stiff springs by what they would go in an instant if there were none, so that it has to be
+// short against their period; and the softest body of a group has to have as many steps as the stiffest has instants.
+void Touching::shortenForStiff() {
+    if (spec_.instants) return;
+    double omega = 0;
+    for (const Island* island : islands_) omega = std::max(omega, island->fastestToResolve());
+    const int before = parts_;
+    while (parts_ < mostStiffParts && tickSeconds_ / parts_ * omega > longestTurn) parts_ *= 2;
+    if (parts_ == before) return;
+    for (Island* island : islands_) island->takeParts(parts_);
 }
 
 double Touching::facePenetration(const std::function<bool(const Body&)>& wanted) {

@@ -19,6 +19,10 @@ int partsOfTick(double tickSeconds, const ContactSpec& spec);
 // Whether any body of the plan touches anything.
 bool touches(const IslandPlan& plan);
 
+// [rad] ω H of the stiffest springs, H the length of an instant, up to which contact hardly adds energy to them; at 16
+// it was seen to.
+inline constexpr double longestTurn = 8.0;
+
 // The surface of a body, its points numbered from `offset` on as in its island.
 contact::Surface surfaceOf(const Body& body, int offset, int bond);
 
@@ -63,6 +67,7 @@ class Touching {
         int first, last;  // points of the group
     };
     void takeDamage();
+    void shortenForStiff();
     void readAll();
     int mostInstants() const;
     int fewestMet() const;

@@ -21,8 +21,10 @@ class Damage {
     // Where it is severed, as a share of the way from a to b; a half where nothing else is known.
     double share(int a, int b) const;
     const std::map<Edge, double>& edges() const { return edges_; }  // with the share from the lower point
-    bool isTriangleGone(std::size_t triangle) const { return !triangles_.empty() && triangles_[triangle]; }
+    // Also of others than those of the model, none of which ever goes.
+    bool isTriangleGone(std::size_t triangle) const { return triangle < triangles_.size() && triangles_[triangle]; }
     bool isCellGone(std::size_t cell) const { return !cells_.empty() && cells_[cell]; }
+    std::size_t goneCells() const { return goneCells_; }  // how many
 
     // Share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
     void sever(int a, int b, double share);
@@ -41,6 +43,7 @@ class Damage {
     std::vector<Edge> fresh_;              // not assessed yet
     std::shared_ptr<const Index> index_;   // once it is needed
     std::vector<bool> triangles_, cells_;  // (of the model) gone; empty while nothing is severed
+    std::size_t goneCells_ = 0;
 };
 
 }  // namespace taut::world

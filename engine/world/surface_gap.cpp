@@ -36,20 +36,20 @@ bool any(const std::vector<bool>& flags) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
+std::size_t goneCellsOf(std::span<const Body* const> bodies) {
+    std::size_t gone = 0;
+    for (const Body* body : bodies) gone += body->damage.goneCells();
+    return gone;
+}
+
 }  // namespace
 
 SurfaceGap::SurfaceGap(const Selection& first, const Selection& second) : generation_(first.generation) {
     TAUT_EXPECTS(first.generation == second.generation);
-    std::vector<contact::Surface> surfaces;
-    std::vector<glm::dvec3> rest;
     const auto add = [&](const Selection& selection, std::vector<bool>& isOf) {
         for (const Selection::Part& part : selection.parts) {
             auto at = std::find(bodies_.begin(), bodies_.end(), part.body);
             if (at == bodies_.end()) {
-                const int number = static_cast<int>(bodies_.size());
-                surfaces.push_back(loneSurface(*part.body, static_cast<int>(rest.size()), number));
-                const std::vector<glm::dvec3>& start = part.body->model.positions;
-                rest.insert(rest.end(), start.begin(), start.end());
                 at = bodies_.insert(bodies_.end(), part.body);
                 isFirst_.push_back(false);
                 isSecond_.push_back(false);
@@ -59,13 +59,27 @@ SurfaceGap::SurfaceGap(const Selection& first, const Selection& second) : genera
     };
     add(first, isFirst_);
     add(second, isSecond_);
+    build();
+}
+
+void SurfaceGap::build() {
+    std::vector<contact::Surface> surfaces;
+    std::vector<glm::dvec3> rest;
+    for (const Body* body : bodies_) {
+        const int number = static_cast<int>(surfaces.size());
+        surfaces.push_back(loneSurface(*body, static_cast<int>(rest.size()), number));
+        const std::vector<glm::dvec3>& start = body->model.positions;
+        rest.insert(rest.end(), start.begin(), start.end());
+    }
     damage_.assign(bodies_.size(), 0);
+    goneCells_ = goneCellsOf(bodies_);
     x_.resize(rest.size());
     elements_ = std::make_unique<contact::Elements>(std::move(surfaces), std::move(rest));
     patches_ = std::make_unique<contact::Patches>(*elements_);
 }
 
 void SurfaceGap::look() {
+    if (goneCellsOf(bodies_) != goneCells_) build();
     std::size_t offset = 0;
     bool isOther = false;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {

@@ -7,6 +7,7 @@
 
 #include "taut/contact/standing_out.h"
 #include "taut/core/parallel.h"
+#include "taut/world/bare_faces.h"
 
 namespace taut::world {
 namespace {
@@ -55,9 +56,12 @@ contact::Surface surfaceOf(const Body& body, int offset, int bond) {
     surface.meetsRigid = meetsColliders(*body.spec);
     surface.bond = bond;
     const auto at = [&](int i) { return offset + body.pointOf[static_cast<std::size_t>(i)]; };
-    for (const std::array<int, 3>& t : model.triangles) surface.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
+    std::vector<std::array<int, 3>> triangles = model.triangles;
+    const std::vector<std::array<int, 3>> bare = bareFaces(body);
+    triangles.insert(triangles.end(), bare.begin(), bare.end());
+    for (const std::array<int, 3>& t : triangles) surface.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
     std::vector<bool> isOutside(model.positions.size(), model.triangles.empty());
-    for (const std::array<int, 3>& t : model.triangles)
+    for (const std::array<int, 3>& t : triangles)
         for (int i : t) isOutside[static_cast<std::size_t>(i)] = true;
     if (model.triangles.empty())
         for (const mechanics::Spring& s : model.springs)

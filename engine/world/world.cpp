@@ -199,7 +199,13 @@ std::vector<ColliderMotion> World::Impl::movingColliders() {
 }
 
 void World::Impl::findTouching() {
-    if (touching) return;
+    // What a cut bares is surface from then on.
+    std::size_t gone = 0;
+    for (const auto& island : islands)
+        if (touches(island->plan()))
+            for (const Body* body : island->plan().bodies) gone += body->damage.goneCells();
+    if (touching && gone == goneCells) return;
+    goneCells = gone;
     touching = std::make_unique<Touching>(islands, spec.contact, 1.0 / ticksPerSecond, [this] { return met(); });
 }
 

@@ -2,6 +2,7 @@
 #include "support/knots.h"
 #include "taut/core/parallel.h"
 #include "taut/ode/method_table.h"
+#include "taut/world/surface_gap.h"
 #include "touching_scenes.h"
 
 namespace taut::test::touching {
@@ -277,6 +278,49 @@ TEST(TouchingCut, ThroughAPileJerksNothing) {
         EXPECT_LT(world.metrics().maxStrain, before + 0.05) << i;
         EXPECT_EQ(witness.count(world), 0);
     }
+}
+
+// A block cut through level, whose upper half is held, and a ball between the halves: it falls on what the cut has
+// bared of the lower one. Its sides alone would let it down to the ground.
+TEST(TouchingCut, FacesBaredInABlockAreMet) {
+    world::SceneSpec spec = scene();
+    spec.colliders = {ground(0.0)};
+    world::BlockSpec block;
+    block.name = "jelly";
+    block.size = {0.2, 0.25, 0.2};
+    block.cells = {4, 5, 4};
+    block.position = {0.0, 0.129, 0.0};
+    block.hold = {"top"};
+    block.dampingTime = 5e-3;
+    block.thickness = keep / 2;
+    block.touch = world::Touch::others;
+    spec.bodies.add(block);
+    world::NetSpec net;
+    net.name = "ball";
+    net.drag = 0.0;
+    net.thickness = keep / 2;
+    net.touch = world::Touch::others;
+    net.points = {{"only", {0.01, 0.125, 0.013}, 0.01, false, {}}};
+    spec.bodies.add(net);
+    World world(spec);
+    world::CutAction cut;
+    world::SurfaceGap gap(world.select("net.ball"), world.select("block.jelly"));
+    cut.target = "block.jelly";
+    cut.planePoint = dvec3(0.0, 0.12, 0.0);
+    cut.planeNormal = dvec3(0.0, 1.0, 0.0);
+    world.apply(cut);
+    EXPECT_FALSE(advance(world, 60));
+    double under = -1;
+    for (const dvec3& x : positionsOf(world, "block.jelly"))
+        if (x.y < 0.12 && std::abs(x.x) < 0.01 && std::abs(x.z) < 0.01) under = std::max(under, x.y);
+    EXPECT_NEAR(positionsOf(world, "net.ball")[0].y - under, keep, 0.2 * keep);
+    EXPECT_GT(under, 0.09);
+    EXPECT_NEAR(gap.measure(), keep, 0.2 * keep);
+    World resumed(spec);
+    resumed.restore(world.save());
+    EXPECT_FALSE(advance(world, 5));
+    EXPECT_FALSE(advance(resumed, 5));
+    EXPECT_EQ(resumed.stateHash(), world.stateHash());
 }
 
 // One that lies frozen is still there.

@@ -248,12 +248,17 @@ void Patches::findWay(std::size_t number, std::span<const dvec3> x0, std::span<c
     const double share = 1.0 / static_cast<double>(patch.corners.size());
     motion.centre = share * sum;
     motion.way = share * ways;
-    double square = 0;
+    const dvec3* remembered = remembered_.data() + firstRemembered_[number];
+    double stray = 0, bent = 0;
     for (int i : patch.corners) {
-        const dvec3 stray = x1[static_cast<std::size_t>(i)] - x0[static_cast<std::size_t>(i)] - motion.way;
-        square = std::max(square, glm::dot(stray, stray));
+        const dvec3 before = x0[static_cast<std::size_t>(i)] - motion.centre, after = x1[static_cast<std::size_t>(i)];
+        const dvec3 own = after - motion.centre - motion.way - before;
+        const dvec3 bend = before - *remembered++, bendAfter = bend + own;
+        stray = std::max(stray, glm::dot(own, own));
+        bent = std::max(bent, std::max(glm::dot(bend, bend), glm::dot(bendAfter, bendAfter)));
     }
-    motion.stray = std::sqrt(square);
+    motion.stray = std::sqrt(stray);
+    motion.bent = std::sqrt(bent);
 }
 
 void Patches::correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -278,21 +283,9 @@ void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1, doubl
             PatchMotion& motion = motions_[static_cast<std::size_t>(p)];
             motion.box = {};
             findWay(static_cast<std::size_t>(p), x0, x1);
-            const auto bend = [&] {
-                const dvec3* remembered = remembered_.data() + firstRemembered_[static_cast<std::size_t>(p)];
-                double bent = 0;
-                for (int i : patch.corners) {
-                    const dvec3 before = x0[static_cast<std::size_t>(i)] - motion.centre - *remembered;
-                    const dvec3 after = x1[static_cast<std::size_t>(i)] - motion.centre - motion.way - *remembered;
-                    bent = std::max({bent, glm::dot(before, before), glm::dot(after, after)});
-                    ++remembered;
-                }
-                return std::sqrt(bent);
-            };
-            motion.bent = bend();
             if (most > 0 && !(motion.bent <= most)) {
                 remember(static_cast<std::size_t>(p), x0);
-                motion.bent = bend();
+                motion.bent = motion.stray;
             }
             motion.times = times_[static_cast<std::size_t>(p)];
         }

@@ -16,7 +16,7 @@ constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as 
 constexpr int mostParts = 64;
 constexpr int mostStiffParts = 512;
 constexpr double calmWay = 2.0;     // of the distance kept, that neighbours may move in an instant without contact
-constexpr double wayOfKeep = 0.25;  // of the distance kept, that two may approach in an instant
+constexpr double wayOfKeep = 0.35;  // of the distance kept, that two may approach in an instant
 
 using Clock = std::chrono::steady_clock;  // of what is reported only
 

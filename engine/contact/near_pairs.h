@@ -75,6 +75,7 @@ class NearPairs {
 
   private:
     void search(double room);
+    void addWays();
     bool staysWhereSearched() const;
     bool passesBy(const Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
     Record* newRecord(PatchPair pair);

@@ -15,7 +15,7 @@ namespace {
 constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as there may be
 constexpr int mostParts = 64;
 constexpr int mostStiffParts = 512;
-constexpr double calmWay = 2.0;     // of the distance kept, that neighbours may move in an instant without contact
+constexpr double calmWay = 4.0;     // of the distance kept, that neighbours may move in an instant without contact
 constexpr double wayOfKeep = 0.35;  // of the distance kept, that two may approach in an instant
 
 using Clock = std::chrono::steady_clock;  // of what is reported only
@@ -87,8 +87,7 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
             bodies_.push_back(body);
             for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
                 const int point = offset + body->pointOf[i];
-                rest[static_cast<std::size_t>(point)] =
-                    body->model.positions[i] - jitterOf(*body, static_cast<int>(i));
+                rest[static_cast<std::size_t>(point)] = body->model.positions[i] - jitterOf(*body, static_cast<int>(i));
             }
         }
         islands_.push_back(island.get());

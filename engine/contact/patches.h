@@ -1,4 +1,4 @@
-// Surfaces in patches of some ten triangles, or edges where there are none, and a tree over them: which patches come
+// Surfaces in patches of some fifteen triangles, or edges where there are none, and a tree over them: which patches come
 // near each other in an instant. Patches hang on what the surfaces are at rest, never on where they are.
 #pragma once
 
@@ -29,7 +29,7 @@ struct Box {
     }
 };
 
-inline constexpr std::size_t patchSize = 12;  // triangles, or edges, at most
+inline constexpr std::size_t patchSize = 18;  // triangles, or edges, at most
 
 using Axes = std::array<dvec3, 3>;
 

@@ -27,7 +27,10 @@ void main() {
     vec3 direct = lightColour.rgb * max(lightWay.y, 0.0);
     vec3 ambient = skyLight.rgb;
 #ifdef SHADED
-    direct *= sunlight(place, vec3(0.0, 1.0, 0.0), false);
+    vec3 right = dFdx(place);
+    vec3 below = dFdy(place);
+    float pixel = sqrt(sqrt(dot(right, right) * dot(below, below)));
+    direct *= sunlight(place, vec3(0.0, 1.0, 0.0), pixel, false);
     ambient *= 1.0 - 0.9 * texture(occlusion, (place.xz - occlusionArea.xy) * occlusionArea.zw).r;
 #endif
     vec3 shown = filmic(albedo * (direct + ambient));

@@ -1,5 +1,5 @@
 // How much of the light reaches a place, 0 … 1. `facing` is the surface's normal, on the side of the light.
-// `casts`: whether the surface itself is in the shadow map.
+// `pixel`: the size of a pixel on the surface [m]. `casts`: whether the surface itself is in the shadow map.
 //
 // The penumbra is as wide as the distance to what throws the shadow makes it (percentage-closer soft shadows,
 // Fernando 2005). Reading the map is dear, so the map of bounds (least and largest depth around) tells first where
@@ -11,7 +11,7 @@ uniform sampler2D shadowBounds;
 
 const mat2 goldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
-float sunlight(vec3 place, vec3 facing, bool casts) {
+float sunlight(vec3 place, vec3 facing, float pixel, bool casts) {
     const float blocks = 128.0;
     float texel = mapSize.w;
     vec3 n = mat3(toLight) * facing;
@@ -33,9 +33,6 @@ float sunlight(vec3 place, vec3 facing, bool casts) {
     vec2 toUv = 1.0 / mapSize.xy;
     vec2 rising = slope / mapSize.z;
     float ref = at.z - 0.5 * texel / mapSize.z;
-    vec3 right = dFdx(place);
-    vec3 below = dFdy(place);
-    float pixel = sqrt(sqrt(dot(right, right) * dot(below, below)));  // [m] its size on the surface
     float widest = 1.5 * min(mapSize.x, mapSize.y) / blocks;
     float least = min(max(1.2 * texel, 0.7 * pixel), widest);
 

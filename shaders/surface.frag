@@ -1,20 +1,26 @@
-// Cloth, ropes, blocks and colliders in sun and sky. Variants: PATTERN 0 … 4, WEAVE, TWO_SIDED.
-#include "tone.glsl"
-#include "shadow.glsl"
+// What of cloth, ropes, blocks and colliders can be seen: kept for light.frag, so that each pixel is lit once and small
+// triangles cost little. Variants: PATTERN 0 … 4, WEAVE, TWO_SIDED.
 #include "pattern.glsl"
-uniform vec3 backColour;
 uniform float weave;
 uniform float thread;  // [m]
-uniform float roughness;
-uniform float sheen;
-uniform float dulled;  // 0 … 1
-uniform float mark;    // which surface, 1/255 … 1
-in vec3 place;
+uniform int material;  // row of its table
+uniform int mark;      // which surface, 1 … 255
 in vec3 upright;
-in vec2 material;
-out vec4 colour;
+in vec2 along;  // [m] along the material
+layout(location = 0) out vec4 tint;    // rgb: square root of the colour; a: how open the place is, 0 … 1
+layout(location = 1) out uvec4 shape;  // normal of the surface, of the threads, bits of 1 / distance, marks
+
+// A unit vector as a place on an octahedron, 16 bits a coordinate.
+uint octahedral(vec3 n) {
+    n *= 1.0 / (abs(n.x) + abs(n.y) + abs(n.z));
+    vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
+    uvec2 steps = uvec2((n.z < 0.0 ? folded : n.xy) * 32767.0 + 32767.5);
+    return steps.x | steps.y << 16;
+}
 
 #ifdef WEAVE
+in vec3 place;
+
 // Over and under: each cell of the weave is a pillow, stretched along the thread that lies on top. Tilts the normal
 // and returns how open the place is, 0 … 1. Fades, along either thread, where threads become smaller than pixels.
 float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
@@ -32,65 +38,35 @@ float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     vec3 placeY = dFdy(place);
     vec2 uvX = dFdx(uv);
     vec2 uvY = dFdy(uv);
-    vec3 along = placeX * uvY.y - placeY * uvX.y;
+    vec3 down = placeX * uvY.y - placeY * uvX.y;
     vec3 across = placeY * uvX.x - placeX * uvY.x;
-    along *= inversesqrt(max(dot(along, along), 1e-20));
+    down *= inversesqrt(max(dot(down, down), 1e-20));
     across *= inversesqrt(max(dot(across, across), 1e-20));
     float turned = uvX.x * uvY.y - uvX.y * uvY.x < 0.0 ? -1.0 : 1.0;
-    normal = normalize(normal + turned * (tilt.x * along + tilt.y * across));
+    normal = normalize(normal + turned * (tilt.x * down + tilt.y * across));
     return 1.0 - 0.55 * weave * max(gap.x, gap.y);
 }
 #endif
 
 void main() {
-    vec3 toEye = normalize(eye.xyz - place);
     vec3 normal = normalize(upright);
+    uint side = 0u;  // 1: the back
 #ifdef TWO_SIDED
-    if (!gl_FrontFacing) normal = -normal;
+    if (!gl_FrontFacing) {
+        normal = -normal;
+        side = 1u;
+    }
 #endif
-    vec2 pixel = fwidth(material);
-    vec3 albedo = patternColour(material, pixel);
-#ifdef TWO_SIDED
-    vec3 through = gl_FrontFacing ? backColour : albedo;
-    if (!gl_FrontFacing) albedo = mix(backColour, albedo, 0.12);
-#endif
-    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * dot(albedo, vec3(0.3, 0.6, 0.1)), dulled);
-    vec3 smoothNormal = normal;
+    vec2 pixel = fwidth(along);
+    vec3 colour = patternColour(along, pixel);
+    uint smoothNormal = octahedral(normal);
     float open = 1.0;
 #ifdef WEAVE
-    open = weaveRelief(material, pixel, normal);
+    open = weaveRelief(along, pixel, normal);
+    shape.y = octahedral(normal);
+#else
+    shape.y = smoothNormal;
 #endif
-
-    float lightSide = dot(smoothNormal, lightWay.xyz);
-    float sun = sunlight(place, lightSide < 0.0 ? -smoothNormal : smoothNormal, true);
-    float facing = dot(normal, lightWay.xyz);
-    float direct = max(facing, 0.0) * sun;
-#ifdef WEAVE
-    direct *= smoothstep(-0.02, 0.12, lightSide);  // threads on the far side of the light stay dark
-#endif
-
-    vec3 diffuse = lightColour.rgb * direct + hemisphere(normal) * open;
-    vec3 light = albedo * open * diffuse;
-#ifdef TWO_SIDED
-    light += 0.18 * albedo * through * lightColour.rgb * (max(-lightSide, 0.0) * sun);
-#endif
-
-    // Gloss of a dielectric, and the bright rim of fibres.
-    vec3 halfWay = normalize(lightWay.xyz + toEye);
-    float alpha = mix(0.04, 1.0, roughness * roughness);
-    float exponent = 2.0 / (alpha * alpha);
-    float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
-    float rim2 = rim * rim;
-    float gloss = pow(max(dot(normal, halfWay), 0.0), exponent) * (exponent + 8.0) * 0.125;
-    float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
-    light += lightColour.rgb * (0.04 * gloss * direct * open);
-    vec3 mirrored = reflect(-toEye, normal);
-    light += hemisphere(mirrored) * (fresnel * (1.0 - roughness) * 0.6 * open);
-    light += sheen * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight.rgb);
-
-    if (debug.x > 0.0) {
-        float grey = dot(light, vec3(0.3, 0.6, 0.1));
-        light = mix(light, vec3(0.4 * grey + 0.06), 0.85);
-    }
-    colour = vec4(filmic(light), mark);
+    tint = vec4(sqrt(colour), open);
+    shape.xzw = uvec3(smoothNormal, floatBitsToUint(gl_FragCoord.w), uint(material) | side << 16 | uint(mark) << 24);
 }

@@ -6,12 +6,12 @@ uniform mat4 transform;
 uniform mat3 normalTransform;
 out vec3 place;
 out vec3 upright;
-out vec2 material;
+out vec2 along;
 
 void main() {
     vec4 world = transform * vec4(position, 1.0);
     place = world.xyz;
     upright = normalTransform * normal;
-    material = uv;
+    along = uv;
     gl_Position = viewProjection * world;
 }

@@ -60,6 +60,9 @@ Program::Program(const Gl& gl, GlObject object) : gl_(&gl), object_(std::move(ob
     set("picture", static_cast<int>(pictureUnit));
     set("pictureDepth", static_cast<int>(pictureDepthUnit));
     set("covering", static_cast<int>(coveringUnit));
+    set("tints", static_cast<int>(tintsUnit));
+    set("shapes", static_cast<int>(shapesUnit));
+    set("materials", static_cast<int>(materialsUnit));
     const GLuint block = gl_->GetUniformBlockIndex(object_.id(), "Frame");
     if (block != GL_INVALID_INDEX) gl_->UniformBlockBinding(object_.id(), block, frameBlockBinding);
 }

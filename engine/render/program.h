@@ -21,6 +21,9 @@ enum TextureUnit : int {
     pictureDepthUnit = 4,
     coveringUnit = 5,
     shadowDepthUnit = 6,
+    tintsUnit = 7,
+    shapesUnit = 8,
+    materialsUnit = 9,
 };
 
 class Program {

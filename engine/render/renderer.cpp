@@ -117,6 +117,12 @@ image::Image Renderer::draw(const view::FrameView& view) {
     RendererParts& parts = *impl_->parts;
     const RendererOptions& options = impl_->options;
 
+    const auto passDone = [&](std::string_view pass) {
+        if (!options.passDone) return;
+        gl.Finish();
+        options.passDone(pass);
+    };
+
     std::vector<DrawItem> items = parts.meshes.items(view.surfaces);
     sortByDistance(items, view.camera.eye);
     std::vector<Bounds> casters;
@@ -129,21 +135,30 @@ image::Image Renderer::draw(const view::FrameView& view) {
     // The maps that shading reads.
     const std::span<const DrawItem> shadowed =
         options.shadows ? std::span<const DrawItem>(items) : std::span<const DrawItem>();
+    passDone("meshes");
     parts.shadow.draw(shadowed, parts.meshes, box);
+    passDone("shadow");
     if (occlusion) parts.occlusion.draw(items, parts.meshes, *occlusion, view.ground->height);
+    passDone("occlusion");
 
     // The picture; ground and sky last, for what is hidden need not be shaded.
     const glm::mat4 projection = projectionOf(view.camera, aspect);
     const FrameBlock block = blockOf(view, projection, box, options.shadowSize, occlusion);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts.frameBlock.id());
     gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
-    parts.targets.bindShading();
+    const PixelBox part = pixelBox(items, projection, options.width, options.height);
+    parts.targets.bindSurfaces();
     gl.DepthMask(GL_TRUE);
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.Clear(GL_DEPTH_BUFFER_BIT);
+    parts.surfaces.draw(items, parts.meshes);
+    passDone("surfaces");
+    parts.targets.bindShading();
     parts.shadow.bindMaps();
     parts.occlusion.bindMap();
-    parts.surfaces.draw(items, parts.meshes);
+    parts.surfaces.light(view.camera, part, parts.targets.size());
+    passDone("light");
     if (view.ground) parts.ground.draw(view, box, casters, occlusion);
+    passDone("ground");
 
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LEQUAL);
@@ -152,14 +167,14 @@ image::Image Renderer::draw(const view::FrameView& view) {
     parts.background.set("toWorld", glm::inverse(projection));
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
 
-    if (parts.targets.hasSmoothEdges()) {
-        const PixelBox part = pixelBox(items, projection, options.width, options.height);
-        parts.edges.draw(view, items, parts.meshes, part, parts.targets);
-    }
+    passDone("background");
+    if (parts.targets.hasSmoothEdges()) parts.edges.draw(view, items, parts.meshes, part, parts.targets);
+    passDone("edges");
     parts.targets.bindShading();
     if (view.showMarks) parts.marks.draw(view, projection, options.width, options.height);
     image::Image picture = parts.targets.read();
     parts.labels.draw(view, projection, picture);
+    passDone("picture");
     return picture;
 }
 

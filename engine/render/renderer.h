@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "taut/image/image.h"
 #include "taut/view/frame_view.h"
@@ -22,6 +24,9 @@ struct RendererOptions {
     Backend backend = Backend::osmesa;
     std::filesystem::path shaders;  // folder of the shader files
     std::filesystem::path font;     // TrueType file for labels; empty: the one that Debian installs
+
+    // Called with the name of each pass once GL has ended it, for measurements: waiting for it costs time.
+    std::function<void(std::string_view)> passDone;
 };
 
 // What draws, in the words of the GL library.

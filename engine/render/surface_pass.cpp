@@ -1,10 +1,31 @@
 #include "taut/render/surface_pass.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "taut/core/error.h"
 #include "taut/render/edge_pass.h"
 
 namespace taut::render {
+
+namespace {
+
+constexpr std::size_t mostMaterials = 16384;  // GL takes textures of that many rows
+
+}  // namespace
+
+SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders)
+    : gl_(&gl),
+      shaders_(&shaders),
+      textures_(gl),
+      light_(shaders.program("screen.vert", "light.frag")),
+      materialTexture_(gl, GlKind::texture),
+      empty_(gl, GlKind::vertexArray) {
+    gl.BindTexture(GL_TEXTURE_2D, materialTexture_.id());
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
 
 Program& SurfacePass::programFor(const view::Surface& surface) {
     const bool woven = surface.finish->weave > 0.0F;
@@ -17,9 +38,25 @@ Program& SurfacePass::programFor(const view::Surface& surface) {
     return programs_.emplace(key, shaders_->program("surface.vert", "surface.frag", definitions)).first->second;
 }
 
+// Neighbours mostly share a material: it is looked for from the last backwards.
+int SurfacePass::rowOf(const view::Surface& surface) {
+    const view::Finish& finish = *surface.finish;
+    const Material material{glm::vec4(finish.back, finish.roughness),
+                            {finish.sheen, surface.dulled, surface.twoSided ? 1.0F : 0.0F,
+                             finish.weave > 0.0F ? 1.0F : 0.0F}};
+    const auto known = std::find(materials_.rbegin(), materials_.rend(), material);
+    if (known != materials_.rend()) return static_cast<int>(materials_.rend() - known) - 1;
+    if (materials_.size() == mostMaterials)
+        throw core::Error(core::ErrorKind::badContent, "more than 16384 kinds of surface cannot be drawn in one picture");
+    materials_.push_back(material);
+    return static_cast<int>(materials_.size()) - 1;
+}
+
 void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
+    gl_->DepthMask(GL_TRUE);
+    materials_.clear();
     for (std::size_t i = 0; i < items.size(); ++i) {
         const DrawItem& item = items[i];
         const view::Surface& surface = *item.surface;
@@ -29,15 +66,12 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
         program.set("transform", surface.transform);
         program.set("normalTransform", glm::transpose(glm::inverse(glm::mat3(surface.transform))));
         program.set("frontColour", finish.front);
-        program.set("backColour", finish.back);
         program.set("accentColour", finish.accent);
         program.set("repeat", std::max(finish.repeat, 1e-4F));
         program.set("weave", finish.weave);
         program.set("thread", std::max(finish.thread, 1e-5F));
-        program.set("roughness", finish.roughness);
-        program.set("sheen", finish.sheen);
-        program.set("dulled", surface.dulled);
-        program.set("mark", itemMark(i));
+        program.set("material", rowOf(surface));
+        program.set("mark", static_cast<int>(std::lround(255.0F * itemMark(i))));
         if (finish.pattern == view::Pattern::image) textures_.bind(finish.texture);
         if (surface.twoSided)
             gl_->Disable(GL_CULL_FACE);
@@ -46,6 +80,35 @@ void SurfacePass::draw(std::span<const DrawItem> items, const MeshCache& meshes)
         meshes.draw(item);
     }
     gl_->Disable(GL_CULL_FACE);
+}
+
+void SurfacePass::uploadMaterials() {
+    gl_->ActiveTexture(GL_TEXTURE0 + materialsUnit);
+    gl_->BindTexture(GL_TEXTURE_2D, materialTexture_.id());
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 2, static_cast<GLsizei>(materials_.size()), 0, GL_RGBA, GL_FLOAT,
+                    materials_.data());
+}
+
+void SurfacePass::light(const view::Camera& camera, const PixelBox& part, glm::ivec2 size) {
+    if (materials_.empty() || part.width == 0 || part.height == 0) return;
+    uploadMaterials();
+    const CameraAxes axes = axesOf(camera);
+    const float pixel = 2.0F * std::tan(0.5F * camera.fieldOfView) / static_cast<float>(size.y);  // [m] 1 m ahead
+    const glm::vec2 half = 0.5F * glm::vec2(size);
+    light_.use();
+    light_.set("firstWay", axes.forward - pixel * (half.x * axes.right + half.y * axes.up));
+    light_.set("rightWay", pixel * axes.right);
+    light_.set("upWay", pixel * axes.up);
+    // At the far plane, where something lies before it.
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->DepthFunc(GL_GREATER);
+    gl_->DepthMask(GL_FALSE);
+    gl_->Enable(GL_SCISSOR_TEST);
+    gl_->Scissor(part.x, part.y, part.width, part.height);
+    gl_->BindVertexArray(empty_.id());
+    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl_->Disable(GL_SCISSOR_TEST);
+    gl_->DepthMask(GL_TRUE);
 }
 
 }  // namespace taut::render

@@ -1,30 +1,49 @@
-// Draws the surfaces, with a program made for each kind of finish when it is first met.
+// Draws the surfaces: first what of them is seen, then the light on it, so that each pixel is lit once. Programs are made
+// for each kind of finish when it is first met.
 #pragma once
 
 #include <map>
 #include <span>
 #include <tuple>
+#include <vector>
 
+#include "taut/render/camera_axes.h"
 #include "taut/render/mesh_cache.h"
 #include "taut/render/program.h"
+#include "taut/render/targets.h"
 #include "taut/render/texture_cache.h"
 
 namespace taut::render {
 
 class SurfacePass {
   public:
-    SurfacePass(const Gl& gl, const ShaderFolder& shaders) : gl_(&gl), shaders_(&shaders), textures_(gl) {}
+    SurfacePass(const Gl& gl, const ShaderFolder& shaders);
 
-    // Into the bound target; the frame block and the shadow maps must be in place.
+    // What is seen, into the target of surfaces.
     void draw(std::span<const DrawItem> items, const MeshCache& meshes);
 
+    // The light on it, in a part of the bound picture; the frame block and the shadow maps must be in place.
+    void light(const view::Camera& camera, const PixelBox& part, glm::ivec2 size);
+
   private:
+    // What light.frag has to know of a surface: a row of its table.
+    struct Material {
+        glm::vec4 backRoughness;
+        glm::vec4 kind;  // sheen, dulled, two-sided, woven
+        bool operator==(const Material&) const = default;
+    };
+
     Program& programFor(const view::Surface& surface);
+    int rowOf(const view::Surface& surface);
+    void uploadMaterials();
 
     const Gl* gl_;
     const ShaderFolder* shaders_;
     TextureCache textures_;
     std::map<std::tuple<view::Pattern, bool, bool>, Program> programs_;  // pattern, woven, two-sided
+    Program light_;
+    std::vector<Material> materials_;
+    GlObject materialTexture_, empty_;
 };
 
 }  // namespace taut::render

@@ -1,6 +1,7 @@
 #include "taut/render/targets.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "taut/core/error.h"
@@ -34,6 +35,7 @@ Targets::Targets(const Gl& gl, int width, int height, int samples)
       smooth_(samples == 4),
       colour_(gl, GlKind::renderbuffer),
       target_(gl, GlKind::framebuffer),
+      surfaceTarget_(gl, GlKind::framebuffer),
       copyTarget_(gl, GlKind::framebuffer),
       coverage_(gl, GlKind::texture),
       coverageDepth_(gl, GlKind::renderbuffer),
@@ -63,6 +65,16 @@ Targets::Targets(const Gl& gl, int width, int height, int samples)
     attach(target_, GL_COLOR_ATTACHMENT0, colour_);
     attachTexture(target_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_);
     expectComplete(gl);
+
+    // What is seen of surfaces, in front of the same depth.
+    tints_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    shapes_ = texture(GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+    attachTexture(surfaceTarget_, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, tints_);
+    attachTexture(surfaceTarget_, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, shapes_);
+    attachTexture(surfaceTarget_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_);
+    const std::array<GLenum, 2> both{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    gl.DrawBuffers(2, both.data());
+    expectComplete(gl);
     if (!smooth_) return;
     copiedColour_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
     attachTexture(copyTarget_, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, copiedColour_);
@@ -91,13 +103,25 @@ GlObject Targets::texture(GLenum format, GLenum layout, GLenum type) const {
     return object;
 }
 
+void Targets::bindTexture(int unit, GLenum kind, const GlObject& object) const {
+    gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl_->BindTexture(kind, object.id());
+}
+
 void Targets::bind(const GlObject& target) const {
     gl_->BindFramebuffer(GL_FRAMEBUFFER, target.id());
     gl_->Viewport(0, 0, width_, height_);
 }
 
+void Targets::bindSurfaces() const {
+    bind(surfaceTarget_);
+    gl_->Disable(GL_FRAMEBUFFER_SRGB);
+}
+
 void Targets::bindShading() const {
     bind(target_);
+    bindTexture(tintsUnit, GL_TEXTURE_2D, tints_);
+    bindTexture(shapesUnit, GL_TEXTURE_2D, shapes_);
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
 }
 
@@ -128,10 +152,6 @@ void Targets::bindResolve(const PixelBox& part) {
     gl_->Disable(GL_SCISSOR_TEST);
     gl_->BlitFramebuffer(left, low, right, high, left, low, right, high, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     bind(resolveTarget_);
-    const auto bindTexture = [&](int unit, GLenum kind, const GlObject& object) {
-        gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-        gl_->BindTexture(kind, object.id());
-    };
     bindTexture(pictureUnit, GL_TEXTURE_2D, copiedColour_);
     bindTexture(pictureDepthUnit, GL_TEXTURE_2D, depth_);
     bindTexture(coveringUnit, GL_TEXTURE_2D_MULTISAMPLE, coverage_);

@@ -22,7 +22,8 @@ class Targets {
     // Smooth edges are made from exactly four samples a pixel, else left out.
     bool hasSmoothEdges() const { return smooth_; }
 
-    void bindShading() const;   // to draw into, one sample a pixel
+    void bindSurfaces() const;  // to draw what is seen into, with the depth of the picture; bytes are kept as they are
+    void bindShading() const;   // to draw into, one sample a pixel; what is seen of surfaces is bound to its units
     void bindCoverage() const;  // to draw into, four samples a pixel; bytes are kept as they are
 
     // What has been shaded in a part of the picture.
@@ -37,11 +38,13 @@ class Targets {
   private:
     GlObject texture(GLenum format, GLenum layout, GLenum type) const;
     void bind(const GlObject& target) const;
+    void bindTexture(int unit, GLenum kind, const GlObject& object) const;
 
     const Gl* gl_;
     int width_, height_;
     bool smooth_;
     GlObject colour_, depth_, target_;
+    GlObject tints_, shapes_, surfaceTarget_;
     GlObject copiedColour_, copyTarget_;
     GlObject coverage_, coverageDepth_, coverageTarget_;
     GlObject resolveTarget_;

@@ -1,0 +1,73 @@
+// Surfaces in sun and sky, from what surface.frag has kept of them.
+#include "tone.glsl"
+#include "shadow.glsl"
+uniform sampler2D tints;
+uniform usampler2D shapes;
+uniform sampler2D materials;  // two texels a row: colour of the back, roughness; sheen, dulled, two-sided, woven
+uniform vec3 firstWay;        // from the eye through the picture's lower left corner, 1 m ahead
+uniform vec3 rightWay;        // from one pixel to the next
+uniform vec3 upWay;
+out vec4 colour;
+
+vec3 fromOctahedral(uint bits) {
+    vec2 at = (vec2(bits & 65535u, bits >> 16) - 32767.0) / 32767.0;
+    vec3 n = vec3(at, 1.0 - abs(at.x) - abs(at.y));
+    float folded = max(-n.z, 0.0);
+    n.xy += vec2(n.x < 0.0 ? folded : -folded, n.y < 0.0 ? folded : -folded);
+    return normalize(n);
+}
+
+void main() {
+    ivec2 here = ivec2(gl_FragCoord.xy);
+    uvec4 shape = texelFetch(shapes, here, 0);
+    vec4 tint = texelFetch(tints, here, 0);
+    int row = int(shape.w & 65535u);
+    vec4 backRoughness = texelFetch(materials, ivec2(0, row), 0);
+    vec4 kind = texelFetch(materials, ivec2(1, row), 0);
+    float roughness = backRoughness.a;
+    float sheen = kind.x;
+    bool isBack = (shape.w & 65536u) != 0u;
+    float ahead = 1.0 / uintBitsToFloat(shape.z);
+    vec3 way = firstWay + gl_FragCoord.x * rightWay + gl_FragCoord.y * upWay;
+    vec3 place = eye.xyz + ahead * way;
+    vec3 toEye = -normalize(way);
+    vec3 smoothNormal = fromOctahedral(shape.x);
+    vec3 normal = fromOctahedral(shape.y);
+
+    vec3 pattern = tint.rgb * tint.rgb;
+    float open = tint.a;
+    vec3 albedo = isBack ? mix(backRoughness.rgb, pattern, 0.12) : pattern;
+    vec3 through = isBack ? pattern : backRoughness.rgb;
+    albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * dot(albedo, vec3(0.3, 0.6, 0.1)), kind.y);
+
+    float lightSide = dot(smoothNormal, lightWay.xyz);
+    float steep = max(dot(smoothNormal, toEye), 0.05);
+    float pixel = ahead * inversesqrt(steep) * length(upWay);
+    float sun = sunlight(place, lightSide < 0.0 ? -smoothNormal : smoothNormal, pixel, true);
+    float facing = dot(normal, lightWay.xyz);
+    float direct = max(facing, 0.0) * sun;
+    direct *= max(smoothstep(-0.02, 0.12, lightSide), 1.0 - kind.w);  // threads on the far side stay dark
+
+    vec3 diffuse = lightColour.rgb * direct + hemisphere(normal) * open;
+    vec3 light = albedo * open * diffuse;
+    light += (0.18 * kind.z) * albedo * through * lightColour.rgb * (max(-lightSide, 0.0) * sun);
+
+    // Gloss of a dielectric, and the bright rim of fibres.
+    vec3 halfWay = normalize(lightWay.xyz + toEye);
+    float alpha = mix(0.04, 1.0, roughness * roughness);
+    float exponent = 2.0 / (alpha * alpha);
+    float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
+    float rim2 = rim * rim;
+    float gloss = pow(max(dot(normal, halfWay), 0.0), exponent) * (exponent + 8.0) * 0.125;
+    float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
+    light += lightColour.rgb * (0.04 * gloss * direct * open);
+    vec3 mirrored = reflect(-toEye, normal);
+    light += hemisphere(mirrored) * (fresnel * (1.0 - roughness) * 0.6 * open);
+    light += sheen * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight.rgb);
+
+    if (debug.x > 0.0) {
+        float grey = dot(light, vec3(0.3, 0.6, 0.1));
+        light = mix(light, vec3(0.4 * grey + 0.06), 0.85);
+    }
+    colour = vec4(filmic(light), float(shape.w >> 24) / 255.0);
+}

@@ -1,19 +1,84 @@
 #include "taut/render/edge_pass.h"
 
-#include <vector>
+#include <algorithm>
+#include <cmath>
+
+#include "taut/core/parallel.h"
+#include "taut/render/edge_coverage.h"
 
 namespace taut::render {
+
+namespace {
+
+constexpr int tilesATask = 16;
+
+// How badly a pixel fits each of the four samples of another.
+FourFloats misfit(FourInts marks, FourFloats depths, std::int32_t mark, float depth) {
+    const FourFloats off = depths - depth;
+    const FourFloats away = (FourFloats)((FourInts)off & FourInts{0x7fffffff, 0x7fffffff, 0x7fffffff, 0x7fffffff});
+    const FourFloats far = (FourFloats)((FourInts)away & (FourInts)(marks != 0));
+    return far + (FourFloats)((FourInts)fourTimes(10.0F) & (FourInts)(marks != mark));
+}
+
+// Colours are bytes of the sRGB curve; as light they are close to their squares.
+struct Lights {
+    FourFloats red, green, blue;
+
+    explicit Lights(std::uint32_t colour)
+        : red(fourTimes(square(colour))), green(fourTimes(square(colour >> 8))), blue(fourTimes(square(colour >> 16))) {}
+    static float square(std::uint32_t colour) {
+        const auto byte = static_cast<float>(colour & 255U);
+        return byte * byte;
+    }
+    void take(FourInts samples, std::uint32_t colour) {
+        red = chosen(samples, fourTimes(square(colour)), red);
+        green = chosen(samples, fourTimes(square(colour >> 8)), green);
+        blue = chosen(samples, fourTimes(square(colour >> 16)), blue);
+    }
+    static std::uint32_t mean(FourFloats lights) {
+        const float sum = lights[0] + lights[1] + lights[2] + lights[3];
+        return static_cast<std::uint32_t>(std::sqrt(0.25F * sum) + 0.5F);
+    }
+    std::uint32_t mixed() const { return mean(red) | mean(green) << 8 | mean(blue) << 16; }
+};
+
+// Each sample takes its colour from the pixel itself if that shows the same surface at about the same depth, else from
+// the neighbour that fits best. In the middle of surfaces nothing changes.
+void smoothTile(const PixelBox& tile, const CoveredTile& covered, const ShadedPixels& shaded, int width,
+                std::span<std::uint32_t> picture) {
+    const PixelBox& box = shaded.box;
+    for (int y = tile.y - box.y; y < tile.y - box.y + tile.height; ++y) {
+        for (int x = tile.x - box.x; x < tile.x - box.x + tile.width; ++x) {
+            const auto sample = static_cast<std::size_t>((y + box.y - tile.y) * edgeTileSize + x + box.x - tile.x);
+            const auto here = static_cast<std::size_t>(y * box.width + x);
+            const FourInts marks = covered.mark[sample];
+            const FourFloats depths = covered.depth[sample];
+            const std::uint32_t colour = shaded.colour[here];
+            const float depth = shaded.depth[here];
+            FourFloats error = misfit(marks, depths, static_cast<std::int32_t>(colour >> 24), depth);
+            if (!isAny((FourInts)(error > fourTimes(0.0008F * (1.0F - depth) + 1e-6F)))) continue;
+            Lights lights(colour);
+            for (int row = std::max(y - 1, 0); row <= std::min(y + 1, box.height - 1); ++row) {
+                for (int column = std::max(x - 1, 0); column <= std::min(x + 1, box.width - 1); ++column) {
+                    const auto beside = static_cast<std::size_t>(row * box.width + column);
+                    const std::uint32_t other = shaded.colour[beside];
+                    const FourFloats badness =
+                        misfit(marks, depths, static_cast<std::int32_t>(other >> 24), shaded.depth[beside]);
+                    const auto better = (FourInts)(badness < error);
+                    lights.take(better, other);
+                    error = chosen(better, badness, error);
+                }
+            }
+            picture[static_cast<std::size_t>((y + box.y) * width + x + box.x)] = lights.mixed() | 0xff000000U;
+        }
+    }
+}
+
+}  // namespace
 
 float itemMark(std::size_t item) {
     return static_cast<float>(item % 255 + 1) / 255.0F;
 }
-
-EdgePass::EdgePass(const Gl& gl, const ShaderFolder& shaders)
-    : gl_(&gl),
-      surfaces_(shaders.program("edges.vert", "edges.frag")),
-      resolve_(shaders.program("tiles.vert", "resolve.frag")),
-      tileLayout_(gl, GlKind::vertexArray),
-      tileCorners_(gl, GlKind::buffer) {}
 
 PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height) {
     const glm::vec2 size(width, height);
@@ -35,70 +100,29 @@ PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjecti
     return {from.x, from.y, extent.x, extent.y};
 }
 
-void EdgePass::draw(const view::FrameView& view, std::span<const DrawItem> items, const MeshCache& meshes,
-                    const PixelBox& part, Targets& targets) {
-    if (part.width == 0 || part.height == 0) return;
-    const ShadedPixels shaded = targets.shaded(part);
-    drawCoverage(view, items, meshes, part, targets);
-    gl_->Flush();  // GL goes on drawing while the tiles are looked for
-    const std::vector<PixelBox> tiles = edgeTiles(shaded);
-    targets.bindResolve(part);
-    gl_->Disable(GL_DEPTH_TEST);
-    resolve_.use();
-    drawTiles(tiles, targets.size());
+glm::vec4 seenSideOf(const view::FrameView& view) {
+    if (!view.ground) return {0.0F, 0.0F, 0.0F, 1.0F};
+    const float side = view.camera.eye.y >= view.ground->height ? 1.0F : -1.0F;
+    return {0.0F, side, 0.0F, -side * view.ground->height};
 }
 
-void EdgePass::drawCoverage(const view::FrameView& view, std::span<const DrawItem> items, const MeshCache& meshes,
-                            const PixelBox& part, const Targets& targets) {
-    targets.bindCoverage();
-    gl_->Scissor(part.x, part.y, part.width, part.height);
-    gl_->Enable(GL_SCISSOR_TEST);
-    gl_->DepthMask(GL_TRUE);
-    gl_->ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-    gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl_->Enable(GL_DEPTH_TEST);
-    gl_->DepthFunc(GL_LESS);
-    surfaces_.use();
-    glm::vec4 seenSide(0.0F, 0.0F, 0.0F, 1.0F);
-    if (view.ground) {
-        const float side = view.camera.eye.y >= view.ground->height ? 1.0F : -1.0F;
-        seenSide = glm::vec4(0.0F, side, 0.0F, -side * view.ground->height);
-        gl_->Enable(GL_CLIP_DISTANCE0);
-    }
-    surfaces_.set("seenSide", seenSide);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        const view::Surface& surface = *items[i].surface;
-        surfaces_.set("transform", surface.transform);
-        surfaces_.set("mark", itemMark(i));
-        if (surface.twoSided)
-            gl_->Disable(GL_CULL_FACE);
-        else
-            gl_->Enable(GL_CULL_FACE);
-        meshes.drawShape(items[i]);
-    }
-    gl_->Disable(GL_CULL_FACE);
-    gl_->Disable(GL_CLIP_DISTANCE0);
-    gl_->Disable(GL_SCISSOR_TEST);
-}
-
-// Two triangles a tile.
-void EdgePass::drawTiles(std::span<const PixelBox> tiles, glm::ivec2 size) {
-    std::vector<glm::vec2> corners;
-    corners.reserve(6 * tiles.size());
-    const auto place = [&](int x, int y) { return 2.0F * glm::vec2(x, y) / glm::vec2(size) - 1.0F; };
-    for (const PixelBox& tile : tiles) {
-        const int right = tile.x + tile.width, high = tile.y + tile.height;
-        for (const glm::vec2& corner : {place(tile.x, tile.y), place(right, tile.y), place(right, high),
-                                        place(tile.x, tile.y), place(right, high), place(tile.x, high)})
-            corners.push_back(corner);
-    }
-    gl_->BindVertexArray(tileLayout_.id());
-    gl_->BindBuffer(GL_ARRAY_BUFFER, tileCorners_.id());
-    gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec2)), corners.data(),
-                    GL_STREAM_DRAW);
-    gl_->EnableVertexAttribArray(0);
-    gl_->VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-    gl_->DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
+void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const ShadedPixels& shaded,
+                 std::span<std::uint32_t> picture) {
+    if (shaded.box.width == 0 || shaded.box.height == 0) return;
+    const std::vector<PixelBox> found = edgeTiles(shaded);
+    const EdgeTriangles triangles(items, view, shaded.box, found);
+    const std::span<const PixelBox> tiles = triangles.tiles();
+    const int count = static_cast<int>(tiles.size());
+    core::parallelFor((count + tilesATask - 1) / tilesATask, [&](int task) {
+        CoveredTile covered;
+        for (int i = task * tilesATask; i < std::min((task + 1) * tilesATask, count); ++i) {
+            const PixelBox& tile = tiles[static_cast<std::size_t>(i)];
+            covered.clear();
+            triangles.visit(static_cast<std::size_t>(i),
+                            [&](const EdgeTriangle& triangle) { covered.add(tile, triangle); });
+            smoothTile(tile, covered, shaded, view.size.x, picture);
+        }
+    });
 }
 
 }  // namespace taut::render

@@ -58,8 +58,6 @@ Program::Program(const Gl& gl, GlObject object) : gl_(&gl), object_(std::move(ob
     set("shadowDepth", static_cast<int>(shadowDepthUnit));
     set("occlusion", static_cast<int>(occlusionUnit));
     set("picture", static_cast<int>(pictureUnit));
-    set("pictureDepth", static_cast<int>(pictureDepthUnit));
-    set("covering", static_cast<int>(coveringUnit));
     set("tints", static_cast<int>(tintsUnit));
     set("shapes", static_cast<int>(shapesUnit));
     set("materials", static_cast<int>(materialsUnit));

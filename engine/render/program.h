@@ -18,12 +18,10 @@ enum TextureUnit : int {
     shadowBoundsUnit = 1,
     occlusionUnit = 2,
     pictureUnit = 3,
-    pictureDepthUnit = 4,
-    coveringUnit = 5,
-    shadowDepthUnit = 6,
-    tintsUnit = 7,
-    shapesUnit = 8,
-    materialsUnit = 9,
+    shadowDepthUnit = 4,
+    tintsUnit = 5,
+    shapesUnit = 6,
+    materialsUnit = 7,
 };
 
 class Program {

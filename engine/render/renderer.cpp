@@ -4,7 +4,9 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <string>
 
+#include "taut/core/error.h"
 #include "taut/render/camera_axes.h"
 #include "taut/render/context.h"
 #include "taut/render/edge_pass.h"
@@ -55,19 +57,51 @@ FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, con
     return block;
 }
 
+std::vector<std::uint32_t> partOf(std::span<const std::uint32_t> colours, int width, const PixelBox& part) {
+    std::vector<std::uint32_t> result;
+    result.reserve(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        const auto row = colours.begin() + static_cast<std::ptrdiff_t>(y) * width + part.x;
+        result.insert(result.end(), row, row + part.width);
+    }
+    return result;
+}
+
+// Without marks, and the rows from the top.
+image::Image pictureOf(std::span<const std::uint32_t> colours, int width, int height) {
+    image::Image picture{width, height, {}};
+    picture.rgb.resize(3 * colours.size());
+    std::uint8_t* to = picture.rgb.data();
+    for (int y = height - 1; y >= 0; --y) {
+        const std::uint32_t* from = colours.data() + static_cast<std::ptrdiff_t>(y) * width;
+        for (int x = 0; x < width; ++x, to += 3) {
+            to[0] = static_cast<std::uint8_t>(from[x]);
+            to[1] = static_cast<std::uint8_t>(from[x] >> 8);
+            to[2] = static_cast<std::uint8_t>(from[x] >> 16);
+        }
+    }
+    return picture;
+}
+
+void expectSamples(int samples) {
+    if (samples != 1 && samples != 4) {
+        throw core::Error(core::ErrorKind::badContent,
+                          "anti-aliasing takes 1 or 4 samples a pixel, not " + std::to_string(samples));
+    }
+}
+
 }  // namespace
 
 // Everything that lives in the context.
 struct RendererParts {
     RendererParts(const Gl& gl, const RendererOptions& options)
         : shaders(gl, options.shaders),
-          targets(gl, options.width, options.height, options.samples),
+          targets(gl, options.width, options.height),
           meshes(gl),
           shadow(gl, shaders, options.shadowSize),
           occlusion(gl, shaders),
           surfaces(gl, shaders),
           ground(gl, shaders),
-          edges(gl, shaders),
           marks(gl, shaders),
           labels(options.font),
           background(shaders.program("background.vert", "background.frag")),
@@ -81,7 +115,6 @@ struct RendererParts {
     OcclusionPass occlusion;
     SurfacePass surfaces;
     GroundPass ground;
-    EdgePass edges;
     MarksPass marks;
     LabelPass labels;
     Program background;
@@ -96,6 +129,7 @@ struct Renderer::Impl {
 };
 
 Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>()) {
+    expectSamples(options.samples);
     impl_->options = options;
     impl_->context = makeContext(options.backend);
     const CurrentContext current(*impl_->context);
@@ -168,11 +202,20 @@ image::Image Renderer::draw(const view::FrameView& view) {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
 
     passDone("background");
-    if (parts.targets.hasSmoothEdges()) parts.edges.draw(view, items, parts.meshes, part, parts.targets);
+    std::vector<std::uint32_t> colours = parts.targets.colours();
+    passDone("read");
+    if (options.samples == 4) {
+        const EdgeView edges{projection, seenSideOf(view), parts.targets.size()};
+        smoothEdges(items, edges, {part, partOf(colours, options.width, part), parts.targets.depths(part)}, colours);
+    }
     passDone("edges");
-    parts.targets.bindShading();
-    if (view.showMarks) parts.marks.draw(view, projection, options.width, options.height);
-    image::Image picture = parts.targets.read();
+    if (view.showMarks) {
+        parts.targets.put(colours);
+        parts.targets.bindShading();
+        parts.marks.draw(view, projection, options.width, options.height);
+        colours = parts.targets.colours();
+    }
+    image::Image picture = pictureOf(colours, options.width, options.height);
     parts.labels.draw(view, projection, picture);
     passDone("picture");
     return picture;

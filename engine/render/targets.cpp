@@ -28,68 +28,37 @@ void expectComplete(const Gl& gl) {
 
 }  // namespace
 
-Targets::Targets(const Gl& gl, int width, int height, int samples)
+Targets::Targets(const Gl& gl, int width, int height)
     : gl_(&gl),
       width_(width),
       height_(height),
-      smooth_(samples == 4),
       colour_(gl, GlKind::renderbuffer),
       target_(gl, GlKind::framebuffer),
       surfaceTarget_(gl, GlKind::framebuffer),
-      copyTarget_(gl, GlKind::framebuffer),
-      coverage_(gl, GlKind::texture),
-      coverageDepth_(gl, GlKind::renderbuffer),
-      coverageTarget_(gl, GlKind::framebuffer),
-      resolveTarget_(gl, GlKind::framebuffer) {
+      putTarget_(gl, GlKind::framebuffer) {
     expectSize(gl, width, height);
-    if (samples != 1 && samples != 4) {
-        throw core::Error(core::ErrorKind::badContent,
-                          "anti-aliasing takes 1 or 4 samples a pixel, not " + std::to_string(samples));
-    }
-    const auto storage = [&](const GlObject& buffer, GLenum format, int count) {
-        gl.BindRenderbuffer(GL_RENDERBUFFER, buffer.id());
-        gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, format, width, height);
-    };
-    const auto attach = [&](const GlObject& target, GLenum point, const GlObject& buffer) {
+    const auto attach = [&](const GlObject& target, GLenum point, const GlObject& texture) {
         gl.BindFramebuffer(GL_FRAMEBUFFER, target.id());
-        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.id());
-    };
-    const auto attachTexture = [&](const GlObject& target, GLenum point, GLenum kind, const GlObject& texture) {
-        gl.BindFramebuffer(GL_FRAMEBUFFER, target.id());
-        gl.FramebufferTexture2D(GL_FRAMEBUFFER, point, kind, texture.id(), 0);
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, texture.id(), 0);
     };
 
-    // Shaded picture: colour to be drawn into, a copy of its bytes and its depth to be read.
-    storage(colour_, GL_SRGB8_ALPHA8, 0);
+    // Shaded picture.
+    gl.BindRenderbuffer(GL_RENDERBUFFER, colour_.id());
+    gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, width, height);
     depth_ = texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
-    attach(target_, GL_COLOR_ATTACHMENT0, colour_);
-    attachTexture(target_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target_.id());
+    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.id());
+    attach(target_, GL_DEPTH_ATTACHMENT, depth_);
     expectComplete(gl);
 
     // What is seen of surfaces, in front of the same depth.
     tints_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
     shapes_ = texture(GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-    attachTexture(surfaceTarget_, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, tints_);
-    attachTexture(surfaceTarget_, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, shapes_);
-    attachTexture(surfaceTarget_, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_);
+    attach(surfaceTarget_, GL_COLOR_ATTACHMENT0, tints_);
+    attach(surfaceTarget_, GL_COLOR_ATTACHMENT1, shapes_);
+    attach(surfaceTarget_, GL_DEPTH_ATTACHMENT, depth_);
     const std::array<GLenum, 2> both{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     gl.DrawBuffers(2, both.data());
-    expectComplete(gl);
-    if (!smooth_) return;
-    copiedColour_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
-    attachTexture(copyTarget_, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, copiedColour_);
-    expectComplete(gl);
-
-    // What covers each sample.
-    gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, coverage_.id());
-    gl.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_RGBA8, width, height, GL_TRUE);
-    storage(coverageDepth_, GL_DEPTH_COMPONENT32F, samples);
-    attach(coverageTarget_, GL_DEPTH_ATTACHMENT, coverageDepth_);
-    attachTexture(coverageTarget_, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, coverage_);
-    expectComplete(gl);
-
-    // The same colour without depth: a texture cannot be read while it is attached.
-    attach(resolveTarget_, GL_COLOR_ATTACHMENT0, colour_);
     expectComplete(gl);
 }
 
@@ -103,9 +72,9 @@ GlObject Targets::texture(GLenum format, GLenum layout, GLenum type) const {
     return object;
 }
 
-void Targets::bindTexture(int unit, GLenum kind, const GlObject& object) const {
+void Targets::bindTexture(int unit, const GlObject& object) const {
     gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    gl_->BindTexture(kind, object.id());
+    gl_->BindTexture(GL_TEXTURE_2D, object.id());
 }
 
 void Targets::bind(const GlObject& target) const {
@@ -120,63 +89,41 @@ void Targets::bindSurfaces() const {
 
 void Targets::bindShading() const {
     bind(target_);
-    bindTexture(tintsUnit, GL_TEXTURE_2D, tints_);
-    bindTexture(shapesUnit, GL_TEXTURE_2D, shapes_);
+    bindTexture(tintsUnit, tints_);
+    bindTexture(shapesUnit, shapes_);
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
 }
 
-void Targets::bindCoverage() const {
-    bind(coverageTarget_);
-    gl_->Disable(GL_FRAMEBUFFER_SRGB);
-}
-
-ShadedPixels Targets::shaded(const PixelBox& part) const {
-    const std::size_t count = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
-    ShadedPixels pixels{part, std::vector<std::uint32_t>(count), std::vector<float>(count)};
+std::vector<std::uint32_t> Targets::colours() const {
+    std::vector<std::uint32_t> colours(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.colour.data());
-    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, pixels.depth.data());
-    return pixels;
+    gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+    return colours;
 }
 
-void Targets::bindResolve(const PixelBox& part) {
-    gl_->Disable(GL_FRAMEBUFFER_SRGB);
-    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
-    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, copyTarget_.id());
-    // One pixel more to each side, for the neighbours.
-    const int left = std::max(part.x - 1, 0);
-    const int low = std::max(part.y - 1, 0);
-    const int right = std::min(part.x + part.width + 1, width_);
-    const int high = std::min(part.y + part.height + 1, height_);
-    gl_->Disable(GL_SCISSOR_TEST);
-    gl_->BlitFramebuffer(left, low, right, high, left, low, right, high, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    bind(resolveTarget_);
-    bindTexture(pictureUnit, GL_TEXTURE_2D, copiedColour_);
-    bindTexture(pictureDepthUnit, GL_TEXTURE_2D, depth_);
-    bindTexture(coveringUnit, GL_TEXTURE_2D_MULTISAMPLE, coverage_);
-}
-
-image::Image Targets::read() const {
-    const auto width = static_cast<std::size_t>(width_);
-    const auto height = static_cast<std::size_t>(height_);
-    std::vector<std::uint8_t> rgba(width * height * 4);
+std::vector<float> Targets::depths(const PixelBox& part) const {
+    std::vector<float> depths(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+    return depths;
+}
 
-    image::Image picture{width_, height_, {}};
-    picture.rgb.resize(width * height * 3);
-    for (std::size_t row = 0; row < height; ++row) {
-        const std::uint8_t* from = rgba.data() + (height - 1 - row) * width * 4;
-        std::uint8_t* to = picture.rgb.data() + row * width * 3;
-        for (std::size_t x = 0; x < width; ++x) {
-            to[3 * x] = from[4 * x];
-            to[3 * x + 1] = from[4 * x + 1];
-            to[3 * x + 2] = from[4 * x + 2];
-        }
+void Targets::put(std::span<const std::uint32_t> colours) {
+    if (putColour_.id() == 0) {
+        putColour_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+        gl_->BindFramebuffer(GL_FRAMEBUFFER, putTarget_.id());
+        gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, putColour_.id(), 0);
+        expectComplete(*gl_);
     }
-    return picture;
+    gl_->BindTexture(GL_TEXTURE_2D, putColour_.id());
+    gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+    gl_->Disable(GL_FRAMEBUFFER_SRGB);
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, putTarget_.id());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target_.id());
+    gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace taut::render

@@ -22,15 +22,32 @@ struct Slope {
     float at(int x, int y) const { return start + along * static_cast<float>(x) + up * static_cast<float>(y); }
 };
 
-// Above `least` on the inner side of the way from a to b. What lies on it belongs to one of the two neighbours.
+// Not below zero on the inner side of the way from a to b. What lies on it belongs to one of the two neighbours.
 struct Border {
     Slope slope;
-    FourFloats least;
+    float perPixel;  // [pixels]
 
     Border(const PixelBox& tile, glm::dvec2 a, glm::dvec2 b)
         : slope((b.x - a.x) * (tile.y - a.y) - (b.y - a.y) * (tile.x - a.x), a.y - b.y, b.x - a.x),
-          least(fourTimes(b.y > a.y || (b.y == a.y && b.x > a.x) ? -1e-6F : 0.0F)) {}
+          perPixel(slope.along != 0.0F ? -1.0F / slope.along : 0.0F) {
+        if (!(b.y > a.y || (b.y == a.y && b.x > a.x))) slope.samples -= 1e-6F;
+    }
+
+    // Leaves those of the columns of a row that may have a sample inside.
+    void narrow(int y, int& left, int& right) const {
+        if (slope.along == 0.0F) return;
+        const float up = slope.up > 0.0F ? slope.up * static_cast<float>(y + 1) : slope.up * static_cast<float>(y);
+        const float crossing = std::clamp((slope.start + up) * perPixel, -2.0F, 1.0F + edgeTileSize);
+        if (slope.along > 0.0F)
+            left = std::max(left, static_cast<int>(crossing + 1.0F) - 2);  // not before the pixel with the crossing
+        else
+            right = std::min(right, static_cast<int>(crossing + 1.0F));
+    }
+
+    FourFloats at(int x, int y) const { return slope.at(x, y) + slope.samples; }
 };
+
+constexpr int wide = 6;  // [pixels] narrowing a row pays where it is longer
 
 }  // namespace
 
@@ -51,10 +68,15 @@ void CoveredTile::add(const PixelBox& tile, const EdgeTriangle& triangle) {
     const int left = std::max(triangle.left - tile.x, 0), right = std::min(triangle.right - tile.x, tile.width - 1);
     const int low = std::max(triangle.low - tile.y, 0), high = std::min(triangle.high - tile.y, tile.height - 1);
     for (int y = low; y <= high; ++y) {
-        for (int x = left; x <= right; ++x) {
-            const FourInts inside = (FourInts)(ab.slope.at(x, y) + ab.slope.samples > ab.least) &
-                                    (FourInts)(bc.slope.at(x, y) + bc.slope.samples > bc.least) &
-                                    (FourInts)(ca.slope.at(x, y) + ca.slope.samples > ca.least);
+        int from = left, to = right;
+        if (right - left >= wide)
+            for (const Border* border : {&ab, &bc, &ca}) border->narrow(y, from, to);
+        FourFloats toAb = ab.at(from, y), toBc = bc.at(from, y), toCa = ca.at(from, y);
+        for (int x = from; x <= to; ++x) {
+            const FourInts inside = (FourInts)(((FourInts)toAb | (FourInts)toBc | (FourInts)toCa) >= 0);
+            toAb += ab.slope.along;
+            toBc += bc.slope.along;
+            toCa += ca.slope.along;
             if (!isAny(inside)) continue;
             const auto i = static_cast<std::size_t>(y * edgeTileSize + x);
             const float start = ahead.at(x, y);

@@ -1,7 +1,9 @@
-// The floor with its lines, fading into the horizon. SHADED where shadows may fall.
+// The floor with its lines, fading into the horizon. SHADED where shadows may fall, DARKENED where things hide the sky.
 #include "tone.glsl"
 #ifdef SHADED
 #include "shadow.glsl"
+#endif
+#ifdef DARKENED
 uniform sampler2D occlusion;
 #endif
 in vec3 place;
@@ -31,6 +33,8 @@ void main() {
     vec3 below = dFdy(place);
     float pixel = sqrt(sqrt(dot(right, right) * dot(below, below)));
     direct *= sunlight(place, vec3(0.0, 1.0, 0.0), pixel, false);
+#endif
+#ifdef DARKENED
     ambient *= 1.0 - 0.9 * texture(occlusion, (place.xz - occlusionArea.xy) * occlusionArea.zw).r;
 #endif
     vec3 shown = filmic(albedo * (direct + ambient));

@@ -77,7 +77,7 @@ void smoothTile(const PixelBox& tile, const CoveredTile& covered, const ShadedPi
 }  // namespace
 
 float itemMark(std::size_t item) {
-    return static_cast<float>(item % 255 + 1) / 255.0F;
+    return static_cast<float>(item % 254 + 1) / 255.0F;
 }
 
 PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height) {

@@ -13,8 +13,9 @@
 
 namespace taut::render {
 
-// What the shaders write for an item beside its colour, above 0; 0 is ground and sky.
+// What the shaders write for an item beside its colour, 1/255 … 254/255; 0 is ground and sky.
 float itemMark(std::size_t item);
+inline constexpr std::uint32_t nothingMark = 255;  // where nothing has been drawn
 
 // The part of a picture in which the items can be seen; all of it if one of them reaches behind the camera.
 PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height);

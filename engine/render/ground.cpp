@@ -1,7 +1,9 @@
 #include "taut/render/ground.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace taut::render {
 
@@ -15,59 +17,116 @@ float gridLine(int i) {
     return t * (0.15F + 0.85F * t * t);
 }
 
-// Casters as rectangles across the light, each grown by the widest penumbra it can throw.
+// A rectangle of the ground.
 struct Footprint {
     glm::vec2 low, high;
 };
 
-std::vector<Footprint> footprintsOf(std::span<const Bounds> casters, const LightBox& box, float height,
-                                    float softness) {
-    const float sine = std::max(glm::transpose(box.toLight)[2].y, 0.05F);  // of the sun's elevation
-    std::vector<Footprint> footprints;
-    for (const Bounds& caster : casters) {
-        if (caster.empty || caster.high.y < height) continue;
-        const Bounds across = caster.transformed(glm::mat4(box.toLight));
-        const float grow = softness * (caster.high.y - height) / sine + 0.02F * glm::max(box.size.x, box.size.y);
-        footprints.push_back({glm::vec2(across.low) - grow, glm::vec2(across.high) + grow});
-    }
-    return footprints;
+// How much larger than what throws it a shadow is on the ground, along x and z: a disc across the light becomes an
+// ellipse, which is long along the light.
+glm::vec2 grownBy(float radius, const glm::vec3& towards, float sine) {
+    const glm::vec2 flat(towards.x, towards.z);
+    const float length = glm::length(flat);
+    if (length < 1e-4F) return glm::vec2(radius);
+    const glm::vec2 along = flat / length;
+    const glm::vec2 across(along.y, along.x);
+    return radius * glm::sqrt(along * along / (sine * sine) + across * across);
 }
 
-bool overlap(glm::vec2 lowA, glm::vec2 highA, glm::vec2 lowB, glm::vec2 highB) {
-    return lowA.x <= highB.x && lowB.x <= highA.x && lowA.y <= highB.y && lowB.y <= highA.y;
+// Where the light may be kept from the ground, with the widest penumbra.
+Footprint shadowOf(const Bounds& caster, const LightBox& box, float height, float softness) {
+    const glm::vec3 towards = glm::transpose(box.toLight)[2];
+    const float sine = towards.y;  // of the sun's elevation
+    if (sine < 0.05F) return {glm::vec2(-INFINITY), glm::vec2(INFINITY)};
+    Footprint shadow{glm::vec2(INFINITY), glm::vec2(-INFINITY)};
+    for (const glm::vec3& corner : caster.corners()) {
+        const float above = std::max(corner.y - height, 0.0F);
+        const glm::vec2 place = glm::vec2(corner.x, corner.z) - above / sine * glm::vec2(towards.x, towards.z);
+        shadow.low = glm::min(shadow.low, place);
+        shadow.high = glm::max(shadow.high, place);
+    }
+    const float radius = softness * (caster.high.y - height) / sine + 0.02F * glm::max(box.size.x, box.size.y);
+    const glm::vec2 grow = grownBy(radius, towards, sine);
+    return {shadow.low - grow, shadow.high + grow};
 }
+
+enum class Light : std::uint8_t { open, darkened, shaded };
+
+// The cells of the disc, row by row.
+class Cells {
+  public:
+    Cells(glm::vec2 middle, float radius) : light_(cellsAcross * cellsAcross, Light::open) {
+        for (int i = -halfCells; i <= halfCells; ++i) {
+            const float place = i < 0 ? -gridLine(-i) : gridLine(i);
+            lines_[static_cast<std::size_t>(i + halfCells)] = radius * place;
+        }
+        middle_ = middle;
+    }
+    glm::vec2 corner(int row, int column) const {
+        return middle_ + glm::vec2(lines_[static_cast<std::size_t>(column)], lines_[static_cast<std::size_t>(row)]);
+    }
+    Light light(int row, int column) const { return light_[static_cast<std::size_t>(row * cellsAcross + column)]; }
+
+    // What touches the rectangle is at least as dark.
+    void mark(const Footprint& footprint, Light light) {
+        const auto [left, right] = range(footprint.low.x - middle_.x, footprint.high.x - middle_.x);
+        const auto [low, high] = range(footprint.low.y - middle_.y, footprint.high.y - middle_.y);
+        for (int row = low; row <= high; ++row) {
+            for (int column = left; column <= right; ++column) {
+                Light& cell = light_[static_cast<std::size_t>(row * cellsAcross + column)];
+                cell = std::max(cell, light);
+            }
+        }
+    }
+
+    static constexpr int cellsAcross = 2 * halfCells;
+
+  private:
+    // The first and the last cell between two places.
+    std::pair<int, int> range(float from, float to) const {
+        const auto first = std::upper_bound(lines_.begin(), lines_.end(), from) - lines_.begin() - 1;
+        const auto last = std::upper_bound(lines_.begin(), lines_.end(), to) - lines_.begin() - 1;
+        return {std::max(static_cast<int>(first), 0), std::min(static_cast<int>(last), cellsAcross - 1)};
+    }
+
+    glm::vec2 middle_;
+    std::array<float, 2 * halfCells + 1> lines_{};
+    std::vector<Light> light_;
+};
 
 }  // namespace
 
 GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightBox& box,
                       std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion) {
-    const std::vector<Footprint> footprints = footprintsOf(casters, box, height, softness);
+    Cells cells({middle.x, middle.z}, radius);
+    for (const Bounds& caster : casters) {
+        if (caster.empty) continue;
+        if (caster.high.y >= height) cells.mark(shadowOf(caster, box, height, softness), Light::shaded);
+        if (!occlusion || caster.low.y > height + occlusionCeiling) continue;
+        const glm::vec2 reach = occlusionReach(*occlusion);
+        cells.mark({glm::vec2(caster.low.x, caster.low.z) - reach, glm::vec2(caster.high.x, caster.high.z) + reach},
+                   Light::darkened);
+    }
     GroundMesh mesh;
-    const auto place = [&](int i) { return i < 0 ? -gridLine(-i) : gridLine(i); };
-    for (int row = -halfCells; row <= halfCells; ++row)
-        for (int column = -halfCells; column <= halfCells; ++column)
-            mesh.positions.emplace_back(middle.x + radius * place(column), height, middle.z + radius * place(row));
-    for (int row = -halfCells; row < halfCells; ++row) {
-        for (int column = -halfCells; column < halfCells; ++column) {
+    for (int row = 0; row <= Cells::cellsAcross; ++row) {
+        for (int column = 0; column <= Cells::cellsAcross; ++column) {
+            const glm::vec2 place = cells.corner(row, column);
+            mesh.positions.emplace_back(place.x, height, place.y);
+        }
+    }
+    for (int row = 0; row < Cells::cellsAcross; ++row) {
+        for (int column = 0; column < Cells::cellsAcross; ++column) {
             // Cells wholly outside the disc are faded away anyway.
-            const float nearX = std::min(std::abs(place(column)), std::abs(place(column + 1)));
-            const float nearZ = std::min(std::abs(place(row)), std::abs(place(row + 1)));
-            if (nearX * nearX + nearZ * nearZ > 1.0F) continue;
-            const auto a = static_cast<std::uint32_t>((row + halfCells) * (2 * halfCells + 1) + column + halfCells);
-            const std::uint32_t c = a + 2 * halfCells + 2;
-            const std::uint32_t b = a + 1;
-            const std::uint32_t d = c - 1;
-            Bounds cell;
-            for (const std::uint32_t corner : {a, b, c, d}) cell.include(box.toLight * mesh.positions[corner]);
-            bool shaded = std::any_of(footprints.begin(), footprints.end(), [&](const Footprint& footprint) {
-                return overlap(cell.low, cell.high, footprint.low, footprint.high);
-            });
-            if (occlusion) {
-                const glm::vec3 low = mesh.positions[a];
-                const glm::vec3 high = mesh.positions[c];
-                shaded = shaded || overlap({low.x, low.z}, {high.x, high.z}, occlusion->low, occlusion->high);
-            }
-            std::vector<std::uint32_t>& triangles = shaded ? mesh.shaded : mesh.open;
+            const glm::vec2 low = cells.corner(row, column) - glm::vec2(middle.x, middle.z);
+            const glm::vec2 high = cells.corner(row + 1, column + 1) - glm::vec2(middle.x, middle.z);
+            const glm::vec2 nearest = glm::min(glm::abs(low), glm::abs(high));
+            if (glm::dot(nearest, nearest) > radius * radius) continue;
+            const auto a = static_cast<std::uint32_t>(row * (Cells::cellsAcross + 1) + column);
+            const std::uint32_t b = a + 1, d = a + Cells::cellsAcross + 1, c = d + 1;
+            const Light light = cells.light(row, column);
+            std::vector<std::uint32_t>& triangles = light == Light::shaded     ? mesh.shaded
+                                                    : light == Light::darkened ? mesh.darkened
+                                                                               : mesh.open;
             triangles.insert(triangles.end(), {a, d, c, a, c, b});
         }
     }

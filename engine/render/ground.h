@@ -14,11 +14,13 @@ namespace taut::render {
 
 struct GroundMesh {
     std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> shaded;  // triangles that shadow or occlusion may reach
-    std::vector<std::uint32_t> open;    // triangles in full light
+    std::vector<std::uint32_t> shaded;    // triangles that a shadow may reach
+    std::vector<std::uint32_t> darkened;  // others from which something may hide a part of the sky
+    std::vector<std::uint32_t> open;      // triangles in full light
 };
 
-// The disc of `radius` [m] around the camera's target, fine in the middle, coarse outside.
+// The disc of `radius` [m] around the camera's target, fine in the middle, coarse outside. `casters` are boxes around
+// all that throws a shadow, the smaller the better.
 GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightBox& box,
                       std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion);
 

@@ -1,42 +1,108 @@
 #include "taut/render/ground_pass.h"
 
+#include <cstring>
 #include <vector>
 
 #include "taut/render/camera_axes.h"
+#include "taut/render/edge_pass.h"
 
 namespace taut::render {
 
-GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders)
+GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill)
     : gl_(&gl),
-      shaded_(shaders.program("ground.vert", "ground.frag", {"SHADED"})),
+      keepsStill_(keepsStill),
+      shaded_(shaders.program("ground.vert", "ground.frag", {"SHADED", "DARKENED"})),
+      darkened_(shaders.program("ground.vert", "ground.frag", {"DARKENED"})),
       open_(shaders.program("ground.vert", "ground.frag")),
+      background_(shaders.program("background.vert", "background.frag")),
       layout_(gl, GlKind::vertexArray),
       vertices_(gl, GlKind::buffer),
-      indices_(gl, GlKind::buffer) {}
+      indices_(gl, GlKind::buffer),
+      empty_(gl, GlKind::vertexArray) {}
 
-void GroundPass::draw(const view::FrameView& view, const LightBox& box, std::span<const Bounds> casters,
-                      const std::optional<OcclusionArea>& occlusion) {
-    const GroundMesh mesh = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, box, casters,
-                                       view.light.softness, occlusion);
-    gl_->BindVertexArray(layout_.id());
-    gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
-    gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.positions.size() * sizeof(glm::vec3)),
-                    mesh.positions.data(), GL_STREAM_DRAW);
-    gl_->EnableVertexAttribArray(0);
-    gl_->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-    gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+bool GroundPass::Still::operator==(const Still& other) const {
+    return groundHeight == other.groundHeight && std::memcmp(&block, &other.block, sizeof(block)) == 0;
+}
+
+void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, const LightBox& box,
+                       std::span<const Bounds> casters, const std::optional<OcclusionArea>& occlusion,
+                       Targets& targets) {
+    mesh_ = {};
+    if (view.ground) {
+        mesh_ = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, box, casters,
+                           view.light.softness, occlusion);
+        gl_->BindVertexArray(layout_.id());
+        gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
+        gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh_.positions.size() * sizeof(glm::vec3)),
+                        mesh_.positions.data(), GL_STREAM_DRAW);
+        gl_->EnableVertexAttribArray(0);
+        gl_->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+    }
+
+    // Where the maps lie is nothing that the open ground knows.
+    Still now{block, view.ground ? std::optional(view.ground->height) : std::nullopt};
+    now.block.toMap = glm::mat4(0.0F);
+    now.block.mapSize = now.block.occlusionArea = glm::vec4(0.0F);
+    const bool isStill = keepsStill_ && !view.showMarks && before_ == now;
+    before_ = now;
+    if (isStill && !isKept_) {
+        std::vector<std::uint32_t> all = mesh_.open;
+        all.insert(all.end(), mesh_.darkened.begin(), mesh_.darkened.end());
+        all.insert(all.end(), mesh_.shaded.begin(), mesh_.shaded.end());
+        targets.bindShading();
+        gl_->DepthMask(GL_TRUE);
+        gl_->Clear(GL_DEPTH_BUFFER_BIT);
+        drawOpen(block.viewProjection, all);
+        keptColours_ = targets.colours();
+        keptDepths_ = targets.depths({0, 0, targets.size().x, targets.size().y});
+    }
+    isKept_ = isStill;
+}
+
+void GroundPass::draw(const glm::mat4& projection) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
+    drawCells(shaded_, mesh_.shaded);
+    drawCells(darkened_, mesh_.darkened);
+    if (!isKept_) drawOpen(projection, mesh_.open);
+}
+
+void GroundPass::fill(const PixelBox& part, std::span<float> depths, std::span<std::uint32_t> colours,
+                      int width) const {
+    if (!isKept_) return;
+    for (std::size_t i = 0; i < colours.size(); ++i)
+        colours[i] = colours[i] >> 24 == nothingMark ? keptColours_[i] : colours[i];
+    for (int y = 0; y < part.height; ++y) {
+        const auto first = static_cast<std::size_t>((y + part.y) * width + part.x);
+        float* depth = depths.data() + static_cast<std::ptrdiff_t>(y) * part.width;
+        for (std::size_t x = 0; x < static_cast<std::size_t>(part.width); ++x) {
+            const float kept = keptDepths_[first + x];
+            colours[first + x] = kept < depth[x] ? keptColours_[first + x] : colours[first + x];
+            depth[x] = kept < depth[x] ? kept : depth[x];
+        }
+    }
+}
+
+void GroundPass::drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles) {
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->DepthFunc(GL_LESS);
+    drawCells(open_, triangles);
+    gl_->DepthFunc(GL_LEQUAL);
+    gl_->BindVertexArray(empty_.id());
+    background_.use();
+    background_.set("toWorld", glm::inverse(projection));
+    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void GroundPass::drawCells(const Program& program, const std::vector<std::uint32_t>& triangles) {
+    if (triangles.empty()) return;
     gl_->Disable(GL_CULL_FACE);
-    const auto drawCells = [&](const Program& program, const std::vector<std::uint32_t>& triangles) {
-        if (triangles.empty()) return;
-        program.use();
-        gl_->BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(std::uint32_t)),
-                        triangles.data(), GL_STREAM_DRAW);
-        gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(triangles.size()), GL_UNSIGNED_INT, nullptr);
-    };
-    drawCells(shaded_, mesh.shaded);
-    drawCells(open_, mesh.open);
+    gl_->BindVertexArray(layout_.id());
+    gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+    program.use();
+    gl_->BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(std::uint32_t)),
+                    triangles.data(), GL_STREAM_DRAW);
+    gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(triangles.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace taut::render

@@ -1,26 +1,55 @@
-// Draws the floor, with shadows only where they can fall.
+// Draws the floor, with shadows only where they can fall, and the sky. What lies in the open and does not change under a
+// still camera is drawn once and kept.
 #pragma once
 
 #include <optional>
 #include <span>
 
+#include "taut/render/frame_block.h"
 #include "taut/render/ground.h"
 #include "taut/render/program.h"
+#include "taut/render/targets.h"
 
 namespace taut::render {
 
 class GroundPass {
   public:
-    GroundPass(const Gl& gl, const ShaderFolder& shaders);
+    GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill);
 
-    // Expects a view with a ground; into the bound target, with the frame block and the maps in place.
-    void draw(const view::FrameView& view, const LightBox& box, std::span<const Bounds> casters,
-              const std::optional<OcclusionArea>& occlusion);
+    // Before anything else of a picture is drawn. `block` is what all shaders know of it.
+    void begin(const view::FrameView& view, const FrameBlock& block, const LightBox& box,
+               std::span<const Bounds> casters, const std::optional<OcclusionArea>& occlusion, Targets& targets);
+
+    // Behind what has been drawn into the bound target, with the frame block and the maps in place.
+    // Leaves out what fill() puts in.
+    void draw(const glm::mat4& projection);
+
+    // Puts what has been kept where nothing has been drawn, and in front of what lies behind it. `depths` are those of
+    // the part in which there are things, `colours` those of the picture; rows from below.
+    void fill(const PixelBox& part, std::span<float> depths, std::span<std::uint32_t> colours, int width) const;
+
+    bool fills() const { return isKept_; }
 
   private:
+    // All that ground and sky in the open depend on.
+    struct Still {
+        FrameBlock block{};
+        std::optional<float> groundHeight;
+        bool operator==(const Still& other) const;
+    };
+
+    void drawCells(const Program& program, const std::vector<std::uint32_t>& triangles);
+    void drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles);
+
     const Gl* gl_;
-    Program shaded_, open_;
-    GlObject layout_, vertices_, indices_;
+    bool keepsStill_;
+    Program shaded_, darkened_, open_, background_;
+    GlObject layout_, vertices_, indices_, empty_;
+    GroundMesh mesh_;
+    std::optional<Still> before_;  // of the picture before
+    bool isKept_ = false;          // what follows is that of the same camera
+    std::vector<std::uint32_t> keptColours_;  // (pixels) rows from below
+    std::vector<float> keptDepths_;           // (pixels) 1 where the sky is
 };
 
 }  // namespace taut::render

@@ -1,5 +1,7 @@
 #include "taut/render/mesh_cache.h"
 
+#include <algorithm>
+
 #include "taut/core/error.h"
 
 namespace taut::render {
@@ -13,6 +15,22 @@ const void* offset(std::size_t bytes) {
 template <class T>
 GLsizeiptr byteCount(const std::vector<T>& values) {
     return static_cast<GLsizeiptr>(values.size() * sizeof(T));
+}
+
+// Boxes around so many triangles each: neighbours in the list are mostly neighbours in space.
+std::vector<Bounds> piecesOf(const view::Geometry& geometry, const view::Topology& topology) {
+    constexpr std::size_t cornersAPiece = 3 * 32;
+    std::vector<Bounds> pieces;
+    const std::vector<std::uint32_t>& corners = topology.triangles;
+    for (std::size_t first = 0; first < corners.size(); first += cornersAPiece) {
+        glm::vec3 low = geometry.positions[corners[first]], high = low;
+        for (std::size_t i = first; i < std::min(first + cornersAPiece, corners.size()); ++i) {
+            low = glm::min(low, geometry.positions[corners[i]]);
+            high = glm::max(high, geometry.positions[corners[i]]);
+        }
+        pieces.push_back({low, high, false});
+    }
+    return pieces;
 }
 
 }  // namespace
@@ -38,10 +56,10 @@ void MeshCache::forgetExpired() {
     std::erase_if(topologies_, [](const auto& entry) { return entry.second.owner.expired(); });
 }
 
-const MeshCache::GeometryEntry& MeshCache::upload(const std::shared_ptr<const view::Geometry>& geometry) {
+MeshCache::GeometryEntry& MeshCache::upload(const std::shared_ptr<const view::Geometry>& geometry) {
     const auto known = geometries_.find(geometry.get());
     if (known != geometries_.end()) return known->second;
-    GeometryEntry entry{geometry, takeBuffer(), {}};
+    GeometryEntry entry{geometry, takeBuffer(), {}, {}, {}};
     const GLsizeiptr half = byteCount(geometry->positions);
     gl_->BindBuffer(GL_ARRAY_BUFFER, entry.vertices.id());
     gl_->BufferData(GL_ARRAY_BUFFER, 2 * half, nullptr, GL_DYNAMIC_DRAW);
@@ -73,10 +91,16 @@ std::vector<DrawItem> MeshCache::items(const std::vector<view::Surface>& surface
         TAUT_EXPECTS(surface.geometry->positions.size() == surface.geometry->normals.size());
         if (surface.topology->triangles.empty()) continue;
         const TopologyEntry& topology = upload(surface.topology);
-        const GeometryEntry& geometry = upload(surface.geometry);
+        GeometryEntry& geometry = upload(surface.geometry);
+        if (geometry.topology.lock() != surface.topology) {
+            geometry.topology = surface.topology;
+            geometry.pieces = piecesOf(*surface.geometry, *surface.topology);
+        }
+        std::vector<Bounds> pieces;
+        for (const Bounds& piece : geometry.pieces) pieces.push_back(piece.transformed(surface.transform));
         result.push_back({&surface, geometry.vertices.id(), topology.corners.id(), topology.indices.id(),
                           static_cast<GLsizei>(surface.topology->triangles.size()), surface.geometry->positions.size(),
-                          geometry.bounds.transformed(surface.transform)});
+                          geometry.bounds.transformed(surface.transform), std::move(pieces)});
     }
     return result;
 }

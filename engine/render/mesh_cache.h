@@ -20,6 +20,7 @@ struct DrawItem {
     GLsizei indexCount = 0;
     std::size_t vertexCount = 0;
     Bounds bounds;  // in the world
+    std::vector<Bounds> pieces;  // in the world, of so many triangles each that their shape shows
 };
 
 class MeshCache {
@@ -42,12 +43,14 @@ class MeshCache {
         std::weak_ptr<const view::Geometry> owner;
         GlObject vertices;
         Bounds bounds;
+        std::weak_ptr<const view::Topology> topology;  // whose triangles the pieces are made of
+        std::vector<Bounds> pieces;
     };
     struct TopologyEntry {
         std::weak_ptr<const view::Topology> owner;
         GlObject corners, indices;
     };
-    const GeometryEntry& upload(const std::shared_ptr<const view::Geometry>& geometry);
+    GeometryEntry& upload(const std::shared_ptr<const view::Geometry>& geometry);
     const TopologyEntry& upload(const std::shared_ptr<const view::Topology>& topology);
     void forgetExpired();
     GlObject takeBuffer();

@@ -7,8 +7,6 @@ namespace taut::render {
 
 namespace {
 
-constexpr int edge = 128;        // [texels]
-constexpr float ceiling = 1.5F;  // [m] higher things hide too little of the sky to be seen as a stain
 constexpr float margin = 0.8F;   // [m] how far the darkening reaches around things
 constexpr float nothing = 1e4F;  // [m] height where there is no surface
 
@@ -17,7 +15,7 @@ constexpr float nothing = 1e4F;  // [m] height where there is no surface
 std::optional<OcclusionArea> occlusionArea(std::span<const Bounds> casters, float groundHeight) {
     Bounds all;
     for (const Bounds& caster : casters) {
-        if (caster.empty || caster.low.y > groundHeight + ceiling || caster.high.y < groundHeight) continue;
+        if (caster.empty || caster.low.y > groundHeight + occlusionCeiling || caster.high.y < groundHeight) continue;
         all.include(caster.low);
         all.include(caster.high);
     }
@@ -38,9 +36,9 @@ OcclusionPass::OcclusionPass(const Gl& gl, const ShaderFolder& shaders)
       heights_(shaders.program("heights.vert", "heights.frag")),
       gather_(shaders.program("screen.vert", "occlusion.frag")),
       blur_(shaders.program("screen.vert", "occlusion_blur.frag")),
-      columns_(gl, edge, GL_RG32F, GL_NEAREST, nothing),
-      rough_(gl, edge, GL_R16F, GL_NEAREST, 0.0F),
-      map_(gl, edge, GL_R16F, GL_LINEAR, 0.0F),
+      columns_(gl, occlusionEdge, GL_RG32F, GL_NEAREST, nothing),
+      rough_(gl, occlusionEdge, GL_R16F, GL_NEAREST, 0.0F),
+      map_(gl, occlusionEdge, GL_R16F, GL_LINEAR, 0.0F),
       empty_(gl, GlKind::vertexArray) {}
 
 void OcclusionPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, const OcclusionArea& area,
@@ -58,7 +56,7 @@ void OcclusionPass::draw(std::span<const DrawItem> items, const MeshCache& meshe
     heights_.set("area", glm::vec4(area.low, size));
     heights_.set("groundHeight", groundHeight);
     for (const DrawItem& item : items) {
-        if (item.bounds.low.y > groundHeight + ceiling) continue;
+        if (item.bounds.low.y > groundHeight + occlusionCeiling) continue;
         heights_.set("transform", item.surface->transform);
         meshes.drawShape(item);
     }
@@ -70,7 +68,7 @@ void OcclusionPass::draw(std::span<const DrawItem> items, const MeshCache& meshe
     gl_->ActiveTexture(GL_TEXTURE0 + occlusionUnit);
     gl_->BindTexture(GL_TEXTURE_2D, columns_.texture.id());
     gather_.use();
-    gather_.set("texel", size / static_cast<float>(edge));
+    gather_.set("texel", size / static_cast<float>(occlusionEdge));
     gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 
     map_.bind(*gl_);

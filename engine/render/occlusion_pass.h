@@ -16,6 +16,14 @@ struct OcclusionArea {
     glm::vec2 high{1.0F};  // [m]
 };
 
+inline constexpr int occlusionEdge = 128;         // [texels] of the map
+inline constexpr float occlusionCeiling = 1.5F;  // [m] higher things hide too little of the sky to be seen as a stain
+
+// How far things darken the ground around them [m], along x and z: as far as a texel looks, is blurred and is filtered.
+inline glm::vec2 occlusionReach(const OcclusionArea& area) {
+    return 18.0F / occlusionEdge * (area.high - area.low);
+}
+
 // Around everything that is low enough to matter; none if nothing is.
 std::optional<OcclusionArea> occlusionArea(std::span<const Bounds> casters, float groundHeight);
 

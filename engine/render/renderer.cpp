@@ -101,12 +101,10 @@ struct RendererParts {
           shadow(gl, shaders, options.shadowSize),
           occlusion(gl, shaders),
           surfaces(gl, shaders),
-          ground(gl, shaders),
+          ground(gl, shaders, options.keepsStill),
           marks(gl, shaders),
           labels(options.font),
-          background(shaders.program("background.vert", "background.frag")),
-          frameBlock(gl, GlKind::buffer),
-          empty(gl, GlKind::vertexArray) {}
+          frameBlock(gl, GlKind::buffer) {}
 
     ShaderFolder shaders;
     Targets targets;
@@ -117,9 +115,7 @@ struct RendererParts {
     GroundPass ground;
     MarksPass marks;
     LabelPass labels;
-    Program background;
     GlObject frameBlock;
-    GlObject empty;
 };
 
 struct Renderer::Impl {
@@ -160,7 +156,11 @@ image::Image Renderer::draw(const view::FrameView& view) {
     std::vector<DrawItem> items = parts.meshes.items(view.surfaces);
     sortByDistance(items, view.camera.eye);
     std::vector<Bounds> casters;
-    for (const DrawItem& item : items) casters.push_back(item.bounds);
+    std::vector<Bounds> pieces;
+    for (const DrawItem& item : items) {
+        casters.push_back(item.bounds);
+        pieces.insert(pieces.end(), item.pieces.begin(), item.pieces.end());
+    }
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
     const LightBox box = lightBox(view, casters, aspect, options.shadowSize);
     std::optional<OcclusionArea> occlusion;
@@ -181,32 +181,31 @@ image::Image Renderer::draw(const view::FrameView& view) {
     gl.BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts.frameBlock.id());
     gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
     const PixelBox part = pixelBox(items, projection, options.width, options.height);
+    parts.ground.begin(view, block, box, pieces, occlusion, parts.targets);
     parts.targets.bindSurfaces();
     gl.DepthMask(GL_TRUE);
     gl.Clear(GL_DEPTH_BUFFER_BIT);
     parts.surfaces.draw(items, parts.meshes);
     passDone("surfaces");
     parts.targets.bindShading();
+    if (parts.ground.fills()) {
+        gl.ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+        gl.Clear(GL_COLOR_BUFFER_BIT);
+    }
     parts.shadow.bindMaps();
     parts.occlusion.bindMap();
     parts.surfaces.light(view.camera, part, parts.targets.size());
     passDone("light");
-    if (view.ground) parts.ground.draw(view, box, casters, occlusion);
+    parts.ground.draw(projection);
     passDone("ground");
 
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_LEQUAL);
-    gl.BindVertexArray(parts.empty.id());
-    parts.background.use();
-    parts.background.set("toWorld", glm::inverse(projection));
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
-
-    passDone("background");
     std::vector<std::uint32_t> colours = parts.targets.colours();
+    std::vector<float> depths = parts.targets.depths(part);
     passDone("read");
+    parts.ground.fill(part, depths, colours, options.width);
     if (options.samples == 4) {
         const EdgeView edges{projection, seenSideOf(view), parts.targets.size()};
-        smoothEdges(items, edges, {part, partOf(colours, options.width, part), parts.targets.depths(part)}, colours);
+        smoothEdges(items, edges, {part, partOf(colours, options.width, part), depths}, colours);
     }
     passDone("edges");
     if (view.showMarks) {

@@ -21,6 +21,7 @@ struct RendererOptions {
     int samples = 4;        // of anti-aliasing, for each pixel
     int shadowSize = 2048;  // [texels] edge of the shadow map; a multiple of 128
     bool shadows = true;    // false: to see what a picture without them looks like
+    bool keepsStill = true;  // false: nothing is kept from picture to picture, to compare
     Backend backend = Backend::osmesa;
     std::filesystem::path shaders;  // folder of the shader files
     std::filesystem::path font;     // TrueType file for labels; empty: the one that Debian installs

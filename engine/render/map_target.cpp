@@ -8,7 +8,7 @@ namespace taut::render {
 
 MapTarget::MapTarget(const Gl& gl, int edge, GLenum format, GLenum filter, float border)
     : texture(gl, GlKind::texture), target(gl, GlKind::framebuffer), size(edge) {
-    const bool isDepth = format == GL_DEPTH_COMPONENT32F;
+    const bool isDepth = format == GL_DEPTH_COMPONENT32F || format == GL_DEPTH_COMPONENT16;
     const GLint filterValue = static_cast<GLint>(filter);
     const std::array<float, 4> colour{border, border, border, border};
     gl.BindTexture(GL_TEXTURE_2D, texture.id());

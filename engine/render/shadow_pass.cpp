@@ -21,6 +21,11 @@ int checkedSize(const Gl& gl, int texels) {
     return texels;
 }
 
+// Half a texel keeps surfaces from shading themselves: a step of 16 bits is a sixteenth of that, or less.
+GLenum depthFormat(int texels) {
+    return texels <= 2048 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT32F;
+}
+
 }  // namespace
 
 ShadowPass::ShadowPass(const Gl& gl, const ShaderFolder& shaders, int texels)
@@ -29,7 +34,7 @@ ShadowPass::ShadowPass(const Gl& gl, const ShaderFolder& shaders, int texels)
       reduce_(shaders.program("screen.vert", "shadow_reduce.frag",
                               {"BLOCK " + std::to_string(checkedSize(gl, texels) / boundsEdge)})),
       spread_(shaders.program("screen.vert", "shadow_spread.frag")),
-      map_(gl, texels, GL_DEPTH_COMPONENT32F, GL_NEAREST, 1.0F),
+      map_(gl, texels, depthFormat(texels), GL_NEAREST, 1.0F),
       blocks_(gl, boundsEdge, GL_RG32F, GL_NEAREST, 1.0F),
       neighbourhood_(gl, boundsEdge, GL_RG32F, GL_LINEAR, 1.0F),
       comparing_(gl, GlKind::sampler),

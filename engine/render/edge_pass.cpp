@@ -25,7 +25,9 @@ struct Lights {
     FourFloats red, green, blue;
 
     explicit Lights(std::uint32_t colour)
-        : red(fourTimes(square(colour))), green(fourTimes(square(colour >> 8))), blue(fourTimes(square(colour >> 16))) {}
+        : red(fourTimes(square(colour))),
+          green(fourTimes(square(colour >> 8))),
+          blue(fourTimes(square(colour >> 16))) {}
     static float square(std::uint32_t colour) {
         const auto byte = static_cast<float>(colour & 255U);
         return byte * byte;

@@ -20,8 +20,8 @@ inline constexpr std::uint32_t nothingMark = 255;  // where nothing has been dra
 // The part of a picture in which the items can be seen; all of it if one of them reaches behind the camera.
 PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height);
 
-// Smooths the part of a picture (rows from below, as wide as view.size says) that shows the items. `shaded` is that part
-// as it was drawn.
+// Smooths the part of a picture (rows from below, as wide as view.size says) that shows the items. `shaded` is that
+// part as it was drawn.
 void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const ShadedPixels& shaded,
                  std::span<std::uint32_t> picture);
 

@@ -88,7 +88,8 @@ void EdgeTriangles::addItem(const DrawItem& item, std::uint32_t mark, const Edge
             addTriangle({places[a], places[b], places[c]}, surface.twoSided, mark);
             continue;
         }
-        std::vector<Corner> polygon = cut({all[a], all[b], all[c]}, [](const Corner& p) { return p.clip.z + p.clip.w; });
+        std::vector<Corner> polygon = cut(
+            {all[a], all[b], all[c]}, [](const Corner& p) { return p.clip.z + p.clip.w; });
         polygon = cut(polygon, [](const Corner& p) { return p.before; });
         for (std::size_t i = 2; i < polygon.size(); ++i) {
             addTriangle({onPicture(polygon[0].clip, view.size), onPicture(polygon[i - 1].clip, view.size),
@@ -115,8 +116,8 @@ void EdgeTriangles::addTriangle(const std::array<glm::dvec3, 3>& places, bool tw
     const auto number = static_cast<std::uint32_t>(triangles_.size());
     const std::size_t before = pairs_.size();
     for (int row = (triangle.low - part_.y) / edgeTileSize; row <= (triangle.high - part_.y) / edgeTileSize; ++row) {
-        for (int column = (triangle.left - part_.x) / edgeTileSize;
-             column <= (triangle.right - part_.x) / edgeTileSize; ++column) {
+        for (int column = (triangle.left - part_.x) / edgeTileSize; column <= (triangle.right - part_.x) / edgeTileSize;
+             ++column) {
             const std::int32_t tile = tileAt_[static_cast<std::size_t>(row * columns_ + column)];
             if (tile >= 0) pairs_.push_back({static_cast<std::uint32_t>(tile), number});
         }
@@ -134,7 +135,8 @@ void EdgeTriangles::addTriangle(const std::array<glm::dvec3, 3>& places, bool tw
     const double rise = places[1].z - places[0].z, riseOther = places[2].z - places[0].z;
     triangle.depthAlong = (rise * ac.y - riseOther * ab.y) / area;
     triangle.depthUp = (riseOther * ab.x - rise * ac.x) / area;
-    triangle.depth = places[0].z - triangle.depthAlong * triangle.corners[0].x - triangle.depthUp * triangle.corners[0].y;
+    triangle.depth =
+        places[0].z - triangle.depthAlong * triangle.corners[0].x - triangle.depthUp * triangle.corners[0].y;
     if (area < 0.0) std::swap(triangle.corners[1], triangle.corners[2]);
     triangle.mark = mark;
     triangles_.push_back(triangle);

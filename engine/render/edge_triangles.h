@@ -15,9 +15,9 @@ namespace taut::render {
 
 // Counter-clockwise, seen from any side that is drawn.
 struct EdgeTriangle {
-    std::array<glm::dvec2, 3> corners;       // [pixels] on a raster of 1/256, as GL has them
-    double depth = 0.0;                      // at the picture's corner, 0 … 1 within what is seen
-    double depthAlong = 0.0, depthUp = 0.0;  // [1 / pixel]
+    std::array<glm::dvec2, 3> corners;           // [pixels] on a raster of 1/256, as GL has them
+    double depth = 0.0;                          // at the picture's corner, 0 … 1 within what is seen
+    double depthAlong = 0.0, depthUp = 0.0;      // [1 / pixel]
     int left = 0, low = 0, right = 0, high = 0;  // [pixels] the first and the last that it may cover
     std::uint32_t mark = 0;                      // 1 … 255
 };

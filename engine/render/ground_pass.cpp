@@ -29,8 +29,8 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
                        Targets& targets) {
     mesh_ = {};
     if (view.ground) {
-        mesh_ = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, box, casters,
-                           view.light.softness, occlusion);
+        mesh_ = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, box, casters, view.light.softness,
+                           occlusion);
         gl_->BindVertexArray(layout_.id());
         gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
         gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh_.positions.size() * sizeof(glm::vec3)),

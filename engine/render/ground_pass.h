@@ -1,5 +1,5 @@
-// Draws the floor, with shadows only where they can fall, and the sky. What lies in the open and does not change under a
-// still camera is drawn once and kept.
+// Draws the floor, with shadows only where they can fall, and the sky. What lies in the open and does not change under
+// a still camera is drawn once and kept.
 #pragma once
 
 #include <optional>
@@ -46,8 +46,8 @@ class GroundPass {
     Program shaded_, darkened_, open_, background_;
     GlObject layout_, vertices_, indices_, empty_;
     GroundMesh mesh_;
-    std::optional<Still> before_;  // of the picture before
-    bool isKept_ = false;          // what follows is that of the same camera
+    std::optional<Still> before_;             // of the picture before
+    bool isKept_ = false;                     // what follows is that of the same camera
     std::vector<std::uint32_t> keptColours_;  // (pixels) rows from below
     std::vector<float> keptDepths_;           // (pixels) 1 where the sky is
 };

@@ -77,14 +77,14 @@ LightBox lightBox(const view::FrameView& view, std::span<const Bounds> casters, 
         high[axis] = std::max(std::min(high[axis], seen.high[axis]), low[axis]);
     }
 
-    // Sizes in steps, the middle on whole texels: texels then stay where they are while things move.
+    // Sizes in steps, the middle on a raster of whole texels within the 6 % to spare: the box stays where it is while
+    // things move a little, and texels do when it moves.
     glm::vec3 middle = 0.5F * (low + high);
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
         box.size[axis] = steppedSize(1.06F * (high[axis] - low[axis]));
-        const float texel = box.size[axis] / static_cast<float>(texels);
-        middle[axis] = std::round(middle[axis] / texel) * texel;
+        const float step = box.size[axis] * static_cast<float>(texels / 32) / static_cast<float>(texels);
+        middle[axis] = std::round(middle[axis] / step) * step;
     }
-    box.size.z = steppedSize(1.06F * (high.z - low.z));
 
     glm::mat4 toMap(1.0F);
     const glm::vec3 scale(1.0F / box.size.x, 1.0F / box.size.y, -1.0F / box.size.z);

@@ -59,7 +59,7 @@ void MeshCache::forgetExpired() {
 MeshCache::GeometryEntry& MeshCache::upload(const std::shared_ptr<const view::Geometry>& geometry) {
     const auto known = geometries_.find(geometry.get());
     if (known != geometries_.end()) return known->second;
-    GeometryEntry entry{geometry, takeBuffer(), {}, {}, {}};
+    GeometryEntry entry{geometry, takeBuffer(), {}, ++uploads_, {}, {}};
     const GLsizeiptr half = byteCount(geometry->positions);
     gl_->BindBuffer(GL_ARRAY_BUFFER, entry.vertices.id());
     gl_->BufferData(GL_ARRAY_BUFFER, 2 * half, nullptr, GL_DYNAMIC_DRAW);
@@ -73,7 +73,7 @@ const MeshCache::TopologyEntry& MeshCache::upload(const std::shared_ptr<const vi
     const auto known = topologies_.find(topology.get());
     if (known != topologies_.end()) return known->second;
     for (const std::uint32_t corner : topology->triangles) TAUT_EXPECTS(corner < topology->uv.size());
-    TopologyEntry entry{topology, {*gl_, GlKind::buffer}, {*gl_, GlKind::buffer}};
+    TopologyEntry entry{topology, {*gl_, GlKind::buffer}, {*gl_, GlKind::buffer}, ++uploads_};
     gl_->BindBuffer(GL_ARRAY_BUFFER, entry.corners.id());
     gl_->BufferData(GL_ARRAY_BUFFER, byteCount(topology->uv), topology->uv.data(), GL_STATIC_DRAW);
     gl_->BindBuffer(GL_ARRAY_BUFFER, entry.indices.id());
@@ -85,6 +85,8 @@ std::vector<DrawItem> MeshCache::items(const std::vector<view::Surface>& surface
     forgetExpired();
     std::vector<DrawItem> result;
     result.reserve(surfaces.size());
+    std::vector<Shape> shapes;
+    shapes.reserve(surfaces.size());
     for (const view::Surface& surface : surfaces) {
         TAUT_EXPECTS(surface.topology != nullptr && surface.geometry != nullptr && surface.finish != nullptr);
         TAUT_EXPECTS(surface.geometry->positions.size() == surface.topology->uv.size());
@@ -98,10 +100,20 @@ std::vector<DrawItem> MeshCache::items(const std::vector<view::Surface>& surface
         }
         std::vector<Bounds> pieces;
         for (const Bounds& piece : geometry.pieces) pieces.push_back(piece.transformed(surface.transform));
-        result.push_back({&surface, geometry.vertices.id(), topology.corners.id(), topology.indices.id(),
-                          static_cast<GLsizei>(surface.topology->triangles.size()), surface.geometry->positions.size(),
-                          geometry.bounds.transformed(surface.transform), std::move(pieces)});
+        result.push_back({&surface,
+                          geometry.vertices.id(),
+                          topology.corners.id(),
+                          topology.indices.id(),
+                          static_cast<GLsizei>(surface.topology->triangles.size()),
+                          surface.geometry->positions.size(),
+                          geometry.bounds.transformed(surface.transform),
+                          std::move(pieces),
+                          {geometry.number, topology.number, surface.transform, surface.twoSided}});
+        const std::size_t number = shapes.size();
+        shapes.push_back(result.back().shape);
+        result.back().isStill = number < before_.size() && before_[number] == shapes.back();
     }
+    before_ = std::move(shapes);
     return result;
 }
 

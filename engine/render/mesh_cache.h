@@ -1,6 +1,7 @@
 // Meshes in GL buffers, uploaded once for each pointer and given back when the pointer's owner is gone.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -11,6 +12,14 @@
 
 namespace taut::render {
 
+// Where which triangles are: what is the same in two pictures looks the same from the light and from above.
+struct Shape {
+    std::uint64_t geometry = 0, topology = 0;  // numbers of uploads, each used once
+    glm::mat4 transform{1.0F};
+    bool twoSided = false;
+    bool operator==(const Shape&) const = default;
+};
+
 // A surface ready to be drawn.
 struct DrawItem {
     const view::Surface* surface = nullptr;
@@ -19,8 +28,10 @@ struct DrawItem {
     GLuint indices = 0;   // buffer
     GLsizei indexCount = 0;
     std::size_t vertexCount = 0;
-    Bounds bounds;  // in the world
+    Bounds bounds;               // in the world
     std::vector<Bounds> pieces;  // in the world, of so many triangles each that their shape shows
+    Shape shape;
+    bool isStill = false;  // as in the call before
 };
 
 class MeshCache {
@@ -43,12 +54,14 @@ class MeshCache {
         std::weak_ptr<const view::Geometry> owner;
         GlObject vertices;
         Bounds bounds;
+        std::uint64_t number = 0;
         std::weak_ptr<const view::Topology> topology;  // whose triangles the pieces are made of
         std::vector<Bounds> pieces;
     };
     struct TopologyEntry {
         std::weak_ptr<const view::Topology> owner;
         GlObject corners, indices;
+        std::uint64_t number = 0;
     };
     GeometryEntry& upload(const std::shared_ptr<const view::Geometry>& geometry);
     const TopologyEntry& upload(const std::shared_ptr<const view::Topology>& topology);
@@ -59,6 +72,8 @@ class MeshCache {
     GlObject layout_;
     std::map<const view::Geometry*, GeometryEntry> geometries_;
     std::map<const view::Topology*, TopologyEntry> topologies_;
+    std::uint64_t uploads_ = 0;
+    std::vector<Shape> before_;    // of the surfaces of the call before
     std::vector<GlObject> spare_;  // buffers of forgotten meshes, to be filled again
 };
 

@@ -42,7 +42,15 @@ OcclusionPass::OcclusionPass(const Gl& gl, const ShaderFolder& shaders)
       empty_(gl, GlKind::vertexArray) {}
 
 void OcclusionPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, const OcclusionArea& area,
-                         float groundHeight) {
+                         float groundHeight, bool anew) {
+    std::vector<Shape> low;
+    for (const DrawItem& item : items)
+        if (item.bounds.low.y <= groundHeight + occlusionCeiling) low.push_back(item.shape);
+    if (!anew && area == area_ && groundHeight == groundHeight_ && low == low_) return;
+    area_ = area;
+    groundHeight_ = groundHeight;
+    low_ = std::move(low);
+
     // Lowest and highest surface in one go: the least of h and of -h.
     columns_.bind(*gl_);
     gl_->Disable(GL_DEPTH_TEST);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "taut/render/map_target.h"
 #include "taut/render/mesh_cache.h"
@@ -14,9 +15,10 @@ namespace taut::render {
 struct OcclusionArea {
     glm::vec2 low{0.0F};   // [m] x and z
     glm::vec2 high{1.0F};  // [m]
+    bool operator==(const OcclusionArea&) const = default;
 };
 
-inline constexpr int occlusionEdge = 128;         // [texels] of the map
+inline constexpr int occlusionEdge = 128;        // [texels] of the map
 inline constexpr float occlusionCeiling = 1.5F;  // [m] higher things hide too little of the sky to be seen as a stain
 
 // How far things darken the ground around them [m], along x and z: as far as a texel looks, is blurred and is filtered.
@@ -31,7 +33,9 @@ class OcclusionPass {
   public:
     OcclusionPass(const Gl& gl, const ShaderFolder& shaders);
 
-    void draw(std::span<const DrawItem> items, const MeshCache& meshes, const OcclusionArea& area, float groundHeight);
+    // Nothing is drawn again where nothing has moved that is low enough, unless `anew`.
+    void draw(std::span<const DrawItem> items, const MeshCache& meshes, const OcclusionArea& area, float groundHeight,
+              bool anew);
     void bindMap() const;
 
   private:
@@ -41,6 +45,9 @@ class OcclusionPass {
     MapTarget rough_;    // hidden part of the sky, 0 … 1
     MapTarget map_;      // the same, smooth
     GlObject empty_;
+    OcclusionArea area_;         // of the map as it is
+    float groundHeight_ = 0.0F;  // [m]
+    std::vector<Shape> low_;     // what the map shows
 };
 
 }  // namespace taut::render

@@ -170,9 +170,9 @@ image::Image Renderer::draw(const view::FrameView& view) {
     const std::span<const DrawItem> shadowed =
         options.shadows ? std::span<const DrawItem>(items) : std::span<const DrawItem>();
     passDone("meshes");
-    parts.shadow.draw(shadowed, parts.meshes, box);
+    parts.shadow.draw(shadowed, parts.meshes, box, !options.keepsStill);
     passDone("shadow");
-    if (occlusion) parts.occlusion.draw(items, parts.meshes, *occlusion, view.ground->height);
+    if (occlusion) parts.occlusion.draw(items, parts.meshes, *occlusion, view.ground->height, !options.keepsStill);
     passDone("occlusion");
 
     // The picture; ground and sky last, for what is hidden need not be shaded.

@@ -18,9 +18,9 @@ enum class Backend { osmesa, egl };
 struct RendererOptions {
     int width = 1280;  // [px]
     int height = 720;
-    int samples = 4;        // of anti-aliasing, for each pixel
-    int shadowSize = 2048;  // [texels] edge of the shadow map; a multiple of 128
-    bool shadows = true;    // false: to see what a picture without them looks like
+    int samples = 4;         // of anti-aliasing, for each pixel
+    int shadowSize = 2048;   // [texels] edge of the shadow map; a multiple of 128
+    bool shadows = true;     // false: to see what a picture without them looks like
     bool keepsStill = true;  // false: nothing is kept from picture to picture, to compare
     Backend backend = Backend::osmesa;
     std::filesystem::path shaders;  // folder of the shader files

@@ -49,28 +49,64 @@ ShadowPass::ShadowPass(const Gl& gl, const ShaderFolder& shaders, int texels)
     gl.SamplerParameterfv(comparing_.id(), GL_TEXTURE_BORDER_COLOR, lit.data());
 }
 
-void ShadowPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, const LightBox& box) {
-    // Casters outside the box sideways are clipped; the box holds all of them along the light.
-    map_.bind(*gl_);
+void ShadowPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, const LightBox& box, bool anew) {
+    std::vector<const DrawItem*> still, moving;
+    for (const DrawItem& item : items) (item.isStill && !anew ? still : moving).push_back(&item);
+    if (keep(still, meshes, box)) {
+        gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, still_->target.id());
+        gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, map_.target.id());
+        gl_->BlitFramebuffer(0, 0, map_.size, map_.size, 0, 0, map_.size, map_.size, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+        map_.bind(*gl_);
+    } else {
+        map_.bind(*gl_);
+        gl_->DepthMask(GL_TRUE);
+        gl_->ClearDepth(1.0);
+        gl_->Clear(GL_DEPTH_BUFFER_BIT);
+        drawDepth(still, meshes, box);
+    }
+    drawDepth(moving, meshes, box);
+    drawBounds();
+}
+
+// Whether still_ holds these items. It is drawn when they are met a second time.
+bool ShadowPass::keep(std::span<const DrawItem* const> still, const MeshCache& meshes, const LightBox& box) {
+    std::vector<Shape> shapes;
+    for (const DrawItem* item : still) shapes.push_back(item->shape);
+    const bool isSame = !shapes.empty() && box.toMap == stillBox_ && shapes == stillShapes_;
+    if (isSame && !isKept_) {
+        if (!still_) still_.emplace(*gl_, map_.size, depthFormat(map_.size), GL_NEAREST, 1.0F);
+        still_->bind(*gl_);
+        gl_->DepthMask(GL_TRUE);
+        gl_->ClearDepth(1.0);
+        gl_->Clear(GL_DEPTH_BUFFER_BIT);
+        drawDepth(still, meshes, box);
+    }
+    stillBox_ = box.toMap;
+    stillShapes_ = std::move(shapes);
+    isKept_ = isSame;
+    return isKept_;
+}
+
+// Casters outside the box sideways are clipped; the box holds all of them along the light.
+void ShadowPass::drawDepth(std::span<const DrawItem* const> items, const MeshCache& meshes, const LightBox& box) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
     gl_->DepthMask(GL_TRUE);
-    gl_->ClearDepth(1.0);
-    gl_->Clear(GL_DEPTH_BUFFER_BIT);
     depth_.use();
-    for (const DrawItem& item : items) {
+    for (const DrawItem* item : items) {
         // Of closed things the sides towards the light are enough.
-        if (item.surface->twoSided)
+        if (item->surface->twoSided)
             gl_->Disable(GL_CULL_FACE);
         else
             gl_->Enable(GL_CULL_FACE);
-        depth_.set("toMap", box.toMap * item.surface->transform);
-        meshes.drawShape(item);
+        depth_.set("toMap", box.toMap * item->surface->transform);
+        meshes.drawShape(*item);
     }
-
     gl_->Disable(GL_CULL_FACE);
+}
 
-    // Least and largest depth: of each block, then of its neighbourhood.
+// Least and largest depth: of each block, then of its neighbourhood.
+void ShadowPass::drawBounds() {
     gl_->Disable(GL_DEPTH_TEST);
     gl_->BindVertexArray(empty_.id());
     gl_->ActiveTexture(GL_TEXTURE0 + shadowBoundsUnit);

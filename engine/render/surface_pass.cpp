@@ -41,13 +41,14 @@ Program& SurfacePass::programFor(const view::Surface& surface) {
 // Neighbours mostly share a material: it is looked for from the last backwards.
 int SurfacePass::rowOf(const view::Surface& surface) {
     const view::Finish& finish = *surface.finish;
-    const Material material{glm::vec4(finish.back, finish.roughness),
-                            {finish.sheen, surface.dulled, surface.twoSided ? 1.0F : 0.0F,
-                             finish.weave > 0.0F ? 1.0F : 0.0F}};
+    const Material material{
+        glm::vec4(finish.back, finish.roughness),
+        {finish.sheen, surface.dulled, surface.twoSided ? 1.0F : 0.0F, finish.weave > 0.0F ? 1.0F : 0.0F}};
     const auto known = std::find(materials_.rbegin(), materials_.rend(), material);
     if (known != materials_.rend()) return static_cast<int>(materials_.rend() - known) - 1;
     if (materials_.size() == mostMaterials)
-        throw core::Error(core::ErrorKind::badContent, "more than 16384 kinds of surface cannot be drawn in one picture");
+        throw core::Error(core::ErrorKind::badContent,
+                          "more than 16384 kinds of surface cannot be drawn in one picture");
     materials_.push_back(material);
     return static_cast<int>(materials_.size()) - 1;
 }

@@ -1,5 +1,5 @@
-// Draws the surfaces: first what of them is seen, then the light on it, so that each pixel is lit once. Programs are made
-// for each kind of finish when it is first met.
+// Draws the surfaces: first what of them is seen, then the light on it, so that each pixel is lit once. Programs are
+// made for each kind of finish when it is first met.
 #pragma once
 
 #include <map>

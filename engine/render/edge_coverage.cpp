@@ -25,11 +25,9 @@ struct Slope {
 // Not below zero on the inner side of the way from a to b. What lies on it belongs to one of the two neighbours.
 struct Border {
     Slope slope;
-    float perPixel;  // [pixels]
 
     Border(const PixelBox& tile, glm::dvec2 a, glm::dvec2 b)
-        : slope((b.x - a.x) * (tile.y - a.y) - (b.y - a.y) * (tile.x - a.x), a.y - b.y, b.x - a.x),
-          perPixel(slope.along != 0.0F ? -1.0F / slope.along : 0.0F) {
+        : slope((b.x - a.x) * (tile.y - a.y) - (b.y - a.y) * (tile.x - a.x), a.y - b.y, b.x - a.x) {
         if (!(b.y > a.y || (b.y == a.y && b.x > a.x))) slope.samples -= 1e-6F;
     }
 
@@ -37,7 +35,7 @@ struct Border {
     void narrow(int y, int& left, int& right) const {
         if (slope.along == 0.0F) return;
         const float up = slope.up > 0.0F ? slope.up * static_cast<float>(y + 1) : slope.up * static_cast<float>(y);
-        const float crossing = std::clamp((slope.start + up) * perPixel, -2.0F, 1.0F + edgeTileSize);
+        const float crossing = std::clamp(-(slope.start + up) / slope.along, -2.0F, 1.0F + edgeTileSize);
         if (slope.along > 0.0F)
             left = std::max(left, static_cast<int>(crossing + 1.0F) - 2);  // not before the pixel with the crossing
         else

@@ -33,8 +33,8 @@ glm::vec2 grownBy(float radius, const glm::vec3& towards, float sine) {
     return radius * glm::sqrt(along * along / (sine * sine) + across * across);
 }
 
-// Where the light may be kept from the ground, with the widest penumbra.
-Footprint shadowOf(const Bounds& caster, const LightBox& box, float height, float softness) {
+// Where the light may be kept from the ground, with the widest penumbra and `beyond`, a part of the map, around it.
+Footprint shadowOf(const Bounds& caster, const LightBox& box, float height, float softness, float beyond) {
     const glm::vec3 towards = glm::transpose(box.toLight)[2];
     const float sine = towards.y;  // of the sun's elevation
     if (sine < 0.05F) return {glm::vec2(-INFINITY), glm::vec2(INFINITY)};
@@ -45,10 +45,13 @@ Footprint shadowOf(const Bounds& caster, const LightBox& box, float height, floa
         shadow.low = glm::min(shadow.low, place);
         shadow.high = glm::max(shadow.high, place);
     }
-    const float radius = softness * (caster.high.y - height) / sine + 0.02F * glm::max(box.size.x, box.size.y);
+    const float radius = softness * (caster.high.y - height) / sine + beyond * glm::max(box.size.x, box.size.y);
     const glm::vec2 grow = grownBy(radius, towards, sine);
     return {shadow.low - grow, shadow.high + grow};
 }
+
+constexpr float readAround = 0.02F;    // of the map: as far as a penumbra is looked for, and more
+constexpr float boundsAround = 0.03F;  // of the map: three blocks and a half, as far as bounds are gathered
 
 enum class Light : std::uint8_t { open, darkened, shaded };
 
@@ -97,16 +100,19 @@ class Cells {
 }  // namespace
 
 GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightBox& box,
-                      std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion) {
-    Cells cells({middle.x, middle.z}, radius);
-    for (const Bounds& caster : casters) {
-        if (caster.empty) continue;
-        if (caster.high.y >= height) cells.mark(shadowOf(caster, box, height, softness), Light::shaded);
-        if (!occlusion || caster.low.y > height + occlusionCeiling) continue;
+                      std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion,
+                      std::span<const Bounds> moving) {
+    Cells cells({middle.x, middle.z}, radius), changes({middle.x, middle.z}, radius);
+    const auto mark = [&](Cells& which, const Bounds& caster, float beyond) {
+        if (caster.empty) return;
+        if (caster.high.y >= height) which.mark(shadowOf(caster, box, height, softness, beyond), Light::shaded);
+        if (!occlusion || caster.low.y > height + occlusionCeiling) return;
         const glm::vec2 reach = occlusionReach(*occlusion);
-        cells.mark({glm::vec2(caster.low.x, caster.low.z) - reach, glm::vec2(caster.high.x, caster.high.z) + reach},
+        which.mark({glm::vec2(caster.low.x, caster.low.z) - reach, glm::vec2(caster.high.x, caster.high.z) + reach},
                    Light::darkened);
-    }
+    };
+    for (const Bounds& caster : casters) mark(cells, caster, readAround);
+    for (const Bounds& caster : moving) mark(changes, caster, boundsAround);
     GroundMesh mesh;
     for (int row = 0; row <= Cells::cellsAcross; ++row) {
         for (int column = 0; column <= Cells::cellsAcross; ++column) {
@@ -114,6 +120,7 @@ GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightB
             mesh.positions.emplace_back(place.x, height, place.y);
         }
     }
+    mesh.changes.resize(mesh.positions.size());
     for (int row = 0; row < Cells::cellsAcross; ++row) {
         for (int column = 0; column < Cells::cellsAcross; ++column) {
             // Cells wholly outside the disc are faded away anyway.
@@ -128,6 +135,7 @@ GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightB
                                                     : light == Light::darkened ? mesh.darkened
                                                                                : mesh.open;
             triangles.insert(triangles.end(), {a, d, c, a, c, b});
+            mesh.changes[a] = changes.light(row, column) != Light::open ? 1 : 0;
         }
     }
     return mesh;

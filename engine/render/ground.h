@@ -17,11 +17,13 @@ struct GroundMesh {
     std::vector<std::uint32_t> shaded;    // triangles that a shadow may reach
     std::vector<std::uint32_t> darkened;  // others from which something may hide a part of the sky
     std::vector<std::uint32_t> open;      // triangles in full light
+    std::vector<std::uint8_t> changes;    // (positions) 1: what moves may change the cell whose triangles begin there
 };
 
 // The disc of `radius` [m] around the camera's target, fine in the middle, coarse outside. `casters` are boxes around
-// all that throws a shadow, the smaller the better.
+// all that throws a shadow, the smaller the better, `moving` those around what was elsewhere a picture ago.
 GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightBox& box,
-                      std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion);
+                      std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion,
+                      std::span<const Bounds> moving = {});
 
 }  // namespace taut::render

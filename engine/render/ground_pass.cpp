@@ -1,5 +1,6 @@
 #include "taut/render/ground_pass.h"
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -7,6 +8,12 @@
 #include "taut/render/edge_pass.h"
 
 namespace taut::render {
+
+namespace {
+
+constexpr int steadyPictures = 8;  // after so many with the maps in the same place, what they shade is kept
+
+}  // namespace
 
 GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill)
     : gl_(&gl),
@@ -24,13 +31,26 @@ bool GroundPass::Still::operator==(const Still& other) const {
     return groundHeight == other.groundHeight && std::memcmp(&block, &other.block, sizeof(block)) == 0;
 }
 
+bool GroundPass::StillShade::operator==(const StillShade& other) const {
+    return shapes == other.shapes && std::memcmp(&block, &other.block, sizeof(block)) == 0;
+}
+
 void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, const LightBox& box,
-                       std::span<const Bounds> casters, const std::optional<OcclusionArea>& occlusion,
+                       std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion,
                        Targets& targets) {
+    StillShade shade{block, {}};
+    std::vector<Bounds> all, moving;
+    for (const DrawItem& item : items) {
+        all.insert(all.end(), item.pieces.begin(), item.pieces.end());
+        if (item.isStill)
+            shade.shapes.push_back(item.shape);
+        else
+            moving.insert(moving.end(), item.pieces.begin(), item.pieces.end());
+    }
     mesh_ = {};
     if (view.ground) {
-        mesh_ = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, box, casters, view.light.softness,
-                           occlusion);
+        mesh_ = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, box, all, view.light.softness,
+                           occlusion, moving);
         gl_->BindVertexArray(layout_.id());
         gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
         gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh_.positions.size() * sizeof(glm::vec3)),
@@ -45,18 +65,56 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
     now.block.mapSize = now.block.occlusionArea = glm::vec4(0.0F);
     const bool isStill = keepsStill_ && !view.showMarks && before_ == now;
     before_ = now;
-    if (isStill && !isKept_) {
-        std::vector<std::uint32_t> all = mesh_.open;
-        all.insert(all.end(), mesh_.darkened.begin(), mesh_.darkened.end());
-        all.insert(all.end(), mesh_.shaded.begin(), mesh_.shaded.end());
-        targets.bindShading();
-        gl_->DepthMask(GL_TRUE);
-        gl_->Clear(GL_DEPTH_BUFFER_BIT);
-        drawOpen(block.viewProjection, all);
-        keptColours_ = targets.colours();
-        keptDepths_ = targets.depths({0, 0, targets.size().x, targets.size().y});
-    }
+    shadeStays_ = isStill && shadeNow_ == shade ? shadeStays_ + 1 : 0;
+    shadeNow_ = std::move(shade);
+    if (isStill && (!isKept_ || shadeStays_ == steadyPictures)) keep(block.viewProjection, targets);
     isKept_ = isStill;
+    if (!isKept_) return;
+    leaveOut(mesh_.open, Look::open);
+    leaveOut(mesh_.darkened, Look::darkened);
+    leaveOut(mesh_.shaded, Look::shaded);
+}
+
+void GroundPass::keep(const glm::mat4& projection, Targets& targets) {
+    const bool keepsShade = shadeStays_ >= steadyPictures;
+    keptShade_ = keepsShade ? shadeNow_ : std::nullopt;
+    looks_.assign(mesh_.positions.size(), Look::open);
+    std::vector<std::uint32_t> open = mesh_.open, darkened, shaded;
+    const auto sort = [&](const std::vector<std::uint32_t>& cells, std::vector<std::uint32_t>& kept, Look look) {
+        for (std::size_t i = 0; i < cells.size(); i += 6) {
+            const bool isKept = keepsShade && mesh_.changes[cells[i]] == 0;
+            std::vector<std::uint32_t>& triangles = isKept ? kept : open;
+            triangles.insert(triangles.end(), cells.begin() + static_cast<std::ptrdiff_t>(i),
+                             cells.begin() + static_cast<std::ptrdiff_t>(i) + 6);
+            if (isKept) looks_[cells[i]] = look;
+        }
+    };
+    sort(mesh_.darkened, darkened, Look::darkened);
+    sort(mesh_.shaded, shaded, Look::shaded);
+    targets.bindShading();
+    gl_->DepthMask(GL_TRUE);
+    gl_->Clear(GL_DEPTH_BUFFER_BIT);
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->DepthFunc(GL_LESS);
+    drawCells(shaded_, shaded);
+    drawCells(darkened_, darkened);
+    drawOpen(projection, open);
+    keptColours_ = targets.colours();
+    keptDepths_ = targets.depths({0, 0, targets.size().x, targets.size().y});
+}
+
+// Leaves the cells that have to be drawn: those that do not look so in what is kept.
+void GroundPass::leaveOut(std::vector<std::uint32_t>& triangles, Look look) const {
+    const bool isShadeKept = keptShade_ && keptShade_ == shadeNow_;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < triangles.size(); i += 6) {
+        const std::uint32_t cell = triangles[i];
+        if (looks_[cell] == look && (look == Look::open || (isShadeKept && mesh_.changes[cell] == 0))) continue;
+        std::copy_n(triangles.begin() + static_cast<std::ptrdiff_t>(i), 6,
+                    triangles.begin() + static_cast<std::ptrdiff_t>(left));
+        left += 6;
+    }
+    triangles.resize(left);
 }
 
 void GroundPass::draw(const glm::mat4& projection) {
@@ -64,7 +122,10 @@ void GroundPass::draw(const glm::mat4& projection) {
     gl_->DepthFunc(GL_LESS);
     drawCells(shaded_, mesh_.shaded);
     drawCells(darkened_, mesh_.darkened);
-    if (!isKept_) drawOpen(projection, mesh_.open);
+    if (isKept_)
+        drawCells(open_, mesh_.open);
+    else
+        drawOpen(projection, mesh_.open);
 }
 
 void GroundPass::fill(const PixelBox& part, std::span<float> depths, std::span<std::uint32_t> colours,

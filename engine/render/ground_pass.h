@@ -16,9 +16,10 @@ class GroundPass {
   public:
     GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill);
 
-    // Before anything else of a picture is drawn. `block` is what all shaders know of it.
+    // Before anything else of a picture is drawn, with the frame block and the maps in place. `block` is what all
+    // shaders know of the picture.
     void begin(const view::FrameView& view, const FrameBlock& block, const LightBox& box,
-               std::span<const Bounds> casters, const std::optional<OcclusionArea>& occlusion, Targets& targets);
+               std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion, Targets& targets);
 
     // Behind what has been drawn into the bound target, with the frame block and the maps in place.
     // Leaves out what fill() puts in.
@@ -37,7 +38,17 @@ class GroundPass {
         std::optional<float> groundHeight;
         bool operator==(const Still& other) const;
     };
+    // What ground depends on besides that only still things shade.
+    struct StillShade {
+        FrameBlock block{};
+        std::vector<Shape> shapes;
+        bool operator==(const StillShade& other) const;
+    };
+    // How a cell looks in what is kept.
+    enum class Look : std::uint8_t { open, darkened, shaded };
 
+    void keep(const glm::mat4& projection, Targets& targets);
+    void leaveOut(std::vector<std::uint32_t>& triangles, Look look) const;
     void drawCells(const Program& program, const std::vector<std::uint32_t>& triangles);
     void drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles);
 
@@ -46,8 +57,12 @@ class GroundPass {
     Program shaded_, darkened_, open_, background_;
     GlObject layout_, vertices_, indices_, empty_;
     GroundMesh mesh_;
-    std::optional<Still> before_;             // of the picture before
+    std::optional<Still> before_;         // of the picture before
+    std::optional<StillShade> shadeNow_;  // of this one
+    std::optional<StillShade> keptShade_;
+    int shadeStays_ = 0;                      // pictures for which it has been the same
     bool isKept_ = false;                     // what follows is that of the same camera
+    std::vector<Look> looks_;                 // (positions) of the cells whose triangles begin there
     std::vector<std::uint32_t> keptColours_;  // (pixels) rows from below
     std::vector<float> keptDepths_;           // (pixels) 1 where the sky is
 };

@@ -156,11 +156,7 @@ image::Image Renderer::draw(const view::FrameView& view) {
     std::vector<DrawItem> items = parts.meshes.items(view.surfaces);
     sortByDistance(items, view.camera.eye);
     std::vector<Bounds> casters;
-    std::vector<Bounds> pieces;
-    for (const DrawItem& item : items) {
-        casters.push_back(item.bounds);
-        pieces.insert(pieces.end(), item.pieces.begin(), item.pieces.end());
-    }
+    for (const DrawItem& item : items) casters.push_back(item.bounds);
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
     const LightBox box = lightBox(view, casters, aspect, options.shadowSize);
     std::optional<OcclusionArea> occlusion;
@@ -181,7 +177,9 @@ image::Image Renderer::draw(const view::FrameView& view) {
     gl.BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts.frameBlock.id());
     gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
     const PixelBox part = pixelBox(items, projection, options.width, options.height);
-    parts.ground.begin(view, block, box, pieces, occlusion, parts.targets);
+    parts.shadow.bindMaps();
+    parts.occlusion.bindMap();
+    parts.ground.begin(view, block, box, items, occlusion, parts.targets);
     parts.targets.bindSurfaces();
     gl.DepthMask(GL_TRUE);
     gl.Clear(GL_DEPTH_BUFFER_BIT);
@@ -192,8 +190,6 @@ image::Image Renderer::draw(const view::FrameView& view) {
         gl.ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         gl.Clear(GL_COLOR_BUFFER_BIT);
     }
-    parts.shadow.bindMaps();
-    parts.occlusion.bindMap();
     parts.surfaces.light(view.camera, part, parts.targets.size());
     passDone("light");
     parts.ground.draw(projection);

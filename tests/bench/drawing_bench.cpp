@@ -1,0 +1,85 @@
+// What a picture of 1280 × 720 costs in processor time, pass by pass: the shipped scenes under a still and under their
+// own camera, with GL's own threads off. The counters are milliseconds a picture of each pass; waiting for GL between
+// them adds a little.
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "taut/render/renderer.h"
+#include "taut/scene/load.h"
+#include "taut/world/world.h"
+
+namespace taut {
+namespace {
+
+constexpr int firstFrame = 60, frames = 12;
+
+double processorTime() {  // [ms]
+    rusage used{};
+    ::getrusage(RUSAGE_SELF, &used);
+    const auto of = [](const timeval& t) {
+        return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
+    };
+    return of(used.ru_utime) + of(used.ru_stime);
+}
+
+std::vector<view::FrameView> viewsOf(const world::SceneSpec& spec) {
+    world::World world(spec, {.threads = 1});
+    std::vector<view::FrameView> views;
+    for (int frame = 0; frame < firstFrame + frames; ++frame) {
+        if (frame >= firstFrame) views.push_back(world.view(false));
+        for (int tick = 0; tick < world.ticksPerFrame(); ++tick) (void)world.advance();
+    }
+    return views;
+}
+
+void drawScene(benchmark::State& state, const char* name, bool isCameraStill) {
+    const std::filesystem::path assets = std::filesystem::path(TAUT_SOURCE_DIR) / "assets";
+    const std::filesystem::path file = assets / "scenes" / (std::string(name) + ".toml");
+    const world::SceneSpec spec = scene::loadScene(file, {.assetFolders = {assets}}).spec;
+    std::vector<view::FrameView> views = viewsOf(spec);
+    for (view::FrameView& view : views)
+        if (isCameraStill) view.camera = views.front().camera;
+
+    std::map<std::string, double, std::less<>> passes;
+    double before = 0.0;
+    render::RendererOptions options;
+    options.shadowSize = spec.picture.shadowSize;
+    options.shaders = std::filesystem::path(TAUT_SOURCE_DIR) / "shaders";
+    options.passDone = [&](std::string_view pass) {
+        const double now = processorTime();
+        passes[std::string(pass)] += now - before;
+        before = now;
+    };
+    render::Renderer renderer(options);
+    for (int i = 0; i < 3; ++i) (void)renderer.draw(views[static_cast<std::size_t>(i)]);  // programs are made
+    passes.clear();
+    double pictures = 0.0;
+    for (auto _ : state) {
+        before = processorTime();
+        benchmark::DoNotOptimize(renderer.draw(views[static_cast<std::size_t>(pictures) % views.size()]));
+        pictures += 1.0;
+    }
+    for (const auto& [pass, time] : passes) state.counters[pass] = time / pictures;
+}
+
+#define TAUT_DRAWS(scene)                                                                                 \
+    BENCHMARK_CAPTURE(drawScene, scene##_still, #scene, true)->Unit(benchmark::kMillisecond)->MinTime(2); \
+    BENCHMARK_CAPTURE(drawScene, scene##_moving, #scene, false)->Unit(benchmark::kMillisecond)->MinTime(2)
+TAUT_DRAWS(drape);
+TAUT_DRAWS(flag);
+TAUT_DRAWS(curtain);
+TAUT_DRAWS(poncho);
+TAUT_DRAWS(show);
+
+}  // namespace
+}  // namespace taut
+
+int main(int count, char** arguments) {
+    ::setenv("LP_NUM_THREADS", "0", 0);
+    benchmark::Initialize(&count, arguments);
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

@@ -39,7 +39,9 @@ float sunlight(vec3 place, vec3 facing, float pixel, bool casts) {
     // How far away are the things in between, on average?
     float radius = clamp(0.5 * lightWay.w * gap, least, widest);
     vec2 found = vec2(0.0);  // sum of distances, number
-    int searches = known ? 0 : 8;
+    // Where even the farthest throws no penumbra that is wider than the map or the picture shows, that is enough.
+    bool narrow = radius <= max(2.0 * texel, pixel);
+    int searches = known || narrow ? 0 : 8;
     for (int i = 0; i < searches; ++i) {
         vec2 off = way * (radius * sqrt((float(i) + 0.5) * 0.125));
         float between = ref + dot(rising, off) - textureLod(shadowDepth, at.xy + off * toUv, 0.0).r;
@@ -47,7 +49,7 @@ float sunlight(vec3 place, vec3 facing, float pixel, bool casts) {
         way = goldenTurn * way;
     }
     float away = found.x / max(found.y, 1.0) * mapSize.z;
-    radius = alone ? least : clamp(0.5 * lightWay.w * away, least, widest);
+    radius = alone ? least : narrow ? radius : clamp(0.5 * lightWay.w * away, least, widest);
 
     int taps = clear || dark ? 0 : (alone ? 3 : clamp(int(2.0 * radius / texel), 6, 20));
     float share = 1.0 / float(max(taps, 1));

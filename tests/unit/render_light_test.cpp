@@ -1,9 +1,9 @@
 // Where the shadow map lies and which part of the ground needs it: geometry without GL.
 #include <gtest/gtest.h>
 
+#include "render_support.h"
 #include "taut/render/ground.h"
 #include "taut/render/light_box.h"
-#include "render_support.h"
 
 namespace taut::render::test {
 namespace {
@@ -98,6 +98,27 @@ TEST(RenderGround, CellsInShadowAreShaded) {
     EXPECT_TRUE(covers(mesh.shaded, {0.66F, -0.44F}));
     EXPECT_TRUE(covers(mesh.open, {-3.0F, 3.0F}));
     EXPECT_FALSE(covers(mesh.shaded, {-3.0F, 3.0F}));
+}
+
+TEST(RenderGround, OnlyCellsNearTheShadowOfWhatMovesChange) {
+    const view::FrameView view = slantedView();
+    const std::vector<Bounds> casters{boundsOf({-0.2F, 1.0F, -0.2F}, {0.2F, 1.2F, 0.2F}),
+                                      boundsOf({-3.2F, 1.0F, -0.2F}, {-2.8F, 1.2F, 0.2F})};
+    const LightBox box = lightBox(view, casters, 1.5F, 2048);
+    const GroundMesh mesh =
+        groundMesh(glm::vec3(0.0F), 0.0F, 30.0F, box, casters, 0.03F, std::nullopt, std::span(casters).subspan(1));
+    // Shadows fall 0.66 m to the right and 0.44 m back: of the still box to x = 0.66, of the other to x = -2.34.
+    const auto changesAt = [&](glm::vec2 place) {
+        for (std::size_t i = 0; i < mesh.shaded.size(); i += 6) {
+            const glm::vec3 a = mesh.positions[mesh.shaded[i]], c = mesh.positions[mesh.shaded[i + 2]];
+            if (place.x >= a.x && place.x <= c.x && place.y >= a.z && place.y <= c.z)
+                return mesh.changes[mesh.shaded[i]] != 0;
+        }
+        ADD_FAILURE() << "not shaded";
+        return false;
+    };
+    EXPECT_FALSE(changesAt({0.66F, -0.44F}));
+    EXPECT_TRUE(changesAt({-2.34F, -0.44F}));
 }
 
 TEST(RenderGround, CellsCoverTheDiscOnce) {

@@ -7,7 +7,7 @@ uniform int material;  // row of its table
 uniform int mark;      // which surface, 1 … 255
 in vec3 upright;
 in vec2 along;  // [m] along the material
-layout(location = 0) out vec4 tint;    // rgb: square root of the colour; a: how open the place is, 0 … 1
+layout(location = 0) out vec4 tint;    // rgb: square root of the colour, finer where it is dark; a: openness, 0 … 1
 layout(location = 1) out uvec4 shape;  // normal of the surface, of the threads, bits of 1 / distance, marks
 
 // A unit vector as a place on an octahedron, 16 bits a coordinate.

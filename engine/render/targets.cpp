@@ -52,7 +52,7 @@ Targets::Targets(const Gl& gl, int width, int height)
     expectComplete(gl);
 
     // What is seen of surfaces, in front of the same depth.
-    tints_ = texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    tints_ = texture(GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT);
     shapes_ = texture(GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
     attach(surfaceTarget_, GL_COLOR_ATTACHMENT0, tints_);
     attach(surfaceTarget_, GL_COLOR_ATTACHMENT1, shapes_);

@@ -31,7 +31,9 @@ void NearPairs::drop() {
     awake_.clear();
     roomy_.clear();
     patches_.takeBalls();
+    looked_.clear();
     stray_.assign(static_cast<std::size_t>(patches_.count()), 0.0);
+    gone_.assign(static_cast<std::size_t>(patches_.count()), 0.0);
 }
 
 NearPairs::Record* NearPairs::newRecord(PatchPair pair) {
@@ -109,8 +111,7 @@ bool NearPairs::staysWhereSearched() const {
 // For as many instants like this one as pay.
 void NearPairs::search(double room) {
     double most = 0;
-    for (int p = 0; p < patches_.count(); ++p)
-        most = std::max(most, length(patches_.motion(p).way) + patches_.motion(p).stray);
+    for (double going : going_) most = std::max(most, going);
     const double instants = mostAhead * most > mostRoom * room ? mostRoom * room / most : mostAhead;
     roomy_.resize(static_cast<std::size_t>(patches_.count()));
     for (int p = 0; p < patches_.count(); ++p) {
@@ -135,43 +136,80 @@ void NearPairs::search(double room) {
         if (old != known_.end() && old->pair == pair)
             merged_.push_back(*old++);
         else
-            merged_.push_back({pair, newRecord(pair)});
+            merged_.push_back({pair, newRecord(pair), -1, 0, goneOf(pair)});
     }
     forgetUntil(~PatchPair{0});
     std::swap(known_, merged_);
 }
 
+void NearPairs::measureGoing() {
+    going_.resize(static_cast<std::size_t>(patches_.count()));
+    for (int p = 0; p < patches_.count(); ++p)
+        going_[static_cast<std::size_t>(p)] = length(patches_.motion(p).way) + patches_.motion(p).stray;
+}
+
+double NearPairs::goneOf(PatchPair pair) const {
+    return gone_[static_cast<std::size_t>(lowOf(pair))] + gone_[static_cast<std::size_t>(highOf(pair))];
+}
+
+// Whether the list of a record holds in this instant, or need not.
+void NearPairs::look(Known& known, std::span<const dvec3> x0, std::span<const dvec3> x1) const {
+    Record& record = *known.record;
+    const double gone = goneOf(known.pair);
+    record.way += gone - known.counted;
+    known.counted = gone;
+    known.quiet = -1;
+    approach(record);
+    record.isFlat = record.isPassing = false;
+    record.isNew = record.approached > record.valid;
+    if (!record.isNew) return;
+    const double between = gapOf(patches_.motion(record.a).before, patches_.motion(record.b).before);
+    const double apart = between - nearShare * record.most;
+    if (apart > record.coming) {
+        record.isNew = false;
+        restart(record, apart);
+    } else if (apart > 0 && passesBy(record, x0, x1)) {
+        record.isNew = false;
+        record.isPassing = true;
+    }
+}
+
 void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     stray_.resize(static_cast<std::size_t>(patches_.count()), 0.0);
+    gone_.resize(static_cast<std::size_t>(patches_.count()), 0.0);
     double thickest = 0;
     for (const Surface& surface : elements_.surfaces())
         if (!surface.isRigid) thickest = std::max(thickest, surface.thickness);
     patches_.follow(x0, x1, bentShare * thickest);
+    measureGoing();
     const double room = roomShare * thickest;
     if (!staysWhereSearched()) search(room);
 
     const int count = static_cast<int>(known_.size()), tasks = (count + atOnce - 1) / atOnce;
+    isLooked_.resize(known_.size());
+    slacks_.assign(static_cast<std::size_t>(tasks), room);
     core::parallelFor(tasks, [&](int task) {
+        double& slack = slacks_[static_cast<std::size_t>(task)];
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            Record& record = *known_[static_cast<std::size_t>(k)].record;
-            approach(record);
-            record.isFlat = record.isPassing = false;
-            record.isNew = record.approached > record.valid;
-            if (!record.isNew) continue;
-            const double between = gapOf(patches_.motion(record.a).before, patches_.motion(record.b).before);
-            const double apart = between - nearShare * record.most;
-            if (apart > record.coming) {
-                record.isNew = false;
-                restart(record, apart);
-            } else if (apart > 0 && passesBy(record, x0, x1)) {
-                record.isNew = false;
-                record.isPassing = true;
-            }
+            Known& known = known_[static_cast<std::size_t>(k)];
+            const double going = going_[static_cast<std::size_t>(lowOf(known.pair))] +
+                                 going_[static_cast<std::size_t>(highOf(known.pair))];
+            const double left = known.quiet - (goneOf(known.pair) + going - known.since);
+            const bool isLooked = !(left > 0);
+            isLooked_[static_cast<std::size_t>(k)] = isLooked ? 1 : 0;
+            if (isLooked)
+                look(known, x0, x1);
+            else
+                slack = std::min({slack, left + known.apartAtLeast, watchShare * known.leastKeep});
         }
     });
+    looked_.clear();
     awake_.clear();
     about_.clear();
-    for (const auto& [pair, record] : known_) {
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+        if (isLooked_[k] == 0) continue;
+        looked_.push_back(&known_[k]);
+        Record* record = known_[k].record;
         if (record->isPassing) continue;
         if (!record->isNew && record->travelled < record->asleepTravelled &&
             record->approached < record->asleepApproached)
@@ -200,21 +238,18 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         made += own;
     });
     listed_ += made;
-    slacks_.assign(static_cast<std::size_t>(tasks), room);
-    core::parallelFor(tasks, [&](int task) {
-        double& least = slacks_[static_cast<std::size_t>(task)];
-        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            const Record& record = *known_[static_cast<std::size_t>(k)].record;
-            const double unlisted = record.isPassing ? 0.0 : record.valid - record.approached;
-            least = std::min({least, unlisted + record.apartAtLeast, watchShare * record.leastKeep});
-        }
-    });
     slack_ = room;
-    for (double least : slacks_) slack_ = std::min(slack_, least);
+    for (double slack : slacks_) slack_ = std::min(slack_, slack);
+    for (const Known* known : looked_) {
+        const Record& record = *known->record;
+        const double unlisted = record.isPassing ? 0.0 : record.valid - record.approached;
+        slack_ = std::min({slack_, unlisted + record.apartAtLeast, watchShare * record.leastKeep});
+    }
 }
 
 void NearPairs::go(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     patches_.follow(x0, x1);
+    looked_.clear();
     addWays();
 }
 
@@ -223,9 +258,26 @@ void NearPairs::arrive(std::span<const int> moved, std::span<const dvec3> x0, st
     addWays();
 }
 
+// Those that were looked at know how far they have come nearer, the others only how far their patches have gone.
 void NearPairs::addWays() {
-    for (const Known& known : known_) known.record->way += comingOf(*known.record);
-    for (int p = 0; p < patches_.count(); ++p) stray_[static_cast<std::size_t>(p)] += patches_.motion(p).stray;
+    for (Known* known : looked_) {
+        const Record& record = *known->record;
+        known->since = goneOf(known->pair);
+        known->quiet = std::min({record.valid - record.approached, record.asleepTravelled - record.travelled,
+                                 record.asleepApproached - record.approached});
+        known->apartAtLeast = record.apartAtLeast;
+        known->leastKeep = record.leastKeep;
+    }
+    measureGoing();
+    for (std::size_t p = 0; p < gone_.size(); ++p) {
+        stray_[p] += patches_.motion(static_cast<int>(p)).stray;
+        gone_[p] += going_[p];
+    }
+    for (Known* known : looked_) {
+        known->record->way += comingOf(*known->record);
+        known->counted = goneOf(known->pair);
+    }
+    looked_.clear();
 }
 
 // Nothing of it is near until it has come that much nearer [m].

@@ -74,8 +74,20 @@ class NearPairs {
     std::uint64_t bytes() const;
 
   private:
+    struct Known {
+        PatchPair pair;
+        Record* record;
+        // Nothing about it changes until its patches have gone that far in sum [m] since they had gone so far.
+        double quiet = -1, since = 0;
+        double counted = 0;                      // [m] of their ways that the record's way has in it
+        double apartAtLeast = 0, leastKeep = 0;  // [m] of the record
+    };
+
     void search(double room);
     void addWays();
+    void measureGoing();
+    double goneOf(PatchPair pair) const;
+    void look(Known& known, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
     bool staysWhereSearched() const;
     bool passesBy(const Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
     Record* newRecord(PatchPair pair);
@@ -86,15 +98,15 @@ class NearPairs {
 
     const Elements& elements_;
     Patches patches_;
-    struct Known {
-        PatchPair pair;
-        Record* record;
-    };
     std::deque<Record> records_;         // in no order
     std::vector<Record*> unused_;        // of them
     std::vector<Known> known_, merged_;  // ascending
+    std::vector<Known*> looked_;         // those that were not quiet
     std::vector<Record*> awake_;
     std::vector<double> stray_;   // [m] (patches) sum over all instants
+    std::vector<double> gone_;    // [m] (patches) likewise, how far any of its points has gone at most
+    std::vector<double> going_;   // [m] (patches) of that this instant's
+    std::vector<char> isLooked_;  // (known) scratch
     std::vector<Box> roomy_;      // (patches) while all stay within, all that are near are known
     std::vector<double> slacks_;  // (tasks) scratch
     std::vector<int> about_;      // scratch

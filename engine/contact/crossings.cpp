@@ -112,7 +112,8 @@ dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec
 
 std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
-    patches.follow(x, x);
+    patches.start(x, x);
+    patches.followAll(x, x);
     std::vector<Box> boxes;
     for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
     std::vector<PatchPair> near;

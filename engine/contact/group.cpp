@@ -59,7 +59,8 @@ Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, doubl
     locate(x, xIs_);
     Outlook outlook;
     outlook.leastKeep = 1e300;
-    const Patches& patches = near_.patches();
+    Patches& patches = near_.patches();
+    patches.followAll(x, xIs_);
     int moving = 0;
     for (int p = 0; p < patches.count(); ++p) {
         const Surface& surface = elements_.surface(patches[p].surface);
@@ -240,7 +241,8 @@ std::uint64_t Group::bytes() const {
 double distanceBetween(const Elements& elements, Patches& patches, std::span<const dvec3> x,
                        const std::function<bool(int surface)>& isFirst,
                        const std::function<bool(int surface)>& isSecond) {
-    patches.follow(x, x);
+    patches.start(x, x);
+    patches.followAll(x, x);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
     double least = 1e300;
     // Calls each(a, b) for patches of both sides whose boxes are nearer than the least so far.

@@ -97,9 +97,15 @@ bool NearPairs::passesBy(const Record& record, std::span<const dvec3> x0, std::s
     return true;
 }
 
-bool NearPairs::staysWhereSearched() const {
+bool NearPairs::staysWhereSearched(std::span<const dvec3> x0, std::span<const dvec3> x1, double bent) {
     if (roomy_.empty()) return false;
+    patchList_.clear();
     for (int p = 0; p < patches_.count(); ++p) {
+        const auto k = static_cast<std::size_t>(p);
+        if (gone_[k] + patches_.going(p) - goneThen_[k] > lasting_) patchList_.push_back(p);
+    }
+    patches_.follow(patchList_, x0, x1, bent);
+    for (int p : patchList_) {
         const Box &box = patches_.motion(p).box, &roomy = roomy_[static_cast<std::size_t>(p)];
         if (!(box.low.x >= roomy.low.x && box.low.y >= roomy.low.y && box.low.z >= roomy.low.z &&
               box.high.x <= roomy.high.x && box.high.y <= roomy.high.y && box.high.z <= roomy.high.z))
@@ -111,9 +117,11 @@ bool NearPairs::staysWhereSearched() const {
 // For as many instants like this one as pay.
 void NearPairs::search(double room) {
     double most = 0;
-    for (double going : going_) most = std::max(most, going);
+    for (int p = 0; p < patches_.count(); ++p) most = std::max(most, patches_.going(p));
     const double instants = mostAhead * most > mostRoom * room ? mostRoom * room / most : mostAhead;
     roomy_.resize(static_cast<std::size_t>(patches_.count()));
+    goneThen_ = gone_;
+    lasting_ = instants < 1 ? 0.0 : room;
     for (int p = 0; p < patches_.count(); ++p) {
         const PatchMotion& motion = patches_.motion(p);
         Box& roomy = roomy_[static_cast<std::size_t>(p)];
@@ -140,12 +148,6 @@ void NearPairs::search(double room) {
     }
     forgetUntil(~PatchPair{0});
     std::swap(known_, merged_);
-}
-
-void NearPairs::measureGoing() {
-    going_.resize(static_cast<std::size_t>(patches_.count()));
-    for (int p = 0; p < patches_.count(); ++p)
-        going_[static_cast<std::size_t>(p)] = length(patches_.motion(p).way) + patches_.motion(p).stray;
 }
 
 double NearPairs::goneOf(PatchPair pair) const {
@@ -180,10 +182,12 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     double thickest = 0;
     for (const Surface& surface : elements_.surfaces())
         if (!surface.isRigid) thickest = std::max(thickest, surface.thickness);
-    patches_.follow(x0, x1, bentShare * thickest);
-    measureGoing();
-    const double room = roomShare * thickest;
-    if (!staysWhereSearched()) search(room);
+    const double room = roomShare * thickest, bent = bentShare * thickest;
+    patches_.start(x0, x1);
+    if (!staysWhereSearched(x0, x1, bent)) {
+        patches_.followAll(x0, x1, bent);
+        search(room);
+    }
 
     const int count = static_cast<int>(known_.size()), tasks = (count + atOnce - 1) / atOnce;
     isLooked_.resize(known_.size());
@@ -191,25 +195,31 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     core::parallelFor(tasks, [&](int task) {
         double& slack = slacks_[static_cast<std::size_t>(task)];
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            Known& known = known_[static_cast<std::size_t>(k)];
-            const double going = going_[static_cast<std::size_t>(lowOf(known.pair))] +
-                                 going_[static_cast<std::size_t>(highOf(known.pair))];
+            const Known& known = known_[static_cast<std::size_t>(k)];
+            const double going = patches_.going(lowOf(known.pair)) + patches_.going(highOf(known.pair));
             const double left = known.quiet - (goneOf(known.pair) + going - known.since);
-            const bool isLooked = !(left > 0);
-            isLooked_[static_cast<std::size_t>(k)] = isLooked ? 1 : 0;
-            if (isLooked)
-                look(known, x0, x1);
-            else
-                slack = std::min({slack, left + known.apartAtLeast, watchShare * known.leastKeep});
+            isLooked_[static_cast<std::size_t>(k)] = left > 0 ? 0 : 1;
+            if (left > 0) slack = std::min({slack, left + known.apartAtLeast, watchShare * known.leastKeep});
         }
     });
     looked_.clear();
-    awake_.clear();
-    about_.clear();
+    patchList_.clear();
     for (std::size_t k = 0; k < known_.size(); ++k) {
         if (isLooked_[k] == 0) continue;
         looked_.push_back(&known_[k]);
-        Record* record = known_[k].record;
+        patchList_.push_back(lowOf(known_[k].pair));
+        patchList_.push_back(highOf(known_[k].pair));
+    }
+    patches_.follow(patchList_, x0, x1, bent);
+    const int looked = static_cast<int>(looked_.size());
+    core::parallelFor((looked + atOnce - 1) / atOnce, [&](int task) {
+        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, looked); ++k)
+            look(*looked_[static_cast<std::size_t>(k)], x0, x1);
+    });
+    awake_.clear();
+    about_.clear();
+    for (const Known* known : looked_) {
+        Record* record = known->record;
         if (record->isPassing) continue;
         if (!record->isNew && record->travelled < record->asleepTravelled &&
             record->approached < record->asleepApproached)
@@ -248,7 +258,7 @@ void NearPairs::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
 }
 
 void NearPairs::go(std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    patches_.follow(x0, x1);
+    patches_.start(x0, x1);
     looked_.clear();
     addWays();
 }
@@ -268,10 +278,10 @@ void NearPairs::addWays() {
         known->apartAtLeast = record.apartAtLeast;
         known->leastKeep = record.leastKeep;
     }
-    measureGoing();
-    for (std::size_t p = 0; p < gone_.size(); ++p) {
-        stray_[p] += patches_.motion(static_cast<int>(p)).stray;
-        gone_[p] += going_[p];
+    for (int p = 0; p < patches_.count(); ++p) {
+        const auto k = static_cast<std::size_t>(p);
+        stray_[k] += patches_.isFollowed(p) ? patches_.motion(p).stray : 2 * patches_.going(p);
+        gone_[k] += patches_.going(p);
     }
     for (Known* known : looked_) {
         known->record->way += comingOf(*known->record);

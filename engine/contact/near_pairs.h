@@ -85,10 +85,9 @@ class NearPairs {
 
     void search(double room);
     void addWays();
-    void measureGoing();
     double goneOf(PatchPair pair) const;
     void look(Known& known, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
-    bool staysWhereSearched() const;
+    bool staysWhereSearched(std::span<const dvec3> x0, std::span<const dvec3> x1, double bent);
     bool passesBy(const Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
     Record* newRecord(PatchPair pair);
     double comingOf(const Record& record) const;
@@ -103,13 +102,14 @@ class NearPairs {
     std::vector<Known> known_, merged_;  // ascending
     std::vector<Known*> looked_;         // those that were not quiet
     std::vector<Record*> awake_;
-    std::vector<double> stray_;   // [m] (patches) sum over all instants
-    std::vector<double> gone_;    // [m] (patches) likewise, how far any of its points has gone at most
-    std::vector<double> going_;   // [m] (patches) of that this instant's
-    std::vector<char> isLooked_;  // (known) scratch
-    std::vector<Box> roomy_;      // (patches) while all stay within, all that are near are known
-    std::vector<double> slacks_;  // (tasks) scratch
-    std::vector<int> about_;      // scratch
+    std::vector<double> stray_;           // [m] (patches) sum over all instants
+    std::vector<double> gone_;            // [m] (patches) likewise, how far any of its points has gone at most
+    std::vector<char> isLooked_;          // (known) scratch
+    std::vector<Box> roomy_;              // (patches) while all stay within, all that are near are known
+    std::vector<double> goneThen_;        // [m] (patches) until then
+    double lasting_ = 0;                  // [m] that they may go since then at least, and stay
+    std::vector<double> slacks_;          // (tasks) scratch
+    std::vector<int> about_, patchList_;  // patches, scratch
     std::vector<PatchPair> found_;
     double slack_ = 0;
     std::size_t listed_ = 0;

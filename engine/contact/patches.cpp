@@ -132,6 +132,10 @@ Patches::Patches(const Elements& elements)
     boxes_.resize(nodes_.size());
     flatness_.resize(patches_.size());
     isMeasured_.assign(patches_.size(), 0);
+    isFollowed_.assign(patches_.size(), 0);
+    going_.assign(patches_.size(), 0.0);
+    all_.resize(patches_.size());
+    std::iota(all_.begin(), all_.end(), 0);
     isKnown_.assign(patches_.size(), 0);
     prepareFlatness();
     takeBalls();
@@ -269,28 +273,59 @@ void Patches::correct(std::span<const int> points, std::span<const dvec3> x0, st
     }
     std::sort(corrected_.begin(), corrected_.end());
     corrected_.erase(std::unique(corrected_.begin(), corrected_.end()), corrected_.end());
-    for (int p : corrected_) findWay(static_cast<std::size_t>(p), x0, x1);
+    for (int i : points) {
+        const auto k = static_cast<std::size_t>(i);
+        ways_[k] = glm::dot(x1[k] - x0[k], x1[k] - x0[k]);
+    }
+    for (int p : corrected_) {
+        findGoing(static_cast<std::size_t>(p));
+        findWay(static_cast<std::size_t>(p), x0, x1);
+    }
 }
 
-void Patches::follow(std::span<const dvec3> x0, std::span<const dvec3> x1, double most) {
-    core::parallelFor((count() + atOnce - 1) / atOnce, [&](int task) {
-        for (int p = task * atOnce; p < std::min((task + 1) * atOnce, count()); ++p) {
-            const Patch& patch = patches_[static_cast<std::size_t>(p)];
-            const bool isStill = elements_.isStill(patch.surface);
-            char& isKnown = isKnown_[static_cast<std::size_t>(p)];
+void Patches::findGoing(std::size_t number) {
+    double most = 0;
+    for (int i : patches_[number].corners) most = std::max(most, ways_[static_cast<std::size_t>(i)]);
+    going_[number] = std::sqrt(most);
+}
+
+void Patches::start(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    ways_.resize(x0.size());
+    for (std::size_t i = 0; i < x0.size(); ++i) ways_[i] = glm::dot(x1[i] - x0[i], x1[i] - x0[i]);
+    for (std::size_t p = 0; p < patches_.size(); ++p) findGoing(p);
+    std::fill(isMeasured_.begin(), isMeasured_.end(), 0);
+    std::fill(isFollowed_.begin(), isFollowed_.end(), 0);
+}
+
+void Patches::follow(std::span<const int> patches, std::span<const dvec3> x0, std::span<const dvec3> x1, double most) {
+    toFollow_.clear();
+    for (int p : patches) {
+        char& isFollowed = isFollowed_[static_cast<std::size_t>(p)];
+        if (isFollowed == 0) toFollow_.push_back(p);
+        isFollowed = 1;
+    }
+    const int count = static_cast<int>(toFollow_.size());
+    core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
+        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
+            const auto p = static_cast<std::size_t>(toFollow_[static_cast<std::size_t>(k)]);
+            const bool isStill = elements_.isStill(patches_[p].surface);
+            char& isKnown = isKnown_[p];
             if (isStill && isKnown != 0) continue;
             isKnown = isStill ? 1 : 0;
-            PatchMotion& motion = motions_[static_cast<std::size_t>(p)];
+            PatchMotion& motion = motions_[p];
             motion.box = {};
-            findWay(static_cast<std::size_t>(p), x0, x1);
+            findWay(p, x0, x1);
             if (most > 0 && !(motion.bent <= most)) {
-                remember(static_cast<std::size_t>(p), x0);
+                remember(p, x0);
                 motion.bent = motion.stray;
             }
-            motion.times = times_[static_cast<std::size_t>(p)];
+            motion.times = times_[p];
         }
     });
-    std::fill(isMeasured_.begin(), isMeasured_.end(), 0);
+}
+
+void Patches::followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double most) {
+    follow(all_, x0, x1, most);
 }
 
 void Patches::findNear(std::span<const Box> boxes, double more, std::vector<PatchPair>& pairs) {

@@ -1,5 +1,5 @@
-// Surfaces in patches of some fifteen triangles, or edges where there are none, and a tree over them: which patches come
-// near each other in an instant. Patches hang on what the surfaces are at rest, never on where they are.
+// Surfaces in patches of some fifteen triangles, or edges where there are none, and a tree over them: which patches
+// come near each other in an instant. Patches hang on what the surfaces are at rest, never on where they are.
 #pragma once
 
 #include <array>
@@ -84,11 +84,17 @@ class Patches {
     // The balls there are have become others.
     void takeBalls();
 
-    // Follows the points from x0 to x1 (points) [m]. Patches that have bent further than `most` [m] are remembered
-    // anew.
-    void follow(std::span<const dvec3> x0, std::span<const dvec3> x1, double most = 0.0);
-    // Of these points x1 has changed since: the ways of their patches, and how far points stray from them.
+    // An instant from x0 to x1 (points) [m] begins: of patches is known only how far any of their points goes.
+    void start(std::span<const dvec3> x0, std::span<const dvec3> x1);
+    double going(int patch) const { return going_[static_cast<std::size_t>(patch)]; }  // [m]
+    // The motions of those of them that were not followed since. Patches that have bent further than `most` [m] are
+    // remembered anew.
+    void follow(std::span<const int> patches, std::span<const dvec3> x0, std::span<const dvec3> x1, double most);
+    bool isFollowed(int patch) const { return isFollowed_[static_cast<std::size_t>(patch)] != 0; }
+    void followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double most = 0.0);
+    // Of these points x1 has changed since: how far their patches go, and points stray from them.
     void correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1);
+    // Of a patch that was followed.
     const PatchMotion& motion(int patch) const { return motions_[static_cast<std::size_t>(patch)]; }
 
     // Pairs a <= b of patches whose boxes (patches) come within the sum of the thicknesses, and that much more [m], and
@@ -132,6 +138,7 @@ class Patches {
     int joinRoots(std::span<const int> roots);
     void shareOut();
     void remember(std::size_t patch, std::span<const dvec3> x);
+    void findGoing(std::size_t patch);
     void findWay(std::size_t patch, std::span<const dvec3> x0, std::span<const dvec3> x1);
     void findPlane(int surface, const dvec3& along);
     void prepareFlatness();
@@ -141,12 +148,16 @@ class Patches {
 
     const Elements& elements_;
     std::vector<Patch> patches_;
+    std::vector<int> all_;  // their numbers
     std::vector<int> patchOfPoint_, patchOfEdge_;
-    std::vector<int> patchesAt_;        // of which points are corners, point by point
-    std::vector<std::size_t> firstAt_;  // (points + 1) of those
-    std::vector<int> corrected_;        // patches, scratch
-    std::vector<Node> nodes_;           // children before parents
+    std::vector<int> patchesAt_;             // of which points are corners, point by point
+    std::vector<std::size_t> firstAt_;       // (points + 1) of those
+    std::vector<int> corrected_, toFollow_;  // patches, scratch
+    std::vector<Node> nodes_;                // children before parents
     int root_ = -1;
+    std::vector<double> ways_;                  // [m²] (points) of the instant, squared
+    std::vector<double> going_;                 // [m] (patches)
+    std::vector<char> isFollowed_;              // (patches)
     std::vector<PatchMotion> motions_;          // (patches)
     std::vector<dvec3> remembered_;             // [m] of the corners of all patches, from the mean
     std::vector<std::size_t> firstRemembered_;  // (patches)

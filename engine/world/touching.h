@@ -73,7 +73,6 @@ class Touching {
     int fewestMet() const;
     int moreInstants(int than) const;
     int chooseInstants(const TickTime& time);
-    std::optional<Outcome> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);
     void meet(double h);
     bool isTooCoarse(int instants, bool isTrial) const;
     bool tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,

@@ -14,6 +14,7 @@
 
 #include "taut/contact/crossings.h"
 #include "taut/contact/near_pairs.h"
+#include "taut/contact/nearest_kernel.h"
 #include "taut/contact/pressing.h"
 
 namespace taut::contact {
@@ -94,8 +95,12 @@ class Group {
 
   private:
     void locate(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    void locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
-                  std::vector<MeetingPair>& pairs) const;
+    struct Measured;
+    struct LocatingScratch;
+    void gatherIn(NearPairs::Record& record, std::span<const dvec3> x0, const NearestKernels& kernels,
+                  LocatingScratch& scratch) const;
+    void judge(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
+               const LocatingScratch& scratch, std::vector<MeetingPair>& pairs) const;
     bool isFeatureNearest(const MeetingPair& pair, int feature, std::span<const dvec3> x) const;
     bool isRidge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const;
     bool isTangled(const MeetingPair& pair) const;

@@ -31,7 +31,13 @@ struct BoxRows {
     }
 };
 
+struct Listed {
+    NearPair pair;
+    double left;  // [m] until it is near
+};
+
 struct Scratch {
+    std::vector<Listed> pairs;
     BoxRows first, second;
     std::vector<long> hits;
 };
@@ -71,6 +77,7 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     const Box &boxA = patches_.motion(record.a).before, &boxB = patches_.motion(record.b).before;
 
     thread_local Scratch scratch;
+    scratch.pairs.clear();
     const auto grown = [&](Box box, double by) {
         box.low -= by;
         box.high += by;
@@ -107,14 +114,25 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
                                                                         before.weights[2] * rest(c[2]))));
                 }
                 const double d = std::sqrt(square);
-                if (d <= nearShare * keep + margin) record.pairs.push_back({i, t, keep, d, d});
+                if (d <= nearShare * keep + margin) scratch.pairs.push_back({{i, t, keep}, d - nearShare * keep});
             });
         }
     };
     tryPoints(a, b, boxA, boxB);
     if (!isOne) tryPoints(b, a, boxB, boxA);
-    std::sort(record.pairs.begin(), record.pairs.end(),
-              [](const NearPair& p, const NearPair& q) { return p.b < q.b || (p.b == q.b && p.a < q.a); });
+    const auto take = [&](auto&& isBefore) {
+        std::sort(scratch.pairs.begin(), scratch.pairs.end(), isBefore);
+        for (const Listed& listed : scratch.pairs) {
+            record.pairs.push_back(listed.pair);
+            record.nearTravelled.push_back(listed.left);
+            record.leastKeep = std::min(record.leastKeep, listed.pair.distance);
+            record.asleepTravelled = std::min(record.asleepTravelled, listed.left);
+        }
+        scratch.pairs.clear();
+    };
+    take([](const Listed& p, const Listed& q) {
+        return p.pair.b < q.pair.b || (p.pair.b == q.pair.b && p.pair.a < q.pair.a);
+    });
     record.pointPairs = record.pairs.size();
 
     const auto boxOfEdge = [&](int e) {
@@ -155,15 +173,14 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
                                                       (rest(second.a) + before.t * (rest(second.b) - rest(second.a)))));
             }
             const double d = std::sqrt(square);
-            if (d <= nearShare * keep + margin) record.pairs.push_back({std::min(e, f), std::max(e, f), keep, d, d});
+            if (d <= nearShare * keep + margin)
+                scratch.pairs.push_back({{std::min(e, f), std::max(e, f), keep}, d - nearShare * keep});
         });
     }
-    std::sort(record.pairs.begin() + static_cast<std::ptrdiff_t>(record.pointPairs), record.pairs.end(),
-              [](const NearPair& p, const NearPair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); });
-    for (const NearPair& pair : record.pairs) {
-        record.leastKeep = std::min(record.leastKeep, pair.distance);
-        record.asleepTravelled = std::min(record.asleepTravelled, pair.atFirst - nearShare * pair.distance);
-    }
+    take([](const Listed& p, const Listed& q) {
+        return p.pair.a < q.pair.a || (p.pair.a == q.pair.a && p.pair.b < q.pair.b);
+    });
+    record.nearApproached = record.nearTravelled;
 }
 
 }  // namespace taut::contact

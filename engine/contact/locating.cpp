@@ -5,6 +5,7 @@
 #include "taut/contact/closest.h"
 #include "taut/contact/group.h"
 #include "taut/contact/guard.h"
+#include "taut/contact/nearest_batch.h"
 #include "taut/contact/rigid_side.h"
 #include "taut/core/parallel.h"
 
@@ -14,6 +15,15 @@ namespace {
 constexpr int recordsAtOnce = 16;
 constexpr double pressShare = 0.05;  // of the distance kept: a gap below it is a contact
 constexpr double nothing = 1e-9;     // [m] no direction can be told of less
+constexpr double rounding = 1e-9;    // of sums that two ways reach
+
+// It may come near only once its record has gone so far.
+void sleep(NearPairs::Record& record, double nearTravelled, double nearApproached) {
+    if (nearTravelled - record.travelled > nearApproached - record.approached)
+        record.asleepTravelled = std::min(record.asleepTravelled, nearTravelled);
+    else
+        record.asleepApproached = std::min(record.asleepApproached, nearApproached);
+}
 
 }  // namespace
 
@@ -65,115 +75,150 @@ bool Group::isFeatureNearest(const MeetingPair& pair, int feature, std::span<con
     return true;
 }
 
-void Group::locateIn(NearPairs::Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1,
-                     std::vector<MeetingPair>& pairs) const {
+// A pair of which the distance is found.
+struct Group::Measured {
+    NearPairs::Record* record;
+    std::size_t pair;  // of the record
+    int slot;
+};
+
+// Of records: first what has to be measured, then all of that together, then what comes of it, pair by pair in order.
+struct Group::LocatingScratch {
+    NearestBatch points, edges;
+    std::vector<Measured> measured;
+    std::vector<int> awake;
+};
+
+void Group::gatherIn(NearPairs::Record& record, std::span<const dvec3> x0, const NearestKernels& kernels,
+                     LocatingScratch& scratch) const {
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
-    record.asleepTravelled = record.asleepApproached = 1e300;
-    const auto sleep = [&](const NearPair& near) {
-        const double found = near.found - nearShare * near.distance, first = near.atFirst - nearShare * near.distance;
-        if (found - record.travelled > first - record.approached)
-            record.asleepTravelled = std::min(record.asleepTravelled, found);
-        else
-            record.asleepApproached = std::min(record.asleepApproached, first);
-    };
-    for (std::size_t k = 0; k < record.pairs.size(); ++k) {
-        NearPair& near = record.pairs[k];
-        const double reach = nearShare * near.distance;
-        if (near.found - record.travelled > reach || near.atFirst - record.approached > reach) {
-            sleep(near);
-            continue;
-        }
-        MeetingPair pair;
-        pair.a = near.a;
-        pair.b = near.b;
-        pair.isPoint = k < record.pointPairs;
-        pair.keep = near.distance;
-        dvec3 apart(0.0);
-        int feature = -1;
-        bool areInside = true;
-        int surfaceA = 0, surfaceB = 0;
-        if (pair.isPoint) {
-            const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(near.b)];
-            const std::array<int, 3>& c = triangle.points;
-            const OnTriangle on = nearestOnTriangle(at(near.a), at(c[0]), at(c[1]), at(c[2]));
-            pair.points = {near.a, c[0], c[1], c[2]};
-            pair.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
-            feature = static_cast<int>(on.feature) - static_cast<int>(Feature::edge0);
-            surfaceA = elements_.surfaceOf(near.a);
-            surfaceB = triangle.surface;
+    scratch.awake.resize(record.pairs.size());
+    NearPairRows rows{static_cast<int>(record.pairs.size()),
+                      record.nearTravelled.data(),
+                      record.nearApproached.data(),
+                      record.travelled,
+                      record.approached,
+                      scratch.awake.data()};
+    const int awake = kernels.findAwake(rows);
+    record.asleepTravelled = rows.asleepTravelled;
+    record.asleepApproached = rows.asleepApproached;
+    for (int n = 0; n < awake; ++n) {
+        const auto k = static_cast<std::size_t>(scratch.awake[static_cast<std::size_t>(n)]);
+        const NearPair& near = record.pairs[k];
+        int slot;
+        if (k < record.pointPairs) {
+            const std::array<int, 3>& c = elements_.triangles()[static_cast<std::size_t>(near.b)].points;
+            slot = scratch.points.add(at(near.a), at(c[0]), at(c[1]), at(c[2]));
         } else {
             const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
                        &second = elements_.edges()[static_cast<std::size_t>(near.b)];
-            const OnSegments on = nearestOnSegments(at(first.a), at(first.b), at(second.a), at(second.b));
-            pair.points = {first.a, first.b, second.a, second.b};
-            pair.weights = {1 - on.s, on.s, on.t - 1, -on.t};
-            surfaceA = first.surface;
-            surfaceB = second.surface;
-            areInside = on.areInside || first.isLine || second.isLine;
-            // Ends of a rigid edge meet triangles as corners; ends of others meet its faces elsewhere.
-            const bool isRigidFirst = elements_.isRigid(surfaceA), isRigidSecond = elements_.isRigid(surfaceB);
-            if (isRigidFirst || isRigidSecond) {
-                const Edge& soft = isRigidFirst ? second : first;
-                const double share = isRigidFirst ? on.t : on.s;
-                areInside = on.areInside || (soft.isLine && share > 0 && share < 1);
-            }
+            slot = scratch.edges.add(at(first.a), at(first.b), at(second.a), at(second.b));
         }
-        for (std::size_t i = 0; i < 4; ++i) apart += pair.weights[i] * at(pair.points[i]);
-        pair.apart = length(apart);
-        near.found = std::max(near.found, pair.apart + record.way);
-        sleep(near);
-        if (record.isFlat) continue;
-        const double gap = pair.apart - pair.keep;
-        dvec3 way(0.0);
-        for (std::size_t i = 0; i < 4; ++i)
-            way += pair.weights[i] * (x1[static_cast<std::size_t>(pair.points[i])] - at(pair.points[i]));
-        if (pair.apart > nothing) {
-            pair.normal = apart / pair.apart;
-        } else {
-            // Through each other, or nearly: which side is which cannot be told.
-            const dvec3 p = at(pair.points[1]) - at(pair.points[pair.isPoint ? 3 : 0]);
-            const dvec3 q = at(pair.points[pair.isPoint ? 2 : 3]) - at(pair.points[pair.isPoint ? 3 : 2]);
-            const dvec3 across = glm::cross(p, q);
-            const double size = length(across);
-            pair.normal = size > 0 ? across / size : dvec3(0.0, 1.0, 0.0);
-        }
-        pair.presses = areInside && (gap < pressShare * pair.keep || gap + glm::dot(pair.normal, way) < 0);
-        if (pair.presses && pair.isPoint && feature >= 0) pair.presses = isFeatureNearest(pair, feature, x0);
-        if (pair.presses && pair.isPoint && elements_.isRigid(surfaceA))
-            pair.presses = isCornerNearest(elements_, near.a, -pair.normal, x0);
-        if (pair.presses && !pair.isPoint) {
-            const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
-                       &second = elements_.edges()[static_cast<std::size_t>(near.b)];
-            const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
-            const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
-            // A ball beside a triangle is a point of a pair with it.
-            const bool isBall = first.a == first.b || second.a == second.b;
-            if (isBall && (first.triangles[0] >= 0 || second.triangles[0] >= 0))
-                pair.presses = false;
-            else
-                pair.presses = isRidge(first, onFirst, -pair.normal, x0) && isRidge(second, onSecond, pair.normal, x0);
-        }
-        if (pair.presses && gap >= pressShare * pair.keep && misses(pair, x0, x1, 1.0 - pressShare))
-            pair.presses = false;
-        if (!pair.presses && pair.apart > record.coming + watchShare * pair.keep) continue;
-        if (!crossings_.empty() && isTangled(pair)) continue;
-        const Surface &a = elements_.surface(surfaceA), &b = elements_.surface(surfaceB);
-        pair.friction = (a.isRigid || b.isRigid ? 1.0 : options_.friction) * a.friction * b.friction;
-        pairs.push_back(pair);
+        scratch.measured.push_back({&record, k, slot});
     }
+}
+
+void Group::judge(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
+                  const LocatingScratch& scratch, std::vector<MeetingPair>& pairs) const {
+    NearPairs::Record& record = *measured.record;
+    const NearPair& near = record.pairs[measured.pair];
+    const bool isPoint = measured.pair < record.pointPairs;
+    const NearestBatch& batch = isPoint ? scratch.points : scratch.edges;
+    const double apart = batch.distance(measured.slot), gap = apart - near.distance;
+    double& nearTravelled = record.nearTravelled[measured.pair];
+    nearTravelled = std::max(nearTravelled, apart + record.way - nearShare * near.distance);
+    sleep(record, nearTravelled, record.nearApproached[measured.pair]);
+    // No pair comes nearer than its record.
+    if (record.isFlat || gap > std::max(pressShare * near.distance, (1 + rounding) * record.coming)) return;
+
+    const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
+    MeetingPair pair;
+    pair.a = near.a;
+    pair.b = near.b;
+    pair.isPoint = isPoint;
+    pair.keep = near.distance;
+    pair.apart = apart;
+    pair.weights = batch.weights(measured.slot);
+    const auto where = batch.where(measured.slot);
+    int feature = -1;
+    bool areInside = true;
+    int surfaceA = 0, surfaceB = 0;
+    if (isPoint) {
+        const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(near.b)];
+        const std::array<int, 3>& c = triangle.points;
+        pair.points = {near.a, c[0], c[1], c[2]};
+        feature = static_cast<int>(where) - static_cast<int>(Feature::edge0);
+        surfaceA = elements_.surfaceOf(near.a);
+        surfaceB = triangle.surface;
+    } else {
+        const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
+                   &second = elements_.edges()[static_cast<std::size_t>(near.b)];
+        pair.points = {first.a, first.b, second.a, second.b};
+        surfaceA = first.surface;
+        surfaceB = second.surface;
+        areInside = where != 0 || first.isLine || second.isLine;
+        // Ends of a rigid edge meet triangles as corners; ends of others meet its faces elsewhere.
+        const bool isRigidFirst = elements_.isRigid(surfaceA), isRigidSecond = elements_.isRigid(surfaceB);
+        if (isRigidFirst || isRigidSecond) {
+            const Edge& soft = isRigidFirst ? second : first;
+            const double share = isRigidFirst ? -pair.weights[3] : pair.weights[1];
+            areInside = where != 0 || (soft.isLine && share > 0 && share < 1);
+        }
+    }
+    if (apart > nothing) {
+        pair.normal = batch.apart(measured.slot) / apart;
+    } else {
+        // Through each other, or nearly: which side is which cannot be told.
+        const dvec3 p = at(pair.points[1]) - at(pair.points[pair.isPoint ? 3 : 0]);
+        const dvec3 q = at(pair.points[pair.isPoint ? 2 : 3]) - at(pair.points[pair.isPoint ? 3 : 2]);
+        const dvec3 across = glm::cross(p, q);
+        const double size = length(across);
+        pair.normal = size > 0 ? across / size : dvec3(0.0, 1.0, 0.0);
+    }
+    dvec3 way(0.0);
+    for (std::size_t i = 0; i < 4; ++i)
+        way += pair.weights[i] * (x1[static_cast<std::size_t>(pair.points[i])] - at(pair.points[i]));
+    pair.presses = areInside && (gap < pressShare * pair.keep || gap + glm::dot(pair.normal, way) < 0);
+    if (pair.presses && pair.isPoint && feature >= 0) pair.presses = isFeatureNearest(pair, feature, x0);
+    if (pair.presses && pair.isPoint && elements_.isRigid(surfaceA))
+        pair.presses = isCornerNearest(elements_, near.a, -pair.normal, x0);
+    if (pair.presses && !pair.isPoint) {
+        const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
+                   &second = elements_.edges()[static_cast<std::size_t>(near.b)];
+        const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
+        const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
+        // A ball beside a triangle is a point of a pair with it.
+        const bool isBall = first.a == first.b || second.a == second.b;
+        if (isBall && (first.triangles[0] >= 0 || second.triangles[0] >= 0))
+            pair.presses = false;
+        else
+            pair.presses = isRidge(first, onFirst, -pair.normal, x0) && isRidge(second, onSecond, pair.normal, x0);
+    }
+    if (pair.presses && gap >= pressShare * pair.keep && misses(pair, x0, x1, 1.0 - pressShare)) pair.presses = false;
+    if (!pair.presses && apart > record.coming + watchShare * pair.keep) return;
+    if (!crossings_.empty() && isTangled(pair)) return;
+    const Surface &a = elements_.surface(surfaceA), &b = elements_.surface(surfaceB);
+    pair.friction = (a.isRigid || b.isRigid ? 1.0 : options_.friction) * a.friction * b.friction;
+    pairs.push_back(pair);
 }
 
 void Group::locate(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     const int count = static_cast<int>(near_.awakeCount());
     const int tasks = (count + recordsAtOnce - 1) / recordsAtOnce;
+    const NearestKernels kernels = nearestKernels();
     located_.resize(static_cast<std::size_t>(std::max(tasks, static_cast<int>(located_.size()))));
     core::parallelFor(tasks, [&](int task) {
         std::vector<MeetingPair>& own = located_[static_cast<std::size_t>(task)];
         own.clear();
-        for (int k = task * recordsAtOnce; k < std::min((task + 1) * recordsAtOnce, count); ++k) {
-            NearPairs::Record& record = near_.awake(static_cast<std::size_t>(k));
-            locateIn(record, x0, x1, own);
-        }
+        thread_local LocatingScratch scratch;
+        scratch.points.clear();
+        scratch.edges.clear();
+        scratch.measured.clear();
+        for (int k = task * recordsAtOnce; k < std::min((task + 1) * recordsAtOnce, count); ++k)
+            gatherIn(near_.awake(static_cast<std::size_t>(k)), x0, kernels, scratch);
+        scratch.points.solve(kernels.onTriangles);
+        scratch.edges.solve(kernels.onSegments);
+        for (const Measured& measured : scratch.measured) judge(measured, x0, x1, scratch, own);
     });
     pairs_.clear();
     for (int task = 0; task < tasks; ++task) {

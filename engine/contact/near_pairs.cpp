@@ -36,14 +36,23 @@ void NearPairs::drop() {
     gone_.assign(static_cast<std::size_t>(patches_.count()), 0.0);
 }
 
+void NearPairs::clear(Record& record) {
+    record.pairs.clear();
+    record.nearTravelled.clear();
+    record.nearApproached.clear();
+    record.pointPairs = 0;
+}
+
 NearPairs::Record* NearPairs::newRecord(PatchPair pair) {
     if (unused_.empty()) unused_.push_back(&records_.emplace_back());
     Record* record = unused_.back();
     unused_.pop_back();
-    std::vector<NearPair> room = std::move(record->pairs);
-    *record = {};
-    record->pairs = std::move(room);
-    record->pairs.clear();
+    Record fresh;
+    fresh.pairs = std::move(record->pairs);
+    fresh.nearTravelled = std::move(record->nearTravelled);
+    fresh.nearApproached = std::move(record->nearApproached);
+    *record = std::move(fresh);
+    clear(*record);
     record->a = lowOf(pair);
     record->b = highOf(pair);
     record->about = patches_.about(record->a, record->b);
@@ -292,8 +301,7 @@ void NearPairs::addWays() {
 
 // Nothing of it is near until it has come that much nearer [m].
 void NearPairs::restart(Record& record, double valid) const {
-    record.pairs.clear();
-    record.pointPairs = 0;
+    clear(record);
     record.asleepTravelled = record.asleepApproached = 1e300;
     record.leastKeep = 1e300;
     record.valid = valid;
@@ -311,7 +319,7 @@ void NearPairs::restart(Record& record, double valid) const {
 
 std::uint64_t NearPairs::bytes() const {
     std::uint64_t sum = records_.size() * sizeof(Record);
-    for (const Record& record : records_) sum += record.pairs.capacity() * sizeof(NearPair);
+    for (const Record& record : records_) sum += record.pairs.capacity() * (sizeof(NearPair) + 2 * sizeof(double));
     return sum;
 }
 

@@ -15,8 +15,6 @@ namespace taut::contact {
 struct NearPair {
     int a, b;         // point and triangle; or edges, the lower first
     double distance;  // [m] that they keep
-    double atFirst;   // [m] between them when they were listed
-    double found;     // [m] between them when that was last found, and what the record had travelled before
 };
 
 // Pairs that are further apart than what is coming, and that share of what they keep, cannot meet in an instant, and
@@ -46,12 +44,15 @@ class NearPairs {
         int a = 0, b = 0;  // patches
         std::vector<NearPair> pairs;
         std::size_t pointPairs = 0;  // the first of them: of points and triangles
-        double travelled = 0;        // [m] at most, since they were listed, the coming way included: a sum of ways
-        double approached = 0;       // [m] likewise, from where they were then
-        double coming = 0;           // [m] of that the coming way
-        bool isNew = false;          // its list has expired in this instant
-        bool isPassing = false;      // both pass each other by in this instant
-        bool isFlat = false;         // nothing of it meets in this instant
+        // (pairs) [m] Until it has travelled that far, by what was last found between them, and come that much nearer,
+        // by what was between them when they were listed, none of a pair is near.
+        std::vector<double> nearTravelled, nearApproached;
+        double travelled = 0;    // [m] at most, since they were listed, the coming way included: a sum of ways
+        double approached = 0;   // [m] likewise, from where they were then
+        double coming = 0;       // [m] of that the coming way
+        bool isNew = false;      // its list has expired in this instant
+        bool isPassing = false;  // both pass each other by in this instant
+        bool isFlat = false;     // nothing of it meets in this instant
 
         double most = 0;       // [m] that pairs keep: the sum of the thicknesses
         double leastKeep = 0;  // [m] of the pairs
@@ -89,6 +90,7 @@ class NearPairs {
     void look(Known& known, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
     bool staysWhereSearched(std::span<const dvec3> x0, std::span<const dvec3> x1, double bent);
     bool passesBy(const Record& record, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
+    static void clear(Record& record);
     Record* newRecord(PatchPair pair);
     double comingOf(const Record& record) const;
     void approach(Record& record) const;

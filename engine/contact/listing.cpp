@@ -1,9 +1,9 @@
 // Which pairs of two patches are within reach.
 #include <algorithm>
-#include <cmath>
+#include <array>
 
-#include "taut/contact/closest.h"
 #include "taut/contact/near_pairs.h"
+#include "taut/contact/nearest_batch.h"
 
 namespace taut::contact {
 namespace {
@@ -33,28 +33,36 @@ struct BoxRows {
 
 struct Listed {
     NearPair pair;
-    double left;  // [m] until it is near
+    double distance;  // [m]
 };
 
 struct Scratch {
-    std::vector<Listed> pairs;
     BoxRows first, second;
-    std::vector<long> hits;
+    std::vector<int> hits;
+    std::vector<NearPair> tried;
+    NearestBatch batch;
+    std::vector<Listed> listed;
 };
 
-// Calls each(item) for those of the rows that overlap the box.
+// Calls each(item) for those of the rows, from one on, that overlap the box.
 template <class Each>
-void forEachHit(const BoxRows& rows, const Box& box, std::size_t from, std::vector<long>& hits, Each&& each) {
-    const std::size_t n = rows.item.size();
-    hits.resize(n);
-    const double *lx = rows.low[0].data(), *ly = rows.low[1].data(), *lz = rows.low[2].data();
-    const double *hx = rows.high[0].data(), *hy = rows.high[1].data(), *hz = rows.high[2].data();
-    long* hit = hits.data();
-    for (std::size_t i = from; i < n; ++i)
-        hit[i] = (lx[i] <= box.high.x) & (box.low.x <= hx[i]) & (ly[i] <= box.high.y) & (box.low.y <= hy[i]) &
-                 (lz[i] <= box.high.z) & (box.low.z <= hz[i]);
-    for (std::size_t i = from; i < n; ++i)
-        if (hit[i] != 0) each(rows.item[i]);
+void forEachHit(const NearestKernels& kernels, const BoxRows& rows, const Box& box, std::size_t from,
+                std::vector<int>& hits, Each&& each) {
+    hits.resize(rows.item.size());
+    BoxLanes lanes;
+    lanes.n = static_cast<int>(rows.item.size() - from);
+    for (int k = 0; k < 3; ++k) {
+        lanes.low[k] = rows.low[k].data() + from;
+        lanes.high[k] = rows.high[k].data() + from;
+    }
+    const int count = kernels.findOverlapping(lanes, &box.low[0], &box.high[0], hits.data());
+    for (int n = 0; n < count; ++n) each(rows.item[from + static_cast<std::size_t>(hits[static_cast<std::size_t>(n)])]);
+}
+
+Box grown(Box box, double by) {
+    box.low -= by;
+    box.high += by;
+    return box;
 }
 
 }  // namespace
@@ -70,19 +78,61 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     const double margin = std::max({leastMargin * most, own, ahead});
     const double reach = nearShare * most + margin;
     const bool isOne = record.a == record.b;
+    const std::span<const dvec3> rest(elements_.rest());
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
-    const auto rest = [&](int i) -> const dvec3& { return elements_.rest()[static_cast<std::size_t>(i)]; };
+    const auto triangleAt = [&](int t) -> const Triangle& {
+        return elements_.triangles()[static_cast<std::size_t>(t)];
+    };
+    const auto edgeAt = [&](int e) -> const Edge& { return elements_.edges()[static_cast<std::size_t>(e)]; };
 
     restart(record, margin);
     const Box &boxA = patches_.motion(record.a).before, &boxB = patches_.motion(record.b).before;
 
+    const NearestKernels kernels = nearestKernels();
     thread_local Scratch scratch;
-    scratch.pairs.clear();
-    const auto grown = [&](Box box, double by) {
-        box.low -= by;
-        box.high += by;
-        return box;
+    scratch.tried.clear();
+    // Measures what was tried, and takes what is within reach in an order of its own.
+    const auto measure = [&](void (*kernel)(NearestLanes&, int), auto&& placesOf, auto&& isBefore) {
+        const auto solve = [&](std::span<const dvec3> x) {
+            scratch.batch.clear();
+            for (const NearPair& pair : scratch.tried) {
+                const std::array<int, 4> i = placesOf(pair);
+                scratch.batch.add(x[static_cast<std::size_t>(i[0])], x[static_cast<std::size_t>(i[1])],
+                                  x[static_cast<std::size_t>(i[2])], x[static_cast<std::size_t>(i[3])]);
+            }
+            scratch.batch.solve(kernel);
+        };
+        solve(x0);
+        scratch.listed.clear();
+        std::size_t within = 0;
+        for (std::size_t k = 0; k < scratch.tried.size(); ++k) {
+            const double distance = scratch.batch.distance(static_cast<int>(k));
+            if (distance > reach) continue;
+            scratch.listed.push_back({scratch.tried[k], distance});
+            scratch.tried[within++] = scratch.tried[k];
+        }
+        scratch.tried.resize(within);
+        if (isBond) {
+            solve(rest);
+            for (std::size_t k = 0; k < within; ++k) {
+                double& keep = scratch.listed[k].pair.distance;
+                keep = std::min(keep, restShare * scratch.batch.distance(static_cast<int>(k)));
+            }
+        }
+        scratch.tried.clear();
+        std::sort(
+            scratch.listed.begin(), scratch.listed.end(),
+            [&](const Listed& p, const Listed& q) { return isBefore(p.pair, q.pair); });
+        for (const Listed& listed : scratch.listed) {
+            const double left = listed.distance - nearShare * listed.pair.distance;
+            if (left > margin) continue;
+            record.pairs.push_back(listed.pair);
+            record.nearTravelled.push_back(left);
+            record.leastKeep = std::min(record.leastKeep, listed.pair.distance);
+            record.asleepTravelled = std::min(record.asleepTravelled, left);
+        }
     };
+
     const auto tryPoints = [&](const Patch& points, const Patch& triangles, const Box& pointBox,
                                const Box& triangleBox) {
         scratch.first.clear();
@@ -93,59 +143,38 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
         }
         if (scratch.first.item.empty()) return;
         for (int t : triangles.triangles) {
-            const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(t)];
+            const Triangle& triangle = triangleAt(t);
             if (triangle.isGone) continue;
             const std::array<int, 3>& c = triangle.points;
             Box box;
             for (int i : c) box.add(at(i));
             if (!box.overlaps(pointBox, reach)) continue;
-            forEachHit(scratch.first, grown(box, reach), 0, scratch.hits, [&](int i) {
-                if (i == c[0] || i == c[1] || i == c[2]) return;
-                const OnTriangle on = nearestOnTriangle(at(i), at(c[0]), at(c[1]), at(c[2]));
-                const dvec3 apart =
-                    at(i) - (on.weights[0] * at(c[0]) + on.weights[1] * at(c[1]) + on.weights[2] * at(c[2]));
-                const double square = glm::dot(apart, apart);
-                if (square > reach * reach) return;
-                double keep = most;
-                if (isBond) {
-                    const OnTriangle before = nearestOnTriangle(rest(i), rest(c[0]), rest(c[1]), rest(c[2]));
-                    keep = std::min(keep, restShare * length(rest(i) - (before.weights[0] * rest(c[0]) +
-                                                                        before.weights[1] * rest(c[1]) +
-                                                                        before.weights[2] * rest(c[2]))));
-                }
-                const double d = std::sqrt(square);
-                if (d <= nearShare * keep + margin) scratch.pairs.push_back({{i, t, keep}, d - nearShare * keep});
+            forEachHit(kernels, scratch.first, grown(box, reach), 0, scratch.hits, [&](int i) {
+                if (i != c[0] && i != c[1] && i != c[2]) scratch.tried.push_back({i, t, most});
             });
         }
     };
     tryPoints(a, b, boxA, boxB);
     if (!isOne) tryPoints(b, a, boxB, boxA);
-    const auto take = [&](auto&& isBefore) {
-        std::sort(scratch.pairs.begin(), scratch.pairs.end(), isBefore);
-        for (const Listed& listed : scratch.pairs) {
-            record.pairs.push_back(listed.pair);
-            record.nearTravelled.push_back(listed.left);
-            record.leastKeep = std::min(record.leastKeep, listed.pair.distance);
-            record.asleepTravelled = std::min(record.asleepTravelled, listed.left);
-        }
-        scratch.pairs.clear();
-    };
-    take([](const Listed& p, const Listed& q) {
-        return p.pair.b < q.pair.b || (p.pair.b == q.pair.b && p.pair.a < q.pair.a);
-    });
+    measure(
+        kernels.onTriangles,
+        [&](const NearPair& pair) -> std::array<int, 4> {
+            const std::array<int, 3>& c = triangleAt(pair.b).points;
+            return {pair.a, c[0], c[1], c[2]};
+        },
+        [](const NearPair& p, const NearPair& q) { return p.b < q.b || (p.b == q.b && p.a < q.a); });
     record.pointPairs = record.pairs.size();
 
     const auto boxOfEdge = [&](int e) {
-        const Edge& edge = elements_.edges()[static_cast<std::size_t>(e)];
         Box box;
-        box.add(at(edge.a));
-        box.add(at(edge.b));
+        box.add(at(edgeAt(e).a));
+        box.add(at(edgeAt(e).b));
         return box;
     };
     const auto gather = [&](const Patch& patch, const Box& other, BoxRows& rows) {
         rows.clear();
         for (int e : patch.edges) {
-            if (elements_.edges()[static_cast<std::size_t>(e)].isGone) continue;
+            if (edgeAt(e).isGone) continue;
             const Box box = boxOfEdge(e);
             if (box.overlaps(other, reach)) rows.add(e, box);
         }
@@ -155,31 +184,20 @@ void NearPairs::list(Record& record, std::span<const dvec3> x0) const {
     const BoxRows& firsts = isOne ? scratch.second : scratch.first;
     for (std::size_t k = 0; k < firsts.item.size(); ++k) {
         const int e = firsts.item[k];
-        const Edge& first = elements_.edges()[static_cast<std::size_t>(e)];
-        forEachHit(scratch.second, grown(boxOfEdge(e), reach), isOne ? k + 1 : 0, scratch.hits, [&](int f) {
-            const Edge& second = elements_.edges()[static_cast<std::size_t>(f)];
-            if (first.a == second.a || first.a == second.b || first.b == second.a || first.b == second.b) return;
-            const OnSegments on = nearestOnSegments(at(first.a), at(first.b), at(second.a), at(second.b));
-            const dvec3 apart = at(first.a) + on.s * (at(first.b) - at(first.a)) -
-                                (at(second.a) + on.t * (at(second.b) - at(second.a)));
-            const double square = glm::dot(apart, apart);
-            if (square > reach * reach) return;
-            double keep = most;
-            if (isBond) {
-                const OnSegments before =
-                    nearestOnSegments(rest(first.a), rest(first.b), rest(second.a), rest(second.b));
-                keep =
-                    std::min(keep, restShare * length(rest(first.a) + before.s * (rest(first.b) - rest(first.a)) -
-                                                      (rest(second.a) + before.t * (rest(second.b) - rest(second.a)))));
-            }
-            const double d = std::sqrt(square);
-            if (d <= nearShare * keep + margin)
-                scratch.pairs.push_back({{std::min(e, f), std::max(e, f), keep}, d - nearShare * keep});
+        const Edge& first = edgeAt(e);
+        forEachHit(kernels, scratch.second, grown(boxOfEdge(e), reach), isOne ? k + 1 : 0, scratch.hits, [&](int f) {
+            const Edge& second = edgeAt(f);
+            if (first.a != second.a && first.a != second.b && first.b != second.a && first.b != second.b)
+                scratch.tried.push_back({std::min(e, f), std::max(e, f), most});
         });
     }
-    take([](const Listed& p, const Listed& q) {
-        return p.pair.a < q.pair.a || (p.pair.a == q.pair.a && p.pair.b < q.pair.b);
-    });
+    measure(
+        kernels.onSegments,
+        [&](const NearPair& pair) -> std::array<int, 4> {
+            const Edge &first = edgeAt(pair.a), &second = edgeAt(pair.b);
+            return {first.a, first.b, second.a, second.b};
+        },
+        [](const NearPair& p, const NearPair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); });
     record.nearApproached = record.nearTravelled;
 }
 

@@ -13,6 +13,8 @@ namespace {
 // Numbers of Feature.
 constexpr long face = 0, edge0 = 1, edge1 = 2, edge2 = 3, corner0 = 4, corner1 = 5, corner2 = 6;
 
+constexpr int room = 64;  // of scratch
+
 inline double clampShare(double s) {
     const double above = s < 0 ? 0.0 : s;
     return above > 1 ? 1.0 : above;
@@ -125,20 +127,32 @@ void onSegments(NearestLanes& lanes, int n) {
     sumUp(lanes, n);
 }
 
-void overlaps(const BoxLanes& boxes, const double (&low)[3], const double (&high)[3], long* hit) {
+int findOverlapping(const BoxLanes& boxes, const double* low, const double* high, int* hits) {
     const double lx = low[0], ly = low[1], lz = low[2], hx = high[0], hy = high[1], hz = high[2];
-    TAUT_INDEPENDENT
-    for (int i = 0; i < boxes.n; ++i)
-        hit[i] = (boxes.low[0][i] <= hx) & (lx <= boxes.high[0][i]) & (boxes.low[1][i] <= hy) &
-                         (ly <= boxes.high[1][i]) & (boxes.low[2][i] <= hz) & (lz <= boxes.high[2][i])
-                     ? 1L
-                     : 0L;
+    alignas(64) long isHit[room];
+    int count = 0;
+    for (int from = 0; from < boxes.n; from += room) {
+        const int n = boxes.n - from < room ? boxes.n - from : room;
+        const double *boxLx = boxes.low[0] + from, *boxLy = boxes.low[1] + from, *boxLz = boxes.low[2] + from;
+        const double *boxHx = boxes.high[0] + from, *boxHy = boxes.high[1] + from, *boxHz = boxes.high[2] + from;
+        TAUT_INDEPENDENT
+        for (int i = 0; i < n; ++i) {
+            const bool is = (boxLx[i] <= hx) & (lx <= boxHx[i]) & (boxLy[i] <= hy) & (ly <= boxHy[i]) &
+                            (boxLz[i] <= hz) & (lz <= boxHz[i]);
+            isHit[i] = is ? 1L : 0L;
+        }
+        for (int i = 0; i < n; ++i) {
+            hits[count] = from + i;
+            count += static_cast<int>(isHit[i]);
+        }
+    }
+    return count;
 }
 
 int findAwake(NearPairRows& rows) {
     using core::TAUT_ISA::larger, core::TAUT_ISA::load;
     using V = core::TAUT_ISA::WideVector<double>;
-    constexpr int width = sizeof(V) / sizeof(double), room = 64;
+    constexpr int width = sizeof(V) / sizeof(double);
     alignas(64) double byTravelled[room], byApproached[room];  // minus what is asked for, of those asleep
     alignas(64) long isAwake[room];
     int count = 0;

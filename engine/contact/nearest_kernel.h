@@ -38,8 +38,8 @@ struct NearPairRows {
 struct NearestKernels {
     void (*onTriangles)(NearestLanes& lanes, int n);
     void (*onSegments)(NearestLanes& lanes, int n);
-    // hit (n): 1 where a box overlaps the one from low to high.
-    void (*overlaps)(const BoxLanes& boxes, const double (&low)[3], const double (&high)[3], long* hit);
+    // `hits` (n) gets the numbers of the boxes that overlap the one from low to high (3) [m]; returns how many.
+    int (*findOverlapping)(const BoxLanes& boxes, const double* low, const double* high, int* hits);
     int (*findAwake)(NearPairRows& rows);  // returns how many
 };
 

@@ -10,6 +10,7 @@ namespace taut::contact {
 namespace {
 
 constexpr double fastestOut = 1.0;  // [m/s] that it is taken back with
+constexpr std::size_t shared = 64;  // rows; fewer are solved sooner than they are shared out
 constexpr double settled = 1e-4;    // of the distance kept, an instant: smaller changes end the sweeps
 
 dvec3 between(const MeetingPair& pair, std::span<const dvec3> u) {
@@ -68,6 +69,14 @@ void support(const Held& held, double speed, std::span<dvec3> u, double& normal,
     if (square > limit * limit) next = square > 0 ? next * (limit / std::sqrt(square)) : dvec3(0.0);
     own += next - *rub;
     *rub = next;
+}
+
+// Calls until it says that it is settled. Returns how often.
+template <class Once>
+int sweep(int atMost, Once&& once) {
+    int sweeps = 1;
+    while (!once() && sweeps < atMost) ++sweeps;
+    return sweeps;
 }
 
 }  // namespace
@@ -146,6 +155,36 @@ void Pressing::findClusters(std::span<const MeetingPair> pairs, std::span<const 
     supportStart_.push_back(supports_.size());
 }
 
+// Of a cluster, by a shift: of pairs that overlap or press.
+void Pressing::takeBack(std::span<const MeetingPair> pairs, std::span<const Row> rows,
+                        std::span<const Support> supports, double h, const PressingOptions& options, double little,
+                        std::span<const double> inverseMass, std::span<dvec3> shift) const {
+    std::vector<Push> pushes;
+    bool overlaps = false;
+    for (const Row& row : rows) {
+        const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
+        const double recover = pair.gap() < 0 ? std::min(-options.recovery * pair.gap(), fastestOut * h) : 0.0;
+        overlaps = overlaps || recover > 0;
+        if (recover > 0 || row.impulse > 0) pushes.push_back({row.pair, row.mass, recover});
+    }
+    if (!overlaps) return;
+    std::vector<double> held(supports.size(), 0.0);
+    sweep(options.sweeps, [&] {
+        double most = 0;
+        for (Push& push : pushes) {
+            const MeetingPair& pair = pairs[static_cast<std::size_t>(push.pair)];
+            const double along = glm::dot(pair.normal, between(pair, shift));
+            const double wanted = std::max(0.0, push.way + push.mass * (push.recover - along));
+            const double change = wanted - push.way;
+            push.way = wanted;
+            press(pair, change * pair.normal, inverseMass, shift);
+            most = std::max(most, std::abs(change) / push.mass / h);
+        }
+        for (std::size_t i = 0; i < supports.size(); ++i) support(supports[i].held, 0.0, shift, held[i], nullptr);
+        return most < little;
+    });
+}
+
 void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> held,
                      std::span<const double> inverseMass, double h, const PressingOptions& options, std::span<dvec3> u,
                      std::span<dvec3> v, std::span<dvec3> shift) {
@@ -175,47 +214,35 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
         double keep = 1e300;
         for (const Row& row : rows) keep = std::min(keep, pairs[static_cast<std::size_t>(row.pair)].keep);
         const double little = settled * keep / h;
-        const auto sweep = [&](auto&& visitRow, auto&& visitSupport, double enough) {
-            for (int s = 1;; ++s) {
+        sweepsOf[k] = sweep(options.sweeps, [&] {
+            double most = 0;
+            for (Row& row : rows)
+                most = std::max(most, visit(pairs[static_cast<std::size_t>(row.pair)], row.mass, row.open, row.bounce,
+                                            inverseMass, u, row.impulse, row.rub));
+            for (Support& one : supports) support(one.held, one.held.speed, u, one.impulse, &one.rub);
+            return most < little;
+        });
+        const auto pressV = [&] {
+            sweep(options.sweeps, [&] {
                 double most = 0;
-                for (Row& row : rows) most = std::max(most, visitRow(row, pairs[static_cast<std::size_t>(row.pair)]));
-                for (Support& one : supports) visitSupport(one);
-                if (s >= options.sweeps || most < enough) return s;
-            }
+                for (Row& row : rows)
+                    if (row.impulse > 0)
+                        most = std::max(most, visit(pairs[static_cast<std::size_t>(row.pair)], row.mass, row.open,
+                                                    row.bounceV, inverseMass, v, row.impulseV, row.rubV));
+                for (Support& one : supports) support(one.held, one.held.speed, v, one.impulseV, &one.rubV);
+                return most < little;
+            });
         };
-        sweepsOf[k] = sweep(
-            [&](Row& row, const MeetingPair& pair) {
-                return visit(pair, row.mass, row.open, row.bounce, inverseMass, u, row.impulse, row.rub);
-            },
-            [&](Support& one) { support(one.held, one.held.speed, u, one.impulse, &one.rub); }, little);
-        sweep(
-            [&](Row& row, const MeetingPair& pair) {
-                if (!(row.impulse > 0)) return 0.0;
-                return visit(pair, row.mass, row.open, row.bounceV, inverseMass, v, row.impulseV, row.rubV);
-            },
-            [&](Support& one) { support(one.held, one.held.speed, v, one.impulseV, &one.rubV); }, little);
-        bool overlaps = false;
-        for (Row& row : rows) {
-            const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
-            row.recover = pair.gap() < 0 ? std::min(-options.recovery * pair.gap(), fastestOut * h) : 0.0;
-            overlaps = overlaps || row.recover > 0;
+        const auto recover = [&] { takeBack(pairs, rows, supports, h, options, little, inverseMass, shift); };
+        if (rows.size() < shared) {
+            recover();
+            pressV();
+        } else {
+            core::parallelFor(2, [&](int which) { which == 0 ? recover() : pressV(); });
         }
-        if (overlaps)
-            sweep(
-                [&](Row& row, const MeetingPair& pair) {
-                    if (!(row.recover > 0) && !(row.impulse > 0)) return 0.0;
-                    const double along = glm::dot(pair.normal, between(pair, shift));
-                    const double wanted = std::max(0.0, row.push + row.mass * (row.recover - along));
-                    const double change = wanted - row.push;
-                    row.push = wanted;
-                    press(pair, change * pair.normal, inverseMass, shift);
-                    return std::abs(change) / row.mass / h;
-                },
-                [&](Support& one) { support(one.held, 0.0, shift, one.push, nullptr); }, little);
         for (const Row& row : rows) impulses_[static_cast<std::size_t>(row.pair)] = row.impulse;
     };
-    // Few rows are solved sooner than they are shared out.
-    if (rows_.size() < 64)
+    if (rows_.size() < shared)
         for (int c = 0; c < count; ++c) solveCluster(c);
     else
         core::parallelFor(count, solveCluster);

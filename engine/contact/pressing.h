@@ -53,14 +53,21 @@ class Pressing {
         double bounce, bounceV;  // [m/s] they have to part with
         double impulse = 0, impulseV = 0;
         dvec3 rub{0.0}, rubV{0.0};
-        double push = 0, recover = 0;  // [m] so far, and to be
+    };
+    struct Push {
+        int pair;
+        double mass;              // [kg] as of a row
+        double recover, way = 0;  // [m] to be, and so far
     };
     // What a collider gives a point besides what it gave it before, by its mass.
     struct Support {
         Held held;
-        double impulse = 0, impulseV = 0, push = 0;  // [m/s], [m/s], [m]
+        double impulse = 0, impulseV = 0;  // [m/s]
         dvec3 rub{0.0}, rubV{0.0};
     };
+    void takeBack(std::span<const MeetingPair> pairs, std::span<const Row> rows, std::span<const Support> supports,
+                  double h, const PressingOptions& options, double little, std::span<const double> inverseMass,
+                  std::span<dvec3> shift) const;
     void findClusters(std::span<const MeetingPair> pairs, std::span<const Held> held, std::size_t pointCount,
                       std::span<const double> inverseMass);
     int root(int point);

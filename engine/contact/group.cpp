@@ -13,6 +13,13 @@ namespace {
 constexpr int mostSlides = 8, mostZones = 12;
 constexpr double apartSpeed = 0.3;  // [m/s] that crossings are led apart with
 
+// Each once; mostly they are so already.
+void makeAscending(std::vector<int>& points) {
+    if (std::adjacent_find(points.begin(), points.end(), std::greater_equal<>()) == points.end()) return;
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+}
+
 }  // namespace
 
 Group::Group(std::vector<Surface> surfaces, std::vector<dvec3> rest, const GroupOptions& options)
@@ -101,8 +108,7 @@ const Meeting& Group::meet(const Instant& instant) {
     }
     if (!pressed_.empty() || !crossings_.empty()) press(instant);
     if (options_.certifies) guard(instant);
-    std::sort(moved_.begin(), moved_.end());
-    moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
+    makeAscending(moved_);
     near_.arrive(moved_, instant.x0, instant.x1);
     meeting_.moved = moved_;
     return meeting_;
@@ -146,7 +152,7 @@ void Group::press(const Instant& instant) {
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) take(i);
     if (moved.empty()) return;
-    std::sort(moved.begin(), moved.end());
+    makeAscending(moved);
     give(instant, moved);
 }
 
@@ -207,8 +213,7 @@ void Group::guard(const Instant& instant) {
             ++meeting_.zones;
         }
         if (moved.empty()) break;
-        std::sort(moved.begin(), moved.end());
-        moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+        makeAscending(moved);
         give(instant, moved);
         refind(instant, moved_);
     }

@@ -16,6 +16,16 @@ constexpr double alike = 1e-6;       // what differs by that share is the same b
 constexpr double middleShare = 0.2;  // of the items: as far from the middle as that they may be parted
 constexpr double wideShare = 0.6;    // of the widest gap there, which another has to have
 
+// Each on any thread.
+template <class Each>
+void forEachPatch(std::size_t count, Each&& each) {
+    constexpr std::size_t chunk = 32;
+    core::parallelFor(static_cast<int>((count + chunk - 1) / chunk), [&](int task) {
+        const std::size_t from = static_cast<std::size_t>(task) * chunk;
+        for (std::size_t p = from; p < std::min(from + chunk, count); ++p) each(p);
+    });
+}
+
 dvec3 unitAcross(const dvec3& along) {
     const dvec3 size = glm::abs(along);
     const dvec3 other =
@@ -266,21 +276,18 @@ void Patches::findWay(std::size_t number, std::span<const dvec3> x0, std::span<c
 }
 
 void Patches::correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    corrected_.clear();
-    for (int i : points) {
-        const auto own = static_cast<std::size_t>(i);
-        for (std::size_t k = firstAt_[own]; k < firstAt_[own + 1]; ++k) corrected_.push_back(patchesAt_[k]);
-    }
-    std::sort(corrected_.begin(), corrected_.end());
-    corrected_.erase(std::unique(corrected_.begin(), corrected_.end()), corrected_.end());
+    isCorrected_.assign(patches_.size(), 0);
     for (int i : points) {
         const auto k = static_cast<std::size_t>(i);
+        for (std::size_t at = firstAt_[k]; at < firstAt_[k + 1]; ++at)
+            isCorrected_[static_cast<std::size_t>(patchesAt_[at])] = 1;
         ways_[k] = glm::dot(x1[k] - x0[k], x1[k] - x0[k]);
     }
-    for (int p : corrected_) {
-        findGoing(static_cast<std::size_t>(p));
-        findWay(static_cast<std::size_t>(p), x0, x1);
-    }
+    forEachPatch(patches_.size(), [&](std::size_t p) {
+        if (isCorrected_[p] == 0) return;
+        findGoing(p);
+        findWay(p, x0, x1);
+    });
 }
 
 void Patches::findGoing(std::size_t number) {
@@ -292,7 +299,7 @@ void Patches::findGoing(std::size_t number) {
 void Patches::start(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     ways_.resize(x0.size());
     for (std::size_t i = 0; i < x0.size(); ++i) ways_[i] = glm::dot(x1[i] - x0[i], x1[i] - x0[i]);
-    for (std::size_t p = 0; p < patches_.size(); ++p) findGoing(p);
+    forEachPatch(patches_.size(), [&](std::size_t p) { findGoing(p); });
     std::fill(isMeasured_.begin(), isMeasured_.end(), 0);
     std::fill(isFollowed_.begin(), isFollowed_.end(), 0);
 }

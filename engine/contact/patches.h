@@ -150,10 +150,11 @@ class Patches {
     std::vector<Patch> patches_;
     std::vector<int> all_;  // their numbers
     std::vector<int> patchOfPoint_, patchOfEdge_;
-    std::vector<int> patchesAt_;             // of which points are corners, point by point
-    std::vector<std::size_t> firstAt_;       // (points + 1) of those
-    std::vector<int> corrected_, toFollow_;  // patches, scratch
-    std::vector<Node> nodes_;                // children before parents
+    std::vector<int> patchesAt_;        // of which points are corners, point by point
+    std::vector<std::size_t> firstAt_;  // (points + 1) of those
+    std::vector<char> isCorrected_;     // (patches) scratch
+    std::vector<int> toFollow_;         // patches, scratch
+    std::vector<Node> nodes_;           // children before parents
     int root_ = -1;
     std::vector<double> ways_;                  // [m²] (points) of the instant, squared
     std::vector<double> going_;                 // [m] (patches)

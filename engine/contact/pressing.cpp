@@ -22,25 +22,22 @@ dvec3 between(const MeetingPair& pair, std::span<const dvec3> u) {
     return sum;
 }
 
-void press(const MeetingPair& pair, const dvec3& impulse, std::span<const double> inverseMass, std::span<dvec3> u) {
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto point = static_cast<std::size_t>(pair.points[i]);
-        u[point] += (pair.weights[i] * inverseMass[point]) * impulse;
-    }
+void press(const MeetingPair& pair, const std::array<double, 4>& gains, const dvec3& impulse, std::span<dvec3> u) {
+    for (std::size_t i = 0; i < 4; ++i) u[static_cast<std::size_t>(pair.points[i])] += gains[i] * impulse;
 }
 
 // One visit: normal and rub are the impulses so far. Returns by how much a point's velocity changed at most.
-double visit(const MeetingPair& pair, double mass, double open, double bounce, std::span<const double> inverseMass,
-             std::span<dvec3> u, double& normal, dvec3& rub) {
+template <class Row>
+double visit(const MeetingPair& pair, const Row& row, double bounce, std::span<dvec3> u, double& normal, dvec3& rub) {
     dvec3 change(0.0);
     dvec3 way = between(pair, u);
     const double along = glm::dot(pair.normal, way);
-    const double wanted = std::max(0.0, normal - mass * (along + open - bounce));
+    const double wanted = std::max(0.0, normal - row.mass * (along + row.open - bounce));
     change = (wanted - normal) * pair.normal;
     normal = wanted;
     if (pair.friction > 0) {
         const dvec3 across = way - along * pair.normal;
-        dvec3 next = rub - mass * across;
+        dvec3 next = rub - row.mass * across;
         const double square = glm::dot(next, next), limit = pair.friction * normal;
         if (square > limit * limit) next = square > 0 ? next * (limit / std::sqrt(square)) : dvec3(0.0);
         change += next - rub;
@@ -48,11 +45,8 @@ double visit(const MeetingPair& pair, double mass, double open, double bounce, s
     }
     const double square = glm::dot(change, change);
     if (!(square > 0)) return 0.0;
-    press(pair, change, inverseMass, u);
-    double most = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        most = std::max(most, std::abs(pair.weights[i]) * inverseMass[static_cast<std::size_t>(pair.points[i])]);
-    return most * std::sqrt(square);
+    press(pair, row.gains, change, u);
+    return row.most * std::sqrt(square);
 }
 
 // Likewise of a point and what holds it, for an impulse by mass; speed [m/s] is the surface's along the normal.
@@ -96,11 +90,9 @@ void Pressing::findClusters(std::span<const MeetingPair> pairs, std::span<const 
         parent_.assign(pointCount, -1);
     else
         for (int i : touched_) parent_[static_cast<std::size_t>(i)] = -1;
-    touched_.clear();
     const auto join = [&](int i) {
         if (parent_[static_cast<std::size_t>(i)] >= 0) return;
         parent_[static_cast<std::size_t>(i)] = i;
-        touched_.push_back(i);
     };
     // Points that nothing moves pass nothing on.
     const auto isFixed = [&](int i) { return !(inverseMass[static_cast<std::size_t>(i)] > 0); };
@@ -119,7 +111,9 @@ void Pressing::findClusters(std::span<const MeetingPair> pairs, std::span<const 
             first = low;
         }
     }
-    std::sort(touched_.begin(), touched_.end());
+    touched_.clear();
+    for (std::size_t i = 0; i < pointCount; ++i)
+        if (parent_[i] >= 0) touched_.push_back(static_cast<int>(i));
 
     std::vector<std::pair<int, int>> order;  // cluster, pair
     for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -158,14 +152,14 @@ void Pressing::findClusters(std::span<const MeetingPair> pairs, std::span<const 
 // Of a cluster, by a shift: of pairs that overlap or press.
 void Pressing::takeBack(std::span<const MeetingPair> pairs, std::span<const Row> rows,
                         std::span<const Support> supports, double h, const PressingOptions& options, double little,
-                        std::span<const double> inverseMass, std::span<dvec3> shift) const {
+                        std::span<dvec3> shift) const {
     std::vector<Push> pushes;
     bool overlaps = false;
     for (const Row& row : rows) {
         const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
         const double recover = pair.gap() < 0 ? std::min(-options.recovery * pair.gap(), fastestOut * h) : 0.0;
         overlaps = overlaps || recover > 0;
-        if (recover > 0 || row.impulse > 0) pushes.push_back({row.pair, row.mass, recover});
+        if (recover > 0 || row.impulse > 0) pushes.push_back({row.pair, row.gains, row.mass, recover});
     }
     if (!overlaps) return;
     std::vector<double> held(supports.size(), 0.0);
@@ -177,7 +171,7 @@ void Pressing::takeBack(std::span<const MeetingPair> pairs, std::span<const Row>
             const double wanted = std::max(0.0, push.way + push.mass * (push.recover - along));
             const double change = wanted - push.way;
             push.way = wanted;
-            press(pair, change * pair.normal, inverseMass, shift);
+            press(pair, push.gains, change * pair.normal, shift);
             most = std::max(most, std::abs(change) / push.mass / h);
         }
         for (std::size_t i = 0; i < supports.size(); ++i) support(supports[i].held, 0.0, shift, held[i], nullptr);
@@ -193,8 +187,13 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
     for (Row& row : rows_) {
         const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
         double inverse = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            inverse += pair.weights[i] * pair.weights[i] * inverseMass[static_cast<std::size_t>(pair.points[i])];
+        row.most = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double own = inverseMass[static_cast<std::size_t>(pair.points[i])];
+            inverse += pair.weights[i] * pair.weights[i] * own;
+            row.gains[i] = pair.weights[i] * own;
+            row.most = std::max(row.most, std::abs(row.gains[i]));
+        }
         row.mass = 1.0 / inverse;
         row.open = std::max(pair.gap(), 0.0) / h;
         const auto bounceOf = [&](std::span<const dvec3> velocities) {
@@ -217,8 +216,8 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
         sweepsOf[k] = sweep(options.sweeps, [&] {
             double most = 0;
             for (Row& row : rows)
-                most = std::max(most, visit(pairs[static_cast<std::size_t>(row.pair)], row.mass, row.open, row.bounce,
-                                            inverseMass, u, row.impulse, row.rub));
+                most = std::max(
+                    most, visit(pairs[static_cast<std::size_t>(row.pair)], row, row.bounce, u, row.impulse, row.rub));
             for (Support& one : supports) support(one.held, one.held.speed, u, one.impulse, &one.rub);
             return most < little;
         });
@@ -227,13 +226,13 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
                 double most = 0;
                 for (Row& row : rows)
                     if (row.impulse > 0)
-                        most = std::max(most, visit(pairs[static_cast<std::size_t>(row.pair)], row.mass, row.open,
-                                                    row.bounceV, inverseMass, v, row.impulseV, row.rubV));
+                        most = std::max(most, visit(pairs[static_cast<std::size_t>(row.pair)], row, row.bounceV, v,
+                                                    row.impulseV, row.rubV));
                 for (Support& one : supports) support(one.held, one.held.speed, v, one.impulseV, &one.rubV);
                 return most < little;
             });
         };
-        const auto recover = [&] { takeBack(pairs, rows, supports, h, options, little, inverseMass, shift); };
+        const auto recover = [&] { takeBack(pairs, rows, supports, h, options, little, shift); };
         if (rows.size() < shared) {
             recover();
             pressV();

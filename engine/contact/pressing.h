@@ -48,15 +48,18 @@ class Pressing {
   private:
     struct Row {
         int pair;
-        double mass;             // [kg] that the pair's points have along the normal together
-        double open;             // [m/s] they may approach each other with
-        double bounce, bounceV;  // [m/s] they have to part with
+        std::array<double, 4> gains;  // [1/kg] of its points, by its weights
+        double most;                  // [1/kg] of them
+        double mass;                  // [kg] that the pair's points have along the normal together
+        double open;                  // [m/s] they may approach each other with
+        double bounce, bounceV;       // [m/s] they have to part with
         double impulse = 0, impulseV = 0;
         dvec3 rub{0.0}, rubV{0.0};
     };
     struct Push {
         int pair;
-        double mass;              // [kg] as of a row
+        std::array<double, 4> gains;  // as of a row
+        double mass;
         double recover, way = 0;  // [m] to be, and so far
     };
     // What a collider gives a point besides what it gave it before, by its mass.
@@ -66,8 +69,7 @@ class Pressing {
         dvec3 rub{0.0}, rubV{0.0};
     };
     void takeBack(std::span<const MeetingPair> pairs, std::span<const Row> rows, std::span<const Support> supports,
-                  double h, const PressingOptions& options, double little, std::span<const double> inverseMass,
-                  std::span<dvec3> shift) const;
+                  double h, const PressingOptions& options, double little, std::span<dvec3> shift) const;
     void findClusters(std::span<const MeetingPair> pairs, std::span<const Held> held, std::size_t pointCount,
                       std::span<const double> inverseMass);
     int root(int point);

@@ -3,6 +3,8 @@
 #include "taut/contact/closest.h"
 #include "taut/contact/guard.h"
 #include "taut/contact/near_pairs.h"
+#include "taut/contact/nearest_batch.h"
+#include "taut/core/instruction_set.h"
 
 namespace taut::contact {
 namespace {
@@ -40,6 +42,38 @@ TEST(ContactNearest, OnATriangleNoSampleIsNearer) {
         const int kind = on.feature == Feature::face ? 0 : (on.feature < Feature::corner0 ? 1 : 2);
         EXPECT_GE(zeros, kind) << n;
     }
+}
+
+// A third of a batch more than one, so that vectors have remainders.
+TEST(ContactNearest, KernelsGiveTheBitsOfOnePairOnEveryInstructionSet) {
+    const core::InstructionSet before = core::instructionSet();
+    for (const core::InstructionSet set :
+         {core::InstructionSet::sse2, core::InstructionSet::avx2, core::InstructionSet::avx512}) {
+        if (!core::isSupported(set)) continue;
+        core::useInstructionSet(set);
+        Dice dice(3);
+        NearestBatch triangles, segments;
+        std::vector<std::array<dvec3, 4>> places;
+        for (int n = 0; n < nearestBatch * 4 / 3; ++n) {
+            const auto& p = places.emplace_back(fourPoints(dice, n));
+            triangles.add(p[0], p[1], p[2], p[3]);
+            segments.add(p[0], p[1], p[2], p[3]);
+        }
+        triangles.solve(nearestKernels().onTriangles);
+        segments.solve(nearestKernels().onSegments);
+        for (int n = 0; n < triangles.count(); ++n) {
+            const auto& p = places[static_cast<std::size_t>(n)];
+            const OnTriangle on = nearestOnTriangle(p[0], p[1], p[2], p[3]);
+            const std::array<double, 4> weights{1, -on.weights[0], -on.weights[1], -on.weights[2]};
+            EXPECT_EQ(triangles.weights(n), weights) << n;
+            EXPECT_EQ(triangles.where(n), static_cast<long>(on.feature)) << n;
+            const OnSegments beside = nearestOnSegments(p[0], p[1], p[2], p[3]);
+            const std::array<double, 4> shares{1 - beside.s, beside.s, beside.t - 1, -beside.t};
+            EXPECT_EQ(segments.weights(n), shares) << n;
+            EXPECT_EQ(segments.where(n), beside.areInside ? 1 : 0) << n;
+        }
+    }
+    core::useInstructionSet(before);
 }
 
 TEST(ContactNearest, OnSegmentsNoSampleIsNearer) {
@@ -177,10 +211,11 @@ TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
     near.find(rest, rest);
     int listed = 0;
     for (std::size_t r = 0; r < near.awakeCount(); ++r)
-        for (const NearPair& pair : near.awake(r).pairs) {
+        for (std::size_t k = 0; k < near.awake(r).pairs.size(); ++k) {
+            const NearPair& pair = near.awake(r).pairs[k];
             const int between = std::abs(pair.a - pair.b) - 1;  // segments
             EXPECT_NEAR(pair.distance, std::min(2 * thickness, 0.7 * between * L), 1e-15) << pair.a << ", " << pair.b;
-            EXPECT_NEAR(pair.atFirst, between * L, 1e-15);
+            EXPECT_NEAR(near.awake(r).nearApproached[k] + nearShare * pair.distance, between * L, 1e-15);
             ++listed;
         }
     EXPECT_GE(listed, 4 + 3);  // those that are up to 2 L apart

@@ -1,0 +1,61 @@
+#!/bin/sh
+# Builds taut and cuts a film of 20 s with titles from the shipped scenes: out/film/taut.mp4. `film.sh stills` makes the
+# four large pictures of the README instead. TAUT_SIZE=1280x720 makes either smaller.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+case ${1-film} in
+    film | stills) ;;
+    *) echo "Usage: sh game/film.sh [film | stills]" >&2; exit 2 ;;
+esac
+. "$root/game/build.sh"
+taut_build
+
+out=$root/out/film
+size=${TAUT_SIZE:-1920x1080}
+mkdir -p "$out"
+
+if [ "${1-film}" = stills ]; then
+    # Scene and frame.
+    for still in show:75 cape:160 laundry:285 flag:166; do
+        scene=${still%:*} frame=${still#*:}
+        "$taut" render "$scene" -o "$out/$scene.png" --frames "$frame" --size "$size" -y
+        ffmpeg -v error -y -i "$out/$scene.png" -q:v 2 "$root/assets/pictures/$scene-still.jpg"
+    done
+    echo "Stills: $root/assets/pictures/*-still.jpg"
+    exit 0
+fi
+
+# At 60 frames a second: scene, first and last frame, title. 1200 frames in all.
+shots='show 10 177 taut: ropes, cloth and soft bodies
+flag 120 239 Wind on every triangle
+laundry 186 305 Cloth on cloth
+cape 60 179 Held by what moves
+twist 168 275 Wrung four turns, and let go
+knot 120 215 A rope through its own loop
+tower 76 189 Soft blocks, stiff and stiffer
+hammock 72 191 A guest in the hammock
+assets/scenarios/torn-banner.toml 180 293 Torn by a storm
+methods 150 269 Ten integrators, one step'
+
+# Of a picture's height: the size of the letters and how far they are from the edge.
+text="fontfile=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf:fontcolor=white:fontsize=h/22:x=h/16:y=h-h/16-th"
+shade="shadowcolor=black@0.6:shadowx=2:shadowy=2"
+cd "$out"
+inputs= graph= joined= n=0
+while read -r scene first last title; do
+    echo "Shot $n: $title"
+    case $scene in *.toml) scene=$root/$scene ;; esac
+    "$taut" render "$scene" -o "shot-$n.mp4" --frames "$first-$last" --size "$size" -y --quiet </dev/null
+    end=$(((last - first + 1) * 100 / 60)) # hundredths of a second
+    fade="alpha='min(1,min(t/0.3,($end/100-t)/0.3))'"
+    printf '%s' "$title" >"title-$n.txt"
+    inputs="$inputs -i shot-$n.mp4"
+    graph="$graph[$n]drawtext=textfile=title-$n.txt:$text:$shade:$fade[v$n];"
+    joined="$joined[v$n]"
+    n=$((n + 1))
+done <<END
+$shots
+END
+ffmpeg -v error -y $inputs -filter_complex "$graph${joined}concat=n=$n[v]" -map "[v]" -c:v libx264 -preset slow -crf 18 \
+    -pix_fmt yuv420p -movflags +faststart taut.mp4
+echo "Film: $out/taut.mp4"

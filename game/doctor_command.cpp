@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "game/command_line.h"
 #include "game/exit_code.h"
@@ -11,9 +13,11 @@
 #include "taut/core/error.h"
 #include "taut/core/instruction_set.h"
 #include "taut/core/whole_file.h"
+#include "taut/image/compare.h"
 #include "taut/image/video_writer.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/self_test.h"
+#include "taut/render/egl_devices.h"
 #include "taut/render/font.h"
 #include "taut/report/gnuplot.h"
 
@@ -53,29 +57,50 @@ void printFont() {
     }
 }
 
-// Each backend draws a small test picture; true when at least one does.
-bool printRenderers() {
-    bool any = false;
-    for (const auto backend : {render::Backend::osmesa, render::Backend::egl}) {
-        render::RendererOptions options;
-        options.width = 64;
-        options.height = 64;
-        options.shadowSize = 256;
-        options.backend = backend;
-        options.shaders = shaderFolder();
-        std::string fact;
-        try {
-            render::Renderer renderer(options);
-            pipeline::testRenderer(renderer);
-            const render::RendererInfo info = renderer.info();
-            fact = fmt::format("ok: {}, {}, OpenGL {}", info.vendor, info.renderer, info.version);
-            any = true;
-        } catch (const core::Error& error) {
-            fact = fmt::format("FAILS: {}", error.what());
+// Tells how one draws a picture of the usual size; the picture, empty where it draws none. `right` is OSMesa's.
+image::Image printRenderer(const std::string& name, render::Backend backend, std::optional<int> device,
+                           const image::Image& right, const std::string& kind = "") {
+    constexpr int pictures = 5;
+    render::RendererOptions options;
+    options.backend = backend;
+    options.device = device;
+    options.shaders = shaderFolder();
+    try {
+        render::Renderer renderer(options);
+        pipeline::testRenderer(renderer);
+        pipeline::TestDrawing drawing = pipeline::drawTest(renderer, pictures);
+        const render::RendererInfo info = renderer.info();
+        std::string fact =
+            fmt::format("{}ok: {}, {}, OpenGL {}; {:.3g} ms for a picture of {}x{}", kind, info.vendor, info.renderer,
+                        info.version, 1e3 * drawing.seconds, options.width, options.height);
+        if (right.isWhole()) {
+            const image::Comparison comparison = image::compare(right, drawing.picture);
+            fact += comparison.largest == 0
+                        ? "; the same pixels as OSMesa"
+                        : fmt::format("; from OSMesa's pixels off by up to {}/255, {:.3g} on average",
+                                      comparison.largest, comparison.mean);
         }
-        printFact(pipeline::nameOf(backend), fact);
+        printFact(name, fact);
+        return drawing.picture;
+    } catch (const core::Error& error) {
+        printFact(name, fmt::format("{}FAILS: {}", kind, error.what()));
+        return {};
     }
-    return any;
+}
+
+// True when at least one draws.
+bool printRenderers() {
+    const image::Image right = printRenderer("osmesa", render::Backend::osmesa, std::nullopt, {});
+    bool any = right.isWhole();
+    const std::vector<render::EglDevice> devices = render::eglDevices();
+    for (const render::EglDevice& device : devices) {
+        const std::string name = fmt::format("egl:{}", device.number);
+        const std::string kind = fmt::format("{}, ", render::kindOf(device));
+        any = printRenderer(name, render::Backend::egl, device.number, right, kind).isWhole() || any;
+    }
+    if (!devices.empty()) return any;
+    const std::string none = "no device here; without one ";
+    return printRenderer("egl", render::Backend::egl, std::nullopt, right, none).isWhole() || any;
 }
 
 bool printWriteTest(const std::filesystem::path& folder) {

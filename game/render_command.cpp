@@ -334,7 +334,7 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
     options.value("--seconds", flags.seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
     options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
-    options.value("--gl", flags.gl, "What draws; the first that works when not given").oneOf({"osmesa", "egl"});
+    addRendererFlag(options, flags.gl);
     options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
     options.flag("--overlay", flags.overlay,
                  "Show time, step and limit, largest strain, contacts between bodies, and the energies as a graph");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,18 @@
 
 namespace taut::game {
 
-// All in the order of trying, or the one that --gl names.
-std::vector<render::Backend> backendsNamed(const std::string& gl);
+// What --gl names; all in the order of trying when it is empty.
+struct GlChoice {
+    std::vector<render::Backend> backends;
+    std::optional<int> device{};  // of EGL
+};
+// "osmesa", "egl" or "egl:N"; throws core::Error(usage).
+GlChoice glNamed(const std::string& gl);
+
+class Options;
+
+// --gl
+void addRendererFlag(Options& options, std::string& gl);
 
 // How many threads the software renderer may use, unless the user's LP_NUM_THREADS says it; 0: as many as there are.
 void limitSoftwareRenderer(int threads);

@@ -113,7 +113,9 @@ regression::DrawingOptions drawingOptions(const TestFlags& flags, int threads) {
     regression::DrawingOptions options;
     options.shaders = shaderFolder();
     options.font = fontFile();
-    options.backends = backendsNamed(flags.gl);
+    GlChoice choice = glNamed(flags.gl);
+    options.backends = std::move(choice.backends);
+    options.device = choice.device;
     return options;
 }
 
@@ -363,7 +365,7 @@ Action declareTest(Options& options) {
         .typeName("NAME")
         .oneValue();
     options.value("--why", flags->why, "The reason for an update, kept in the manifest").typeName("TEXT");
-    options.value("--gl", flags->gl, "What draws; the first that works when not given").oneOf({"osmesa", "egl"});
+    addRendererFlag(options, flags->gl);
     options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
     addInstructionSetFlag(options, flags->isa);
     options.flag("--calibrate", flags->calibrate,

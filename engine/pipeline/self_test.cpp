@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 
 #include "taut/core/error.h"
@@ -69,6 +70,27 @@ void testRenderer(render::Renderer& renderer) {
         fail("did not draw the test triangle where it belongs");
     if (isRed(pixel(picture, 0, 0)) || isRed(pixel(picture, picture.width - 1, 0)))
         fail("drew the test triangle where it does not belong");
+}
+
+TestDrawing drawTest(render::Renderer& renderer, int times) {
+    TAUT_EXPECTS(times >= 1);
+    using Clock = std::chrono::steady_clock;
+    view::FrameView view = testView();
+    view.camera.eye = {0.0F, 0.6F, 4.0F};
+    view.light.direction = {0.4F, -1.0F, -0.8F};
+    view.ground = view::Ground{};
+    view.ground->height = -0.8F;
+    TestDrawing drawing{renderer.draw(view), 0.0};
+    std::vector<double> seconds;
+    for (int i = 0; i < times; ++i) {
+        view.camera.eye.x = 0.01F * static_cast<float>(i + 1);  // nothing is kept from the picture before
+        const auto start = Clock::now();
+        (void)renderer.draw(view);
+        seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    std::nth_element(seconds.begin(), seconds.begin() + times / 2, seconds.end());
+    drawing.seconds = seconds[static_cast<std::size_t>(times / 2)];
+    return drawing;
 }
 
 std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions options,

@@ -39,6 +39,7 @@ class Calibration {
         shadowless_.emplace(drawing);
         drawing.shadows = true;
         drawing.backends = {otherThan(options.drawing.backends.front())};
+        drawing.device.reset();
         other_.emplace(drawing);
     }
 

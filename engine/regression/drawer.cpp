@@ -20,6 +20,7 @@ image::Image Drawer::draw(const view::FrameView& view, const world::PictureSpec&
         options.height = size.y;
         options.samples = picture.samples;
         options.shadowSize = picture.shadowSize;
+        options.device = options_.device;
         options.shaders = options_.shaders;
         options.font = options_.font;
         options.shadows = options_.shadows;

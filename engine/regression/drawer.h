@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -18,6 +19,7 @@ namespace taut::regression {
 
 struct DrawingOptions {
     std::vector<render::Backend> backends = {render::Backend::osmesa, render::Backend::egl};  // the first that works
+    std::optional<int> device{};  // of EGL; none: the best that works
     std::filesystem::path shaders;
     std::filesystem::path font;
     bool shadows = true;

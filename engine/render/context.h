@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "taut/render/renderer.h"
@@ -18,9 +19,10 @@ class Context {
     virtual void makeCurrent() = 0;
     virtual void release() = 0;
 
-    // The functions of this context; filled by makeContext.
+    // Finds the functions of this context and what draws. Throws Error(noRenderer) for less than OpenGL 3.3.
+    void connect();
     const GladGLContext& gl() const { return *gl_; }
-    RendererInfo info() const { return info_; }
+    const RendererInfo& info() const { return info_; }
 
   protected:
     Context();
@@ -30,21 +32,23 @@ class Context {
     using Function = void (*)();
     virtual Function functionNamed(const char* name) = 0;
 
-  private:
-    friend std::unique_ptr<Context> makeContext(Backend backend);
+    RendererInfo info_;
 
+  private:
     struct Deleter {
         void operator()(GladGLContext* table) const;
     };
     std::unique_ptr<GladGLContext, Deleter> gl_;
-    RendererInfo info_;
 };
 
-// A context that is not current yet. Throws Error(noRenderer) that says what was tried and what helps.
-std::unique_ptr<Context> makeContext(Backend backend);
+// A context that is not current yet. `device` is a number of eglDevices(), for EGL alone; without it EGL gives the
+// first device that draws, hardware before software, and where it names none what it has without one. Throws
+// Error(noRenderer) that says what was tried and what helps.
+std::unique_ptr<Context> makeContext(Backend backend, std::optional<int> device = std::nullopt);
 
+// Not connected yet.
 std::unique_ptr<Context> makeOsmesaContext();
-std::unique_ptr<Context> makeEglContext();
+std::unique_ptr<Context> makeEglContext(std::optional<int> device);  // none: EGL's own choice, without a surface
 
 // Keeps a context current for a scope.
 class CurrentContext {

@@ -12,6 +12,7 @@ namespace {
 class OsmesaContext final : public Context {
   public:
     OsmesaContext() {
+        info_.backend = "osmesa";
         const std::array<int, 13> wanted{OSMESA_FORMAT,
                                          OSMESA_RGBA,
                                          OSMESA_DEPTH_BITS,

@@ -127,7 +127,7 @@ struct Renderer::Impl {
 Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>()) {
     expectSamples(options.samples);
     impl_->options = options;
-    impl_->context = makeContext(options.backend);
+    impl_->context = makeContext(options.backend, options.device);
     const CurrentContext current(*impl_->context);
     impl_->parts = std::make_unique<RendererParts>(impl_->context->gl(), options);
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,7 @@ struct RendererOptions {
     bool shadows = true;     // false: to see what a picture without them looks like
     bool keepsStill = true;  // false: nothing is kept from picture to picture, to compare
     Backend backend = Backend::osmesa;
+    std::optional<int> device;      // of EGL, a number of eglDevices(); none: the best that works
     std::filesystem::path shaders;  // folder of the shader files
     std::filesystem::path font;     // TrueType file for labels; empty: the one that Debian installs
 
@@ -36,6 +38,8 @@ struct RendererInfo {
     std::string vendor;
     std::string renderer;
     std::string version;
+    std::optional<int> device{};  // of EGL; none: it has no number there
+    bool isSoftware = true;     // the processor draws
 };
 
 // May be moved between threads between calls, not used by two at once. The picture depends on the view alone,

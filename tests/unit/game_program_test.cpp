@@ -117,12 +117,21 @@ TEST(Program, WithoutAGlContextItIsExitCodeSevenAndTellsWhatWasTried) {
                                 " --gl egl 2>" + (folder / "said").string();
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 7);
     EXPECT_TRUE(has(test::contentOf(folder / "said"), "egl")) << test::contentOf(folder / "said");
+    const std::string doctor = "__EGL_VENDOR_LIBRARY_DIRS=" + folder.path().string() + " " TAUT_PROGRAM " doctor >" +
+                               (folder / "told").string();
+    EXPECT_EQ(WEXITSTATUS(std::system(doctor.c_str())), 0);
+    EXPECT_TRUE(has(test::contentOf(folder / "told"), "egl         no device here")) << doctor;
+}
+
+TEST(Program, ADeviceIsANumber) {
+    for (const char* name : {"egl:", "egl:-1", "egl:0x", "osmesa:0", "glx"})
+        EXPECT_EQ(run({"render", "flag", "--gl", name, "--no-pictures"}).code, 2) << name;
 }
 
 TEST(Program, DoctorTellsOfEverythingTheProgramNeeds) {
     const TemporaryFolder folder;
     const Outcome outcome = run({"doctor"});
-    for (const char* word : {"ffmpeg", "osmesa", "egl", "avx2", "shaders", "font "})
+    for (const char* word : {"ffmpeg", "osmesa", "egl:0 ", "the same pixels as OSMesa", "avx2", "shaders", "font "})
         EXPECT_TRUE(has(outcome.out, word)) << word << " in " << outcome.out;
     EXPECT_EQ(outcome.code, 0);
 }

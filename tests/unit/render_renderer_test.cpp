@@ -6,10 +6,11 @@
 #include <fstream>
 #include <thread>
 
+#include "render_support.h"
 #include "taut/core/error.h"
 #include "taut/render/context.h"
+#include "taut/render/egl_devices.h"
 #include "taut/render/mesh_cache.h"
-#include "render_support.h"
 
 namespace taut::render::test {
 namespace {
@@ -71,6 +72,22 @@ TEST(RenderRenderer, TellsWhatDraws) {
         EXPECT_FALSE(info.renderer.empty());
         EXPECT_FALSE(info.version.empty());
     }
+}
+
+TEST(RenderRenderer, EglTakesTheDeviceWithTheNumber) {
+    RendererOptions options = smallOptions();
+    options.backend = Backend::egl;
+    const std::vector<EglDevice> devices = eglDevices();
+    ASSERT_FALSE(devices.empty());
+    for (const EglDevice& device : devices) {
+        options.device = device.number;
+        EXPECT_EQ(Renderer(options).info().device, device.number);
+    }
+    options.device = 99;
+    const std::string message = messageOf([&] { Renderer renderer(options); }, core::ErrorKind::noRenderer);
+    for (const EglDevice& device : devices)
+        EXPECT_NE(message.find(std::to_string(device.number) + " (" + kindOf(device) + ")"), std::string::npos)
+            << message;
 }
 
 TEST(RenderRenderer, DrawsOnAnotherThreadThanItWasMadeOn) {

@@ -228,12 +228,8 @@ report::TestReport blankReport(const Run& run) {
     report.program = machine.program;
     report.compiler = machine.compiler;
     report.machine = fmt::format("{}, {}", machine.processor, machine.simd);
-    const image::Tolerance& tolerance = run.manifest.tolerance;
-    report.tolerance = fmt::format(
-        "A picture is right when at most {:.4g} % of its pixels are off by more than {}/255 in any channel, and of no "
-        "tile of {} × {} pixels more than {:.3g} % by more than {}/255. A state is right to the last bit.",
-        100.0 * tolerance.share, tolerance.channel, image::tileSize, image::tileSize, 100.0 * tolerance.tileShare,
-        tolerance.tileChannel);
+    report.tolerance = fmt::format("A picture is right when {}. A state is right to the last bit.",
+                                   regression::inWords(run.manifest.tolerance));
     return report;
 }
 
@@ -299,6 +295,10 @@ int test(const TestFlags& flags) {
         };
         report.scenarios =
             regression::runSuite(run.read.scenarios, run.suite, run.manifest, report.renderer, interruption.flag());
+    }
+    if (const std::string note = regression::otherRendererNote(report, run.manifest); !note.empty()) {
+        report.notes.push_back(note);
+        printWarnings({note});
     }
     if (flags.calibrate && !interruption.flag())
         report.calibration =

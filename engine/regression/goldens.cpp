@@ -76,7 +76,7 @@ bool updatePicture(const Scenario& scenario, const PlayedPicture& played, const 
     const bool isKnown = known != goldens.pictures.end();
     const bool hasState =
         !played.request.restart || (isKnown && core::isThere(stored) && known->second.stateHash == hash);
-    if (isKnown && hasState && hasSamePicture(file, played.picture, manifest.tolerance)) {
+    if (isKnown && hasState && hasSamePicture(file, played.picture, toleranceFor(manifest, known->second, renderer))) {
         known->second.stateHash = hash;  // the picture stays and so does its reason; its state may have changed unseen
         if (goldens.bits != world::resultBits) writeStored();
         return false;

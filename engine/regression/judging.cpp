@@ -127,8 +127,10 @@ void compare(const PlayedPicture& played, const GoldenPicture& golden, const std
     if (!showsSameState(played, golden)) picture.reason += "; the state that it shows differs too";
 }
 
-TestPicture judgedPicture(const Scenario& scenario, const PlayedPicture& played, const GoldenFolder& folder,
-                          const GoldenScenario& goldens, const image::Tolerance& tolerance) {
+TestPicture judgedPicture(const Scenario& scenario, const PlayedPicture& played, const std::string& renderer,
+                          const Goldens& all) {
+    const GoldenFolder& folder = all.folder;
+    const GoldenScenario& goldens = goldensOf(scenario, all.manifest);
     TestPicture picture;
     picture.key = played.request.key();
     picture.frame = played.request.frame;
@@ -155,7 +157,8 @@ TestPicture judgedPicture(const Scenario& scenario, const PlayedPicture& played,
         picture.reason = "the state that this picture is to be drawn from is not stored";
         return picture;
     }
-    compare(played, golden->second, file, tolerance, picture);
+    picture.isOfAnotherRenderer = !isSameRenderer(picture.madeBy, renderer);
+    compare(played, golden->second, file, toleranceFor(all.manifest, golden->second, renderer), picture);
     return picture;
 }
 
@@ -174,6 +177,31 @@ TestScenario blank(const Scenario& scenario) {
 
 std::string hexadecimal(std::uint64_t hash) {
     return fmt::format("{:016x}", hash);
+}
+
+std::string inWords(const image::Tolerance& tolerance) {
+    return fmt::format(
+        "at most {:.4g} % of its pixels are off by more than {}/255 in any channel, and of no tile of {} × {} pixels "
+        "more than {:.3g} % by more than {}/255",
+        100.0 * tolerance.share, tolerance.channel, image::tileSize, image::tileSize, 100.0 * tolerance.tileShare,
+        tolerance.tileChannel);
+}
+
+std::string otherRendererNote(const report::TestReport& report, const Manifest& manifest) {
+    int pictures = 0;
+    std::string other;
+    for (const TestScenario& scenario : report.scenarios)
+        for (const TestPicture& picture : scenario.pictures) {
+            if (!picture.isOfAnotherRenderer) continue;
+            ++pictures;
+            other = nameOfRenderer(picture.madeBy);
+        }
+    if (pictures == 0) return "";
+    return fmt::format(
+        "{} draws, and {} golden picture{} of {}: held against the tolerance for another renderer, by which a picture "
+        "is right when {}",
+        nameOfRenderer(report.renderer), pictures, pictures == 1 ? " is" : "s are", other,
+        inWords(manifest.otherRenderer));
 }
 
 std::vector<std::string> leftOver(const Scenario& scenario, const Manifest& manifest) {
@@ -198,7 +226,7 @@ TestScenario judged(const Scenario& scenario, const Played& played, const Golden
     result.checks = played.checks;
     result.notes.insert(result.notes.end(), played.warnings.begin(), played.warnings.end());
     for (const PlayedPicture& picture : played.pictures)
-        result.pictures.push_back(judgedPicture(scenario, picture, folder, goldens, manifest.tolerance));
+        result.pictures.push_back(judgedPicture(scenario, picture, played.renderer, all));
     if (played.divergence) {
         result.state.verdict = Verdict::diverged;
         result.state.ticks = played.tape.ticks();

@@ -34,6 +34,13 @@ report::TestScenario unreadScenario(const UnreadScenario& scenario);
 // What has a golden and is asked for by no scenario of that name any more: "000120".
 std::vector<std::string> leftOver(const Scenario& scenario, const Manifest& manifest);
 
+// When a picture is right: "at most 0.11 % of its pixels are off by …".
+std::string inWords(const image::Tolerance& tolerance);
+
+// Of pictures that another renderer drew than their goldens, and the tolerance that they have; empty where there are
+// none.
+std::string otherRendererNote(const report::TestReport& report, const Manifest& manifest);
+
 std::string hexadecimal(std::uint64_t hash);  // 16 digits
 
 }  // namespace taut::regression

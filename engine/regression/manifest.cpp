@@ -104,6 +104,20 @@ GoldenScenario scenarioIn(const Reader& reader) {
     return scenario;
 }
 
+image::Tolerance toleranceIn(const Reader& reader) {
+    const auto channel = [&](const char* key) {
+        return static_cast<int>(std::min<std::int64_t>(255, reader.whole(key, 0)));
+    };
+    return {channel("channel"), reader.number("share"), channel("tile_channel"), reader.number("tile_share")};
+}
+
+Json jsonOf(const image::Tolerance& tolerance) {
+    return {{"channel", tolerance.channel},
+            {"share", tolerance.share},
+            {"tile_channel", tolerance.tileChannel},
+            {"tile_share", tolerance.tileShare}};
+}
+
 Json jsonOf(const GoldenScenario& scenario) {
     Json json = Json::object();
     json["bits"] = scenario.bits;
@@ -129,6 +143,19 @@ std::filesystem::path GoldenFolder::tape(const std::string& scenario) const {
 }
 std::filesystem::path GoldenFolder::text(const std::string& scenario) const {
     return path / scenario / "scenario.toml";
+}
+
+std::string nameOfRenderer(const std::string& renderer) {
+    return renderer.substr(0, std::min(renderer.find(" ("), renderer.find(", ")));
+}
+
+bool isSameRenderer(const std::string& a, const std::string& b) {
+    return nameOfRenderer(a) == nameOfRenderer(b);
+}
+
+const image::Tolerance& toleranceFor(const Manifest& manifest, const GoldenPicture& golden,
+                                     const std::string& renderer) {
+    return isSameRenderer(golden.renderer, renderer) ? manifest.tolerance : manifest.otherRenderer;
 }
 
 Manifest readManifest(const GoldenFolder& folder) {
@@ -158,14 +185,9 @@ Manifest readManifestText(const std::string& content, const std::string& file) {
     const Reader reader(json, file, "");
     if (const std::int64_t version = reader.whole("schema", 1); version != schema)
         reader.below("schema", fmt::format("is {}, and this taut reads {}", version, schema));
-    if (reader.has("tolerance")) {
-        const Reader tolerance = reader.object("tolerance");
-        const auto channel = [&](const char* key) {
-            return static_cast<int>(std::min<std::int64_t>(255, tolerance.whole(key, 0)));
-        };
-        manifest.tolerance = {channel("channel"), tolerance.number("share"), channel("tile_channel"),
-                              tolerance.number("tile_share")};
-    }
+    if (reader.has("tolerance")) manifest.tolerance = toleranceIn(reader.object("tolerance"));
+    if (reader.has("tolerance_of_another_renderer"))
+        manifest.otherRenderer = toleranceIn(reader.object("tolerance_of_another_renderer"));
     if (reader.has("scenarios"))
         reader.object("scenarios").each([&](const std::string& name, const Reader& scenario) {
             if (!isPlainName(name)) reader.below("scenarios", fmt::format("has the name '{}'", name));
@@ -177,10 +199,8 @@ Manifest readManifestText(const std::string& content, const std::string& file) {
 void writeManifest(const std::filesystem::path& file, const Manifest& manifest) {
     Json json;
     json["schema"] = schema;
-    json["tolerance"] = {{"channel", manifest.tolerance.channel},
-                         {"share", manifest.tolerance.share},
-                         {"tile_channel", manifest.tolerance.tileChannel},
-                         {"tile_share", manifest.tolerance.tileShare}};
+    json["tolerance"] = jsonOf(manifest.tolerance);
+    json["tolerance_of_another_renderer"] = jsonOf(manifest.otherRenderer);
     json["scenarios"] = Json::object();
     for (const auto& [name, scenario] : manifest.scenarios) json["scenarios"][name] = jsonOf(scenario);
     core::prepareFolderOf(file);

@@ -17,7 +17,7 @@ namespace taut::regression {
 struct GoldenPicture {
     std::string why;
     std::string stateHash;  // of the chain where it was drawn, 16 hexadecimal digits
-    std::string renderer;   // what drew it
+    std::string renderer;   // what drew it, as Drawer::renderer()
 };
 
 // The chain of state hashes of a whole run.
@@ -35,9 +35,19 @@ struct GoldenScenario {
 };
 
 struct Manifest {
-    image::Tolerance tolerance;
+    image::Tolerance tolerance;                                // of pictures by the renderer that drew the golden
+    image::Tolerance otherRenderer = image::betweenRenderers;  // of those by another
     std::map<std::string, GoldenScenario> scenarios;
 };
+
+// Whether two pictures come from one and the same renderer, by what Drawer::renderer() says: its version, the library
+// that gave the context and what the processor can do change no more than rounding.
+bool isSameRenderer(const std::string& a, const std::string& b);
+std::string nameOfRenderer(const std::string& renderer);  // "llvmpipe"
+
+// How a picture of that renderer is held against this golden.
+const image::Tolerance& toleranceFor(const Manifest& manifest, const GoldenPicture& golden,
+                                     const std::string& renderer);
 
 // Where things lie in a folder of goldens.
 struct GoldenFolder {

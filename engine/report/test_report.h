@@ -44,12 +44,13 @@ struct TestPicture {
     Verdict verdict = Verdict::passed;
     std::string key;  // "000120-debug"
     std::int64_t frame = 0;
-    double time = 0;      // [s]
-    std::string figures;  // how far the pictures are apart
-    std::string reason;   // empty when it passed
-    std::string why;      // the manifest's reason for the golden
-    std::string madeBy;   // the renderer that drew the golden
-    bool isSame = false;  // golden and actual do not differ in a single pixel
+    double time = 0;                   // [s]
+    std::string figures;               // how far the pictures are apart
+    std::string reason;                // empty when it passed
+    std::string why;                   // the manifest's reason for the golden
+    std::string madeBy;                // the renderer that drew the golden
+    bool isSame = false;               // golden and actual do not differ in a single pixel
+    bool isOfAnotherRenderer = false;  // than the golden, and so held against another tolerance
     std::vector<std::byte> golden, actual, difference;
     std::array<int, 2> size{};       // [px] width and height, where a tile is marked
     std::array<int, 4> worstTile{};  // [px] left, top, width and height of the one that differs most; 0: none

@@ -54,6 +54,7 @@ TEST(Goldens, AreNamedInTheManifestAndHaveAReason) {
 // What is said of the tolerance where it is defined, and measured by calibration, is said of this one.
 TEST(Goldens, AreComparedWithTheToleranceThatIsJustified) {
     EXPECT_EQ(regression::readManifest(folder).tolerance, image::Tolerance{});
+    EXPECT_EQ(regression::readManifest(folder).otherRenderer, image::betweenRenderers);
 }
 
 // What the tolerance is for: a shadow switched off, a camera moved by a pixel, a colour off by a shade must fail.

@@ -99,6 +99,30 @@ TEST(Goldens, OfAnotherSizeDiffer) {
     EXPECT_TRUE(has(outcome.out, "has 64x54 pixels, its golden 96x54")) << outcome.out;
 }
 
+// Every eighth row a shade brighter: more than one renderer may differ from itself, less than from another.
+TEST(Goldens, OfAnotherRendererAreHeldAgainstTheToleranceForThat) {
+    const TemporaryFolder folder;
+    begin(folder, goldenText);
+    const auto file = folder / "golden/spring/000003.png";
+    image::Image picture = image::readImage(file);
+    for (int y = 0; y < picture.height; y += 8)
+        for (std::size_t i = 0; i < 3U * 96U; ++i) {
+            std::uint8_t& value = picture.rgb[static_cast<std::size_t>(y) * 3U * 96U + i];
+            value = static_cast<std::uint8_t>(value < 128 ? value + 3 : value - 3);
+        }
+    image::writePng(file, picture);
+    Manifest manifest = readManifest({folder / "golden"});
+    manifest.otherRenderer = {4, 0.01, 4, 0.2};
+    writeManifest(folder / "golden/manifest.json", manifest);
+    EXPECT_EQ(testRun(folder).code, 1);
+    manifest.scenarios["spring"].pictures["000003"].renderer = "Some Card, 4.6, egl";
+    writeManifest(folder / "golden/manifest.json", manifest);
+    const Outcome outcome = testRun(folder);
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_TRUE(has(outcome.err, "1 golden picture is of Some Card: held against the tolerance for another renderer"))
+        << outcome.err;
+}
+
 // A run of other bits than the goldens: their differences are none, and what the scenario itself says still counts.
 TEST(Goldens, OfOtherBitsFailNothing) {
     const TemporaryFolder folder;

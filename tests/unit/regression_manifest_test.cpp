@@ -19,6 +19,7 @@ TEST(Manifest, ComesBackAsItWas) {
     const TemporaryFolder folder;
     Manifest manifest;
     manifest.tolerance = {3, 0.0002, 2, 0.5};
+    manifest.otherRenderer = {9, 0.002, 8, 0.75};
     manifest.scenarios["flag"].bits = 77;
     manifest.scenarios["flag"].state = {"Because.", "0123456789abcdef", 479, "taut 1", "g++", "avx2"};
     manifest.scenarios["flag"].pictures["000120"] = {"For \"beauty\", é", "00000000000000ff", "llvmpipe"};
@@ -33,12 +34,21 @@ TEST(Manifest, ComesBackAsItWas) {
     EXPECT_EQ(flag.pictures.at("000120").why, "For \"beauty\", é");
     EXPECT_EQ(flag.pictures.at("000120").stateHash, "00000000000000ff");
     EXPECT_EQ(back.tolerance, manifest.tolerance);
+    EXPECT_EQ(back.otherRenderer, manifest.otherRenderer);
     writeManifest(folder / "again/manifest.json", back);
     EXPECT_EQ(test::contentOf(folder / "again/manifest.json"), test::contentOf(folder / "new/golden/manifest.json"));
 }
 
 TEST(Manifest, WithoutANumberItsScenariosAreOfBitsOne) {
     EXPECT_EQ(readManifestText(R"({"schema": 1, "scenarios": {"a": {}}})", "m.json").scenarios.at("a").bits, 1);
+}
+
+TEST(Manifest, KnowsARendererByItsNameWhateverItsVersion) {
+    const std::string golden = "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6, osmesa";
+    EXPECT_TRUE(isSameRenderer(golden, "llvmpipe (LLVM 19.1.7, 128 bits), 4.5 (Core Profile) Mesa 25.0.7, egl"));
+    EXPECT_FALSE(isSameRenderer(golden, "softpipe, 3.3 (Core Profile) Mesa 22.3.6, osmesa"));
+    EXPECT_FALSE(isSameRenderer("NVIDIA GeForce RTX 3060/PCIe/SSE2, 4.6.0 NVIDIA 550.1, egl",
+                                "NVIDIA GeForce RTX 4060/PCIe/SSE2, 4.6.0 NVIDIA 550.1, egl"));
 }
 
 struct BadManifest {
@@ -71,6 +81,8 @@ TEST(Manifest, SaysWhatIsWrongInIt) {
         {R"({"schema": 1, "scenarios": {"a": {"pictures": {"x/y": {"why": "z"}}}}})", "pictures has the name 'x/y'"},
         {R"({"schema": 1, "tolerance": {"channel": 2, "share": -1, "tile_channel": 1, "tile_share": 0}})",
          "tolerance.share is no number of at least 0"},
+        {R"({"schema": 1, "tolerance_of_another_renderer": {"channel": 2.5}})",
+         "tolerance_of_another_renderer.channel is no whole number"},
     };
     const TemporaryFolder folder;
     for (const BadManifest& row : cases) {

@@ -75,6 +75,13 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
     leaveOut(mesh_.shaded, Look::shaded);
 }
 
+void GroundPass::forget() {
+    before_.reset();
+    keptShade_.reset();
+    shadeStays_ = 0;
+    isKept_ = false;
+}
+
 void GroundPass::keep(const glm::mat4& projection, Targets& targets) {
     const bool keepsShade = shadeStays_ >= steadyPictures;
     keptShade_ = keepsShade ? shadeNow_ : std::nullopt;

@@ -31,6 +31,8 @@ class GroundPass {
 
     bool fills() const { return isKept_; }
 
+    void forget();  // what has been kept
+
   private:
     // All that ground and sky in the open depend on.
     struct Still {

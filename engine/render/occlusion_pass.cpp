@@ -39,7 +39,11 @@ OcclusionPass::OcclusionPass(const Gl& gl, const ShaderFolder& shaders)
       columns_(gl, occlusionEdge, GL_RG32F, GL_NEAREST, nothing),
       rough_(gl, occlusionEdge, GL_R16F, GL_NEAREST, 0.0F),
       map_(gl, occlusionEdge, GL_R16F, GL_LINEAR, 0.0F),
-      empty_(gl, GlKind::vertexArray) {}
+      empty_(gl, GlKind::vertexArray) {
+    map_.bind(gl);  // read also where nothing has been drawn into it
+    const std::array<float, 4> open{};
+    gl.ClearBufferfv(GL_COLOR, 0, open.data());
+}
 
 void OcclusionPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, const OcclusionArea& area,
                          float groundHeight, bool anew) {

@@ -137,6 +137,23 @@ Renderer::~Renderer() {
     impl_->parts.reset();
 }
 
+void Renderer::change(const RendererOptions& options) {
+    expectSamples(options.samples);
+    const CurrentContext current(*impl_->context);
+    const Gl& gl = impl_->context->gl();
+    RendererParts& parts = *impl_->parts;
+    RendererOptions& now = impl_->options;
+    if (options.width != now.width || options.height != now.height)
+        parts.targets = Targets(gl, options.width, options.height);
+    if (options.shadowSize != now.shadowSize) parts.shadow = ShadowPass(gl, parts.shaders, options.shadowSize);
+    parts.ground.forget();
+    now.width = options.width;
+    now.height = options.height;
+    now.samples = options.samples;
+    now.shadowSize = options.shadowSize;
+    now.occlusion = options.occlusion;
+}
+
 RendererInfo Renderer::info() const {
     return impl_->context->info();
 }
@@ -160,7 +177,7 @@ image::Image Renderer::draw(const view::FrameView& view) {
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
     const LightBox box = lightBox(view, casters, aspect, options.shadowSize);
     std::optional<OcclusionArea> occlusion;
-    if (view.ground) occlusion = occlusionArea(casters, view.ground->height);
+    if (view.ground && options.occlusion) occlusion = occlusionArea(casters, view.ground->height);
 
     // The maps that shading reads.
     const std::span<const DrawItem> shadowed =

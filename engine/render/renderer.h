@@ -22,6 +22,7 @@ struct RendererOptions {
     int samples = 4;         // of anti-aliasing, for each pixel
     int shadowSize = 2048;   // [texels] edge of the shadow map; a multiple of 128
     bool shadows = true;     // false: to see what a picture without them looks like
+    bool occlusion = true;   // false: things do not darken the ground around them
     bool keepsStill = true;  // false: nothing is kept from picture to picture, to compare
     Backend backend = Backend::osmesa;
     std::optional<int> device;      // of EGL, a number of eglDevices(); none: the best that works
@@ -56,6 +57,11 @@ class Renderer {
     // A picture of width × height. Throws Error(inputOutput) for a texture, or a font that a label needs, that cannot
     // be read, Error(badContent) for one that is no picture or no font.
     image::Image draw(const view::FrameView& view);
+
+    // Draws by another size, samples, size of the shadow map and occlusion from now on, as a renderer made so would; the
+    // rest of the options does not count. Costs less than a picture, for programs and meshes stay. Throws as the
+    // constructor does; then it draws nothing any more.
+    void change(const RendererOptions& options);
 
     RendererInfo info() const;  // of the context in use
 

@@ -55,6 +55,25 @@ TEST(RenderRenderer, DrawsTheSamePixelsWhateverItDrewBefore) {
     EXPECT_EQ(pictureOf(view).rgb, first.rgb);
 }
 
+TEST(RenderRenderer, ChangedItDrawsAsOneMadeSo) {
+    RendererOptions options = smallOptions();
+    Renderer renderer(options);
+    const view::FrameView view = someView();
+    for (int i = 0; i < 3; ++i) (void)renderer.draw(view);  // what is still is kept
+    const image::Image first = renderer.draw(view);
+    options.width = 160;
+    options.height = 90;
+    options.samples = 1;
+    options.shadowSize = 512;
+    renderer.change(options);
+    EXPECT_EQ(renderer.draw(view).rgb, pictureOf(view, options).rgb);
+    options.occlusion = false;
+    renderer.change(options);
+    EXPECT_EQ(renderer.draw(view).rgb, pictureOf(view, options).rgb);
+    renderer.change(smallOptions());
+    EXPECT_EQ(renderer.draw(view).rgb, first.rgb);
+}
+
 TEST(RenderRenderer, BothLibrariesDrawTheSamePixels) {
     RendererOptions options = smallOptions();
     const image::Image osmesa = pictureOf(someView(), options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "taut/core/error.h"
 
@@ -12,7 +13,12 @@ int Pace::due(double wall, double speed, int most) {
     waiting_ += wall * speed / tickSeconds_;
     const double whole = std::floor(waiting_);
     waiting_ -= whole;
-    return static_cast<int>(std::min(whole, static_cast<double>(most)));
+    return static_cast<int>(std::min(whole + std::exchange(owed_, 0), static_cast<double>(most)));
+}
+
+void Pace::owe(int ticks) {
+    constexpr int mostOwed = 4;
+    owed_ = std::clamp(ticks, 0, mostOwed);
 }
 
 }  // namespace taut::live

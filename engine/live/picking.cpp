@@ -73,6 +73,16 @@ Ray rayThrough(const view::Camera& camera, glm::dvec2 place, double aspect) {
                                                    offset.y * glm::dvec3(axes.up))};
 }
 
+std::optional<glm::dvec2> seenAt(const view::Camera& camera, glm::dvec3 place, double aspect) {
+    const render::CameraAxes axes = render::axesOf(camera);
+    const glm::dvec3 offset = place - glm::dvec3(camera.eye);
+    const double ahead = glm::dot(offset, glm::dvec3(axes.forward));
+    if (!(ahead > 0.0)) return std::nullopt;
+    const double half = ahead * std::tan(0.5 * static_cast<double>(camera.fieldOfView));
+    return glm::dvec2(0.5 + 0.5 * glm::dot(offset, glm::dvec3(axes.right)) / (half * aspect),
+                      0.5 - 0.5 * glm::dot(offset, glm::dvec3(axes.up)) / half);
+}
+
 glm::dvec3 onPicturePlane(const Ray& ray, const view::Camera& camera, glm::dvec3 point) {
     const glm::dvec3 forward(render::axesOf(camera).forward);
     const double ahead = glm::dot(ray.along, forward), depth = glm::dot(point - ray.from, forward);

@@ -19,6 +19,9 @@ struct Ray {
 // Through a place of the picture, as shares of width and height from the top left; `aspect` is width / height.
 Ray rayThrough(const view::Camera& camera, glm::dvec2 place, double aspect);
 
+// Where a place [m] is seen in the picture, as the same shares; none behind the camera.
+std::optional<glm::dvec2> seenAt(const view::Camera& camera, glm::dvec3 place, double aspect);
+
 // Where the ray meets the plane through `point` parallel to the picture; the point itself when it never does.
 glm::dvec3 onPicturePlane(const Ray& ray, const view::Camera& camera, glm::dvec3 point);
 

@@ -28,6 +28,16 @@ TEST(Pace, AStallIsForgottenInsteadOfCaughtUp) {
     EXPECT_LT(pace.share(), 1.0);
 }
 
+TEST(Pace, AFewTicksThatWereNotDoneAreDueOnceMore) {
+    Pace pace(0.01);
+    EXPECT_EQ(pace.due(0.035, 1.0, 8), 3);
+    pace.owe(2);
+    EXPECT_EQ(pace.due(0.016, 1.0, 8), 4);  // two of its own
+    EXPECT_EQ(pace.due(0.01, 1.0, 8), 1);
+    pace.owe(100);
+    EXPECT_LT(pace.due(0.0, 1.0, 8), 8);
+}
+
 view::FrameView withTriangle(float x) {
     view::Geometry geometry;
     geometry.positions = {{x, 0.0F, 0.0F}, {x + 1.0F, 0.0F, 0.0F}, {x, 1.0F, 0.0F}};

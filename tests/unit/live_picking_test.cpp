@@ -44,6 +44,19 @@ TEST(Picking, TheUpperEdgeIsHalfTheAngleOfView) {
     EXPECT_NEAR(ray.along.y / -ray.along.z, std::tan(0.35), 1e-6);  // 0.7 rad, a float
 }
 
+TEST(Picking, APlaceIsSeenWhereTheRayThroughItGoes) {
+    view::Camera camera = ahead();
+    camera.eye = {1.0F, 2.0F, 5.0F};
+    for (const glm::dvec2 place : {glm::dvec2(0.1, 0.2), glm::dvec2(0.5, 0.5), glm::dvec2(1.3, 0.9)}) {
+        const Ray ray = rayThrough(camera, place, 1.5);
+        const auto at = seenAt(camera, ray.from + 3.0 * ray.along, 1.5);
+        ASSERT_TRUE(at);
+        EXPECT_NEAR(at->x, place.x, 1e-6);  // a camera has floats
+        EXPECT_NEAR(at->y, place.y, 1e-6);
+        EXPECT_FALSE(seenAt(camera, ray.from - ray.along, 1.5));
+    }
+}
+
 TEST(Picking, TakesThePointNearestToWhereTheBodyIsMet) {
     const std::vector<view::Surface> surfaces = {square("cloth.a", 0.0F)};
     const std::vector<BodyPoints> bodies = {corners("cloth.a", 0.0)};

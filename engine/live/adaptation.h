@@ -1,0 +1,37 @@
+// Which of several levels of drawing there is time for, found while pictures are drawn. It knows neither what a level
+// looks like nor a clock: it is told how long things took.
+#pragma once
+
+#include <vector>
+
+namespace taut::live {
+
+class Adaptation {
+  public:
+    // `costs` of a picture at each level, in any unit, ascending; it begins at `level`, and each turn, from picture to
+    // picture, is to last no longer than `goal` [s].
+    Adaptation(std::vector<double> costs, int level, double goal);
+
+    // After a turn: how long the picture took, and all of the turn but idling [s]. True when the level is another now.
+    // A turn that is too long for another reason than the picture changes nothing.
+    bool add(double drawing, double turn);
+
+    int level() const { return level_; }
+
+  private:
+    bool judge();
+    void change(int level);
+
+    std::vector<double> costs_;
+    int level_;
+    double goal_;
+    std::vector<double> drawings_, turns_;  // [s] since the last judgement
+    double spent_ = 0.0;                    // [s] of them
+    int unsettled_ = 0;                     // turns that do not count yet
+    double atEase_ = 0.0;                   // [s] for which a level up would have done
+    double patience_;                       // [s] of that before it is tried
+    double sinceRise_ = 1e9;                // [s]
+    bool wasRegretted_ = false;             // the last rise was taken back soon
+};
+
+}  // namespace taut::live

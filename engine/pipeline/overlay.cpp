@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "taut/pipeline/energy_graph.h"
 
@@ -18,6 +19,40 @@ constexpr float plateStrength = 0.84F;
 // Lengths in sizes of the type.
 constexpr float panelWidth = 19.5F, edge = 0.8F, margin = 0.8F, lineHeight = 1.4F, graphHeight = 5.2F;
 constexpr float largestPart = 0.6F;  // of a picture's height that figures and graph may take
+
+// What lay under a box before it was painted over.
+class Behind {
+  public:
+    Behind(const image::Image& picture, const Box& box) {
+        const glm::ivec2 size(picture.width, picture.height);
+        low_ = glm::clamp(glm::ivec2(glm::floor(box.low)) - 1, glm::ivec2(0), size);
+        high_ = glm::clamp(glm::ivec2(glm::ceil(box.high)) + 1, low_, size);
+        for (int y = low_.y; y < high_.y; ++y) {
+            const std::uint8_t* row = picture.rgb.data() + placeOf(picture, y);
+            bytes_.insert(bytes_.end(), row, row + 3 * static_cast<std::ptrdiff_t>(high_.x - low_.x));
+        }
+    }
+
+    // `opacity` of what is painted now.
+    void shineThrough(image::Image& picture, float opacity) const {
+        std::size_t i = 0;
+        for (int y = low_.y; y < high_.y; ++y) {
+            std::uint8_t* row = picture.rgb.data() + placeOf(picture, y);
+            for (int x = 0; x < 3 * (high_.x - low_.x); ++x, ++i) {
+                const auto old = static_cast<float>(bytes_[i]);
+                row[x] = static_cast<std::uint8_t>(old + opacity * (static_cast<float>(row[x]) - old) + 0.5F);
+            }
+        }
+    }
+
+  private:
+    std::ptrdiff_t placeOf(const image::Image& picture, int y) const {
+        return 3 * (static_cast<std::ptrdiff_t>(y) * picture.width + low_.x);
+    }
+
+    glm::ivec2 low_{0}, high_{0};
+    std::vector<std::uint8_t> bytes_;
+};
 
 std::string milliseconds(double seconds) {
     return fmt::format("{:.3g} ms", 1e3 * seconds);
@@ -40,9 +75,9 @@ StepFacts smallestStep(const world::World& world) {
     return facts;
 }
 
-float typeSize(int pictureHeight) {
-    const auto height = static_cast<float>(pictureHeight);
-    return std::max(0.02F * height, std::clamp(height / 30.0F, 8.0F, 11.0F));
+float typeSize(int pictureHeight, float density) {
+    const float height = static_cast<float>(pictureHeight) / density;
+    return density * std::max(0.02F * height, std::clamp(height / 30.0F, 8.0F, 11.0F));
 }
 
 Overlay::Overlay(const std::filesystem::path& font, const StepFacts& step)
@@ -53,7 +88,7 @@ void Overlay::add(const Moment& moment) {
     moments_.push_back(moment);
 }
 
-void Overlay::paint(image::Image& picture, double time, std::span<const OverlayLine> above) {
+Box Overlay::paint(image::Image& picture, double time, std::span<const OverlayLine> above, const OverlayLook& look) {
     std::vector<Moment> shown;
     {
         const std::lock_guard lock(mutex_);
@@ -62,7 +97,7 @@ void Overlay::paint(image::Image& picture, double time, std::span<const OverlayL
         for (const Moment& moment : moments_)
             if (moment.time <= time + 1e-9) shown.push_back(moment);
     }
-    if (shown.empty()) return;
+    if (shown.empty()) return {};
     const Moment& now = shown.back();
 
     std::vector<OverlayLine> lines(above.begin(), above.end());
@@ -76,7 +111,7 @@ void Overlay::paint(image::Image& picture, double time, std::span<const OverlayL
 
     Painting painting(picture, letters_);
     const glm::vec2 size(picture.width, picture.height);
-    const float em = typeSize(picture.height);
+    const float em = typeSize(picture.height, look.density);
     const float textHeight = 2.0F * edge + static_cast<float>(lines.size() + 2) * lineHeight + 0.3F;
     const bool hasGraph = (textHeight + graphHeight) * em < largestPart * size.y;
     const float height = textHeight + (hasGraph ? graphHeight : 0.0F);
@@ -84,8 +119,11 @@ void Overlay::paint(image::Image& picture, double time, std::span<const OverlayL
     for (const auto& [name, value] : lines) inside = std::max(inside, painting.pairWidth(name, value, em));
     const float width = std::min(inside + 2.0F * edge * em, size.x - 2.0F * margin * em);
 
-    const glm::vec2 corner = glm::round(glm::vec2(margin * em));
+    const glm::vec2 corner =
+        glm::round(glm::vec2(look.isAtRight ? size.x - margin * em - width : margin * em, margin * em));
     const Box panel{corner, glm::round(corner + glm::vec2(width, height * em))};
+    std::optional<Behind> behind;
+    if (look.opacity < 1.0F) behind.emplace(picture, panel);
     painting.plate(panel, 0.5F * em, plateInk, plateStrength);
     const float left = panel.low.x + edge * em, right = panel.high.x - edge * em;
     float y = panel.low.y + (edge + 0.85F) * em;
@@ -96,6 +134,8 @@ void Overlay::paint(image::Image& picture, double time, std::span<const OverlayL
     const float top = y - (hasGraph ? 0.5F : 0.8F) * em;
     const Box graph{{left, top}, {right, hasGraph ? top + graphHeight * em : top}};
     paintEnergies(painting, graph, em, shown, now.time);
+    if (behind) behind->shineThrough(picture, look.opacity);
+    return panel;
 }
 
 }  // namespace taut::pipeline

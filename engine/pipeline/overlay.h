@@ -32,6 +32,13 @@ struct Moment : world::Metrics {
 // A name and its value: a line of the panel above those of the run.
 using OverlayLine = std::pair<std::string, std::string>;
 
+// Where and how they are painted.
+struct OverlayLook {
+    bool isAtRight = false;  // in the upper right corner instead of the left
+    float opacity = 1.0F;    // 0 (nothing is seen) … 1
+    float density = 1.0F;    // pixels of the screen for one of a common screen: how much larger the type is
+};
+
 // add() and paint() may be called from two threads at the same time.
 class Overlay {
   public:
@@ -45,7 +52,9 @@ class Overlay {
 
     // Paints what was the case at `time` [s]: the last moment not after it, and those before. Forgets what no later
     // picture will show. Nothing is painted before the first moment. Small pictures have the figures without the graph.
-    void paint(image::Image& picture, double time, std::span<const OverlayLine> above = {});
+    // Returns what it covers.
+    Box paint(image::Image& picture, double time, std::span<const OverlayLine> above = {},
+              const OverlayLook& look = {});
 
     // For text of the same kind elsewhere in the picture.
     render::TextPainter& letters() { return letters_; }
@@ -57,7 +66,7 @@ class Overlay {
     std::deque<Moment> moments_;
 };
 
-// [px] size of the type that reads well in a picture of this height.
-float typeSize(int pictureHeight);
+// [px] size of the type that reads well in a picture of this height on a screen of this density.
+float typeSize(int pictureHeight, float density = 1.0F);
 
 }  // namespace taut::pipeline

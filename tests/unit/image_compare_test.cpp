@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "image_support.h"
+#include "taut/image/resize.h"
 
 namespace taut::image {
 namespace {
@@ -83,6 +86,15 @@ TEST(Compare, DifferencePictureIsSixteenTimesTheDifference) {
     EXPECT_EQ(d.rgb[(2 * 4 + 1) * 3], 48);
     EXPECT_EQ(d.rgb[(3 * 4 + 3) * 3 + 2], 255);
     EXPECT_EQ(d.rgb[0], 0);
+}
+
+// The middle of a pixel of twice the size lies a quarter of a pixel from the nearest old one: 3/4 and 1/4 of the two.
+TEST(Resize, EnlargedPicturesRunEvenlyFromPixelToPixel) {
+    Image two = grey(2, 1, 0);
+    for (std::size_t i = 3; i < 6; ++i) two.rgb[i] = 200;
+    const Image four = enlarged(two, 4, 3);
+    for (std::size_t y = 0; y < 3; ++y)
+        for (std::size_t x = 0; x < 4; ++x) EXPECT_EQ(four.rgb[3 * (4 * y + x)], (std::array{0, 50, 150, 200}[x]));
 }
 
 }  // namespace

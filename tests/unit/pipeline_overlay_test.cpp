@@ -186,6 +186,28 @@ TEST(Overlay, APanelIsAsWideAsItsLines) {
     EXPECT_LT(rightEdge(320, above), 315);
 }
 
+// The same panel moved, for plates and lines do not know where they are; half seen, each byte is between.
+TEST(Overlay, LooksTheSameAtTheRightAndShinesThroughEvenly) {
+    Overlay overlay({}, {4e-4, 5e-4});
+    overlay.add(rising(100));
+    image::Image left = grey(640, 360), right = left, half = left;
+    const Box at = overlay.paint(left, 5.0), other = overlay.paint(right, 5.0, {}, {.isAtRight = true});
+    overlay.paint(half, 5.0, {}, {.opacity = 0.5F});
+    EXPECT_EQ(other.high - other.low, at.high - at.low);
+    EXPECT_NEAR(640.0F - other.high.x, at.low.x, 1.0F);  // whole pixels
+    const int shift = static_cast<int>(other.low.x - at.low.x);
+    for (int y = 0; y < 360; ++y)
+        for (int x = 0; x < 640 - shift; ++x) {
+            ASSERT_EQ(pixel(right, x + shift, y), pixel(left, x, y)) << x << " " << y;
+            for (const std::size_t c : {0U, 1U, 2U})
+                ASSERT_NEAR(pixel(half, x, y)[c], 0.5 * (120 + pixel(left, x, y)[c]), 0.51);  // rounding
+        }
+}
+
+TEST(Overlay, TypeGrowsWithTheDensityOfTheScreen) {
+    EXPECT_EQ(typeSize(576, 2.0F), 2.0F * typeSize(288));
+}
+
 TEST(Overlay, NothingIsPaintedBeforeTheFirstMoment) {
     Overlay overlay({}, {4e-4, 5e-4});
     image::Image picture = grey(64, 64);

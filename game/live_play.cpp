@@ -12,22 +12,23 @@
 #include "game/renderers.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
+#include "taut/image/resize.h"
 #include "taut/live/between.h"
+#include "taut/live/picking.h"
 
 namespace taut::game {
 namespace {
 
 constexpr int mostTicks = 8;               // a picture
-constexpr double tickBudget = 0.037;       // [s] of wall time for the ticks of a picture: 25 pictures a second
+constexpr double longestTurn = 1.0 / 30;   // [s] from picture to picture
+constexpr double tickBudget = 0.031;       // [s] of that for the ticks of a picture
 constexpr double leastPicture = 1.0 / 60;  // [s] no display shows more
 constexpr double idlePause = 0.012;        // [s] between looks for events while nothing changes
 
-// The scene's picture as the window has it.
-world::PictureSpec pictureOf(const PlaySettings& settings, world::PictureSpec picture) {
-    picture.size = {settings.width, settings.height};
-    if (settings.samples > 0) picture.samples = settings.samples;
-    if (settings.shadowSize > 0) picture.shadowSize = settings.shadowSize;
-    return picture;
+// The software renderer leaves a core to the ticks that are computed while it draws.
+int threadsThatDraw(int threads) {
+    if (threads > 0) return threads;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
 std::string titleOf(const std::string& scene) {
@@ -39,9 +40,29 @@ std::string titleOf(const std::string& scene) {
 LivePlay::LivePlay(PlaySettings settings) : settings_(std::move(settings)) {
     rebuild({}, "");
     window_ = std::make_unique<Window>(titleOf(settings_.scene), settings_.width, settings_.height);
-    renderer_ = makeRenderer(pictureOf(settings_, session_->spec().picture), settings_.threads);
+    width_ = static_cast<int>(std::lround(settings_.width * window_->density()));
+    height_ = static_cast<int>(std::lround(settings_.height * window_->density()));
+    makeLevels();
     isRecording_ = settings_.records;
     screen_.say("h: help", 5.0);
+}
+
+void LivePlay::makeLevels() {
+    const world::PictureSpec& scene = session_->spec().picture;
+    const bool adapts = settings_.quality == "auto";
+    levels_ = adapts ? drawingLevels(scene) : std::vector{levelNamed(settings_.quality, scene)};
+    std::vector<double> costs;
+    for (const DrawingLevel& level : levels_) costs.push_back(level.cost);
+    // Where most machines end up, or a level below.
+    const auto first = std::find_if(levels_.begin(), levels_.end(), [](const auto& l) { return l.name == "normal"; });
+    const auto begin = std::min(first - levels_.begin(), std::ssize(levels_) - 1);
+    adaptation_.emplace(std::move(costs), static_cast<int>(begin), longestTurn);
+    const DrawingLevel& level = levels_[static_cast<std::size_t>(begin)];
+    world::PictureSpec picture = scene;
+    picture.size = {level.pixels(width_), level.pixels(height_)};
+    picture.samples = level.samples;
+    picture.shadowSize = level.shadowSize;
+    renderer_ = makeRenderer(picture, threadsThatDraw(settings_.threads), settings_.gl);
 }
 
 // A new world from the start; the old one stays when the scene cannot be built so.
@@ -102,11 +123,17 @@ void LivePlay::run(const std::atomic<bool>& stop) {
         lead();
         const std::int64_t before = session_->tick();
         hasChanged_ = wasSaying;  // its end is to be seen
-        session_->begin(ticksDue(wall), tickBudget);
-        drawPicture(view);
+        const int due = ticksDue(wall);
+        session_->begin(due, tickBudget);
+        drawPicture(view, wall);
         session_->wait();
         report();
-        ticks_ += session_->tick() - before;
+        const int done = static_cast<int>(session_->tick() - before);
+        const bool isLate = done < due && !isPaused_ && !session_->divergence();
+        pace_.owe(isLate ? due - done : 0);
+        // As long as it would have been with all ticks.
+        adapt(drawing_, secondsSince(last) * (isLate ? static_cast<double>(due) / std::max(1, done) : 1.0));
+        ticks_ += done;
         if (session_->tick() != before) {
             overlay_->add({session_->metrics(), session_->tick()});
             hasChanged_ = true;
@@ -123,16 +150,62 @@ int LivePlay::ticksDue(double wall) {
     return pace_.due(std::min(wall, 1.0), 1.0 / static_cast<double>(1 << slowness_), mostTicks);
 }
 
-void LivePlay::drawPicture(const view::FrameView& view) {
+void LivePlay::drawPicture(const view::FrameView& view, double wall) {
+    const auto start = Clock::now();
     image::Image picture = renderer_->draw(view);
+    if (picture.width < width_ || picture.height < height_) picture = image::enlarged(picture, width_, height_);
+    moveFigures(view, wall);
+    const pipeline::OverlayLook look{figures_.isAtRight(), figures_.opacity(), static_cast<float>(window_->density())};
+    covered_ = {};
     if (showsOverlay_) {
         const world::SolverSpec& solver = session_->spec().solver;
-        const std::vector<pipeline::OverlayLine> above = {{fmt::format("{:.0f} pictures/s", rate_), solver.integrator}};
-        overlay_->paint(picture, view.time + session_->world().tickSeconds(), above);
+        const std::vector<pipeline::OverlayLine> above = {{fmt::format("{:.0f} pictures/s", rate_), solver.integrator},
+                                                          {"quality", qualityText()}};
+        covered_ = overlay_->paint(picture, view.time + session_->world().tickSeconds(), above, look);
     }
-    screen_.paint(picture, overlay_->letters(), marks());
+    screen_.paint(picture, overlay_->letters(), marks(), look);
     window_->show(picture);
+    drawing_ = std::chrono::duration<double>(Clock::now() - start).count();
     ++pictures_;
+}
+
+// Draws finer or coarser from the next picture on, as there is time.
+void LivePlay::adapt(double drawing, double turn) {
+    if (!adaptation_->add(drawing, turn)) return;
+    const DrawingLevel& level = levels_[static_cast<std::size_t>(adaptation_->level())];
+    render::RendererOptions options;
+    options.width = level.pixels(width_);
+    options.height = level.pixels(height_);
+    options.samples = level.samples;
+    options.shadowSize = level.shadowSize;
+    options.occlusion = level.occlusion;
+    renderer_->change(options);
+    if (settings_.isVerbose) printNote("quality {}\n", level.name);
+}
+
+std::string LivePlay::qualityText() const {
+    const std::string& name = levels_[static_cast<std::size_t>(adaptation_->level())].name;
+    return levels_.size() > 1 ? name + " (auto)" : name;
+}
+
+void LivePlay::moveFigures(const view::FrameView& view, double wall) {
+    constexpr std::size_t mostPoints = 2000;
+    const glm::dvec2 size(width_, height_);
+    std::optional<glm::vec2> hand;
+    std::vector<glm::vec2> body;
+    if (dragging_ == Dragging::point) {
+        hand = glm::vec2(mouse_ * size);
+        for (const view::Surface& surface : view.surfaces) {
+            if (surface.name != heldBody_) continue;
+            const auto& positions = surface.geometry->positions;
+            for (std::size_t i = 0; i < positions.size(); i += 1 + positions.size() / mostPoints)
+                if (const auto at = live::seenAt(
+                        view.camera, glm::vec3(surface.transform * glm::vec4(positions[i], 1.0F)), size.x / size.y))
+                    body.push_back(glm::vec2(*at * size));
+        }
+    }
+    figures_.follow(covered_, static_cast<float>(width_), hand, body, wall);
+    hasChanged_ = hasChanged_ || figures_.isFading();
 }
 
 std::vector<std::string> LivePlay::marks() const {
@@ -171,8 +244,8 @@ void LivePlay::report() {
 
 void LivePlay::printSummary(double seconds) const {
     const double moved = static_cast<double>(ticks_) * session_->world().tickSeconds();
-    printResult("{} pictures in {:.1f} s: {:.1f} pictures a second, motion at {:.0f} % of real time\n", pictures_,
-                seconds, static_cast<double>(pictures_) / seconds, 100.0 * moved / seconds);
+    printResult("{} pictures in {:.1f} s: {:.1f} pictures a second, motion at {:.0f} % of real time, quality {}\n",
+                pictures_, seconds, static_cast<double>(pictures_) / seconds, 100.0 * moved / seconds, qualityText());
 }
 
 }  // namespace taut::game

@@ -10,8 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "game/play_figures.h"
+#include "game/play_quality.h"
 #include "game/play_screen.h"
 #include "game/window.h"
+#include "taut/live/adaptation.h"
 #include "taut/live/orbit.h"
 #include "taut/live/pace.h"
 #include "taut/live/session.h"
@@ -23,8 +26,9 @@ namespace taut::game {
 struct PlaySettings {
     std::string scene;                   // as given
     std::vector<std::string> overrides;  // "key=value"
-    int width = 512, height = 288;       // [px]
-    int samples = 0, shadowSize = 0;     // 0: those of the scene
+    int width = 512, height = 288;       // [px] on a common screen
+    std::string quality = "auto";        // or as levelNamed() has it
+    std::string gl;                      // as in the flag --gl; empty: the first that works
     int threads = 0;                     // 0: all of the machine
     double seconds = 0.0;                // [s] of wall time after which it ends; 0: when the user ends it
     bool records = false;                // from the start
@@ -58,7 +62,11 @@ class LivePlay {
     void say(const std::string& text);
     void report();
     int ticksDue(double wall);
-    void drawPicture(const view::FrameView& view);
+    void drawPicture(const view::FrameView& view, double wall);
+    void makeLevels();
+    void adapt(double drawing, double turn);
+    void moveFigures(const view::FrameView& view, double wall);
+    std::string qualityText() const;
     view::Camera camera() const;
     std::vector<std::string> marks() const;
     void printSummary(double seconds) const;
@@ -66,16 +74,22 @@ class LivePlay {
     PlaySettings settings_;
     std::vector<std::string> changes_;  // overrides by keys, after those of the settings
     std::unique_ptr<Window> window_;
+    int width_ = 0, height_ = 0;        // [px] of the window
+    std::vector<DrawingLevel> levels_;  // one, where the quality is fixed
+    std::optional<live::Adaptation> adaptation_;
     std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<live::Session> session_;
     std::unique_ptr<pipeline::Overlay> overlay_;
     live::Pace pace_{1.0};
     live::Orbit orbit_;
     PlayScreen screen_;
+    FiguresPlace figures_;
+    pipeline::Box covered_;  // [px] by the figures
 
     enum class Dragging { nothing, point, view };
     Dragging dragging_ = Dragging::nothing;
     glm::dvec2 mouse_{0.5};     // [shares of the picture]
+    std::string heldBody_;      // whose point it is
     glm::dvec3 held_{0.0};      // [m] where the mouse leads the point that it holds
     glm::dvec3 offset_{0.0};    // [m] from the ray's place to that point
     view::Camera shownCamera_;  // of the scene, in the picture that is shown
@@ -87,7 +101,8 @@ class LivePlay {
     bool saidDivergence_ = false;
     std::size_t printed_ = 0;  // deeds
     std::int64_t pictures_ = 0, ticks_ = 0;
-    double rate_ = 0.0;  // [pictures/s] lately
+    double rate_ = 0.0;     // [pictures/s] lately
+    double drawing_ = 0.0;  // [s] that the last picture took
 };
 
 }  // namespace taut::game

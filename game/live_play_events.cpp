@@ -127,6 +127,7 @@ void LivePlay::beginDrag(const WindowEvent& event) {
     held_ = picked->position;
     offset_ = picked->position - live::onPicturePlane(ray, camera(), picked->position);
     dragging_ = Dragging::point;
+    heldBody_ = picked->body;
     say("holding " + target);
 }
 

@@ -7,6 +7,7 @@
 #include "game/flags.h"
 #include "game/interruption.h"
 #include "game/live_play.h"
+#include "game/renderers.h"
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
 
@@ -15,18 +16,8 @@ namespace {
 
 struct PlayFlags {
     PlaySettings settings;
-    std::string size, quality = "normal", record, isa;
+    std::string size, record, isa;
 };
-
-struct Quality {
-    int samples, shadowSize;  // 0: those of the scene
-};
-
-Quality qualityNamed(const std::string& name) {
-    if (name == "draft") return {1, 512};
-    if (name == "normal") return {1, 1024};
-    return {0, 0};
-}
 
 int play(const PlayFlags& flags) {
     PlaySettings settings = flags.settings;
@@ -35,9 +26,6 @@ int play(const PlayFlags& flags) {
         settings.width = size.width;
         settings.height = size.height;
     }
-    const Quality quality = qualityNamed(flags.quality);
-    settings.samples = quality.samples;
-    settings.shadowSize = quality.shadowSize;
     settings.records = !flags.record.empty();
     settings.record = flags.record;
     if (settings.records && settings.record.extension() != ".toml")
@@ -62,12 +50,17 @@ Action declarePlay(Options& options) {
     options.value("SCENE", settings.scene, "A scene file, or the name of a shipped scene").required();
     options
         .value("--size", flags->size,
-               "Size of the picture in pixels; 512x288 when not given; the window can be drawn larger")
+               "Size of the picture in pixels of a common screen; 512x288 when not given; the window can be drawn "
+               "larger")
         .typeName("WxH");
     options
-        .value("--quality", flags->quality,
-               "draft: coarse shadows; normal: no anti-aliasing; full: as the scene has it")
-        .oneOf({"draft", "normal", "full"});
+        .value(
+            "--quality", settings.quality,
+            "auto: as fine as 30 pictures a second let it be; draft: coarse shadows; normal: no anti-aliasing; full: "
+            "as the scene has it")
+        .oneOf({"auto", "draft", "normal", "full"})
+        .showDefault();
+    addRendererFlag(options, settings.gl);
     options.value("--seconds", settings.seconds, "End by itself after this time, and tell the pictures a second")
         .check(numberWithin(leastSeconds, mostSeconds));
     options.value("--record", flags->record, "Record from the start into this scenario file").typeName("FILE");

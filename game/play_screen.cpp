@@ -3,7 +3,6 @@
 #include <array>
 #include <utility>
 
-#include "taut/pipeline/overlay.h"
 #include "taut/pipeline/painting.h"
 
 namespace taut::game {
@@ -33,22 +32,24 @@ constexpr std::array<std::pair<const char*, const char*>, 14> help{{
     {"h  q", "this help; quit"},
 }};
 
-void paintMarks(Painting& painting, float width, float em, const std::vector<std::string>& marks) {
-    float right = width - 0.8F * em;
+void paintMarks(Painting& painting, float width, float em, bool isAtLeft, const std::vector<std::string>& marks) {
+    float edge = isAtLeft ? 0.8F * em : width - 0.8F * em;
     for (const std::string& mark : marks) {
         const float wide = painting.widthOf(mark, em) + 1.2F * em;
-        painting.plate({{right - wide, 0.8F * em}, {right, 2.5F * em}}, 0.5F * em, plateInk, 0.84F);
-        painting.text({right - 0.6F * em, 2.0F * em}, Side::right, mark, em,
+        const float left = isAtLeft ? edge : edge - wide;
+        painting.plate({{left, 0.8F * em}, {left + wide, 2.5F * em}}, 0.5F * em, plateInk, 0.84F);
+        painting.text({left + wide - 0.6F * em, 2.0F * em}, Side::right, mark, em,
                       mark.starts_with("●") ? recordInk : textInk);
-        right -= wide + 0.4F * em;
+        edge += (isAtLeft ? 1.0F : -1.0F) * (wide + 0.4F * em);
     }
 }
 
-void paintHelp(Painting& painting, glm::vec2 size, float em) {
+// Beside the figures.
+void paintHelp(Painting& painting, glm::vec2 size, float em, bool isAtLeft) {
     const float line = 1.45F * em, width = 29.0F * em;
     const float height = static_cast<float>(help.size()) * line + 1.4F * em;
-    // Beside the figures at the left.
-    const glm::vec2 corner = glm::round(glm::vec2(size.x - width - 0.8F * em, 0.5F * (size.y - height)));
+    const float left = isAtLeft ? 0.8F * em : size.x - width - 0.8F * em;
+    const glm::vec2 corner = glm::round(glm::vec2(left, 0.5F * (size.y - height)));
     painting.plate({corner, corner + glm::vec2(width, height)}, 0.7F * em, plateInk, 0.9F);
     float y = corner.y + 1.7F * em;
     for (const auto& [key, meaning] : help) {
@@ -65,13 +66,13 @@ void PlayScreen::say(std::string text, double seconds) {
     until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-void PlayScreen::paint(image::Image& picture, render::TextPainter& letters,
-                       const std::vector<std::string>& marks) const {
-    const float em = pipeline::typeSize(picture.height);
+void PlayScreen::paint(image::Image& picture, render::TextPainter& letters, const std::vector<std::string>& marks,
+                       const pipeline::OverlayLook& figures) const {
+    const float em = pipeline::typeSize(picture.height, figures.density);
     const glm::vec2 size(picture.width, picture.height);
     Painting painting(picture, letters);
-    paintMarks(painting, size.x, em, marks);
-    if (isHelping_) paintHelp(painting, size, em);
+    paintMarks(painting, size.x, em, figures.isAtRight, marks);
+    if (isHelping_) paintHelp(painting, size, em, figures.isAtRight);
     if (!isSaying()) return;
     const float half = 0.5F * painting.widthOf(message_, em) + 0.9F * em, middle = 0.5F * size.x;
     painting.plate({{middle - half, size.y - 2.9F * em}, {middle + half, size.y - 1.0F * em}}, 0.6F * em, plateInk,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "taut/image/image.h"
+#include "taut/pipeline/overlay.h"
 #include "taut/render/text_picture.h"
 
 namespace taut::game {
@@ -21,8 +22,9 @@ class PlayScreen {
 
     void toggleHelp() { isHelping_ = !isHelping_; }
 
-    // marks: "paused", "recording", … at the upper right edge.
-    void paint(image::Image& picture, render::TextPainter& letters, const std::vector<std::string>& marks) const;
+    // marks: "paused", "recording", … in the upper corner where the figures are not; those say where and how.
+    void paint(image::Image& picture, render::TextPainter& letters, const std::vector<std::string>& marks,
+               const pipeline::OverlayLook& figures) const;
 
   private:
     std::string message_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -32,10 +33,31 @@ bool isThereADisplay() {
     return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY") || isSet("SDL_VIDEODRIVER");
 }
 
+bool isOnWayland() {
+    const char* driver = SDL_GetCurrentVideoDriver();
+    return driver != nullptr && std::strcmp(driver, "wayland") == 0;
+}
+
+// X11 counts pixels only: how many a common screen would have, from what the screen says of its size. What is no denser
+// than that of most portable computers is as it is.
+double densityOfScreen(int width, int height) {
+    constexpr float common = 96.0F;  // [dots an inch]
+    constexpr double least = 1.5, most = 3.0;
+    if (isOnWayland()) return 1.0;
+    float dots = 0.0F;
+    SDL_Rect room{};
+    if (SDL_GetDisplayDPI(0, &dots, nullptr, nullptr) != 0 || SDL_GetDisplayUsableBounds(0, &room) != 0) return 1.0;
+    const double fits = std::min(static_cast<double>(room.w) / width, static_cast<double>(room.h) / height);
+    const double density = std::round(4.0 * std::min(static_cast<double>(dots / common), most)) / 4.0;
+    return density >= least && density <= fits ? density : 1.0;
+}
+
 }  // namespace
 
 struct Window::Impl {
-    int width, height;
+    int width, height;  // on a common screen
+    double density = 1.0;
+    int textureWidth = 0, textureHeight = 0;
     SDL_Window* window = nullptr;
     SDL_Renderer* renderer = nullptr;
     SDL_Texture* texture = nullptr;
@@ -45,6 +67,15 @@ struct Window::Impl {
         if (renderer != nullptr) SDL_DestroyRenderer(renderer);
         if (window != nullptr) SDL_DestroyWindow(window);
         SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    }
+
+    void fitTexture(int wide, int high) {
+        if (texture != nullptr && textureWidth == wide && textureHeight == high) return;
+        if (texture != nullptr) SDL_DestroyTexture(texture);
+        texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STREAMING, wide, high);
+        if (texture == nullptr) failWithoutWindow("a window takes no pictures");
+        textureWidth = wide;
+        textureHeight = high;
     }
 
     glm::dvec2 placeOf(int x, int y) const {
@@ -85,25 +116,34 @@ struct Window::Impl {
 };
 
 Window::Window(const std::string& title, int width, int height) : impl_(new Impl{width, height}) {
-    // The pictures are drawn by the processor; so are they shown, with no need of another driver.
-    SDL_SetHintWithPriority(SDL_HINT_RENDER_DRIVER, "software", SDL_HINT_DEFAULT);
-    SDL_SetHintWithPriority(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0", SDL_HINT_DEFAULT);
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     if (!isThereADisplay()) throw core::Error(core::ErrorKind::noRenderer, "there is no display to open a window on");
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) failWithoutWindow("the display takes no window");
-    impl_->window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
-                                     SDL_WINDOW_RESIZABLE);
+    // The pictures are drawn by the processor; so are they shown, with no need of another driver. Wayland takes no
+    // pixels from SDL but by a driver.
+    if (!isOnWayland()) {
+        SDL_SetHintWithPriority(SDL_HINT_RENDER_DRIVER, "software", SDL_HINT_DEFAULT);
+        SDL_SetHintWithPriority(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0", SDL_HINT_DEFAULT);
+    }
+    const double larger = densityOfScreen(width, height);
+    const auto scaled = [&](int length) { return static_cast<int>(std::lround(length * larger)); };
+    impl_->window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, scaled(width),
+                                     scaled(height), SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (impl_->window == nullptr) failWithoutWindow("a window cannot be opened");
     impl_->renderer = SDL_CreateRenderer(impl_->window, -1, 0);
     if (impl_->renderer == nullptr) failWithoutWindow("nothing can be shown in a window");
     SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
-    impl_->texture =
-        SDL_CreateTexture(impl_->renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STREAMING, width, height);
-    if (impl_->texture == nullptr) failWithoutWindow("a window takes no pictures");
+    int pixels = 0;
+    if (SDL_GetRendererOutputSize(impl_->renderer, &pixels, nullptr) == 0 && pixels > width)
+        impl_->density = static_cast<double>(pixels) / width;
     // Places of the mouse are told in pixels of the picture, whatever the size of the window.
     SDL_RenderSetLogicalSize(impl_->renderer, width, height);
 }
 Window::~Window() = default;
+
+double Window::density() const {
+    return impl_->density;
+}
 
 std::vector<WindowEvent> Window::events() {
     std::vector<WindowEvent> all;
@@ -113,7 +153,10 @@ std::vector<WindowEvent> Window::events() {
 }
 
 void Window::show(const image::Image& picture) {
-    TAUT_EXPECTS(picture.isWhole() && picture.width == impl_->width && picture.height == impl_->height);
+    TAUT_EXPECTS(picture.isWhole());
+    // Where SDL shows by GL: another context has been current in this thread, of which it does not know.
+    if (SDL_GL_GetCurrentContext() != nullptr) SDL_GL_MakeCurrent(impl_->window, nullptr);
+    impl_->fitTexture(picture.width, picture.height);
     void* pixels = nullptr;
     int pitch = 0;
     if (SDL_LockTexture(impl_->texture, nullptr, &pixels, &pitch) != 0) failWithoutWindow("a picture cannot be shown");

@@ -22,7 +22,8 @@ struct WindowEvent {
 
 class Window {
   public:
-    // Throws core::Error(noRenderer) without a display.
+    // Of that size on a common screen; on a dense one it has more pixels, and looks the same. Throws
+    // core::Error(noRenderer) without a display.
     Window(const std::string& title, int width, int height);
     ~Window();
     Window(const Window&) = delete;
@@ -31,7 +32,9 @@ class Window {
     // What happened since the last call.
     std::vector<WindowEvent> events();
 
-    // Expects the size that the window was made with; a window of another size shows it scaled, with its proportions.
+    double density() const;  // pixels for one of a common screen
+
+    // A window of another size shows it scaled, with the proportions that it was made with.
     void show(const image::Image& picture);
 
   private:

@@ -2,9 +2,11 @@
 
 #include <cstdlib>
 
-#include "taut/image/read.h"
+#include "game/play_figures.h"
+#include "game/play_quality.h"
 #include "image_support.h"
 #include "program_support.h"
+#include "taut/image/read.h"
 
 namespace taut::game {
 namespace {
@@ -43,6 +45,49 @@ TEST(PlayCommand, AWrongSceneIsSaidBeforeAWindowIsMissed) {
     EXPECT_EQ(run({"play", "no-such-scene"}).code, 6);
     EXPECT_EQ(run({"play", "curtain", "--record", "pulled.mp4"}).code, 2);
     EXPECT_EQ(run({"play", "curtain", "--quality", "best"}).code, 2);
+}
+
+TEST(PlayFigures, AreNeverOverTheHand) {
+    const pipeline::Box left{{8.0F, 8.0F}, {200.0F, 160.0F}}, right{{312.0F, 8.0F}, {504.0F, 160.0F}};
+    FiguresPlace figures;
+    figures.follow(left, 512.0F, glm::vec2(300.0F, 100.0F), {}, 0.1);
+    EXPECT_FALSE(figures.isAtRight());
+    figures.follow(left, 512.0F, glm::vec2(100.0F, 100.0F), {}, 0.1);
+    EXPECT_TRUE(figures.isAtRight());
+    EXPECT_EQ(figures.opacity(), 1.0F);
+    figures.follow(right, 512.0F, glm::vec2(400.0F, 100.0F), {}, 0.1);
+    EXPECT_FALSE(figures.isAtRight());
+    // In a picture that they fill from side to side they go.
+    const pipeline::Box wide{{8.0F, 8.0F}, {248.0F, 160.0F}};
+    for (int i = 0; i < 20; ++i) figures.follow(wide, 256.0F, glm::vec2(128.0F, 100.0F), {}, 0.1);
+    EXPECT_EQ(figures.opacity(), 0.0F);
+}
+
+TEST(PlayFigures, LetTheBodyThatIsPulledShineThrough) {
+    const pipeline::Box left{{8.0F, 8.0F}, {200.0F, 160.0F}};
+    const std::vector<glm::vec2> body{{150.0F, 50.0F}};
+    FiguresPlace figures;
+    const auto follow = [&](std::optional<glm::vec2> hand) {
+        for (int i = 0; i < 20; ++i) figures.follow(left, 512.0F, hand, body, 0.1);
+        return figures.opacity();
+    };
+    EXPECT_EQ(follow(std::nullopt), 1.0F);
+    EXPECT_LT(follow(glm::vec2(300.0F, 100.0F)), 0.3F);
+    EXPECT_EQ(follow(std::nullopt), 1.0F);
+}
+
+TEST(PlayQuality, LevelsEndWithTheScenesOwnAndNoneIsFiner) {
+    world::PictureSpec scene;
+    scene.samples = 1;
+    scene.shadowSize = 512;
+    const std::vector<DrawingLevel> levels = drawingLevels(scene);
+    EXPECT_EQ(levels.back().name, "full");
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        EXPECT_EQ(levels[i].samples, 1);
+        EXPECT_LE(levels[i].shadowSize, 512);
+        if (i > 0) EXPECT_FALSE(levels[i].looksAs(levels[i - 1])) << levels[i].name;
+    }
+    EXPECT_EQ(levelNamed("normal", scene).shadowSize, 1024);
 }
 
 // The figures cover a corner; everything else, and every picture without the flag, is as it was.

@@ -1,0 +1,30 @@
+// How finely `taut play` draws: levels from coarse to the scene's own, each with what a picture costs. It knows neither
+// the renderer nor which level there is time for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "taut/world/spec.h"
+
+namespace taut::game {
+
+struct DrawingLevel {
+    std::string name;       // "normal"
+    double size = 1.0;      // of the window's pixels, along an edge
+    int samples = 1;        // of anti-aliasing
+    int shadowSize = 1024;  // [texels]
+    bool occlusion = true;  // things darken the ground around them
+    double cost = 1.0;      // of a picture, in processor time [ms]: what counts is how levels compare
+
+    int pixels(int length) const;  // of the window's length
+    bool looksAs(const DrawingLevel& other) const;
+};
+
+// Ascending, the last as the scene has it; none finer than that.
+std::vector<DrawingLevel> drawingLevels(const world::PictureSpec& scene);
+
+// "draft", "normal" or "full", as the flag --quality names them, whatever the scene has but for "full".
+DrawingLevel levelNamed(const std::string& name, const world::PictureSpec& scene);
+
+}  // namespace taut::game

@@ -163,7 +163,7 @@ void LivePlay::drawPicture(const view::FrameView& view, double wall) {
                                                           {"quality", qualityText()}};
         covered_ = overlay_->paint(picture, view.time + session_->world().tickSeconds(), above, look);
     }
-    screen_.paint(picture, overlay_->letters(), marks(), look);
+    screen_.paint(picture, overlay_->letters(), marks(), look, hand());
     window_->show(picture);
     drawing_ = std::chrono::duration<double>(Clock::now() - start).count();
     ++pictures_;
@@ -188,13 +188,17 @@ std::string LivePlay::qualityText() const {
     return levels_.size() > 1 ? name + " (auto)" : name;
 }
 
+// [px] in the picture, where it holds something.
+std::optional<glm::vec2> LivePlay::hand() const {
+    if (dragging_ != Dragging::point) return std::nullopt;
+    return glm::vec2(mouse_ * glm::dvec2(width_, height_));
+}
+
 void LivePlay::moveFigures(const view::FrameView& view, double wall) {
     constexpr std::size_t mostPoints = 2000;
     const glm::dvec2 size(width_, height_);
-    std::optional<glm::vec2> hand;
     std::vector<glm::vec2> body;
     if (dragging_ == Dragging::point) {
-        hand = glm::vec2(mouse_ * size);
         for (const view::Surface& surface : view.surfaces) {
             if (surface.name != heldBody_) continue;
             const auto& positions = surface.geometry->positions;
@@ -204,7 +208,7 @@ void LivePlay::moveFigures(const view::FrameView& view, double wall) {
                     body.push_back(glm::vec2(*at * size));
         }
     }
-    figures_.follow(covered_, static_cast<float>(width_), hand, body, wall);
+    figures_.follow(covered_, static_cast<float>(width_), hand(), body, wall);
     hasChanged_ = hasChanged_ || figures_.isFading();
 }
 

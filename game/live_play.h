@@ -66,6 +66,7 @@ class LivePlay {
     void makeLevels();
     void adapt(double drawing, double turn);
     void moveFigures(const view::FrameView& view, double wall);
+    std::optional<glm::vec2> hand() const;
     std::string qualityText() const;
     view::Camera camera() const;
     std::vector<std::string> marks() const;

@@ -9,6 +9,9 @@
 
 namespace taut::game {
 
+// Whether the box holds the place, or has it no farther away than `margin`, all in [px].
+bool holds(const pipeline::Box& box, glm::vec2 at, float margin);
+
 class FiguresPlace {
   public:
     // What the figures cover in the picture now, of that width, and what is pulled [px]: where the hand has it, and

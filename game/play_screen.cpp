@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "game/play_figures.h"
 #include "taut/pipeline/painting.h"
 
 namespace taut::game {
@@ -67,7 +68,7 @@ void PlayScreen::say(std::string text, double seconds) {
 }
 
 void PlayScreen::paint(image::Image& picture, render::TextPainter& letters, const std::vector<std::string>& marks,
-                       const pipeline::OverlayLook& figures) const {
+                       const pipeline::OverlayLook& figures, std::optional<glm::vec2> hand) const {
     const float em = pipeline::typeSize(picture.height, figures.density);
     const glm::vec2 size(picture.width, picture.height);
     Painting painting(picture, letters);
@@ -75,8 +76,9 @@ void PlayScreen::paint(image::Image& picture, render::TextPainter& letters, cons
     if (isHelping_) paintHelp(painting, size, em, figures.isAtRight);
     if (!isSaying()) return;
     const float half = 0.5F * painting.widthOf(message_, em) + 0.9F * em, middle = 0.5F * size.x;
-    painting.plate({{middle - half, size.y - 2.9F * em}, {middle + half, size.y - 1.0F * em}}, 0.6F * em, plateInk,
-                   0.84F);
+    const Box plate{{middle - half, size.y - 2.9F * em}, {middle + half, size.y - 1.0F * em}};
+    if (hand && holds(plate, *hand, em)) return;
+    painting.plate(plate, 0.6F * em, plateInk, 0.84F);
     painting.text({middle, size.y - 1.6F * em}, Side::middle, message_, em, textInk);
 }
 

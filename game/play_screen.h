@@ -3,6 +3,8 @@
 #pragma once
 
 #include <chrono>
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +24,10 @@ class PlayScreen {
 
     void toggleHelp() { isHelping_ = !isHelping_; }
 
-    // marks: "paused", "recording", … in the upper corner where the figures are not; those say where and how.
+    // marks: "paused", "recording", … in the upper corner where the figures are not; those say where and how. No
+    // message over the hand [px], where it holds something.
     void paint(image::Image& picture, render::TextPainter& letters, const std::vector<std::string>& marks,
-               const pipeline::OverlayLook& figures) const;
+               const pipeline::OverlayLook& figures, std::optional<glm::vec2> hand) const;
 
   private:
     std::string message_;

@@ -9,9 +9,10 @@ namespace taut::live {
 namespace {
 
 constexpr int starting = 12, settling = 3;  // turns at the start and after a change, in which things are made ready
-constexpr std::size_t fewest = 5;           // turns for a judgement
+constexpr double longestStart = 0.5;        // [s] of them
+constexpr std::size_t fewest = 4;           // turns for a judgement
 constexpr double window = 0.25;             // [s] at least, for a judgement
-constexpr double leastShare = 0.4;          // of a turn, for which a picture counts as its reason
+constexpr double leastShare = 0.3;          // of a turn, for which a picture counts as its reason
 constexpr double muchTooLong = 1.5;         // of the goal: two levels at once
 constexpr double spare = 0.85;              // of the goal, for which a level up is expected to do
 constexpr double firstPatience = 1.5, mostPatience = 60.0;  // [s]
@@ -35,6 +36,9 @@ bool Adaptation::add(double drawing, double turn) {
     sinceRise_ += turn;
     if (unsettled_ > 0) {
         --unsettled_;
+        spent_ += turn;
+        if (spent_ > longestStart) unsettled_ = 0;
+        if (unsettled_ == 0) spent_ = 0.0;
         return false;
     }
     drawings_.push_back(drawing);

@@ -48,7 +48,7 @@ TEST(Adaptation, FindsWithinTwoSecondsWhatThereIsTimeForAndStays) {
 
 TEST(Adaptation, GoesUpAgainWhereThereIsTime) {
     Machine machine;
-    machine.run(3.0, 6.0);
+    machine.run(2.0, 6.0);
     EXPECT_EQ(machine.adaptation.level(), 0);
     machine.run(12.0, 0.5);
     EXPECT_EQ(machine.adaptation.level(), 5);
@@ -73,7 +73,7 @@ TEST(Adaptation, WhatIsTakenBackIsTriedEverLessOften) {
 
 TEST(Adaptation, WhatHoldsUpTheRestChangesNothing) {
     Machine machine;
-    machine.run(10.0, 1.0, 0.06);  // pictures of 20 ms in turns of 60 ms
+    machine.run(10.0, 1.0, 0.08);  // pictures of 20 ms in turns of 80 ms
     EXPECT_EQ(machine.changes, 0);
 }
 

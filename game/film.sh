@@ -30,11 +30,11 @@ shots='show 10 177 taut: ropes, cloth and soft bodies
 flag 120 239 Wind on every triangle
 laundry 186 305 Cloth on cloth
 cape 60 179 Held by what moves
-twist 168 275 Wrung four turns, and let go
+twist 216 323 Wrung four turns, and let go
 knot 120 215 A rope through its own loop
 tower 76 189 Soft blocks, stiff and stiffer
 hammock 72 191 A guest in the hammock
-assets/scenarios/torn-banner.toml 180 293 Torn by a storm
+assets/scenarios/torn-banner.toml 66 179 Torn by a storm
 methods 150 269 Ten integrators, one step'
 
 # Of a picture's height: the size of the letters and how far they are from the edge.

@@ -53,7 +53,7 @@ void addContinuationFlags(Options& options, ContinuationFlags& flags) {
         .within(std::int64_t{0}, mostFrames);
 }
 
-RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const world::World& world) {
+RunKeys runKeys(const scene::Loaded& scene, const std::vector<std::uint64_t>& look, const world::World& world) {
     core::Hash steps;  // chosen with an eye on the whole timeline
     for (const world::IslandInfo& island : world.islands()) {
         steps.add(island.name);
@@ -61,8 +61,7 @@ RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const worl
     }
     core::Hash picture;
     picture.add(scene.keys.picture());
-    picture.add(static_cast<std::uint64_t>(debug));
-    picture.add(static_cast<std::uint64_t>(overlay));
+    for (const std::uint64_t each : look) picture.add(each);
     const auto state = [keys = scene.keys, stepsKey = steps.value(),
                         ticks = world.ticksPerFrame()](std::int64_t frame) {
         core::Hash hash;

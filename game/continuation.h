@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "game/command_line.h"
 #include "taut/pipeline/run.h"
@@ -32,7 +33,8 @@ struct RunKeys {
     std::uint64_t picture = 0;
     std::vector<scene::UsedFile> files;  // that the scene depends on
 };
-RunKeys runKeys(const scene::Loaded& scene, bool debug, bool overlay, const world::World& world);
+// `look`: what else of the command line pictures depend on.
+RunKeys runKeys(const scene::Loaded& scene, const std::vector<std::uint64_t>& look, const world::World& world);
 
 // Puts the world where the run is to go on, says so in the options, and returns the records of the frames before: for
 // --from the last checkpoint at or before that frame, for --resume the last before the first frame that `output` lacks

@@ -16,12 +16,15 @@ namespace taut::game {
 namespace {
 
 // The first file that would be overwritten; empty when there is none.
-std::filesystem::path firstExisting(const std::filesystem::path& output, std::int64_t first, std::int64_t last) {
+std::filesystem::path firstExisting(const std::filesystem::path& output, std::int64_t first, std::int64_t last,
+                                    const std::vector<std::string>& besides) {
     std::error_code ignored;  // a folder that may not be looked into is reported when it is written to
     if (image::isVideoPath(output)) return std::filesystem::exists(output, ignored) ? output : std::filesystem::path();
-    const image::FramePattern pattern(output);
-    for (const std::int64_t frame : pattern.framesThere())  // looked up once, however many the run has
-        if (frame >= first && frame <= last) return pattern.pathOf(frame);
+    std::vector<image::FramePattern> patterns{image::FramePattern(output)};
+    for (const std::string& kind : besides) patterns.push_back(patterns.front().beside(kind));
+    for (const image::FramePattern& pattern : patterns)
+        for (const std::int64_t frame : pattern.framesThere())  // looked up once, however many the run has
+            if (frame >= first && frame <= last) return pattern.pathOf(frame);
     return {};
 }
 
@@ -33,10 +36,10 @@ bool answersYes() {
 
 }  // namespace
 
-void permitOverwriting(const std::filesystem::path& output, std::int64_t first, std::int64_t last,
-                       Overwrite overwrite) {
+void permitOverwriting(const std::filesystem::path& output, std::int64_t first, std::int64_t last, Overwrite overwrite,
+                       const std::vector<std::string>& besides) {
     if (overwrite == Overwrite::yes) return;
-    const std::filesystem::path existing = firstExisting(output, first, last);
+    const std::filesystem::path existing = firstExisting(output, first, last, besides);
     if (existing.empty()) return;
     if (overwrite == Overwrite::ask && ::isatty(STDIN_FILENO) == 1) {
         printNote("{} exists already. Overwrite? [y/N] ", existing.string());
@@ -61,9 +64,9 @@ std::string largeRunText(std::int64_t pictures, int width, int height) {
         picturesOfSecond);
 }
 
-std::unique_ptr<image::FrameSink> makeSink(const std::filesystem::path& output, double fps) {
+std::unique_ptr<image::FrameSink> makeSink(const std::filesystem::path& output, double fps, bool alpha) {
     if (image::isVideoPath(output))
-        return std::make_unique<image::VideoWriter>(output, image::VideoOptions{.fps = fps});
+        return std::make_unique<image::VideoWriter>(output, image::VideoOptions{.fps = fps, .alpha = alpha});
     return std::make_unique<image::FrameSequence>(image::FramePattern(output));
 }
 

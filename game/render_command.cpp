@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +19,7 @@
 #include "game/flags.h"
 #include "game/folders.h"
 #include "game/interruption.h"
+#include "game/layer_flags.h"
 #include "game/messages.h"
 #include "game/outputs.h"
 #include "game/progress.h"
@@ -48,6 +50,7 @@ struct RenderFlags {
     int threads = 0;
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
+    LayerFlags layers;
     bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
     bool overlay = false, isConfined = false;
     bool writesMetrics() const { return metrics || !metricsOf.empty(); }
@@ -71,7 +74,7 @@ void checkFlags(const RenderFlags& flags) {
     if (!flags.output.empty()) checkOutputName(flags.output);
     if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
     if (!flags.video.empty() && !image::isVideoPath(flags.video))
-        fail("--video: the name must end in .mp4, .mov, .mkv or .gif");
+        fail("--video: the name must end in .mp4, .mov, .mkv, .webm or .gif");
     std::error_code ignored;
     if (!flags.video.empty() && std::filesystem::weakly_canonical(flags.video, ignored) ==
                                     std::filesystem::weakly_canonical(flags.output, ignored))
@@ -85,6 +88,7 @@ void checkFlags(const RenderFlags& flags) {
         fail("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
     if (flags.continuation.resume && flags.no) fail("--resume replaces frames: it does not go with -n");
     if (flags.continuation.from && !flags.frames.empty()) fail("--from and --frames exclude each other");
+    checkLayerFlags(flags.layers, flags.output, flags.video);
 }
 
 pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec& spec) {
@@ -128,6 +132,17 @@ std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::
     return nullptr;
 }
 
+// What a picture depends on besides the scene.
+std::vector<std::uint64_t> lookOf(const RenderFlags& flags) {
+    const auto bit = [](bool is) { return std::uint64_t{is ? 1U : 0U}; };
+    std::vector<std::uint64_t> look{bit(flags.debug), bit(flags.overlay)};
+    const LayerFlags& layers = flags.layers;
+    if (layers.alpha || layers.depth || layers.mask)
+        look.insert(look.end(), {bit(layers.alpha), bit(layers.depth), bit(layers.mask),
+                                 layers.depth ? std::bit_cast<std::uint64_t>(layers.depthRange) : 0});
+    return look;
+}
+
 pipeline::FigureColumns columnsOf(const std::vector<std::string>& names) {
     core::Hash key;
     for (const std::string& name : names) key.add(name);
@@ -143,10 +158,15 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const pi
     std::vector<std::unique_ptr<image::FrameSink>> sinks;
     for (const std::string& output : {flags.output, flags.video}) {
         if (output.empty()) continue;
-        if (!flags.noPictures) permitOverwriting(output, options.firstFrame, options.lastFrame, overwrite);
-        sinks.push_back(makeSink(output, fps));
+        if (!flags.noPictures)
+            permitOverwriting(output, options.firstFrame, options.lastFrame, overwrite,
+                              image::isVideoPath(output) ? std::vector<std::string>() : filesBeside(flags.layers));
+        sinks.push_back(makeSink(output, fps, flags.layers.alpha));
     }
     if (sinks.empty()) return nullptr;
+    if (!filesBeside(flags.layers).empty())
+        sinks.push_back(
+            std::make_unique<image::LayerSequence>(image::FramePattern(flags.output), depthComment(flags.layers)));
     auto sink = std::make_unique<image::SeveralSinks>(std::move(sinks));
     if (overwrite == Overwrite::no)  // the records belong to the run: asked for or not, they are not replaced
         for (const char* record : {"run.json", "metrics.csv"})
@@ -261,7 +281,7 @@ int render(const RenderFlags& flags) {
     printWarnings(foreseen);
 
     const std::filesystem::path states = checkpointFolder(flags, sink.get());
-    const RunKeys keys = runKeys(scene, flags.debug, flags.overlay, world);
+    const RunKeys keys = runKeys(scene, lookOf(flags), world);
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.yes;
     const std::string output = flags.noPictures ? "" : flags.output;
@@ -270,10 +290,11 @@ int render(const RenderFlags& flags) {
     pipeline::RecordLog records = goOn(continuation, states, keys, output, options, world);
     const std::size_t before = records.size();
 
+    const pipeline::PictureLayers layers = layersOf(flags.layers, world);
     pipeline::Draw draw;
     std::unique_ptr<render::Renderer> renderer;
     if (!flags.noPictures) {
-        renderer = makeRenderer(spec.picture, flags.threads, flags.gl);
+        renderer = makeRenderer(spec.picture, flags.threads, flags.gl, layers);
         draw = [&](const view::FrameView& view) { return renderer->draw(view); };
     }
     std::unique_ptr<pipeline::Overlay> overlay;
@@ -298,7 +319,7 @@ int render(const RenderFlags& flags) {
                                 interruption.flag(), std::move(records));
     }
     if (sink) {
-        const pipeline::RunRequest request{flags.output, allOverrides(flags), flags.threads, options};
+        const pipeline::RunRequest request{flags.output, allOverrides(flags), flags.threads, options, layers};
         const auto info = renderer ? std::optional(renderer->info()) : std::nullopt;
         const auto writeJson = [&](const pipeline::Write& write) {
             pipeline::writeRunJson(write, spec, world, request, pipeline::machine(), info, result);
@@ -314,7 +335,8 @@ int render(const RenderFlags& flags) {
 }
 
 void addOutputFlags(Options& options, RenderFlags& flags) {
-    options.value("-o,--output", flags.output, "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .gif)");
+    options.value("-o,--output", flags.output,
+                  "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif)");
     options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
     const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
     options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
@@ -335,10 +357,11 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
     options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
     addRendererFlag(options, flags.gl);
-    options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
+    const Option debug = options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
     options.flag("--overlay", flags.overlay,
                  "Show time, step and limit, largest strain, contacts between bodies, and the energies as a graph");
     options.flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
+    addLayerFlags(options, flags.layers, debug);
 }
 
 Action declareRender(Options& options) {
@@ -357,6 +380,8 @@ Action declareRender(Options& options) {
         "Examples:\n"
         "  taut render flag -o flag.mp4\n"
         "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
+        "  taut render drape -o drape.webm --alpha\n"
+        "  taut render show -o out/show --depth --mask\n"
         "  taut render show -o out/show --checkpoint-every 60 --resume\n"
         "  taut render flag -o out/flag --metrics-of \"position(cloth.flag@bottom-right).y,max_strain\"\n"
         "  taut render drape -o late.mp4 --frames 120-179 --set material.linen.bend_N_per_m=4");

@@ -50,13 +50,17 @@ void limitSoftwareRenderer(int threads) {
     if (threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
 }
 
-std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads, const std::string& gl) {
+std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads, const std::string& gl,
+                                               const pipeline::PictureLayers& layers) {
     limitSoftwareRenderer(threads);
     render::RendererOptions options;
     options.width = picture.size.x;
     options.height = picture.size.y;
     options.samples = picture.samples;
     options.shadowSize = picture.shadowSize;
+    options.alpha = layers.alpha;
+    options.depthUnit = layers.depthUnit;
+    options.maskColours = layers.maskColours;
     options.shaders = shaderFolder();
     options.font = fontFile();
     const GlChoice choice = glNamed(gl);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/pipeline/run_record.h"
 #include "taut/render/renderer.h"
 #include "taut/world/spec.h"
 
@@ -29,6 +30,6 @@ void limitSoftwareRenderer(int threads);
 
 // Of the picture's size and quality. Throws core::Error(noRenderer).
 std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads,
-                                               const std::string& gl = {});
+                                               const std::string& gl = {}, const pipeline::PictureLayers& layers = {});
 
 }  // namespace taut::game

@@ -1,4 +1,5 @@
 // The floor with its lines, fading into the horizon. SHADED where shadows may fall, DARKENED where things hide the sky.
+// TRANSPARENT: without lines, and only what shadows leave of its colour, 0 … 1.
 #include "tone.glsl"
 #ifdef SHADED
 #include "shadow.glsl"
@@ -18,14 +19,26 @@ float lines(float x, float width) {
     return mix(cover, width, clamp(2.0 * pixel - 0.5, 0.0, 1.0));
 }
 
+#ifdef TRANSPARENT
+// The sRGB curve (IEC 61966-2-1): what is left is a share of bytes, as programs lay one picture over another.
+vec3 encoded(vec3 light) {
+    return mix(1.055 * pow(max(light, 1e-6), vec3(1.0 / 2.4)) - 0.055, 12.92 * light, lessThan(light, vec3(0.0031308)));
+}
+vec3 decoded(vec3 bytes) {
+    return mix(pow((bytes + 0.055) / 1.055, vec3(2.4)), bytes / 12.92, lessThan(bytes, vec3(0.04045)));
+}
+#endif
+
 void main() {
     vec3 albedo = groundColour.rgb;
+#ifndef TRANSPARENT
     if (groundColour.w > 0.0) {
         vec2 cell = place.xz / groundColour.w;
         float width = 0.012;
         float cover = max(lines(cell.x, width), lines(cell.y, width));
         albedo *= 1.0 - 0.3 * cover;
     }
+#endif
     vec3 direct = lightColour.rgb * max(lightWay.y, 0.0);
     vec3 ambient = skyLight.rgb;
 #ifdef SHADED
@@ -38,8 +51,17 @@ void main() {
     ambient *= 1.0 - 0.9 * texture(occlusion, (place.xz - occlusionArea.xy) * occlusionArea.zw).r;
 #endif
     vec3 shown = filmic(albedo * (direct + ambient));
+#ifdef TRANSPARENT
+    vec3 lit = filmic(albedo * (lightColour.rgb * max(lightWay.y, 0.0) + skyLight.rgb));
+    float noise = (pixelNoise() - 0.5) * (0.98 / 255.0);  // which changes no whole byte
+    shown = decoded(clamp(encoded(shown) / max(encoded(lit), 1e-3) + noise, 0.0, 1.0));
+#endif
     // Even over the rows of the picture, which go with one over the distance.
     float far = max(length(place.xz - fade.xy), fade.z);
     float away = smoothstep(0.0, 1.0, (1.0 - fade.z / far) / max(1.0 - fade.z / fade.w, 1e-3));
+#ifdef TRANSPARENT
+    colour = vec4(mix(shown, vec3(1.0), away), 0.0);
+#else
     colour = vec4(dithered(mix(shown, backgroundHorizon.rgb, away)), 0.0);
+#endif
 }

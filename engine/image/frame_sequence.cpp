@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
@@ -25,7 +26,8 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
         if (first != std::string::npos) fail("frames are PNG files: let the name end in .png");
         std::error_code ignored;
         if (pattern.has_extension() && !std::filesystem::is_directory(pattern, ignored))
-            fail("pictures are .png files, videos .mp4, .mov, .mkv or .gif; a new folder of this name ends in /");
+            fail(
+                "pictures are .png files, videos .mp4, .mov, .mkv, .webm or .gif; a new folder of this name ends in /");
         folder_ = pattern;
         before_ = "frame_";
         after_ = ".png";
@@ -63,6 +65,12 @@ std::vector<std::int64_t> FramePattern::framesThere() const {
     return frames;
 }
 
+FramePattern FramePattern::beside(const std::string& kind) const {
+    FramePattern other = *this;
+    other.after_.insert(other.after_.size() - 4, "." + kind);  // before ".png"
+    return other;
+}
+
 FrameSequence::FrameSequence(const FramePattern& pattern) : pattern_(pattern) {
     core::prepareFolderOf(pattern_.pathOf(0));
 }
@@ -72,6 +80,25 @@ void FrameSequence::write(std::int64_t frame, const Image& image) {
 }
 
 std::filesystem::path FrameSequence::companion(const std::string& name) const {
+    return pattern_.folder() / name;
+}
+
+LayerSequence::LayerSequence(const FramePattern& pattern, std::string depthComment)
+    : pattern_(pattern), depthComment_(std::move(depthComment)) {
+    core::prepareFolderOf(pattern_.pathOf(0));
+}
+
+void LayerSequence::write(std::int64_t frame, const Image& image) {
+    if (!image.depth.empty()) {
+        core::WholeFile file(pattern_.beside("depth").pathOf(frame));
+        file.write(greyPngBytes(image.width, image.height, image.depth, depthComment_));
+        file.commit();
+    }
+    if (!image.mask.empty())
+        writePng(pattern_.beside("mask").pathOf(frame), Image{image.width, image.height, image.mask});
+}
+
+std::filesystem::path LayerSequence::companion(const std::string& name) const {
     return pattern_.folder() / name;
 }
 

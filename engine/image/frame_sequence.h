@@ -1,4 +1,4 @@
-// A picture file a frame, numbered. It knows PNG and nothing else.
+// Picture files a frame, numbered. It knows PNG and nothing else.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,9 @@ class FramePattern {
 
     std::filesystem::path pathOf(std::int64_t frame) const;  // expects frame >= 0
     const std::filesystem::path& folder() const { return folder_; }
+
+    // Files of another kind beside these: "out/frame_######.depth.png".
+    FramePattern beside(const std::string& kind) const;
 
     // The numbers of the frames that are there, ascending; none when the folder is missing.
     std::vector<std::int64_t> framesThere() const;
@@ -41,6 +44,22 @@ class FrameSequence : public FrameSink {
 
   private:
     FramePattern pattern_;
+};
+
+// What lies beside the colours, in files of its own: "depth" of 16 bits and "mask" (FramePattern::beside). A picture
+// that has neither leaves nothing.
+class LayerSequence : public FrameSink {
+  public:
+    // `depthComment` goes into each file of depths. Makes the folder; throws core::Error(inputOutput).
+    LayerSequence(const FramePattern& pattern, std::string depthComment);
+
+    void write(std::int64_t frame, const Image& image) override;
+    void finish() override {}
+    std::filesystem::path companion(const std::string& name) const override;
+
+  private:
+    FramePattern pattern_;
+    std::string depthComment_;
 };
 
 }  // namespace taut::image

@@ -6,9 +6,11 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <string>
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
+#include "taut/image/with_alpha.h"
 
 namespace {
 
@@ -36,6 +38,18 @@ unsigned int checksum(unsigned char* data, int size) {
     return libdeflate_crc32(0, data, static_cast<std::size_t>(size));
 }
 
+void appendNumber(std::vector<unsigned char>& to, std::uint32_t number) {
+    for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<unsigned char>(number >> shift));
+}
+
+void appendChunk(std::vector<unsigned char>& png, std::string_view type, std::span<const unsigned char> content) {
+    appendNumber(png, static_cast<std::uint32_t>(content.size()));
+    const std::size_t checked = png.size();
+    png.insert(png.end(), type.begin(), type.end());
+    png.insert(png.end(), content.begin(), content.end());
+    appendNumber(png, libdeflate_crc32(0, png.data() + checked, png.size() - checked));
+}
+
 }  // namespace
 
 #define STBIW_ZLIB_COMPRESS compressed
@@ -57,12 +71,52 @@ std::vector<std::byte> pngBytes(const Image& image) {
     }();
     TAUT_EXPECTS(filterChosen);
 
+    const bool isOpaque = image.alpha.empty();
+    const std::vector<std::uint8_t> four = isOpaque ? std::vector<std::uint8_t>() : withAlpha(image);
+    const std::uint8_t* pixels = isOpaque ? image.rgb.data() : four.data();
+    const int channels = isOpaque ? 3 : 4;
     int size = 0;
     const std::unique_ptr<unsigned char, decltype(&std::free)> png(
-        stbi_write_png_to_mem(image.rgb.data(), image.width * 3, image.width, image.height, 3, &size), &std::free);
+        stbi_write_png_to_mem(pixels, image.width * channels, image.width, image.height, channels, &size), &std::free);
     if (!png) throw std::bad_alloc();
     const auto* first = reinterpret_cast<const std::byte*>(png.get());
     return {first, first + size};
+}
+
+std::vector<std::byte> greyPngBytes(int width, int height, std::span<const std::uint16_t> grey,
+                                    std::string_view comment) {
+    const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+    TAUT_EXPECTS(width > 0 && height > 0 && grey.size() == columns * rows);
+    std::vector<unsigned char> lines;
+    lines.reserve(rows * (1 + 2 * columns));
+    for (std::size_t y = 0; y < rows; ++y) {
+        lines.push_back(1);  // SUB: each byte less that of the pixel before
+        unsigned before = 0;
+        for (const unsigned here : grey.subspan(y * columns, columns)) {
+            lines.push_back(static_cast<unsigned char>((here >> 8) - (before >> 8)));
+            lines.push_back(static_cast<unsigned char>(here - before));
+            before = here;
+        }
+    }
+    if (lines.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) throw std::bad_alloc();
+    int size = 0;
+    const std::unique_ptr<unsigned char, decltype(&std::free)> packed(
+        compressed(lines.data(), static_cast<int>(lines.size()), &size, 0), &std::free);
+    if (!packed) throw std::bad_alloc();
+
+    std::vector<unsigned char> header, png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    appendNumber(header, static_cast<std::uint32_t>(width));
+    appendNumber(header, static_cast<std::uint32_t>(height));
+    header.insert(header.end(), {16, 0, 0, 0, 0});  // bits, grey, deflate, filters a row, not interlaced
+    std::string text = "Description";
+    text += '\0';
+    text += comment;
+    appendChunk(png, "IHDR", header);
+    appendChunk(png, "tEXt", std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+    appendChunk(png, "IDAT", std::span<const unsigned char>(packed.get(), static_cast<std::size_t>(size)));
+    appendChunk(png, "IEND", {});
+    const auto* first = reinterpret_cast<const std::byte*>(png.data());
+    return {first, first + png.size()};
 }
 
 void writePng(const std::filesystem::path& path, const Image& image) {

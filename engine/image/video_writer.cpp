@@ -8,11 +8,13 @@
 #include "taut/core/child_process.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
+#include "taut/image/with_alpha.h"
 
 namespace taut::image {
 namespace {
 
 constexpr int mostGifFps = 50;
+constexpr const char* matching = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
 
 std::string containerOf(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
@@ -20,12 +22,13 @@ std::string containerOf(const std::filesystem::path& path) {
     if (extension == ".mov") return "mov";
     if (extension == ".mkv") return "matroska";
     if (extension == ".gif") return "gif";
+    if (extension == ".webm") return "webm";
     return "";
 }
 
 std::vector<std::string> filmEncoding(const std::string& container, int quality) {
     std::vector<std::string> arguments = {"-vf",
-                                          "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+                                          matching,
                                           "-c:v",
                                           "libx264",
                                           "-preset",
@@ -44,6 +47,55 @@ std::vector<std::string> filmEncoding(const std::string& container, int quality)
     return arguments;
 }
 
+// VP9: its frames that are shown by none hold no alpha. At this rate factor its quality is about that of x264's 18.
+std::vector<std::string> webmEncoding(bool hasAlpha) {
+    std::vector<std::string> arguments = {"-vf",
+                                          matching,
+                                          "-c:v",
+                                          "libvpx-vp9",
+                                          "-deadline",
+                                          "good",
+                                          "-cpu-used",
+                                          "5",
+                                          "-row-mt",
+                                          "1",
+                                          "-crf",
+                                          "22",
+                                          "-b:v",
+                                          "0",
+                                          "-colorspace",
+                                          "bt709",
+                                          "-color_primaries",
+                                          "bt709",
+                                          "-color_trc",
+                                          "iec61966-2-1",
+                                          "-pix_fmt",
+                                          hasAlpha ? "yuva420p" : "yuv420p"};
+    if (hasAlpha) arguments.insert(arguments.end(), {"-auto-alt-ref", "0"});
+    return arguments;
+}
+
+// ProRes 4444, which editors take. The encoder has the colours' meaning from the pictures alone.
+std::vector<std::string> proresEncoding() {
+    return {"-vf",
+            "scale=out_color_matrix=bt709:out_range=tv,format=yuva444p10le,"
+            "setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709",
+            "-c:v",
+            "prores_ks",
+            "-profile:v",
+            "4444",
+            "-alpha_bits",
+            "16",
+            "-vendor",
+            "apl0",
+            "-colorspace",
+            "bt709",
+            "-color_primaries",
+            "bt709",
+            "-color_trc",
+            "bt709"};
+}
+
 // Each picture has its own 256 colours: for common ones ffmpeg would keep all pictures until the last. A GIF counts
 // hundredths of a second, and browsers slow down pictures of only one.
 std::vector<std::string> gifEncoding(double fps) {
@@ -53,6 +105,11 @@ std::vector<std::string> gifEncoding(double fps) {
 
 }  // namespace
 
+bool mayHaveAlpha(const std::filesystem::path& path) {
+    const std::string container = containerOf(path);
+    return container == "webm" || container == "mov";
+}
+
 bool isVideoPath(const std::filesystem::path& path) {
     return !containerOf(path).empty();
 }
@@ -61,16 +118,31 @@ VideoWriter::VideoWriter(std::filesystem::path path, VideoOptions options)
     : path_(std::move(path)), options_(std::move(options)) {
     TAUT_EXPECTS(isVideoPath(path_));
     TAUT_EXPECTS(options_.fps > 0.0);
+    TAUT_EXPECTS(!options_.alpha || mayHaveAlpha(path_));
     if (!core::isInPath(options_.program))
         throw core::Error(core::ErrorKind::inputOutput,
                           fmt::format("{}: {} is not installed. Install the package 'ffmpeg', or write pictures "
                                       "instead: -o {}/frame_######.png",
                                       path_.string(), options_.program, (path_.parent_path() / path_.stem()).string()));
+    expectEncoder();
     core::prepareFolderOf(path_);
     file_ = std::make_unique<core::WholeFile>(path_);
 }
 
 VideoWriter::~VideoWriter() = default;
+
+// Not every ffmpeg is built with those that few need.
+void VideoWriter::expectEncoder() const {
+    const bool isWebm = containerOf(path_) == "webm";
+    if (!isWebm && !options_.alpha) return;
+    const std::string encoder = isWebm ? "libvpx-vp9" : "prores_ks";
+    const core::ChildResult result = core::runChild({{options_.program, "-hide_banner", "-encoders"}});
+    if (!result.end.succeeded() || result.output.find(" " + encoder + " ") != std::string::npos) return;
+    throw core::Error(
+        core::ErrorKind::inputOutput,
+        fmt::format("{}: this {} has no encoder {}; write pictures instead: -o {}/frame_######.png", path_.string(),
+                    options_.program, encoder, (path_.parent_path() / path_.stem()).string()));
+}
 
 void VideoWriter::start(int width, int height) {
     width_ = width;
@@ -85,7 +157,7 @@ void VideoWriter::start(int width, int height) {
                                           "-f",
                                           "rawvideo",
                                           "-pixel_format",
-                                          "rgb24",
+                                          options_.alpha ? "rgba" : "rgb24",
                                           "-video_size",
                                           fmt::format("{}x{}", width, height),
                                           "-framerate",
@@ -94,8 +166,10 @@ void VideoWriter::start(int width, int height) {
                                           "pipe:0",
                                           "-an"};
     const std::string container = containerOf(path_);
-    const std::vector<std::string> encoding =
-        container == "gif" ? gifEncoding(options_.fps) : filmEncoding(container, options_.quality);
+    const std::vector<std::string> encoding = container == "gif"    ? gifEncoding(options_.fps)
+                                              : container == "webm" ? webmEncoding(options_.alpha)
+                                              : options_.alpha      ? proresEncoding()
+                                                                    : filmEncoding(container, options_.quality);
     arguments.insert(arguments.end(), encoding.begin(), encoding.end());
     arguments.insert(arguments.end(), {"-f", container, "file:" + file_->temporary().string()});
 
@@ -110,7 +184,9 @@ void VideoWriter::write(std::int64_t /*frame*/, const Image& image) {
     TAUT_EXPECTS(image.isWhole());
     if (!encoder_) start(image.width, image.height);
     TAUT_EXPECTS(image.width == width_ && image.height == height_);
-    if (!encoder_->write(std::as_bytes(std::span(image.rgb)))) fail("ended before it had all pictures");
+    const std::vector<std::uint8_t> four = options_.alpha ? withAlpha(image) : std::vector<std::uint8_t>();
+    if (!encoder_->write(std::as_bytes(std::span(options_.alpha ? four : image.rgb))))
+        fail("ended before it had all pictures");
 }
 
 void VideoWriter::finish() {

@@ -1,4 +1,4 @@
-// Encodes pictures as an H.264 video or a GIF by piping them to ffmpeg. It knows neither scenes nor GL.
+// Encodes pictures as an H.264, VP9 or ProRes video or a GIF by piping them to ffmpeg. It knows neither scenes nor GL.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,15 @@ namespace taut::image {
 struct VideoOptions {
     double fps = 60.0;               // pictures a second
     std::string program = "ffmpeg";  // looked up in PATH
-    int quality = 18;                // of a video, constant rate factor: 0 lossless … 51 worst
+    int quality = 18;                // of H.264, constant rate factor: 0 lossless … 51 worst
+    bool alpha = false;              // of the pictures goes along; expects mayHaveAlpha()
 };
 
-// Whether a path names a video that VideoWriter can write: .mp4, .mov, .mkv or .gif.
+// Whether a path names a video that VideoWriter can write: .mp4, .mov, .mkv, .webm or .gif.
 bool isVideoPath(const std::filesystem::path& path);
+
+// Whether such a video can be transparent: .webm (VP9), .mov (ProRes 4444).
+bool mayHaveAlpha(const std::filesystem::path& path);
 
 // The video appears under its name when finish() has returned; before, it has a temporary name, and without finish()
 // it is removed. A GIF has at most 50 pictures a second. Of a video an odd width or height is padded by one black
@@ -30,8 +34,8 @@ bool isVideoPath(const std::filesystem::path& path);
 class VideoWriter : public FrameSink {
   public:
     // Looks for the program, makes the folder and, under its temporary name, the file; throws core::Error(inputOutput),
-    // with the name of the package when the program is missing. The program starts with the first picture, because the
-    // size is known only then.
+    // with the name of the package when the program is missing, and what else to write when it lacks the encoder. The
+    // program starts with the first picture, because the size is known only then.
     VideoWriter(std::filesystem::path path, VideoOptions options);
     ~VideoWriter() override;
     VideoWriter(const VideoWriter&) = delete;
@@ -43,6 +47,7 @@ class VideoWriter : public FrameSink {
     std::filesystem::path companion(const std::string& name) const override;
 
   private:
+    void expectEncoder() const;
     void start(int width, int height);
     [[noreturn]] void fail(const std::string& what);
 

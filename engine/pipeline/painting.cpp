@@ -7,6 +7,7 @@
 
 #include "taut/core/error.h"
 #include "taut/image/srgb_curve.h"
+#include "taut/image/with_alpha.h"
 
 namespace taut::pipeline {
 namespace {
@@ -50,6 +51,7 @@ void Painting::lay(int x, int y, const glm::vec3& light, float part) {
     if (part <= 0.0F || x < 0 || y < 0 || x >= picture_.width || y >= picture_.height) return;
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width);
     std::uint8_t* pixel = picture_.rgb.data() + 3 * (row + static_cast<std::size_t>(x));
+    part = image::coverPart(picture_, row + static_cast<std::size_t>(x), part);
     for (int c = 0; c < 3; ++c) pixel[c] = curve().byte(glm::mix(curve().light(pixel[c]), light[c], part));
 }
 
@@ -72,7 +74,7 @@ void Painting::plate(const Box& box, float radius, Ink ink, float strength) {
             const glm::vec2 offset = glm::abs(glm::vec2(x, y) + 0.5F - middle) - half;
             const float distance =
                 glm::length(glm::max(offset, 0.0F)) + std::min(std::max(offset.x, offset.y), 0.0F) - radius;
-            if (distance > -0.5F) {
+            if (distance > -0.5F || !picture_.alpha.empty()) {
                 lay(x, y, light, strength * std::clamp(0.5F - distance, 0.0F, 1.0F));
                 continue;
             }

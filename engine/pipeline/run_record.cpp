@@ -86,6 +86,20 @@ Json workJson(const ode::Work& work) {
             {"unconverged_solves", work.unconverged}};
 }
 
+Json layersJson(const PictureLayers& layers) {
+    Json json = {{"alpha", layers.alpha ? Json("straight") : Json(nullptr)}};
+    json["depth"] = nullptr;
+    if (layers.depthUnit > 0.0)
+        json["depth"] = {{"metres_per_unit", layers.depthUnit},
+                         {"range_m", {0.0, layers.depthUnit * (image::farDepth - 1)}},
+                         {"background", image::farDepth}};
+    json["mask"] = nullptr;
+    // Surfaces of colliders go by their own name alone.
+    for (const auto& [name, colour] : layers.maskColours)
+        json["mask"][name.find('.') == std::string::npos ? "collider." + name : name] = fmt::format("#{:06x}", colour);
+    return json;
+}
+
 Json timesJson(const RunResult& result) {
     double simulating = 0.0, drawing = 0.0, encoding = 0.0;
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
@@ -126,6 +140,7 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     json["ticks_per_frame"] = world.ticksPerFrame();
     json["tick_s"] = world.tickSeconds();
     json["size"] = {spec.picture.size.x, spec.picture.size.y};
+    json["layers"] = layersJson(request.layers);
     json["frames"] = {{"first", request.options.firstFrame}, {"last", request.options.lastFrame}};
     json["seeds"] = seedsJson(spec);
     json["islands"] = islandsJson(world);

@@ -1,7 +1,9 @@
 // The record of a run as text: run.json and metrics.csv. It knows neither where they go nor how the run was started.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,12 +17,20 @@
 
 namespace taut::pipeline {
 
+// What pictures have besides colours.
+struct PictureLayers {
+    bool alpha = false;
+    double depthUnit = 0.0;                              // [m] a step of depth; 0: none
+    std::map<std::string, std::uint32_t> maskColours{};  // 0xRRGGBB by the name of a surface; empty: no mask
+};
+
 // What was asked for, besides the scene itself.
 struct RunRequest {
     std::string output;                  // as given on the command line; empty: none
     std::vector<std::string> overrides;  // "key=value"
     int threads = 0;                     // 0: all of the machine
     RunOptions options;
+    PictureLayers layers{};
 };
 
 // Takes the text piece by piece.

@@ -20,34 +20,42 @@ FourFloats misfit(FourInts marks, FourFloats depths, std::int32_t mark, float de
     return far + (FourFloats)((FourInts)fourTimes(10.0F) & (FourInts)(marks != mark));
 }
 
-// Colours are bytes of the sRGB curve; as light they are close to their squares.
+// Colours are bytes of the sRGB curve; as light they are close to their squares. What is not opaque counts as far as it
+// covers.
+template <bool isOpaque>
 struct Lights {
-    FourFloats red, green, blue;
+    FourFloats red, green, blue, cover{};
 
-    explicit Lights(std::uint32_t colour)
-        : red(fourTimes(square(colour))),
-          green(fourTimes(square(colour >> 8))),
-          blue(fourTimes(square(colour >> 16))) {}
+    Lights(const ShadedPixels& shaded, std::size_t pixel) { take(~FourInts{}, shaded, pixel); }
+    void take(FourInts samples, const ShadedPixels& shaded, std::size_t pixel) {
+        const std::uint32_t colour = shaded.colour[pixel];
+        float part = 1.0F;
+        if constexpr (!isOpaque) {
+            part = static_cast<float>(shaded.alpha[pixel]);
+            cover = chosen(samples, fourTimes(part), cover);
+        }
+        red = chosen(samples, fourTimes(part * square(colour)), red);
+        green = chosen(samples, fourTimes(part * square(colour >> 8)), green);
+        blue = chosen(samples, fourTimes(part * square(colour >> 16)), blue);
+    }
     static float square(std::uint32_t colour) {
         const auto byte = static_cast<float>(colour & 255U);
         return byte * byte;
     }
-    void take(FourInts samples, std::uint32_t colour) {
-        red = chosen(samples, fourTimes(square(colour)), red);
-        green = chosen(samples, fourTimes(square(colour >> 8)), green);
-        blue = chosen(samples, fourTimes(square(colour >> 16)), blue);
-    }
-    static std::uint32_t mean(FourFloats lights) {
-        const float sum = lights[0] + lights[1] + lights[2] + lights[3];
-        return static_cast<std::uint32_t>(std::sqrt(0.25F * sum) + 0.5F);
+    static float sum(FourFloats four) { return four[0] + four[1] + four[2] + four[3]; }
+    std::uint32_t mean(FourFloats lights) const {
+        const float share = isOpaque ? 0.25F : 1.0F / std::max(sum(cover), 1.0F);
+        return static_cast<std::uint32_t>(std::sqrt(share * sum(lights)) + 0.5F);
     }
     std::uint32_t mixed() const { return mean(red) | mean(green) << 8 | mean(blue) << 16; }
+    std::uint8_t alpha() const { return static_cast<std::uint8_t>(0.25F * sum(cover) + 0.5F); }
 };
 
 // Each sample takes its colour from the pixel itself if that shows the same surface at about the same depth, else from
 // the neighbour that fits best. In the middle of surfaces nothing changes.
+template <bool isOpaque>
 void smoothTile(const PixelBox& tile, const CoveredTile& covered, const ShadedPixels& shaded, int width,
-                std::span<std::uint32_t> picture) {
+                std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha) {
     const PixelBox& box = shaded.box;
     for (int y = tile.y - box.y; y < tile.y - box.y + tile.height; ++y) {
         for (int x = tile.x - box.x; x < tile.x - box.x + tile.width; ++x) {
@@ -59,7 +67,7 @@ void smoothTile(const PixelBox& tile, const CoveredTile& covered, const ShadedPi
             const float depth = shaded.depth[here];
             FourFloats error = misfit(marks, depths, static_cast<std::int32_t>(colour >> 24), depth);
             if (!isAny((FourInts)(error > fourTimes(0.0008F * (1.0F - depth) + 1e-6F)))) continue;
-            Lights lights(colour);
+            Lights<isOpaque> lights(shaded, here);
             for (int row = std::max(y - 1, 0); row <= std::min(y + 1, box.height - 1); ++row) {
                 for (int column = std::max(x - 1, 0); column <= std::min(x + 1, box.width - 1); ++column) {
                     const auto beside = static_cast<std::size_t>(row * box.width + column);
@@ -67,11 +75,13 @@ void smoothTile(const PixelBox& tile, const CoveredTile& covered, const ShadedPi
                     const FourFloats badness =
                         misfit(marks, depths, static_cast<std::int32_t>(other >> 24), shaded.depth[beside]);
                     const auto better = (FourInts)(badness < error);
-                    lights.take(better, other);
+                    lights.take(better, shaded, beside);
                     error = chosen(better, badness, error);
                 }
             }
-            picture[static_cast<std::size_t>((y + box.y) * width + x + box.x)] = lights.mixed() | 0xff000000U;
+            const auto to = static_cast<std::size_t>((y + box.y) * width + x + box.x);
+            picture[to] = lights.mixed() | 0xff000000U;
+            if constexpr (!isOpaque) alpha[to] = lights.alpha();
         }
     }
 }
@@ -109,7 +119,7 @@ glm::vec4 seenSideOf(const view::FrameView& view) {
 }
 
 void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const ShadedPixels& shaded,
-                 std::span<std::uint32_t> picture) {
+                 std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha) {
     if (shaded.box.width == 0 || shaded.box.height == 0) return;
     const std::vector<PixelBox> found = edgeTiles(shaded);
     const EdgeTriangles triangles(items, view, shaded.box, found);
@@ -122,7 +132,10 @@ void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const Sh
             covered.clear();
             triangles.visit(static_cast<std::size_t>(i),
                             [&](const EdgeTriangle& triangle) { covered.add(tile, triangle); });
-            smoothTile(tile, covered, shaded, view.size.x, picture);
+            if (shaded.alpha.empty())
+                smoothTile<true>(tile, covered, shaded, view.size.x, picture, alpha);
+            else
+                smoothTile<false>(tile, covered, shaded, view.size.x, picture, alpha);
         }
     });
 }

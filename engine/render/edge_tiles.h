@@ -19,6 +19,7 @@ struct ShadedPixels {
     PixelBox box;
     std::vector<std::uint32_t> colour;  // (width · height) its uppermost byte is the mark of the surface, 0 for none
     std::vector<float> depth;           // (width · height) 0 … 1
+    std::vector<std::uint8_t> alpha{};  // (width · height) straight; empty: opaque
 };
 
 inline constexpr int edgeTileSize = 16;  // [pixels]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "taut/render/camera_axes.h"
@@ -11,17 +12,22 @@ namespace taut::render {
 
 namespace {
 
+std::vector<std::string> definitions(std::vector<std::string> own, bool transparent) {
+    if (transparent) own.emplace_back("TRANSPARENT");
+    return own;
+}
+
 constexpr int steadyPictures = 8;  // after so many with the maps in the same place, what they shade is kept
 
 }  // namespace
 
-GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill)
+GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill, bool transparent)
     : gl_(&gl),
       keepsStill_(keepsStill),
-      shaded_(shaders.program("ground.vert", "ground.frag", {"SHADED", "DARKENED"})),
-      darkened_(shaders.program("ground.vert", "ground.frag", {"DARKENED"})),
-      open_(shaders.program("ground.vert", "ground.frag")),
-      background_(shaders.program("background.vert", "background.frag")),
+      shaded_(shaders.program("ground.vert", "ground.frag", definitions({"SHADED", "DARKENED"}, transparent))),
+      darkened_(shaders.program("ground.vert", "ground.frag", definitions({"DARKENED"}, transparent))),
+      open_(shaders.program("ground.vert", "ground.frag", definitions({}, transparent))),
+      background_(shaders.program("background.vert", "background.frag", definitions({}, transparent))),
       layout_(gl, GlKind::vertexArray),
       vertices_(gl, GlKind::buffer),
       indices_(gl, GlKind::buffer),

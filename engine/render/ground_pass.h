@@ -14,7 +14,8 @@ namespace taut::render {
 
 class GroundPass {
   public:
-    GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill);
+    // `transparent`: without sky, and of the ground what shadows leave of its colour, 0 … 1.
+    GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill, bool transparent);
 
     // Before anything else of a picture is drawn, with the frame block and the maps in place. `block` is what all
     // shaders know of the picture.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/image/srgb_curve.h"
+#include "taut/image/with_alpha.h"
 
 namespace taut::render {
 
@@ -26,6 +27,7 @@ class Canvas {
         if (part <= 0.0F || x < 0 || y < 0 || x >= picture_.width || y >= picture_.height) return;
         const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width);
         std::uint8_t* pixel = picture_.rgb.data() + 3 * (row + static_cast<std::size_t>(x));
+        part = image::coverPart(picture_, row + static_cast<std::size_t>(x), part);
         for (int c = 0; c < 3; ++c) pixel[c] = curve_.byte(glm::mix(curve_.light(pixel[c]), colour[c], part));
     }
 

@@ -1,8 +1,10 @@
 // Draws a FrameView into a picture, off-screen. It knows neither the world that is shown nor files of frames.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +26,13 @@ struct RendererOptions {
     bool shadows = true;     // false: to see what a picture without them looks like
     bool occlusion = true;   // false: things do not darken the ground around them
     bool keepsStill = true;  // false: nothing is kept from picture to picture, to compare
+    bool alpha = false;      // no sky, and of the ground its shadows alone; the picture has alpha then
+    double depthUnit = 0.0;  // [m] that a step of Image::depth stands for; 0: pictures have none
+
+    // 0xRRGGBB in Image::mask by the name of a surface; other surfaces, ground and sky are black. Empty: pictures have
+    // no mask.
+    std::map<std::string, std::uint32_t> maskColours{};
+
     Backend backend = Backend::osmesa;
     std::optional<int> device;      // of EGL, a number of eglDevices(); none: the best that works
     std::filesystem::path shaders;  // folder of the shader files

@@ -90,12 +90,12 @@ void SurfacePass::uploadMaterials() {
                     materials_.data());
 }
 
-void SurfacePass::light(const view::Camera& camera, const PixelBox& part, glm::ivec2 size) {
+void SurfacePass::light(const view::Camera& camera, const PixelBox& part, glm::ivec2 size, glm::vec2 shift) {
     if (materials_.empty() || part.width == 0 || part.height == 0) return;
     uploadMaterials();
     const CameraAxes axes = axesOf(camera);
     const float pixel = 2.0F * std::tan(0.5F * camera.fieldOfView) / static_cast<float>(size.y);  // [m] 1 m ahead
-    const glm::vec2 half = 0.5F * glm::vec2(size);
+    const glm::vec2 half = 0.5F * glm::vec2(size) + shift;
     light_.use();
     light_.set("firstWay", axes.forward - pixel * (half.x * axes.right + half.y * axes.up));
     light_.set("rightWay", pixel * axes.right);

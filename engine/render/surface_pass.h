@@ -22,8 +22,9 @@ class SurfacePass {
     // What is seen, into the target of surfaces.
     void draw(std::span<const DrawItem> items, const MeshCache& meshes);
 
-    // The light on it, in a part of the bound picture; the frame block and the shadow maps must be in place.
-    void light(const view::Camera& camera, const PixelBox& part, glm::ivec2 size);
+    // The light on it, in a part of the bound picture, which shows everything `shift` [pixels] to the right and up; the
+    // frame block and the shadow maps must be in place.
+    void light(const view::Camera& camera, const PixelBox& part, glm::ivec2 size, glm::vec2 shift);
 
   private:
     // What light.frag has to know of a surface: a row of its table.

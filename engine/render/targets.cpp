@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <string>
 
 #include "taut/core/error.h"
@@ -108,6 +109,19 @@ std::vector<float> Targets::depths(const PixelBox& part) const {
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
     return depths;
+}
+
+std::vector<float> Targets::nearness(const PixelBox& part) const {
+    const std::size_t count = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
+    std::vector<std::array<std::uint32_t, 4>> shapes(count);
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, surfaceTarget_.id());
+    gl_->ReadBuffer(GL_COLOR_ATTACHMENT1);
+    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, shapes.data());
+    std::vector<float> nearness;
+    nearness.reserve(count);
+    for (const std::array<std::uint32_t, 4>& shape : shapes) nearness.push_back(std::bit_cast<float>(shape[2]));
+    return nearness;
 }
 
 void Targets::put(std::span<const std::uint32_t> colours) {

@@ -26,6 +26,10 @@ class Targets {
     std::vector<std::uint32_t> colours() const;             // (width · height)
     std::vector<float> depths(const PixelBox& part) const;  // (part.width · part.height) 0 … 1
 
+    // Of what was drawn of surfaces (part.width · part.height): how far ahead of the eye along the camera's axis it
+    // lies, 1 / [m]; anything where there is no surface.
+    std::vector<float> nearness(const PixelBox& part) const;
+
     // Puts colours back, to draw over.
     void put(std::span<const std::uint32_t> colours);
 

@@ -80,8 +80,35 @@ TEST(Program, OutputsThatCannotBeMeantAreUsageErrors) {
     EXPECT_TRUE(has(twice.err, "name the same file")) << twice.err;
     const Outcome webp = run({"render", scene, "-o", (folder / "a.webp").string()});
     EXPECT_EQ(webp.code, 2);
-    EXPECT_TRUE(has(webp.err, ".mp4, .mov, .mkv or .gif")) << webp.err;
+    EXPECT_TRUE(has(webp.err, ".mp4, .mov, .mkv, .webm or .gif")) << webp.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "a.webp"));
+}
+
+TEST(Program, LayersThatAnOutputCannotHoldAreUsageErrorsWithARemedy) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    const Outcome alpha = run({"render", scene, "-o", (folder / "a.mp4").string(), "--alpha"});
+    EXPECT_EQ(alpha.code, 2);
+    EXPECT_TRUE(has(alpha.err, "a .mp4 has no transparency: write") && has(alpha.err, "a.webm")) << alpha.err;
+    const Outcome depth = run({"render", scene, "-o", (folder / "a.webm").string(), "--depth"});
+    EXPECT_EQ(depth.code, 2);
+    EXPECT_TRUE(has(depth.err, "--depth writes files beside frames")) << depth.err;
+    EXPECT_EQ(run({"render", scene, "-o", (folder / "a").string(), "--alpha", "--debug"}).code, 2);
+}
+
+TEST(Program, LayersLieBesideTheirFramesAndTheRecordExplainsThem) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string(), out = (folder / "out").string();
+    EXPECT_EQ(run({"render", scene, "-o", out, "--frames", "0", "--depth", "--mask", "--quiet"}).code, 0);
+    for (const char* name : {"frame_000000.png", "frame_000000.depth.png", "frame_000000.mask.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
+    const auto layers = nlohmann::json::parse(test::contentOf(folder / "out/run.json"))["layers"];
+    EXPECT_DOUBLE_EQ(layers["depth"]["metres_per_unit"].get<double>(), 0.001);
+    EXPECT_EQ(layers["mask"]["net.spring"], "#800000");
+    // The frame itself is not there any more, but what lies beside it is spared too.
+    std::filesystem::remove(folder / "out/frame_000000.png");
+    std::filesystem::remove(folder / "out/run.json");
+    EXPECT_EQ(run({"render", scene, "-o", out, "--frames", "0", "--depth", "-n", "--quiet"}).code, 6);
 }
 
 TEST(Program, MetricsOfExpressionsAreColumnsBesideTheOthers) {

@@ -35,6 +35,31 @@ TEST(Png, HasTheChunksOfAnEightBitColourPicture) {
     EXPECT_EQ(content.substr(content.size() - 12), std::string("\0\0\0\0IEND\xAE\x42\x60\x82", 12));
 }
 
+TEST(Png, ReadsBackColoursBesideAlpha) {
+    const TemporaryFolder folder;
+    Image picture = testPicture(31, 17);
+    for (std::size_t i = 0; i < picture.rgb.size() / 3; ++i) picture.alpha.push_back(static_cast<std::uint8_t>(i));
+    writePng(folder / "a.png", picture);
+    EXPECT_EQ(readImage(folder / "a.png").rgb, picture.rgb);
+    EXPECT_EQ(contentOf(folder / "a.png")[25], 6);  // colour type: RGBA
+}
+
+TEST(Png, GreyOfSixteenBitsReadsBackByItsUpperByte) {
+    const TemporaryFolder folder;
+    std::vector<std::uint16_t> grey;
+    std::vector<std::uint8_t> upper;
+    for (unsigned i = 0; i < 40 * 30; ++i) {
+        grey.push_back(static_cast<std::uint16_t>(i * i * 37U));
+        upper.insert(upper.end(), 3, static_cast<std::uint8_t>(grey.back() >> 8));
+    }
+    const std::vector<std::byte> bytes = greyPngBytes(40, 30, grey, "metres per unit: 0.001");
+    const std::string content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    test::writeText(folder / "a.png", content);
+    EXPECT_EQ(readImage(folder / "a.png").rgb, upper);           // which looks at the checksums too
+    EXPECT_EQ(content.substr(24, 2), std::string("\x10\0", 2));  // 16 bits, grey
+    EXPECT_NE(content.find(std::string("tEXtDescription\0metres per unit: 0.001", 37)), std::string::npos);
+}
+
 TEST(Png, IsTheSameBytesEveryTime) {
     EXPECT_EQ(pngBytes(testPicture(80, 60)), pngBytes(testPicture(80, 60)));
 }

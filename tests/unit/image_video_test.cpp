@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 
 #include "image_support.h"
 #include "taut/core/child_process.h"
@@ -75,6 +77,26 @@ TEST(VideoWriter, AGifIsEncodedByTheSamePipe) {
         EXPECT_EQ(streamOf(folder / "a.gif"), text);
     }
     EXPECT_EQ(test::contentOf(folder / "a.gif").substr(0, 6), "GIF89a");
+}
+
+TEST(VideoWriter, AlphaGoesAlongWhereTheFormatHasIt) {
+    const TemporaryFolder folder;
+    for (const auto& [name, decoder] : {std::pair("a.webm", "-c:v libvpx-vp9"), {"a.mov", ""}}) {
+        Image picture = test::testPicture(64, 48);
+        picture.alpha.assign(64 * 48, 255);
+        std::fill_n(picture.alpha.begin(), 64 * 24, std::uint8_t{0});
+        VideoWriter video(folder / name, {.alpha = true});
+        for (int frame = 0; frame < 2; ++frame) video.write(frame, picture);
+        video.finish();
+        const std::string raw = (folder / "raw").string();
+        const std::string decoded = "ffmpeg -v error -y " + std::string(decoder) + " -i '" + (folder / name).string() +
+                                    "' -frames:v 1 -vf alphaextract,format=gray -f rawvideo '" + raw + "'";
+        ASSERT_EQ(std::system(decoded.c_str()), 0);
+        const std::string alpha = test::contentOf(raw);
+        ASSERT_EQ(alpha.size(), 64U * 48U);
+        EXPECT_LT(static_cast<unsigned char>(alpha[64 * 10 + 32]), 4) << name;  // both encoders lose a little
+        EXPECT_GT(static_cast<unsigned char>(alpha[64 * 38 + 32]), 251) << name;
+    }
 }
 
 TEST(VideoWriter, WithoutFinishNothingStaysAndTheOldVideoIsUntouched) {
@@ -154,6 +176,7 @@ TEST(VideoWriter, KnowsVideosByTheirEnding) {
     EXPECT_TRUE(isVideoPath("a/b.mp4"));
     EXPECT_TRUE(isVideoPath("b.mkv"));
     EXPECT_TRUE(isVideoPath("b.gif"));
+    EXPECT_TRUE(isVideoPath("b.webm"));
     EXPECT_FALSE(isVideoPath("a.mp4/frames"));
     EXPECT_FALSE(isVideoPath("frame_######.png"));
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <filesystem>
 
 #include "game/flags.h"
@@ -41,6 +42,11 @@ void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug) {
     options.value("--depth-range", flags.depthRange, "What 65534 stands for in --depth [m]; farther counts as that")
         .typeName("METRES")
         .check(numberWithin(1e-3, 1e6));
+    options
+        .value("--motion-blur", flags.blurMoments,
+               "Moments drawn of each picture while the shutter is open, half the time from one to the next")
+        .typeName("N")
+        .within(2, 256);
     options.flag("--mask", flags.mask,
                  "Beside each frame a NAME.mask.png: one flat colour a body, black where none is; run.json says which");
 }
@@ -60,6 +66,16 @@ void checkLayerFlags(const LayerFlags& flags, const std::string& output, const s
             fmt::format("{} writes files beside frames: ask for those, -o out/frame_######.png; a video besides with "
                         "--video",
                         flags.depth ? "--depth" : "--mask"));
+}
+
+std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags) {
+    const auto bit = [](bool is) { return std::uint64_t{is ? 1U : 0U}; };
+    std::vector<std::uint64_t> look{bit(debug), bit(overlay)};
+    if (flags.alpha || flags.depth || flags.mask)
+        look.insert(look.end(), {bit(flags.alpha), bit(flags.depth), bit(flags.mask),
+                                 flags.depth ? std::bit_cast<std::uint64_t>(flags.depthRange) : 0});
+    if (flags.blurMoments > 0) look.push_back(static_cast<std::uint64_t>(flags.blurMoments) << 32U);
+    return look;
 }
 
 std::vector<std::string> filesBeside(const LayerFlags& flags) {

@@ -1,6 +1,8 @@
-// The flags of what a picture has besides colours: alpha, depth, a mask of bodies. It draws nothing.
+// The flags of what a picture has besides colours, and of its exposure: alpha, depth, a mask of bodies, motion blur. It
+// draws nothing.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@ namespace taut::game {
 
 struct LayerFlags {
     bool alpha = false, depth = false, mask = false;
+    int blurMoments = 0;         // 0: no motion blur
     double depthRange = 65.534;  // [m] that a depth of 65534 stands for: a millimetre a step
 };
 
@@ -21,6 +24,9 @@ void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug);
 // Throws core::Error(usage) where an output cannot hold what is asked for. `output` and `video` are as on the command
 // line, empty where there is none.
 void checkLayerFlags(const LayerFlags& flags, const std::string& output, const std::string& video);
+
+// What pictures depend on besides the scene; `debug` and `overlay` are flags of their own.
+std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags);
 
 // Kinds of files beside frames: image::FramePattern::beside.
 std::vector<std::string> filesBeside(const LayerFlags& flags);

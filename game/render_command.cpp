@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -47,7 +46,7 @@ struct RenderFlags {
     std::string output, video;
     std::string frames, size, camera, gl, isa, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
-    int threads = 0;
+    int threads = 0, samples = 0;
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     LayerFlags layers;
@@ -65,6 +64,7 @@ std::vector<std::string> allOverrides(const RenderFlags& flags) {
         const Size size = pictureSize(flags.size);
         overrides.push_back(fmt::format("picture.size=[{}, {}]", size.width, size.height));
     }
+    if (flags.samples > 0) overrides.push_back(fmt::format("picture.samples={}", flags.samples));
     if (!flags.camera.empty()) overrides.push_back(fmt::format("picture.camera=\"{}\"", flags.camera));
     return overrides;
 }
@@ -106,6 +106,7 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec
     options.firstFrame = range.first;
     options.lastFrame = last;
     options.debugView = flags.debug;
+    options.blurMoments = flags.layers.blurMoments;
     options.checkpointEvery = flags.continuation.every;
     // Who goes on from a checkpoint may want the figures of the frames before it.
     options.metrics = flags.writesMetrics() || flags.overlay || !flags.quiet || options.checkpointEvery > 0;
@@ -130,17 +131,6 @@ std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::
                          fault.remedy.empty() ? "" : "; " + fault.remedy));
     }
     return nullptr;
-}
-
-// What a picture depends on besides the scene.
-std::vector<std::uint64_t> lookOf(const RenderFlags& flags) {
-    const auto bit = [](bool is) { return std::uint64_t{is ? 1U : 0U}; };
-    std::vector<std::uint64_t> look{bit(flags.debug), bit(flags.overlay)};
-    const LayerFlags& layers = flags.layers;
-    if (layers.alpha || layers.depth || layers.mask)
-        look.insert(look.end(), {bit(layers.alpha), bit(layers.depth), bit(layers.mask),
-                                 layers.depth ? std::bit_cast<std::uint64_t>(layers.depthRange) : 0});
-    return look;
 }
 
 pipeline::FigureColumns columnsOf(const std::vector<std::string>& names) {
@@ -281,7 +271,7 @@ int render(const RenderFlags& flags) {
     printWarnings(foreseen);
 
     const std::filesystem::path states = checkpointFolder(flags, sink.get());
-    const RunKeys keys = runKeys(scene, lookOf(flags), world);
+    const RunKeys keys = runKeys(scene, lookOf(flags.debug, flags.overlay, flags.layers), world);
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.yes;
     const std::string output = flags.noPictures ? "" : flags.output;
@@ -356,6 +346,10 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
     options.value("--seconds", flags.seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
     options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
+    options
+        .value("--samples", flags.samples,
+               "Samples a pixel against jagged edges; 8 and 16 draw each picture two and four times")
+        .oneOf({"1", "4", "8", "16"});
     addRendererFlag(options, flags.gl);
     const Option debug = options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
     options.flag("--overlay", flags.overlay,

@@ -65,6 +65,7 @@ class Player {
             view::FrameView view = world_.view(options_.debugView);
             view.frame = current_.frame;
             view.time = current_.time;
+            addMoments(view);
             current_.simulating += secondsSince(start);
             current_.pictured = true;
             const std::lock_guard lock(mutex_);
@@ -92,6 +93,15 @@ class Player {
     RunResult& result() { return result_; }
 
   private:
+    void addMoments(view::FrameView& view) const {
+        const double open = options_.shutter * world_.ticksPerFrame() * world_.tickSeconds();
+        for (int i = 0; i < options_.blurMoments; ++i) {
+            view.moments.push_back(world_.viewAhead(open * ((i + 0.5) / options_.blurMoments - 0.5)));
+            view.moments.back().marks = view.marks;
+            view.moments.back().showMarks = view.showMarks;
+        }
+    }
+
     // The state of the current frame waits until the frames before are on disk.
     void saveState() {
         const std::int64_t frame = current_.frame, every = options_.checkpointEvery;

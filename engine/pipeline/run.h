@@ -28,6 +28,11 @@ struct RunOptions {
     std::function<std::vector<double>(const world::World&)> figures{};  // measured each frame; null: nothing
     FigureColumns figureColumns{};                                      // that they fill
 
+    // The shutter is open for `shutter` of the time from frame to frame, half of it before the frame's own moment, and
+    // so many moments are drawn of it; 0: one, without blur.
+    int blurMoments = 0;
+    double shutter = 0.5;
+
     std::int64_t startFrame = 0;       // where to go on: the world is at the time of this frame already
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
 };

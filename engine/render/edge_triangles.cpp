@@ -50,6 +50,15 @@ EdgeTriangles::EdgeTriangles(std::span<const DrawItem> items, const EdgeView& vi
     sortByTile();
 }
 
+EdgeTriangles::EdgeTriangles(std::span<const DrawItem> hidden, std::span<const DrawItem> others, const EdgeView& view,
+                             const PixelBox& part, std::span<const PixelBox> tiles)
+    : part_(part), columns_((part.width + edgeTileSize - 1) / edgeTileSize) {
+    addTiles(tiles);
+    for (std::size_t i = 0; i < hidden.size(); ++i) addItem(hidden[i], static_cast<std::uint32_t>(i + 1), view);
+    for (const DrawItem& item : others) addItem(item, 0, view);
+    sortByTile();
+}
+
 void EdgeTriangles::addTiles(std::span<const PixelBox> boxes) {
     const int rows = (part_.height + edgeTileSize - 1) / edgeTileSize;
     tileAt_.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns_), -1);

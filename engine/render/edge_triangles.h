@@ -19,7 +19,7 @@ struct EdgeTriangle {
     double depth = 0.0;                          // at the picture's corner, 0 … 1 within what is seen
     double depthAlong = 0.0, depthUp = 0.0;      // [1 / pixel]
     int left = 0, low = 0, right = 0, high = 0;  // [pixels] the first and the last that it may cover
-    std::uint32_t mark = 0;                      // 1 … 255
+    std::uint32_t mark = 0;                      // of the thing
 };
 
 // What is on the other side of a plane is cut off: of the picture's near plane, and of `seenSide` [m].
@@ -34,6 +34,10 @@ class EdgeTriangles {
     // `tiles` are boxes that edgeTiles() found in the part of the picture `part`.
     EdgeTriangles(std::span<const DrawItem> items, const EdgeView& view, const PixelBox& part,
                   std::span<const PixelBox> tiles);
+
+    // The same with `hidden` things, marked by their number from 1 on, among `others`, which have the mark 0.
+    EdgeTriangles(std::span<const DrawItem> hidden, std::span<const DrawItem> others, const EdgeView& view,
+                  const PixelBox& part, std::span<const PixelBox> tiles);
 
     std::span<const PixelBox> tiles() const { return tiles_; }  // at most edgeTileSize wide and high
 

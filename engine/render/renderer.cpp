@@ -1,6 +1,8 @@
 #include "taut/render/renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <glm/ext/matrix_transform.hpp>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -19,10 +21,12 @@
 #include "taut/render/mask_pass.h"
 #include "taut/render/mesh_cache.h"
 #include "taut/render/occlusion_pass.h"
+#include "taut/render/picture_mean.h"
 #include "taut/render/program.h"
 #include "taut/render/shadow_pass.h"
 #include "taut/render/surface_pass.h"
 #include "taut/render/targets.h"
+#include "taut/render/thin_tubes.h"
 #include "taut/render/transparency.h"
 
 namespace taut::render {
@@ -60,12 +64,6 @@ FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, con
     return block;
 }
 
-// Rows from below.
-struct Drawn {
-    std::vector<std::uint32_t> colours;  // (pixels) the uppermost byte says nothing
-    std::vector<std::uint8_t> alpha;     // (pixels) empty: opaque
-};
-
 template <class Value>
 std::vector<Value> partOf(const std::vector<Value>& all, int width, const PixelBox& part) {
     std::vector<Value> result;
@@ -99,10 +97,22 @@ image::Image pictureOf(const Drawn& drawn, int width, int height) {
 }
 
 void expectSamples(int samples) {
-    if (samples != 1 && samples != 4) {
+    if (samples != 1 && samples != 4 && samples != 8 && samples != 16) {
         throw core::Error(core::ErrorKind::badContent,
-                          "anti-aliasing takes 1 or 4 samples a pixel, not " + std::to_string(samples));
+                          "anti-aliasing takes 1, 4, 8 or 16 samples a pixel, not " + std::to_string(samples));
     }
+}
+
+// [pixels] By how much a picture is shifted each time that it is drawn. With the four samples of its edges
+// (edge_coverage.cpp), which lie on a raster of a quarter, each has a row and a column of its own, and so have the
+// places that are shaded.
+std::span<const glm::vec2> shiftsOf(int samples) {
+    static constexpr std::array<glm::vec2, 1> once{glm::vec2(0.0F, 0.0F)};
+    static constexpr std::array<glm::vec2, 2> twice{glm::vec2(0.1875F, 0.0625F), {-0.1875F, -0.0625F}};
+    static constexpr std::array<glm::vec2, 4> fourTimes{
+        glm::vec2(-0.28125F, 0.03125F), {-0.09375F, 0.34375F}, {0.03125F, -0.28125F}, {0.34375F, -0.09375F}};
+    if (samples <= 4) return once;
+    return samples == 8 ? std::span<const glm::vec2>(twice) : std::span<const glm::vec2>(fourTimes);
 }
 
 }  // namespace
@@ -113,37 +123,49 @@ struct RendererParts {
         : shaders(gl, options.shaders),
           targets(gl, options.width, options.height),
           meshes(gl),
+          thinMeshes(gl),
           shadow(gl, shaders, options.shadowSize),
           occlusion(gl, shaders),
           surfaces(gl, shaders),
-          ground(gl, shaders, options.keepsStill, options.alpha),
           marks(gl, shaders),
           labels(options.font),
           frameBlock(gl, GlKind::buffer) {
+        for (std::size_t i = 0; i < shiftsOf(options.samples).size(); ++i)
+            grounds.push_back(std::make_unique<GroundPass>(gl, shaders, options.keepsStill, options.alpha));
         if (!options.maskColours.empty()) mask.emplace(gl, shaders, targets.size(), options.maskColours);
     }
 
     ShaderFolder shaders;
     Targets targets;
-    MeshCache meshes;
+    MeshCache meshes, thinMeshes;
     ShadowPass shadow;
     OcclusionPass occlusion;
     SurfacePass surfaces;
-    GroundPass ground;
+    std::vector<std::unique_ptr<GroundPass>> grounds;  // one for each shift, for each keeps its own picture
     MarksPass marks;
     LabelPass labels;
     std::optional<MaskPass> mask;
     GlObject frameBlock;
 };
 
-// What is drawn of a view from here on, and through which eyes.
+// What is drawn of a view.
 struct Scene {
     const view::FrameView& view;
     std::vector<DrawItem> items;  // the nearest first
+    std::vector<DrawItem> solid;  // of them without thin tubes
+    std::vector<view::Surface> thinSurfaces;
+    std::vector<DrawItem> thin, shadedThin;  // tubes as they cover pixels, and as they are shaded; the nearest first
     std::vector<Bounds> casters;
     float aspect;
-    glm::mat4 projection;
-    PixelBox part;  // in which there are items
+    PixelScale scale;
+};
+
+// How it is drawn this time.
+struct Pass {
+    std::size_t number = 0;
+    glm::vec2 shift{0.0F};  // [pixels]
+    glm::mat4 projection{1.0F};
+    PixelBox part;  // in which there is what is solid
 };
 
 struct Renderer::Impl {
@@ -158,9 +180,11 @@ struct Renderer::Impl {
         options.passDone(pass);
     }
     Scene sceneOf(const view::FrameView& view);
-    void useBlock(const FrameBlock& block);
-    Drawn draw(const Scene& scene);
-    void smooth(const Scene& scene, const std::vector<float>& depths, Drawn& drawn);
+    Pass passOf(const Scene& scene, std::size_t number);
+    Drawn draw(const Scene& scene, const Pass& pass);
+    void smooth(const Scene& scene, const Pass& pass, const std::vector<float>& depths, Drawn& drawn);
+    void drawThin(const Scene& scene, const Pass& pass, Drawn& drawn);
+    Drawn drawAll(const Scene& scene);
     void addLayers(const Scene& scene, image::Image& picture);
 };
 
@@ -200,21 +224,36 @@ RendererInfo Renderer::info() const {
 
 Scene Renderer::Impl::sceneOf(const view::FrameView& view) {
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-    Scene scene{view, parts->meshes.items(view.surfaces), {}, aspect, projectionOf(view.camera, aspect), {}};
+    Scene scene{view,   parts->meshes.items(view.surfaces),     {}, {}, {}, {}, {},
+                aspect, PixelScale(view.camera, options.height)};
     sortByDistance(scene.items, view.camera.eye);
-    for (const DrawItem& item : scene.items) scene.casters.push_back(item.bounds);
-    scene.part = pixelBox(scene.items, scene.projection, options.width, options.height);
+    for (const DrawItem& item : scene.items) {
+        scene.casters.push_back(item.bounds);
+        if (!isThin(item, scene.scale)) scene.solid.push_back(item);
+    }
+    for (const float radius : {coveringRadius, shadedRadius})
+        for (const DrawItem& item : scene.items)
+            if (isThin(item, scene.scale)) scene.thinSurfaces.push_back(widened(*item.surface, scene.scale, radius));
+    scene.thin = parts->thinMeshes.items(scene.thinSurfaces);
+    const auto half = scene.thin.begin() + static_cast<std::ptrdiff_t>(scene.thin.size() / 2);
+    scene.shadedThin.assign(half, scene.thin.end());
+    scene.thin.erase(half, scene.thin.end());
     return scene;
 }
 
-void Renderer::Impl::useBlock(const FrameBlock& block) {
-    gl().BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts->frameBlock.id());
-    gl().BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+Pass Renderer::Impl::passOf(const Scene& scene, std::size_t number) {
+    const std::span<const glm::vec2> shifts = shiftsOf(options.samples);
+    Pass pass{number, shifts[number], projectionOf(scene.view.camera, scene.aspect), {}};
+    const glm::vec2 clip = 2.0F * pass.shift / glm::vec2(parts->targets.size());
+    if (shifts.size() > 1) pass.projection = glm::translate(glm::mat4(1.0F), glm::vec3(clip, 0.0F)) * pass.projection;
+    pass.part = pixelBox(scene.solid, pass.projection, options.width, options.height);
+    return pass;
 }
 
-Drawn Renderer::Impl::draw(const Scene& scene) {
+Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     const view::FrameView& view = scene.view;
     const std::vector<DrawItem>& items = scene.items;
+    GroundPass& ground = *parts->grounds[pass.number];
     const LightBox box = lightBox(view, scene.casters, scene.aspect, options.shadowSize);
     std::optional<OcclusionArea> occlusion;
     if (view.ground && options.occlusion) occlusion = occlusionArea(scene.casters, view.ground->height);
@@ -229,70 +268,115 @@ Drawn Renderer::Impl::draw(const Scene& scene) {
     passDone("occlusion");
 
     // The picture; ground and sky last, for what is hidden need not be shaded.
-    const FrameBlock block = blockOf(view, scene.projection, box, options.shadowSize, occlusion);
-    useBlock(block);
+    const FrameBlock block = blockOf(view, pass.projection, box, options.shadowSize, occlusion);
+    gl().BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts->frameBlock.id());
+    gl().BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
     parts->shadow.bindMaps();
     parts->occlusion.bindMap();
-    parts->ground.begin(view, block, box, items, occlusion, parts->targets);
+    ground.begin(view, block, box, items, occlusion, parts->targets);
     parts->targets.bindSurfaces();
     gl().DepthMask(GL_TRUE);
     gl().Clear(GL_DEPTH_BUFFER_BIT);
-    parts->surfaces.draw(items, parts->meshes);
+    parts->surfaces.draw(scene.solid, parts->meshes);
     passDone("surfaces");
     parts->targets.bindShading();
-    if (parts->ground.fills()) {
+    if (ground.fills()) {
         gl().ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         gl().Clear(GL_COLOR_BUFFER_BIT);
     }
-    parts->surfaces.light(view.camera, scene.part, parts->targets.size(), glm::vec2(0.0F));
+    parts->surfaces.light(view.camera, pass.part, parts->targets.size(), pass.shift);
     passDone("light");
-    parts->ground.draw(scene.projection);
+    ground.draw(pass.projection);
     passDone("ground");
 
     Drawn drawn{parts->targets.colours(), {}};
-    std::vector<float> depths = parts->targets.depths(scene.part);
+    std::vector<float> depths = parts->targets.depths(pass.part);
     passDone("read");
-    parts->ground.fill(scene.part, depths, drawn.colours, options.width);
-    smooth(scene, depths, drawn);
+    ground.fill(pass.part, depths, drawn.colours, options.width);
+    smooth(scene, pass, depths, drawn);
+    if (!scene.thin.empty()) drawThin(scene, pass, drawn);
     passDone("edges");
     if (view.showMarks) {
         parts->targets.put(drawn.colours);
         parts->targets.bindShading();
-        parts->marks.draw(view, scene.projection, options.width, options.height);
+        parts->marks.draw(view, pass.projection, options.width, options.height);
         drawn.colours = parts->targets.colours();
     }
     return drawn;
 }
 
-void Renderer::Impl::smooth(const Scene& scene, const std::vector<float>& depths, Drawn& drawn) {
+void Renderer::Impl::smooth(const Scene& scene, const Pass& pass, const std::vector<float>& depths, Drawn& drawn) {
     if (options.alpha) drawn.alpha = takeShadows(scene.view, drawn.colours);
     if (options.samples == 1) return;
-    const EdgeView edges{scene.projection, seenSideOf(scene.view), parts->targets.size()};
-    const ShadedPixels shaded{scene.part, partOf(drawn.colours, options.width, scene.part), depths,
-                              partOf(drawn.alpha, options.width, scene.part)};
-    smoothEdges(scene.items, edges, shaded, drawn.colours, drawn.alpha);
+    const EdgeView edges{pass.projection, seenSideOf(scene.view), parts->targets.size()};
+    const ShadedPixels shaded{pass.part, partOf(drawn.colours, options.width, pass.part), depths,
+                              partOf(drawn.alpha, options.width, pass.part)};
+    smoothEdges(scene.solid, edges, shaded, drawn.colours, drawn.alpha);
 }
 
-// Of each pixel's middle; without the maps that shading reads.
+// Alone into the targets of the picture, and from there over it. The frame block and the maps are in place.
+void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, Drawn& drawn) {
+    const PixelBox part = pixelBox(scene.shadedThin, pass.projection, options.width, options.height);
+    parts->targets.bindSurfaces();
+    gl().DepthMask(GL_TRUE);
+    gl().Clear(GL_DEPTH_BUFFER_BIT);
+    parts->surfaces.draw(scene.shadedThin, parts->thinMeshes);
+    parts->targets.bindShading();
+    gl().ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+    gl().Clear(GL_COLOR_BUFFER_BIT);
+    parts->surfaces.light(scene.view.camera, part, parts->targets.size(), pass.shift);
+    const ShadedPixels shaded{part, partOf(parts->targets.colours(), options.width, part), parts->targets.depths(part)};
+    const EdgeView edges{pass.projection, seenSideOf(scene.view), parts->targets.size()};
+    layThinTubes({scene.thin, scene.solid, shaded, scene.scale}, edges, drawn);
+    passDone("thin");
+}
+
+// As often as it is shifted and as there are moments.
+Drawn Renderer::Impl::drawAll(const Scene& scene) {
+    const std::size_t shifts = shiftsOf(options.samples).size(), moments = scene.view.moments.size();
+    if (moments == 0 && shifts == 1) return draw(scene, passOf(scene, 0));
+    PictureMean mean;
+    if (moments == 0) {
+        for (std::size_t i = 0; i < shifts; ++i) mean.add(draw(scene, passOf(scene, i)));
+        return mean.mean();
+    }
+    // Every shift as often as the others: a multiple of both.
+    const std::size_t times = (std::max(moments, shifts) + shifts - 1) / shifts * shifts;
+    for (std::size_t i = 0; i < times; ++i) {
+        const Scene moment = sceneOf(scene.view.moments[i * moments / times]);
+        mean.add(draw(moment, passOf(moment, i % shifts)));
+    }
+    return mean.mean();
+}
+
+// Of each pixel's middle, at the time of the view; without the maps that shading reads.
 void Renderer::Impl::addLayers(const Scene& scene, image::Image& picture) {
+    if (options.depthUnit == 0.0 && !parts->mask) return;
+    const glm::mat4 projection = projectionOf(scene.view.camera, scene.aspect);
+    const FrameBlock block = blockOf(scene.view, projection, {}, options.shadowSize, {});
+    gl().BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts->frameBlock.id());
+    gl().BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
+    std::vector<DrawItem> items = scene.solid;
+    items.insert(items.end(), scene.thin.begin(), scene.thin.end());
     if (options.depthUnit > 0.0) {
+        const PixelBox part = pixelBox(items, projection, options.width, options.height);
         parts->targets.bindSurfaces();
         gl().DepthMask(GL_TRUE);
         gl().Clear(GL_DEPTH_BUFFER_BIT);
-        parts->surfaces.draw(scene.items, parts->meshes);
-        const std::vector<float> depths = parts->targets.depths(scene.part);
-        const std::vector<float> nearness = parts->targets.nearness(scene.part);
+        parts->surfaces.draw(items, parts->meshes);
+        const std::vector<float> depths = parts->targets.depths(part);
+        const std::vector<float> nearness = parts->targets.nearness(part);
         picture.depth =
-            depthLayer(scene.view, {options.width, options.height, scene.part, depths, nearness}, options.depthUnit);
+            depthLayer(scene.view, {options.width, options.height, part, depths, nearness}, options.depthUnit);
     }
-    if (parts->mask) picture.mask = parts->mask->draw(scene.items, parts->meshes, seenSideOf(scene.view));
+    if (parts->mask) picture.mask = parts->mask->draw(items, parts->meshes, seenSideOf(scene.view));
 }
 
 image::Image Renderer::draw(const view::FrameView& view) {
     const CurrentContext current(*impl_->context);
     const Scene scene = impl_->sceneOf(view);
-    image::Image picture = pictureOf(impl_->draw(scene), impl_->options.width, impl_->options.height);
-    impl_->parts->labels.draw(view, scene.projection, picture);
+    image::Image picture = pictureOf(impl_->drawAll(scene), impl_->options.width, impl_->options.height);
+    impl_->parts->labels.draw(view, projectionOf(view.camera, scene.aspect), picture);
     impl_->addLayers(scene, picture);
     impl_->passDone("picture");
     return picture;

@@ -21,7 +21,7 @@ enum class Backend { osmesa, egl };
 struct RendererOptions {
     int width = 1280;  // [px]
     int height = 720;
-    int samples = 4;         // of anti-aliasing, for each pixel
+    int samples = 4;         // of anti-aliasing, for each pixel: 1, 4, 8 or 16; the last two draw it 2 and 4 times
     int shadowSize = 2048;   // [texels] edge of the shadow map; a multiple of 128
     bool shadows = true;     // false: to see what a picture without them looks like
     bool occlusion = true;   // false: things do not darken the ground around them

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace taut::scene {
 
 double BodySize::bytes() const {
@@ -32,6 +34,7 @@ namespace {
 constexpr double bytesOfTriangle = 500.0, bytesOfKey = 200.0, bytesOfAction = 2000.0;
 constexpr double bytesOfCollider = 4e3, bytesOfDrawnCollider = 9e4;
 constexpr double bytesOfShadowTexel = 4.5, bytesOfPixel = 15.0, bytesOfSample = 12.0;  // further samples
+constexpr double bytesOfMean = 32.0;  // of a pixel, where a picture is drawn several times
 
 double bytesOf(const world::ColliderSpec& collider) {
     double bytes = (collider.visible ? bytesOfDrawnCollider : bytesOfCollider) +
@@ -48,9 +51,10 @@ SceneSize wholeSizeOf(const world::SceneSpec& scene) {
     size.bodies = sizeOf(scene).bytes();
     for (const world::ColliderSpec& collider : scene.colliders) size.colliders += bytesOf(collider);
     const world::PictureSpec& picture = scene.picture;
-    size.pictures =
-        static_cast<double>(picture.size.x) * picture.size.y * (bytesOfPixel + bytesOfSample * (picture.samples - 1)) +
-        bytesOfShadowTexel * picture.shadowSize * picture.shadowSize;
+    size.pictures = static_cast<double>(picture.size.x) * picture.size.y *
+                        (bytesOfPixel + bytesOfSample * (std::min(picture.samples, 4) - 1) +
+                         (picture.samples > 4 ? bytesOfMean : 0.0)) +
+                    bytesOfShadowTexel * picture.shadowSize * picture.shadowSize;
     size.timeline = bytesOfAction * static_cast<double>(scene.actions.size() + scene.checks.size());
     return size;
 }

@@ -167,8 +167,9 @@ SceneSection pictureSection() {
         FieldList<PictureSpec>()
             .vector("size", &PictureSpec::size, "px", Range{16, 16384}, "Width and height.")
             .text("camera", &PictureSpec::camera, Role::camera, "Name of the camera; the first by name if not given.")
-            .whole("samples", &PictureSpec::samples, "", Range{1, 4}, "Samples a pixel, against jagged edges.")
-            .oneOf({1, 4})
+            .whole("samples", &PictureSpec::samples, "", Range{1, 16},
+                   "Samples a pixel, against jagged edges; 8 and 16 draw a picture two and four times.")
+            .oneOf({1, 4, 8, 16})
             .whole("shadow_size", &PictureSpec::shadowSize, "px", Range{128, 16384}, "Edge of the shadow map.")
             .multipleOf(128)
             .take();

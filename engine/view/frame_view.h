@@ -48,7 +48,9 @@ struct Surface {
     std::shared_ptr<const Finish> finish;
     glm::mat4 transform{1.0F};
     bool twoSided = false;  // a cloth; anything else is closed, or is seen and lit from its front only
-    float dulled = 0.0F;    // 0 … 1: how far its colours give way to a dull red, for what has stopped
+    float tubeRadius =
+        0.0F;  // [m] of a rope or rod as tubeGeometry makes it: it is never drawn thinner than a pixel; 0: other
+    float dulled = 0.0F;  // 0 … 1: how far its colours give way to a dull red, for what has stopped
 };
 
 struct Camera {
@@ -122,6 +124,10 @@ struct FrameView {
     Marks marks;
     std::vector<Label> labels;
     bool showMarks = false;  // debug view: marks drawn, surfaces faded
+
+    // How all of it is at moments while the shutter is open, evenly spaced; the picture is their mean. Their labels do
+    // not count. Empty: it is open for no time.
+    std::vector<FrameView> moments;
 };
 
 }  // namespace taut::view

@@ -161,6 +161,7 @@ class RodDrawing final : public BodyDrawing {
             rod.topology = rodTopology_[i];
             rod.geometry = std::make_shared<view::Geometry>(view::tubeGeometry(line, 1, rodSides, radius_));
             rod.finish = finish_;
+            rod.tubeRadius = radius_;
             surfaces.push_back(std::move(rod));
         }
         for (std::size_t i = 0; i < balls_.size(); ++i) {

@@ -63,7 +63,7 @@ struct LabelSpec {
 struct PictureSpec {
     ivec2 size{1280, 720};  // [px]
     std::string camera;     // name; empty: the first by name
-    int samples = 4;        // multisampling
+    int samples = 4;        // a pixel: 1, 4, 8 or 16
     int shadowSize = 2048;  // [px] edge of the shadow map
 };
 

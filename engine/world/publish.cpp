@@ -1,6 +1,7 @@
 // The one hand-over from simulation to pictures.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "taut/world/impl.h"
 #include "taut/world/labels.h"
@@ -63,13 +64,30 @@ view::Light lightOf(const LightSpec& spec) {
     return light;
 }
 
-}  // namespace
+// Where it will be if it goes on as in the tick before.
+collision::Pose poseAhead(const Placement& placement, double ticks) {
+    const auto& [from, to, moved] = placement;
+    if (ticks == 0.0 || (from.position == to.position && from.rotation == to.rotation)) return to;
+    const glm::dquat near = glm::dot(from.rotation, to.rotation) < 0.0 ? -from.rotation : from.rotation;
+    return {to.position + ticks * (to.position - from.position),
+            glm::normalize(to.rotation * (1.0 + ticks) + near * -ticks)};
+}
 
-view::FrameView World::view(bool debug) const {
-    const Impl& w = *impl_;
+// (points of the island) [m]
+std::vector<dvec3> placesAhead(const Island& island, double ahead) {
+    std::vector<dvec3> x(island.plan().points.size()), v(x.size());
+    island.read(x, v);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::isfinite(glm::dot(v[i], v[i]))) x[i] += ahead * v[i];  // not of what is held, whose mass is infinite
+    return x;
+}
+
+// What a picture is made of but labels and marks. Bodies go into `drawn`, in order.
+view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& drawn) {
+    const double time = w.seconds() + ahead;
     view::FrameView view;
     view.frame = w.tick / w.ticksPerFrame;
-    view.time = time();
+    view.time = time;
     view.light = lightOf(w.spec.light);
     view.background = {linearColour(w.spec.background.top), linearColour(w.spec.background.horizon),
                        static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd),
@@ -77,32 +95,53 @@ view::FrameView World::view(bool debug) const {
     bool chosen = false;
     w.registry.each<CameraPart>([&](ecs::Entity, const CameraPart& part) {
         if (chosen || (!w.spec.picture.camera.empty() && part.spec.name != w.spec.picture.camera)) return;
-        view.camera = cameraAt(part.spec, time());
+        view.camera = cameraAt(part.spec, time);
         chosen = true;
     });
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        const collision::Pose pose = poseAhead(placement, ahead * w.ticksPerSecond);
         if (part.spec.visible && part.model->isGround && !view.ground) {
             view.ground = view::Ground{};
-            view.ground->height = static_cast<float>(placement.to.position.y);
+            view.ground->height = static_cast<float>(pose.position.y);
             view.ground->colour = linearColour(part.spec.finish.colour);
         }
         for (const ColliderModel::Piece& piece : part.model->pieces)
             view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
-                                     matrixOf(placement.to) * piece.transform, part.spec.shape == "plane"});
+                                     matrixOf(pose) * piece.transform, part.spec.shape == "plane"});
     });
-    std::vector<Body*> bodies;
-    for (const Impl::Member& member : w.bodies) {
+    std::map<const Island*, std::vector<dvec3>> places;  // of islands that have been met, where they are asked for
+    for (const WorldImpl::Member& member : w.bodies) {
         const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
         const Island& island = w.islandOf(*part.body);
-        bodies.push_back(part.body.get());
+        drawn.push_back(part.body.get());
         std::vector<glm::vec3> positions;
         positions.reserve(part.body->pointOf.size());
-        for (int i : part.body->pointOf) positions.emplace_back(island.position(i));
+        if (ahead == 0.0) {
+            for (int i : part.body->pointOf) positions.emplace_back(island.position(i));
+        } else {
+            auto known = places.find(&island);
+            if (known == places.end()) known = places.emplace(&island, placesAhead(island, ahead)).first;
+            for (int i : part.body->pointOf) positions.emplace_back(known->second[static_cast<std::size_t>(i)]);
+        }
         const std::size_t first = view.surfaces.size();
         part.drawing->addSurfaces(positions, view.surfaces);
         if (island.frozen() == nullptr) continue;
         for (std::size_t i = first; i < view.surfaces.size(); ++i) view.surfaces[i].dulled = frozenDullness;
     }
+    return view;
+}
+
+}  // namespace
+
+view::FrameView World::viewAhead(double ahead) const {
+    std::vector<Body*> ignored;
+    return sceneOf(*impl_, ahead, ignored);
+}
+
+view::FrameView World::view(bool debug) const {
+    const Impl& w = *impl_;
+    std::vector<Body*> bodies;
+    view::FrameView view = sceneOf(w, 0.0, bodies);
     for (const LabelSpec& label : w.spec.labels) {
         std::vector<LabelSubject> subjects;
         for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &w.islandOf(*body)});

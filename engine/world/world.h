@@ -192,6 +192,10 @@ class World {
     // The picture of this moment; with springs, points and contacts where debug.
     view::FrameView view(bool debug) const;
 
+    // The same of a moment `ahead` [s] of now, or before it, for exposures that are short against how motion changes:
+    // everything goes on evenly as it does now, cameras as their keyframes say. Without marks and labels.
+    view::FrameView viewAhead(double ahead) const;
+
     std::uint64_t stateHash() const;                                 // chained over ticks
     std::vector<BodyHash> bodyHashes() const;                        // in the order of the state hash; not chained
     std::vector<std::uint64_t> pointHashes(ecs::Entity body) const;  // of x and the stored v, in the order of authoring

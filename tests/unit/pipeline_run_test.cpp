@@ -67,6 +67,44 @@ TEST(Play, FrameCountIsSecondsTimesRateAndAtLeastOne) {
     EXPECT_EQ(frameCount({.fps = 30.0, .seconds = 0.001}), 1);
 }
 
+// Where the bob is in a view: the last ball.
+glm::vec3 bobOf(const view::FrameView& view) {
+    return glm::vec3(view.surfaces.back().transform[3]);
+}
+
+TEST(Play, MomentsOfAnExposureLieAroundTheFrameAndChangeNoState) {
+    std::vector<view::FrameView> blurred, fine;
+    const auto played = [](const world::SceneSpec& spec, const RunOptions& options,
+                           std::vector<view::FrameView>& views) {
+        world::World world(spec);
+        RecordingSink sink;
+        const Draw draw = [&](const view::FrameView& view) {
+            views.push_back(view);
+            return smallPicture(view);
+        };
+        return play(world, options, draw, &sink, {}, never);
+    };
+    const RunResult result = played(pendulum(), {.lastFrame = 20, .blurMoments = 2}, blurred);
+    const RunResult plain = playWithoutPictures(pendulum(), {.lastFrame = 20});
+    for (std::size_t i = 0; i < 21; ++i) EXPECT_EQ(result.frames[i].hash, plain.frames[i].hash);
+    // Half of a thirtieth of a second is open; the middles of its two halves are 1/240 s before and after the frame,
+    // where a run with 240 frames a second has one each. In between the bob, at up to 5 m/s, goes on evenly: off by
+    // a t²/2, with the spring's 100 m/s² for each metre that it is too long and the 9.8 m/s² of gravity.
+    world::SceneSpec spec = pendulum();
+    spec.run.fps = 240.0;
+    played(spec, {.lastFrame = 161}, fine);
+    for (std::size_t i = 1; i < 21; ++i) {
+        const view::FrameView& view = blurred[i];
+        ASSERT_EQ(view.moments.size(), 2U);
+        EXPECT_NEAR(view.moments[0].time, view.time - 1.0 / 240.0, 1e-12);
+        for (const int side : {0, 1}) {
+            const glm::vec3 exact = bobOf(fine[8 * i + (side == 0 ? 0U : 2U) - 1]);
+            EXPECT_NEAR(glm::distance(bobOf(view.moments[static_cast<std::size_t>(side)]), exact), 0.0, 1e-3) << i;
+        }
+    }
+    EXPECT_GT(glm::distance(bobOf(blurred[5].moments[0]), bobOf(blurred[5].moments[1])), 0.005F);
+}
+
 TEST(Play, FrameShowsTheMomentOfItsNumber) {
     const RunResult result = playWithoutPictures(pendulum(), {.lastFrame = 12});
     ASSERT_EQ(result.frames.size(), 13U);

@@ -246,9 +246,9 @@ TEST(SceneErrors, ValuesOutOfRangeAreReported) {
          "             ^"},
         {"samples that no picture has",
          "[picture]\n"
-         "samples = 16\n",
-         "s.toml:3:11: error: samples must be 1 or 4, not 16\n"
-         "  samples = 16\n"
+         "samples = 2\n",
+         "s.toml:3:11: error: samples must be 1 or 4 or 8 or 16, not 2\n"
+         "  samples = 2\n"
          "            ^"},
         {"a shadow map that cannot be drawn",
          "[picture]\n"

@@ -58,6 +58,7 @@ class RopeDrawing final : public BodyDrawing {
             surface.geometry =
                 std::make_shared<view::Geometry>(view::tubeGeometry(line, tubeSubdivisions, tubeSides, radius_));
             surface.finish = finish_;
+            surface.tubeRadius = radius_;
             surfaces.push_back(std::move(surface));
         }
     }

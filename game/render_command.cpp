@@ -46,7 +46,7 @@ struct RenderFlags {
     std::string output, video;
     std::string frames, size, camera, gl, isa, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
-    int threads = 0, samples = 0;
+    int threads = 0, samples = 0, drawThreads = 0;
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     LayerFlags layers;
@@ -282,10 +282,15 @@ int render(const RenderFlags& flags) {
 
     const pipeline::PictureLayers layers = layersOf(flags.layers, world);
     pipeline::Draw draw;
-    std::unique_ptr<render::Renderer> renderer;
+    std::vector<std::unique_ptr<render::Renderer>> renderers;
     if (!flags.noPictures) {
-        renderer = makeRenderer(spec.picture, flags.threads, flags.gl, layers);
-        draw = [&](const view::FrameView& view) { return renderer->draw(view); };
+        renderers = makeRenderers(spec.picture, flags.threads, flags.gl, layers,
+                                  drawersFor(flags.drawThreads, flags.threads, spec.picture, options));
+        std::vector<pipeline::Draw> draws;
+        for (const auto& renderer : renderers)
+            draws.emplace_back([&renderer](const view::FrameView& view) { return renderer->draw(view); });
+        draw = std::move(draws.front());
+        options.moreDraws.assign(draws.begin() + 1, draws.end());
     }
     std::unique_ptr<pipeline::Overlay> overlay;
     if (flags.overlay && draw) {
@@ -293,10 +298,8 @@ int render(const RenderFlags& flags) {
         for (std::size_t i = 0; i < before; ++i)
             if (const pipeline::FrameRecord record = records[i]; record.metrics)
                 overlay->add({*record.metrics, record.frame * world.ticksPerFrame()});
-        draw = [&](const view::FrameView& view) {
-            image::Image picture = renderer->draw(view);
+        options.finishPicture = [&](const view::FrameView& view, image::Image& picture) {
             overlay->paint(picture, view.time);
-            return picture;
         };
     }
 
@@ -310,7 +313,7 @@ int render(const RenderFlags& flags) {
     }
     if (sink) {
         const pipeline::RunRequest request{flags.output, allOverrides(flags), flags.threads, options, layers};
-        const auto info = renderer ? std::optional(renderer->info()) : std::nullopt;
+        const auto info = renderers.empty() ? std::nullopt : std::optional(renderers.front()->info());
         const auto writeJson = [&](const pipeline::Write& write) {
             pipeline::writeRunJson(write, spec, world, request, pipeline::machine(), info, result);
         };
@@ -365,6 +368,10 @@ Action declareRender(Options& options) {
     addPictureFlags(options, *flags);
     addContinuationFlags(options, flags->continuation);
     options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    options
+        .value("--draw-threads", flags->drawThreads,
+               "Pictures drawn at the same time, the same whatever it is; as many as pay here when not given")
+        .within(1, 64);
     addInstructionSetFlag(options, flags->isa);
     options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
         .typeName("KEY=VALUE")

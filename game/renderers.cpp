@@ -1,10 +1,14 @@
 #include "game/renderers.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <string_view>
+#include <thread>
 
 #include "game/command_line.h"
 #include "game/folders.h"
@@ -66,6 +70,32 @@ std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture
     const GlChoice choice = glNamed(gl);
     options.device = choice.device;
     return pipeline::workingRenderer(options, choice.backends);
+}
+
+std::vector<std::unique_ptr<render::Renderer>> makeRenderers(const world::PictureSpec& picture, int threads,
+                                                             const std::string& gl,
+                                                             const pipeline::PictureLayers& layers, int count) {
+    std::vector<std::unique_ptr<render::Renderer>> renderers;
+    renderers.push_back(makeRenderer(picture, threads, gl, layers));
+    // The others by the library and the device that have proved to work.
+    const render::RendererInfo info = renderers.front()->info();
+    const std::string same = info.device ? fmt::format("{}:{}", info.backend, *info.device) : info.backend;
+    for (int i = 1; i < count; ++i) renderers.push_back(makeRenderer(picture, threads, same, layers));
+    return renderers;
+}
+
+int drawersFor(int wanted, int threads, const world::PictureSpec& picture, const pipeline::RunOptions& options) {
+    constexpr int most = 4;  // the pixels of all are drawn by the same threads; more save their corners alone
+    constexpr double bytesOfPixel = 100.0, bytesOfShadowTexel = 4.5, partOfMemory = 0.125;
+    const std::int64_t pictures = options.lastFrame - options.firstFrame + 1;
+    if (wanted > 0) return static_cast<int>(std::min<std::int64_t>(wanted, pictures));
+    const int processors = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const double bytes =
+        bytesOfPixel * picture.size.x * picture.size.y + bytesOfShadowTexel * picture.shadowSize * picture.shadowSize;
+    const double memory =
+        partOfMemory * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+    const auto fitting = static_cast<std::int64_t>(std::clamp(memory / bytes, 1.0, 64.0));
+    return static_cast<int>(std::min({std::int64_t{processors}, std::int64_t{most}, fitting, pictures}));
 }
 
 }  // namespace taut::game

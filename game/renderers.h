@@ -32,4 +32,13 @@ void limitSoftwareRenderer(int threads);
 std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads,
                                                const std::string& gl = {}, const pipeline::PictureLayers& layers = {});
 
+// Several that draw the same pictures.
+std::vector<std::unique_ptr<render::Renderer>> makeRenderers(const world::PictureSpec& picture, int threads,
+                                                             const std::string& gl,
+                                                             const pipeline::PictureLayers& layers, int count);
+
+// How many renderers pay: `wanted`, or where that is 0 one for each thread, at most four, and no more than there are
+// pictures and than an eighth of the memory holds.
+int drawersFor(int wanted, int threads, const world::PictureSpec& picture, const pipeline::RunOptions& options);
+
 }  // namespace taut::game

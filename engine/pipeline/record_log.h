@@ -72,7 +72,7 @@ class RecordLog {
 
     int descriptor_ = -1;
     std::filesystem::path path_;  // for messages
-    bool isNameless_ = false;  // and not yet in memory
+    bool isNameless_ = false;     // and not yet in memory
     FigureColumns figures_;
     std::size_t size_ = 0;
     core::Hash digest_;

@@ -151,22 +151,25 @@ RunResult play(world::World& world, const RunOptions& options, const Draw& draw,
     if (!draw) {
         while (player.advance()) player.keep();
     } else {
-        runStages({
-            .simulate = [&] { return player.nextView(); },
-            .draw =
-                [&](const view::FrameView& view) {
-                    const auto drawingStart = Clock::now();
-                    image::Image picture = draw(view);
-                    player.drawn(view.frame, secondsSince(drawingStart));
-                    return picture;
-                },
-            .encode =
-                [&](const view::FrameView& view, const image::Image& picture) {
-                    const auto encodingStart = Clock::now();
-                    sink->write(view.frame, picture);
-                    player.encoded(view.frame, secondsSince(encodingStart));
-                },
-        });
+        const auto timed = [&player](const Draw& drawOne) -> Draw {
+            return [&player, &drawOne](const view::FrameView& view) {
+                const auto drawingStart = Clock::now();
+                image::Image picture = drawOne(view);
+                player.drawn(view.frame, secondsSince(drawingStart));
+                return picture;
+            };
+        };
+        Stages stages;
+        stages.simulate = [&] { return player.nextView(); };
+        stages.draw = timed(draw);
+        for (const Draw& more : options.moreDraws) stages.moreDraws.push_back(timed(more));
+        stages.encode = [&](const view::FrameView& view, image::Image& picture) {
+            const auto encodingStart = Clock::now();
+            if (options.finishPicture) options.finishPicture(view, picture);
+            sink->write(view.frame, picture);
+            player.encoded(view.frame, secondsSince(encodingStart));
+        };
+        runStages(stages);
         sink->finish();
     }
     RunResult result = std::move(player.result());

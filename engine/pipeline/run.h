@@ -20,6 +20,9 @@ namespace taut::pipeline {
 // How many pictures a scene has: frame 0 is its start, frame k shows k / fps; at least 1.
 std::int64_t frameCount(const world::RunSpec& run);
 
+// What turns a view into a picture.
+using Draw = std::function<image::Image(const view::FrameView&)>;
+
 struct RunOptions {
     std::int64_t firstFrame = 0;  // frames before it are simulated and not drawn
     std::int64_t lastFrame = 0;   // included
@@ -32,6 +35,12 @@ struct RunOptions {
     // so many moments are drawn of it; 0: one, without blur.
     int blurMoments = 0;
     double shutter = 0.5;
+
+    // Other frames are drawn by these at the same time, each on a thread of its own; a picture may not depend on which
+    // draws it.
+    std::vector<Draw> moreDraws{};
+    // Called for each picture, in order, before it goes to the sink; null: nothing is done.
+    std::function<void(const view::FrameView&, image::Image&)> finishPicture{};
 
     std::int64_t startFrame = 0;       // where to go on: the world is at the time of this frame already
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
@@ -54,13 +63,11 @@ struct RunResult {
     double seconds = 0.0;  // [s] of wall time, the whole run
 };
 
-// What turns a view into a picture; called on the thread that calls play().
-using Draw = std::function<image::Image(const view::FrameView&)>;
-
-// Plays frames startFrame … lastFrame. With `draw` and `sink` the frames from firstFrame on are drawn and written while
-// the next ones are simulated; without them nothing is drawn. Ends early, with everything that was begun finished, when
-// the state diverges or `stop` becomes true; the sink is finished in any case but an exception. Rethrows what a stage
-// throws. `records` are those of the frames before startFrame; none are needed at 0.
+// Plays frames startFrame … lastFrame. With `draw`, which is called on this thread, and `sink` the frames from
+// firstFrame on are drawn and written while the next ones are simulated; without them nothing is drawn. Ends early,
+// with everything that was begun finished, when the state diverges or `stop` becomes true; the sink is finished in any
+// case but an exception. Rethrows what a stage throws. `records` are those of the frames before startFrame; none are
+// needed at 0.
 RunResult play(world::World& world, const RunOptions& options, const Draw& draw, image::FrameSink* sink,
                const RunListener& listener, const std::atomic<bool>& stop, std::optional<RecordLog> records = {});
 

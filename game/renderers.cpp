@@ -1,6 +1,7 @@
 #include "game/renderers.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -54,9 +55,9 @@ void limitSoftwareRenderer(int threads) {
     if (threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
 }
 
-std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads, const std::string& gl,
-                                               const pipeline::PictureLayers& layers) {
-    limitSoftwareRenderer(threads);
+namespace {
+
+render::RendererOptions optionsFor(const world::PictureSpec& picture, const pipeline::PictureLayers& layers) {
     render::RendererOptions options;
     options.width = picture.size.x;
     options.height = picture.size.y;
@@ -67,7 +68,25 @@ std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture
     options.maskColours = layers.maskColours;
     options.shaders = shaderFolder();
     options.font = fontFile();
+    return options;
+}
+
+// A picture takes some tens of megabytes and gives them back. The C library would return them to the system each time,
+// which clears them page by page before they are used again: a twentieth of all that a video costs.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    ::mallopt(M_TRIM_THRESHOLD, 512 << 20);
+#endif
+}
+
+}  // namespace
+
+std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads, const std::string& gl,
+                                               const pipeline::PictureLayers& layers) {
+    limitSoftwareRenderer(threads);
     const GlChoice choice = glNamed(gl);
+    render::RendererOptions options = optionsFor(picture, layers);
     options.device = choice.device;
     return pipeline::workingRenderer(options, choice.backends);
 }
@@ -75,12 +94,15 @@ std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture
 std::vector<std::unique_ptr<render::Renderer>> makeRenderers(const world::PictureSpec& picture, int threads,
                                                              const std::string& gl,
                                                              const pipeline::PictureLayers& layers, int count) {
+    keepFreedMemory();
     std::vector<std::unique_ptr<render::Renderer>> renderers;
     renderers.push_back(makeRenderer(picture, threads, gl, layers));
     // The others by the library and the device that have proved to work.
     const render::RendererInfo info = renderers.front()->info();
-    const std::string same = info.device ? fmt::format("{}:{}", info.backend, *info.device) : info.backend;
-    for (int i = 1; i < count; ++i) renderers.push_back(makeRenderer(picture, threads, same, layers));
+    render::RendererOptions options = optionsFor(picture, layers);
+    options.backend = glNamed(info.backend).backends.front();
+    options.device = info.device;
+    for (int i = 1; i < count; ++i) renderers.push_back(std::make_unique<render::Renderer>(options));
     return renderers;
 }
 

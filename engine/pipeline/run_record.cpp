@@ -134,6 +134,7 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     if (result.divergence) json["divergence"] = divergenceJson(*result.divergence);
     json["machine"] = machineJson(machine);
     json["threads"] = request.threads == 0 ? machine.threads : request.threads;
+    json["draw_threads"] = 1 + request.options.moreDraws.size();
     json["gl"] = rendererJson(renderer);
     json["precision"] = spec.solver.precision == world::Precision::double_ ? "double" : "single";
     json["fps"] = spec.run.fps;

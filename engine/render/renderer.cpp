@@ -130,9 +130,13 @@ struct RendererParts {
           marks(gl, shaders),
           labels(options.font),
           frameBlock(gl, GlKind::buffer) {
-        for (std::size_t i = 0; i < shiftsOf(options.samples).size(); ++i)
-            grounds.push_back(std::make_unique<GroundPass>(gl, shaders, options.keepsStill, options.alpha));
+        addGrounds(gl, options);
         if (!options.maskColours.empty()) mask.emplace(gl, shaders, targets.size(), options.maskColours);
+    }
+
+    void addGrounds(const Gl& gl, const RendererOptions& options) {
+        while (grounds.size() < shiftsOf(options.samples).size())
+            grounds.push_back(std::make_unique<GroundPass>(gl, shaders, options.keepsStill, options.alpha));
     }
 
     ShaderFolder shaders;
@@ -210,7 +214,9 @@ void Renderer::change(const RendererOptions& options) {
     if (options.width != now.width || options.height != now.height)
         parts.targets = Targets(gl, options.width, options.height);
     if (options.shadowSize != now.shadowSize) parts.shadow = ShadowPass(gl, parts.shaders, options.shadowSize);
-    parts.ground.forget();
+    for (const auto& ground : parts.grounds) ground->forget();
+    parts.addGrounds(gl, options);
+    if (parts.mask) parts.mask.emplace(gl, parts.shaders, parts.targets.size(), now.maskColours);
     now.width = options.width;
     now.height = options.height;
     now.samples = options.samples;

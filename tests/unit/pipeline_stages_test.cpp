@@ -102,6 +102,54 @@ TEST(Stages, DrawingStaysOnTheCallingThread) {
                [&](const auto&, const auto&) { EXPECT_NE(std::this_thread::get_id(), caller); }});
 }
 
+// Frame 0 is drawn only when the others that fit beside it are; what comes out is in order all the same.
+TEST(Stages, SeveralDrawAtOnceAndFramesStayInOrder) {
+    Events events;
+    const auto draw = [&](const view::FrameView& view) {
+        if (view.frame == 0) EXPECT_TRUE(events.waitFor("draw2"));
+        events.happen(named("draw", view.frame));
+        return pictureOf(view);
+    };
+    std::vector<std::int64_t> encoded;
+    const auto encode = [&](const view::FrameView& view, const image::Image& picture) {
+        EXPECT_EQ(picture.rgb[0], view.frame);
+        encoded.push_back(view.frame);
+    };
+    runStages({framesUpTo(40), draw, encode, {draw, draw}});
+    ASSERT_EQ(encoded.size(), 40U);
+    for (std::size_t i = 0; i < encoded.size(); ++i) EXPECT_EQ(encoded[i], static_cast<std::int64_t>(i));
+}
+
+TEST(Stages, FramesBeforeOneThatCannotBeDrawnAreEncoded) {
+    // Frame 3 fails while 2 is still being drawn.
+    Events events;
+    const auto draw = [&](const view::FrameView& view) {
+        if (view.frame == 2) EXPECT_TRUE(events.waitFor("failing"));
+        if (view.frame == 3) {
+            events.happen("failing");
+            throw std::runtime_error("draw");
+        }
+        return pictureOf(view);
+    };
+    std::vector<std::int64_t> encoded;
+    const auto encode = [&](const view::FrameView& view, const image::Image&) { encoded.push_back(view.frame); };
+    EXPECT_THROW(runStages({framesUpTo(1000), draw, encode, {draw, draw}}), std::runtime_error);
+    EXPECT_EQ(encoded, (std::vector<std::int64_t>{0, 1, 2}));
+}
+
+TEST(Stages, FailureToEncodeEndsAllThatDraw) {
+    std::atomic<int> drawn = 0;
+    const auto draw = [&](const view::FrameView& view) {
+        ++drawn;
+        return pictureOf(view);
+    };
+    const auto encode = [](const view::FrameView& view, const image::Image&) {
+        if (view.frame == 3) throw std::runtime_error("full");
+    };
+    EXPECT_THROW(runStages({framesUpTo(100000), draw, encode, {draw, draw, draw}}), std::runtime_error);
+    EXPECT_LT(drawn, 20);  // four in hand, five that wait, and those before
+}
+
 TEST(Stages, SimulationRunsAheadByAFewFramesOnly) {
     std::atomic<std::int64_t> simulated = 0;
     auto next = framesUpTo(100);

@@ -121,6 +121,21 @@ TEST(RenderRenderer, DrawsOnAnotherThreadThanItWasMadeOn) {
     }
 }
 
+TEST(RenderRenderer, SeveralDrawAtTheSameTimeAsOneDoes) {
+    const view::FrameView view = someView();
+    const image::Image alone = pictureOf(view);
+    std::vector<std::unique_ptr<Renderer>> renderers;
+    for (int i = 0; i < 3; ++i) renderers.push_back(std::make_unique<Renderer>(smallOptions()));
+    std::vector<std::thread> threads;
+    std::vector<int> same(renderers.size());
+    for (std::size_t i = 0; i < renderers.size(); ++i)
+        threads.emplace_back([&, i] {
+            for (int k = 0; k < 5; ++k) same[i] += renderers[i]->draw(view).rgb == alone.rgb ? 1 : 0;
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(same, (std::vector<int>{5, 5, 5}));
+}
+
 TEST(RenderRenderer, MeshesThatAreGoneAreForgotten) {
     const std::unique_ptr<Context> context = makeContext(Backend::osmesa);
     const CurrentContext current(*context);

@@ -61,6 +61,8 @@ void checkLayerFlags(const LayerFlags& flags, const std::string& output, const s
                             std::filesystem::path(name).extension().string(),
                             std::filesystem::path(name).replace_extension().string(),
                             std::filesystem::path(name).replace_extension().string()));
+    if (flags.depthRange != LayerFlags{}.depthRange && !flags.depth)
+        fail("--depth-range says what the numbers of --depth are: give that too");
     if ((flags.depth || flags.mask) && (output.empty() || image::isVideoPath(output)))
         fail(
             fmt::format("{} writes files beside frames: ask for those, -o out/frame_######.png; a video besides with "

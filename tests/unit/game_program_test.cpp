@@ -94,6 +94,23 @@ TEST(Program, LayersThatAnOutputCannotHoldAreUsageErrorsWithARemedy) {
     EXPECT_EQ(depth.code, 2);
     EXPECT_TRUE(has(depth.err, "--depth writes files beside frames")) << depth.err;
     EXPECT_EQ(run({"render", scene, "-o", (folder / "a").string(), "--alpha", "--debug"}).code, 2);
+    EXPECT_EQ(run({"render", scene, "-o", (folder / "a").string(), "--depth-range", "5"}).code, 2);
+}
+
+TEST(Program, PicturesAreTheSameHoweverManyAreDrawnAtOnce) {
+    const TemporaryFolder folder;
+    const std::string scene = springScene(folder).string();
+    std::vector<std::string> frames;
+    for (const char* drawers : {"1", "3"}) {
+        const Outcome outcome = run({"render", scene, "-o", (folder / drawers).string(), "--draw-threads", drawers,
+                                     "--quiet", "--hash", "--overlay"});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        std::string all = outcome.out;
+        for (int i = 0; i < 10; ++i)
+            all += test::contentOf(folder / drawers / ("frame_00000" + std::to_string(i) + ".png"));
+        frames.push_back(all);
+    }
+    EXPECT_EQ(frames[0], frames[1]);
 }
 
 TEST(Program, LayersLieBesideTheirFramesAndTheRecordExplainsThem) {

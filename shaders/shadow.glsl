@@ -22,7 +22,7 @@ float sunlight(vec3 place, vec3 normal, float pixel, bool casts) {
 
     // Depth along the surface's own plane, and how far it can rise within the neighbourhood.
     vec2 slope = (n.z < 0.0 ? -n.xy : n.xy) / max(abs(n.z), 0.06);
-    float rise = casts ? length(slope) * 2.5 * max(mapSize.x, mapSize.y) / blocks : 0.0;
+    float rise = casts ? min(length(slope), 6.6) * 2.5 * max(mapSize.x, mapSize.y) / blocks : 0.0;
     float gap = (at.z - bounds.r) * mapSize.z;
     bool clear = depth - bounds.r <= 0.0005;
     bool dark = depth - rise / mapSize.z > bounds.g + 0.0005;

@@ -9,6 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/render/camera_axes.h"
 #include "taut/render/context.h"
+#include "taut/render/edge_kernels.h"
 #include "taut/render/edge_pass.h"
 #include "taut/render/frame_block.h"
 #include "taut/render/ground_pass.h"
@@ -57,28 +58,25 @@ FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, con
     return block;
 }
 
-std::vector<std::uint32_t> partOf(std::span<const std::uint32_t> colours, int width, const PixelBox& part) {
-    std::vector<std::uint32_t> result;
-    result.reserve(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
+void takePart(std::span<const std::uint32_t> colours, int width, const PixelBox& part,
+              std::vector<std::uint32_t>& result) {
+    result.resize(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
+    auto to = result.begin();
     for (int y = part.y; y < part.y + part.height; ++y) {
         const auto row = colours.begin() + static_cast<std::ptrdiff_t>(y) * width + part.x;
-        result.insert(result.end(), row, row + part.width);
+        to = std::copy(row, row + part.width, to);
     }
-    return result;
 }
 
 // Without marks, and the rows from the top.
 image::Image pictureOf(std::span<const std::uint32_t> colours, int width, int height) {
     image::Image picture{width, height, {}};
     picture.rgb.resize(3 * colours.size());
-    std::uint8_t* to = picture.rgb.data();
-    for (int y = height - 1; y >= 0; --y) {
-        const std::uint32_t* from = colours.data() + static_cast<std::ptrdiff_t>(y) * width;
-        for (int x = 0; x < width; ++x, to += 3) {
-            to[0] = static_cast<std::uint8_t>(from[x]);
-            to[1] = static_cast<std::uint8_t>(from[x] >> 8);
-            to[2] = static_cast<std::uint8_t>(from[x] >> 16);
-        }
+    const EdgeKernels kernels = edgeKernels();
+    for (int y = 0; y < height; ++y) {
+        const std::ptrdiff_t above = static_cast<std::ptrdiff_t>(height - 1 - y) * width;
+        kernels.takeColours(static_cast<std::size_t>(width), colours.data() + static_cast<std::ptrdiff_t>(y) * width,
+                            picture.rgb.data() + 3 * above);
     }
     return picture;
 }
@@ -116,6 +114,11 @@ struct RendererParts {
     MarksPass marks;
     LabelPass labels;
     GlObject frameBlock;
+
+    // Room that is used again from picture to picture.
+    std::vector<std::uint32_t> colours;  // (pixels) rows from below
+    ShadedPixels shaded;
+    EdgeTriangles edges;
 };
 
 struct Renderer::Impl {
@@ -195,20 +198,23 @@ image::Image Renderer::draw(const view::FrameView& view) {
     parts.ground.draw(projection);
     passDone("ground");
 
-    std::vector<std::uint32_t> colours = parts.targets.colours();
-    std::vector<float> depths = parts.targets.depths(part);
+    std::vector<std::uint32_t>& colours = parts.colours;
+    ShadedPixels& shaded = parts.shaded;
+    shaded.box = part;
+    parts.targets.colours(colours);
+    parts.targets.depths(part, shaded.depth);
     passDone("read");
-    parts.ground.fill(part, depths, colours, options.width);
+    parts.ground.fill(part, shaded.depth, colours, options.width);
     if (options.samples == 4) {
-        const EdgeView edges{projection, seenSideOf(view), parts.targets.size()};
-        smoothEdges(items, edges, {part, partOf(colours, options.width, part), depths}, colours);
+        takePart(colours, options.width, part, shaded.colour);
+        smoothEdges(items, {projection, seenSideOf(view), parts.targets.size()}, shaded, parts.edges, colours);
     }
     passDone("edges");
     if (view.showMarks) {
         parts.targets.put(colours);
         parts.targets.bindShading();
         parts.marks.draw(view, projection, options.width, options.height);
-        colours = parts.targets.colours();
+        parts.targets.colours(colours);
     }
     image::Image picture = pictureOf(colours, options.width, options.height);
     parts.labels.draw(view, projection, picture);

@@ -23,8 +23,8 @@ class Targets {
     void bindShading() const;   // to draw into, one sample a pixel; what is seen of surfaces is bound to its units
 
     // What has been shaded: bytes red, green, blue, mark from the lowest on; rows from below.
-    std::vector<std::uint32_t> colours() const;             // (width · height)
-    std::vector<float> depths(const PixelBox& part) const;  // (part.width · part.height) 0 … 1
+    void colours(std::vector<std::uint32_t>& to) const;               // (width · height)
+    void depths(const PixelBox& part, std::vector<float>& to) const;  // (part.width · part.height) 0 … 1
 
     // Puts colours back, to draw over.
     void put(std::span<const std::uint32_t> colours);

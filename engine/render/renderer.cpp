@@ -96,7 +96,7 @@ struct RendererParts {
         : shaders(gl, options.shaders),
           targets(gl, options.width, options.height),
           meshes(gl),
-          shadow(gl, shaders, options.shadowSize),
+          shadow(gl, options.shadowSize),
           occlusion(gl, shaders),
           surfaces(gl, shaders),
           ground(gl, shaders, options.keepsStill),
@@ -169,7 +169,7 @@ image::Image Renderer::draw(const view::FrameView& view) {
     const std::span<const DrawItem> shadowed =
         options.shadows ? std::span<const DrawItem>(items) : std::span<const DrawItem>();
     passDone("meshes");
-    parts.shadow.draw(shadowed, parts.meshes, box, !options.keepsStill);
+    parts.shadow.draw(shadowed, box, !options.keepsStill);
     passDone("shadow");
     if (occlusion) parts.occlusion.draw(items, parts.meshes, *occlusion, view.ground->height, !options.keepsStill);
     passDone("occlusion");

@@ -1,0 +1,26 @@
+// The inner loops of the shadow map, one copy an instruction set; every copy gives the same bits. Plain data only.
+#pragma once
+
+#include <cstdint>
+
+namespace taut::render {
+
+// As it lies on a map of depth, to either side of it.
+struct MapTriangle {
+    float x[3], y[3];  // [texels]
+    float depth[3];    // 0 … 1
+};
+
+struct DepthKernels {
+    // Leaves in each texel (edge² from below) whose middle a triangle covers the least depth, 1 as 65535. Of rows low …
+    // high only.
+    void (*drawTriangles)(const MapTriangle* triangles, int count, int edge, int low, int high, std::uint16_t* map);
+
+    // Least and largest depth (edge) of each column of so many rows.
+    void (*findBounds)(const std::uint16_t* rows, int edge, int count, std::uint16_t* least, std::uint16_t* largest);
+};
+
+// For the instruction set in use.
+DepthKernels depthKernels();
+
+}  // namespace taut::render

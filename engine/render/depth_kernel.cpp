@@ -142,4 +142,38 @@ void findBounds(const std::uint16_t* rows, int edge, int count, std::uint16_t* l
     }
 }
 
+void addHidden(const SkyRing (&rings)[skyRings], int count, float* hidden) {
+    constexpr int most = 64;
+    float from[most], to[most];
+    for (int begin = 0; begin < count; begin += most) {
+        const int n = count - begin < most ? count - begin : most;
+        for (int i = 0; i < n; ++i) {
+            from[i] = 1.0F;
+            to[i] = 0.0F;
+        }
+        for (int ring = 0; ring < skyRings; ++ring) {
+            const float *low = rings[ring].low + begin, *high = rings[ring].high + begin;
+            const float away = rings[ring].away, beyond = ring == 0 ? away : 1.2F * away;
+            // Nearly above, a column hides all the sky that its lower end covers.
+            const float least = ring == 0 ? 1.0F : 0.0F;
+            TAUT_INDEPENDENT
+            for (int i = 0; i < n; ++i) {
+                const float below = low[i] * low[i], above = high[i] * high[i];
+                const float start = below / (below + beyond * beyond);
+                float end = above / (above + away * away);
+                end = end > least ? end : least;
+                const bool isThere = low[i] < 1000.0F;
+                const float first = isThere ? start : 1.0F, last = isThere ? end : 0.0F;
+                from[i] = first < from[i] ? first : from[i];
+                to[i] = last > to[i] ? last : to[i];
+            }
+        }
+        float* sum = hidden + begin;
+        for (int i = 0; i < n; ++i) {
+            const float more = to[i] - from[i];
+            sum[i] += more > 0.0F ? more : 0.0F;
+        }
+    }
+}
+
 }  // namespace taut::render::TAUT_ISA

@@ -97,7 +97,7 @@ struct RendererParts {
           targets(gl, options.width, options.height),
           meshes(gl),
           shadow(gl, options.shadowSize),
-          occlusion(gl, shaders),
+          occlusion(gl),
           surfaces(gl, shaders),
           ground(gl, shaders, options.keepsStill),
           marks(gl, shaders),
@@ -171,7 +171,7 @@ image::Image Renderer::draw(const view::FrameView& view) {
     passDone("meshes");
     parts.shadow.draw(shadowed, box, !options.keepsStill);
     passDone("shadow");
-    if (occlusion) parts.occlusion.draw(items, parts.meshes, *occlusion, view.ground->height, !options.keepsStill);
+    if (occlusion) parts.occlusion.draw(items, *occlusion, view.ground->height, !options.keepsStill);
     passDone("occlusion");
 
     // The picture; ground and sky last, for what is hidden need not be shaded.

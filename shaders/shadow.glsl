@@ -33,8 +33,10 @@ float sunlight(vec3 place, vec3 normal, float pixel, bool casts) {
     vec2 way = alone ? vec2(0.8, 0.6) : vec2(cos(angle), sin(angle));  // few taps are better off without noise
     vec2 toUv = 1.0 / mapSize.xy;
     vec2 rising = slope / mapSize.z;
+    // What a texel's depth may lie above the plane at a tap [m], and neighbouring triangles that are turned by some ten
+    // degrees, a metre from it. More than `most` would let light in where triangles stand on edge.
     float step = casts ? (0.75 * (abs(slope.x) + abs(slope.y)) + 0.2) * texel : 0.0;
-    float most = 0.02 * max(mapSize.x, mapSize.y);
+    float most = 0.0125 * max(mapSize.x, mapSize.y);
     float rough = casts ? 0.16 * (1.0 + dot(slope, slope)) : 0.0;
     float widest = 1.5 * min(mapSize.x, mapSize.y) / blocks;
     float least = min(max(1.2 * texel, 0.7 * pixel), widest);

@@ -1,7 +1,6 @@
 #include "game/renderers.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -71,15 +70,6 @@ render::RendererOptions optionsFor(const world::PictureSpec& picture, const pipe
     return options;
 }
 
-// A picture takes some tens of megabytes and gives them back. The C library would return them to the system each time,
-// which clears them page by page before they are used again: a twentieth of all that a video costs.
-void keepFreedMemory() {
-#ifdef __GLIBC__
-    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
-    ::mallopt(M_TRIM_THRESHOLD, 512 << 20);
-#endif
-}
-
 }  // namespace
 
 std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads, const std::string& gl,
@@ -94,7 +84,6 @@ std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture
 std::vector<std::unique_ptr<render::Renderer>> makeRenderers(const world::PictureSpec& picture, int threads,
                                                              const std::string& gl,
                                                              const pipeline::PictureLayers& layers, int count) {
-    keepFreedMemory();
     std::vector<std::unique_ptr<render::Renderer>> renderers;
     renderers.push_back(makeRenderer(picture, threads, gl, layers));
     // The others by the library and the device that have proved to work.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "taut/render/edge_kernels.h"
 #include "taut/render/edge_triangles.h"
 
 namespace taut::render {
@@ -31,6 +32,8 @@ struct CoveredTile {
     std::array<FourFloats, edgeTileSize * edgeTileSize> nearest;  // depth in the sample
     std::array<FourFloats, edgeTileSize * edgeTileSize> depth;    // that the same surface has in the pixel's middle
     std::array<FourInts, edgeTileSize * edgeTileSize> mark;       // 0 where nothing lies
+
+    EdgeKernels kernels = edgeKernels();
 
     void clear();
     void add(const PixelBox& tile, const EdgeTriangle& triangle);

@@ -119,10 +119,10 @@ glm::vec4 seenSideOf(const view::FrameView& view) {
 }
 
 void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const ShadedPixels& shaded,
-                 std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha) {
+                 EdgeTriangles& triangles, std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha) {
     if (shaded.box.width == 0 || shaded.box.height == 0) return;
     const std::vector<PixelBox> found = edgeTiles(shaded);
-    const EdgeTriangles triangles(items, view, shaded.box, found);
+    triangles.find(items, view, shaded.box, found);
     const std::span<const PixelBox> tiles = triangles.tiles();
     const int count = static_cast<int>(tiles.size());
     core::parallelFor((count + tilesATask - 1) / tilesATask, [&](int task) {

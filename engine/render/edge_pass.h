@@ -21,9 +21,9 @@ inline constexpr std::uint32_t nothingMark = 255;  // where nothing has been dra
 PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height);
 
 // Smooths the part of a picture (rows from below, as wide as view.size says) that shows the items. `shaded` is that
-// part as it was drawn; where that has alpha, `alpha` is that of the picture.
+// part as it was drawn, `triangles` room for those of the items; where it has alpha, `alpha` is that of the picture.
 void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const ShadedPixels& shaded,
-                 std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha = {});
+                 EdgeTriangles& triangles, std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha = {});
 
 // In front of which the camera sees what there is: the ground.
 glm::vec4 seenSideOf(const view::FrameView& view);

@@ -1,36 +1,13 @@
 #include "taut/render/edge_tiles.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "taut/render/edge_kernels.h"
 
 namespace taut::render {
 
-namespace {
-
-// One row with the rows below and above.
-struct Rows {
-    const std::uint32_t *below, *here, *above;
-    const float *depthBelow, *depthHere, *depthAbove;
-};
-
-// Whether there is an edge at pixels first … last - 1, which have neighbours to both sides.
-void findEdges(const Rows& rows, int first, int last, std::uint8_t* isEdge) {
-    for (int x = first; x < last; ++x) {
-        const std::uint32_t mark = rows.here[x] >> 24;
-        const std::uint32_t others = (mark ^ (rows.here[x - 1] >> 24)) | (mark ^ (rows.here[x + 1] >> 24)) |
-                                     (mark ^ (rows.below[x] >> 24)) | (mark ^ (rows.above[x] >> 24));
-        const float twice = 2.0F * rows.depthHere[x];
-        const float along = std::fabs(rows.depthHere[x - 1] + rows.depthHere[x + 1] - twice);
-        const float across = std::fabs(rows.depthBelow[x] + rows.depthAbove[x] - twice);
-        const float bend = along > across ? along : across;
-        const bool isBent = bend > 0.0004F * (1.0F - rows.depthHere[x]) + 5e-7F;
-        isEdge[x] = static_cast<std::uint8_t>((others != 0) | (isBent & (mark != 0)));
-    }
-}
-
-}  // namespace
-
 std::vector<PixelBox> edgeTiles(const ShadedPixels& pixels) {
+    const EdgeKernels kernels = edgeKernels();
     const PixelBox& box = pixels.box;
     const int columns = (box.width + edgeTileSize - 1) / edgeTileSize;
     std::vector<PixelBox> tiles;
@@ -45,9 +22,11 @@ std::vector<PixelBox> edgeTiles(const ShadedPixels& pixels) {
         for (int y = low; y < high; ++y) {
             // The outermost rows and columns have a neighbour on one side only, which finds the edge between the two.
             const int middle = std::clamp(y, 1, box.height - 2);
-            const Rows rows{row(pixels.colour, middle - 1), row(pixels.colour, middle), row(pixels.colour, middle + 1),
-                            row(pixels.depth, middle - 1),  row(pixels.depth, middle),  row(pixels.depth, middle + 1)};
-            findEdges(rows, 1, box.width - 1, isEdge.data());
+            const std::uint32_t* const colours[]{row(pixels.colour, middle - 1), row(pixels.colour, middle),
+                                                 row(pixels.colour, middle + 1)};
+            const float* const depths[]{row(pixels.depth, middle - 1), row(pixels.depth, middle),
+                                        row(pixels.depth, middle + 1)};
+            kernels.findEdges(colours, depths, 1, box.width - 1, isEdge.data());
             isEdge.front() = isEdge[1];
             isEdge.back() = isEdge[isEdge.size() - 2];
             for (int x = 0; x < box.width; ++x)

@@ -35,25 +35,38 @@ glm::dvec3 onPicture(const glm::dvec4& clip, glm::ivec2 size) {
     return {place.x * size.x, place.y * size.y, place.z};
 }
 
+// The C library's is a call.
+double floorOf(double x) {
+    if (!(std::fabs(x) < 4e15)) return x;
+    const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
+    return whole > x ? whole - 1.0 : whole;
+}
+
 double snapped(double x) {
-    return std::floor(256.0 * x + 0.5) / 256.0;
+    return floorOf(256.0 * x + 0.5) / 256.0;
 }
 
 }  // namespace
 
-EdgeTriangles::EdgeTriangles(std::span<const DrawItem> items, const EdgeView& view, const PixelBox& part,
-                             std::span<const PixelBox> tiles)
-    : part_(part), columns_((part.width + edgeTileSize - 1) / edgeTileSize) {
+void EdgeTriangles::begin(const PixelBox& part, std::span<const PixelBox> tiles) {
+    part_ = part;
+    columns_ = (part.width + edgeTileSize - 1) / edgeTileSize;
+    tiles_.clear();
+    triangles_.clear();
     addTiles(tiles);
+}
+
+void EdgeTriangles::find(std::span<const DrawItem> items, const EdgeView& view, const PixelBox& part,
+                         std::span<const PixelBox> tiles) {
+    begin(part, tiles);
     for (std::size_t i = 0; i < items.size(); ++i)
         addItem(items[i], static_cast<std::uint32_t>(std::lround(255.0F * itemMark(i))), view);
     sortByTile();
 }
 
-EdgeTriangles::EdgeTriangles(std::span<const DrawItem> hidden, std::span<const DrawItem> others, const EdgeView& view,
-                             const PixelBox& part, std::span<const PixelBox> tiles)
-    : part_(part), columns_((part.width + edgeTileSize - 1) / edgeTileSize) {
-    addTiles(tiles);
+void EdgeTriangles::find(std::span<const DrawItem> hidden, std::span<const DrawItem> others, const EdgeView& view,
+                         const PixelBox& part, std::span<const PixelBox> tiles) {
+    begin(part, tiles);
     for (std::size_t i = 0; i < hidden.size(); ++i) addItem(hidden[i], static_cast<std::uint32_t>(i + 1), view);
     for (const DrawItem& item : others) addItem(item, 0, view);
     sortByTile();
@@ -80,25 +93,27 @@ void EdgeTriangles::addItem(const DrawItem& item, std::uint32_t mark, const Edge
     const std::vector<std::uint32_t>& corners = surface.topology->triangles;
     const glm::mat4 toClip = view.viewProjection * surface.transform;
     const glm::vec4 side = view.seenSide * surface.transform;
-    std::vector<glm::dvec3> places(positions.size());
-    std::vector<std::uint8_t> needsCut(positions.size());
-    std::vector<Corner> all(positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) {
+    const auto cornerAt = [&](std::size_t i) {
         const glm::vec4 place(positions[i], 1.0F);
-        const glm::vec4 clip = toClip * place;
-        all[i] = {clip, glm::dot(side, place)};
-        needsCut[i] = clip.z < -clip.w || clip.w <= 0.0F || all[i].before < 0.0 ? 1 : 0;
-        if (needsCut[i] == 0) places[i] = onPicture(clip, view.size);
+        return Corner{toClip * place, glm::dot(side, place)};
+    };
+    places_.resize(positions.size());
+    needsCut_.resize(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Corner corner = cornerAt(i);
+        const glm::dvec4& clip = corner.clip;
+        needsCut_[i] = clip.z < -clip.w || clip.w <= 0.0 || corner.before < 0.0 ? 1 : 0;
+        if (needsCut_[i] == 0) places_[i] = onPicture(clip, view.size);
     }
     for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
         const std::uint32_t a = corners[t], b = corners[t + 1], c = corners[t + 2];
-        const int outside = needsCut[a] + needsCut[b] + needsCut[c];
+        const int outside = needsCut_[a] + needsCut_[b] + needsCut_[c];
         if (outside == 0) {
-            addTriangle({places[a], places[b], places[c]}, surface.twoSided, mark);
+            addTriangle({places_[a], places_[b], places_[c]}, surface.twoSided, mark);
             continue;
         }
         std::vector<Corner> polygon = cut(
-            {all[a], all[b], all[c]}, [](const Corner& p) { return p.clip.z + p.clip.w; });
+            {cornerAt(a), cornerAt(b), cornerAt(c)}, [](const Corner& p) { return p.clip.z + p.clip.w; });
         polygon = cut(polygon, [](const Corner& p) { return p.before; });
         for (std::size_t i = 2; i < polygon.size(); ++i) {
             addTriangle({onPicture(polygon[0].clip, view.size), onPicture(polygon[i - 1].clip, view.size),
@@ -118,10 +133,10 @@ void EdgeTriangles::addTriangle(const std::array<glm::dvec3, 3>& places, bool tw
     const double right = part_.x + part_.width - 1, upper = part_.y + part_.height - 1;
     if (!(high.x >= part_.x && high.y >= part_.y && low.x <= right + 1.0 && low.y <= upper + 1.0)) return;
     EdgeTriangle triangle;
-    triangle.left = static_cast<int>(std::max(std::floor(low.x), static_cast<double>(part_.x)));
-    triangle.low = static_cast<int>(std::max(std::floor(low.y), static_cast<double>(part_.y)));
-    triangle.right = static_cast<int>(std::min(std::floor(high.x + 1.0 / 256.0), right));
-    triangle.high = static_cast<int>(std::min(std::floor(high.y + 1.0 / 256.0), upper));
+    triangle.left = static_cast<int>(std::max(floorOf(low.x), static_cast<double>(part_.x)));
+    triangle.low = static_cast<int>(std::max(floorOf(low.y), static_cast<double>(part_.y)));
+    triangle.right = static_cast<int>(std::min(floorOf(high.x + 1.0 / 256.0), right));
+    triangle.high = static_cast<int>(std::min(floorOf(high.y + 1.0 / 256.0), upper));
     const auto number = static_cast<std::uint32_t>(triangles_.size());
     const std::size_t before = pairs_.size();
     for (int row = (triangle.low - part_.y) / edgeTileSize; row <= (triangle.high - part_.y) / edgeTileSize; ++row) {
@@ -157,8 +172,8 @@ void EdgeTriangles::sortByTile() {
     for (const auto& [tile, triangle] : pairs_) ++first_[tile + 1];
     for (std::size_t i = 0; i < tiles_.size(); ++i) first_[i + 1] += first_[i];
     covering_.resize(pairs_.size());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (const auto& [tile, triangle] : pairs_) covering_[next[tile]++] = triangle;
+    next_.assign(first_.begin(), first_.end() - 1);
+    for (const auto& [tile, triangle] : pairs_) covering_[next_[tile]++] = triangle;
     pairs_.clear();
 }
 

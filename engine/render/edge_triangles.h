@@ -31,13 +31,14 @@ struct EdgeView {
 
 class EdgeTriangles {
   public:
-    // `tiles` are boxes that edgeTiles() found in the part of the picture `part`.
-    EdgeTriangles(std::span<const DrawItem> items, const EdgeView& view, const PixelBox& part,
-                  std::span<const PixelBox> tiles);
+    // Those of the items, in place of what was found before. `tiles` are boxes that edgeTiles() found in the part of
+    // the picture `part`.
+    void find(std::span<const DrawItem> items, const EdgeView& view, const PixelBox& part,
+              std::span<const PixelBox> tiles);
 
     // The same with `hidden` things, marked by their number from 1 on, among `others`, which have the mark 0.
-    EdgeTriangles(std::span<const DrawItem> hidden, std::span<const DrawItem> others, const EdgeView& view,
-                  const PixelBox& part, std::span<const PixelBox> tiles);
+    void find(std::span<const DrawItem> hidden, std::span<const DrawItem> others, const EdgeView& view,
+              const PixelBox& part, std::span<const PixelBox> tiles);
 
     std::span<const PixelBox> tiles() const { return tiles_; }  // at most edgeTileSize wide and high
 
@@ -48,19 +49,23 @@ class EdgeTriangles {
     }
 
   private:
+    void begin(const PixelBox& part, std::span<const PixelBox> tiles);
     void addTiles(std::span<const PixelBox> boxes);
     void addItem(const DrawItem& item, std::uint32_t mark, const EdgeView& view);
     void addTriangle(const std::array<glm::dvec3, 3>& corners, bool twoSided, std::uint32_t mark);
     void sortByTile();
 
     PixelBox part_;
-    int columns_;
+    int columns_ = 0;
     std::vector<PixelBox> tiles_;
     std::vector<std::int32_t> tileAt_;  // (rows · columns) its number, -1 where there is no edge
     std::vector<EdgeTriangle> triangles_;
     std::vector<std::array<std::uint32_t, 2>> pairs_;  // tile, triangle
     std::vector<std::uint32_t> first_;                 // (tiles + 1) into the next
     std::vector<std::uint32_t> covering_;              // triangles, tile by tile
+    std::vector<std::uint32_t> next_;                  // (tiles) while they are sorted
+    std::vector<glm::dvec3> places_;                   // (vertices of an item) on the picture
+    std::vector<std::uint8_t> needsCut_;               // (vertices of an item)
 };
 
 }  // namespace taut::render

@@ -2,6 +2,11 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
+
+#include "taut/render/light_box.h"
+#include "taut/render/occlusion_pass.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::render {
 
@@ -23,5 +28,9 @@ struct FrameBlock {
     glm::vec4 debug;
 };
 static_assert(sizeof(FrameBlock) == 3 * 64 + 12 * 16);
+
+// Of a view, a shadow map of so many texels a side, and where things darken the ground.
+FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, const LightBox& box, int texels,
+                   const std::optional<OcclusionArea>& occlusion);
 
 }  // namespace taut::render

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "taut/render/camera_axes.h"
+#include "taut/render/edge_kernels.h"
 #include "taut/render/edge_pass.h"
 
 namespace taut::render {
@@ -112,8 +113,8 @@ void GroundPass::keep(const glm::mat4& projection, Targets& targets) {
     drawCells(shaded_, shaded);
     drawCells(darkened_, darkened);
     drawOpen(projection, open);
-    keptColours_ = targets.colours();
-    keptDepths_ = targets.depths({0, 0, targets.size().x, targets.size().y});
+    targets.colours(keptColours_);
+    targets.depths({0, 0, targets.size().x, targets.size().y}, keptDepths_);
 }
 
 // Leaves the cells that have to be drawn: those that do not look so in what is kept.
@@ -144,16 +145,13 @@ void GroundPass::draw(const glm::mat4& projection) {
 void GroundPass::fill(const PixelBox& part, std::span<float> depths, std::span<std::uint32_t> colours,
                       int width) const {
     if (!isKept_) return;
-    for (std::size_t i = 0; i < colours.size(); ++i)
-        colours[i] = colours[i] >> 24 == nothingMark ? keptColours_[i] : colours[i];
+    const EdgeKernels kernels = edgeKernels();
+    kernels.fillUndrawn(colours.size(), nothingMark, keptColours_.data(), colours.data());
     for (int y = 0; y < part.height; ++y) {
         const auto first = static_cast<std::size_t>((y + part.y) * width + part.x);
-        float* depth = depths.data() + static_cast<std::ptrdiff_t>(y) * part.width;
-        for (std::size_t x = 0; x < static_cast<std::size_t>(part.width); ++x) {
-            const float kept = keptDepths_[first + x];
-            colours[first + x] = kept < depth[x] ? keptColours_[first + x] : colours[first + x];
-            depth[x] = kept < depth[x] ? kept : depth[x];
-        }
+        kernels.fillNearer(static_cast<std::size_t>(part.width), keptColours_.data() + first,
+                           keptDepths_.data() + first, colours.data() + first,
+                           depths.data() + static_cast<std::ptrdiff_t>(y) * part.width);
     }
 }
 

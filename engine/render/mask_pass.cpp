@@ -43,7 +43,7 @@ std::vector<std::uint8_t> MaskPass::draw(std::span<const DrawItem> items, const 
             gl_->Disable(GL_CULL_FACE);
         else
             gl_->Enable(GL_CULL_FACE);
-        meshes.drawShape(item);
+        meshes.draw(item);
     }
     gl_->Disable(GL_CULL_FACE);
 

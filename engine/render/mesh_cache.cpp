@@ -117,17 +117,6 @@ std::vector<DrawItem> MeshCache::items(const std::vector<view::Surface>& surface
     return result;
 }
 
-void MeshCache::drawShape(const DrawItem& item) const {
-    gl_->BindVertexArray(layout_.id());
-    gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, item.indices);
-    gl_->BindBuffer(GL_ARRAY_BUFFER, item.vertices);
-    gl_->EnableVertexAttribArray(0);
-    gl_->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-    gl_->DisableVertexAttribArray(1);
-    gl_->DisableVertexAttribArray(2);
-    gl_->DrawElements(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT, nullptr);
-}
-
 void MeshCache::draw(const DrawItem& item) const {
     gl_->BindVertexArray(layout_.id());
     gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, item.indices);

@@ -44,9 +44,6 @@ class MeshCache {
     // Draws the triangles of an item with the program in use: positions at location 0, normals 1, uv 2.
     void draw(const DrawItem& item) const;
 
-    // Draws with positions only.
-    void drawShape(const DrawItem& item) const;
-
     std::size_t size() const { return geometries_.size() + topologies_.size(); }
 
   private:

@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "taut/render/map_target.h"
+#include "taut/render/depth_kernels.h"
+#include "taut/render/gl.h"
+#include "taut/render/light_box.h"
 #include "taut/render/mesh_cache.h"
-#include "taut/render/program.h"
 
 namespace taut::render {
 
@@ -31,23 +32,30 @@ std::optional<OcclusionArea> occlusionArea(std::span<const Bounds> casters, floa
 
 class OcclusionPass {
   public:
-    OcclusionPass(const Gl& gl, const ShaderFolder& shaders);
+    explicit OcclusionPass(const Gl& gl);
 
     // Nothing is drawn again where nothing has moved that is low enough, unless `anew`.
-    void draw(std::span<const DrawItem> items, const MeshCache& meshes, const OcclusionArea& area, float groundHeight,
-              bool anew);
+    void draw(std::span<const DrawItem> items, const OcclusionArea& area, float groundHeight, bool anew);
     void bindMap() const;
 
   private:
+    float highest() const { return glm::max(area_.high.x - area_.low.x, area_.high.y - area_.low.y); }  // [m]
+    void addTriangles(std::span<const DrawItem> items);
+    void findColumns();
+    void gather();
+    void blur();
+
     const Gl* gl_;
-    Program heights_, gather_, blur_;
-    MapTarget columns_;  // lowest and highest surface above each place
-    MapTarget rough_;    // hidden part of the sky, 0 … 1
-    MapTarget map_;      // the same, smooth
-    GlObject empty_;
+    GlObject texture_;           // of the map
     OcclusionArea area_;         // of the map as it is
     float groundHeight_ = 0.0F;  // [m]
-    std::vector<Shape> low_;     // what the map shows
+    std::vector<Shape> shapes_;  // what the map shows
+
+    std::vector<MapTriangle> triangles_;  // seen from above, with heights for depths
+    std::vector<glm::vec3> places_;       // (vertices of an item) on the map
+    std::vector<std::uint16_t> heights_;  // (occlusionEdge²)
+    std::vector<float> low_, high_;       // lowest and highest surface [m], see columnAt() in the source
+    std::vector<float> hidden_, smooth_;  // (occlusionEdge²) part of the sky, 0 … 1
 };
 
 }  // namespace taut::render

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <glm/ext/matrix_transform.hpp>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +11,7 @@
 #include "taut/render/camera_axes.h"
 #include "taut/render/context.h"
 #include "taut/render/depth_layer.h"
+#include "taut/render/edge_kernels.h"
 #include "taut/render/edge_pass.h"
 #include "taut/render/frame_block.h"
 #include "taut/render/ground_pass.h"
@@ -42,55 +42,30 @@ void sortByDistance(std::vector<DrawItem>& items, glm::vec3 eye) {
                      [&](const DrawItem& a, const DrawItem& b) { return distance(a) < distance(b); });
 }
 
-FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, const LightBox& box, int texels,
-                   const std::optional<OcclusionArea>& occlusion) {
-    FrameBlock block{};
-    block.viewProjection = projection;
-    block.toMap = box.toMap;
-    block.toLight = glm::mat4(box.toLight);
-    block.eye = glm::vec4(view.camera.eye, 1.0F);
-    block.lightWay = glm::vec4(-glm::normalize(view.light.direction), view.light.softness);
-    block.lightColour = glm::vec4(view.light.colour / std::numbers::pi_v<float>, 0.0F);
-    block.skyLight = glm::vec4(view.light.sky, 0.0F);
-    block.groundLight = glm::vec4(view.light.ground, 0.0F);
-    block.backgroundTop = glm::vec4(view.background.top, 0.0F);
-    block.backgroundHorizon = glm::vec4(view.background.horizon, 0.0F);
-    const Fade fade = fadeOf(view);
-    block.fade = {view.camera.target.x, view.camera.target.z, fade.start, fade.end};
-    block.mapSize = glm::vec4(box.size, glm::max(box.size.x, box.size.y) / static_cast<float>(texels));
-    if (occlusion) block.occlusionArea = glm::vec4(occlusion->low, 1.0F / (occlusion->high - occlusion->low));
-    if (view.ground) block.groundColour = glm::vec4(view.ground->colour, view.ground->gridSpacing);
-    block.debug = glm::vec4(view.showMarks ? 1.0F : 0.0F);
-    return block;
-}
-
 template <class Value>
-std::vector<Value> partOf(const std::vector<Value>& all, int width, const PixelBox& part) {
-    std::vector<Value> result;
-    if (all.empty()) return result;
-    result.reserve(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
+void takePart(const std::vector<Value>& all, int width, const PixelBox& part, std::vector<Value>& result) {
+    result.clear();
+    if (all.empty()) return;
+    result.resize(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
+    auto to = result.begin();
     for (int y = part.y; y < part.y + part.height; ++y) {
         const auto row = all.begin() + static_cast<std::ptrdiff_t>(y) * width + part.x;
-        result.insert(result.end(), row, row + part.width);
+        to = std::copy(row, row + part.width, to);
     }
-    return result;
 }
 
 // Without marks, and the rows from the top.
 image::Image pictureOf(const Drawn& drawn, int width, int height) {
     image::Image picture{width, height, {}};
     picture.rgb.resize(3 * drawn.colours.size());
-    std::uint8_t* to = picture.rgb.data();
-    for (int y = height - 1; y >= 0; --y) {
-        const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y) * width;
-        const std::uint32_t* from = drawn.colours.data() + first;
-        for (int x = 0; x < width; ++x, to += 3) {
-            to[0] = static_cast<std::uint8_t>(from[x]);
-            to[1] = static_cast<std::uint8_t>(from[x] >> 8);
-            to[2] = static_cast<std::uint8_t>(from[x] >> 16);
-        }
+    const EdgeKernels kernels = edgeKernels();
+    for (int y = 0; y < height; ++y) {
+        const std::ptrdiff_t above = static_cast<std::ptrdiff_t>(height - 1 - y) * width;
+        kernels.takeColours(static_cast<std::size_t>(width),
+                            drawn.colours.data() + static_cast<std::ptrdiff_t>(y) * width,
+                            picture.rgb.data() + 3 * above);
         if (drawn.alpha.empty()) continue;
-        const auto row = drawn.alpha.begin() + first;
+        const auto row = drawn.alpha.begin() + above;
         picture.alpha.insert(picture.alpha.end(), row, row + width);
     }
     return picture;
@@ -124,8 +99,8 @@ struct RendererParts {
           targets(gl, options.width, options.height),
           meshes(gl),
           thinMeshes(gl),
-          shadow(gl, shaders, options.shadowSize),
-          occlusion(gl, shaders),
+          shadow(gl, options.shadowSize),
+          occlusion(gl),
           surfaces(gl, shaders),
           marks(gl, shaders),
           labels(options.font),
@@ -150,6 +125,11 @@ struct RendererParts {
     LabelPass labels;
     std::optional<MaskPass> mask;
     GlObject frameBlock;
+
+    // Room that is used again from picture to picture.
+    std::vector<std::uint32_t> thinColours;  // (pixels) rows from below
+    ShadedPixels shaded;
+    EdgeTriangles edges;
 };
 
 // What is drawn of a view.
@@ -186,7 +166,7 @@ struct Renderer::Impl {
     Scene sceneOf(const view::FrameView& view);
     Pass passOf(const Scene& scene, std::size_t number);
     Drawn draw(const Scene& scene, const Pass& pass);
-    void smooth(const Scene& scene, const Pass& pass, const std::vector<float>& depths, Drawn& drawn);
+    void smooth(const Scene& scene, const Pass& pass, Drawn& drawn);
     void drawThin(const Scene& scene, const Pass& pass, Drawn& drawn);
     Drawn drawAll(const Scene& scene);
     void addLayers(const Scene& scene, image::Image& picture);
@@ -213,7 +193,7 @@ void Renderer::change(const RendererOptions& options) {
     RendererOptions& now = impl_->options;
     if (options.width != now.width || options.height != now.height)
         parts.targets = Targets(gl, options.width, options.height);
-    if (options.shadowSize != now.shadowSize) parts.shadow = ShadowPass(gl, parts.shaders, options.shadowSize);
+    if (options.shadowSize != now.shadowSize) parts.shadow = ShadowPass(gl, options.shadowSize);
     for (const auto& ground : parts.grounds) ground->forget();
     parts.addGrounds(gl, options);
     if (parts.mask) parts.mask.emplace(gl, parts.shaders, parts.targets.size(), now.maskColours);
@@ -268,9 +248,9 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     const std::span<const DrawItem> shadowed =
         options.shadows ? std::span<const DrawItem>(items) : std::span<const DrawItem>();
     passDone("meshes");
-    parts->shadow.draw(shadowed, parts->meshes, box, !options.keepsStill);
+    parts->shadow.draw(shadowed, box, !options.keepsStill);
     passDone("shadow");
-    if (occlusion) parts->occlusion.draw(items, parts->meshes, *occlusion, view.ground->height, !options.keepsStill);
+    if (occlusion) parts->occlusion.draw(items, *occlusion, view.ground->height, !options.keepsStill);
     passDone("occlusion");
 
     // The picture; ground and sky last, for what is hidden need not be shaded.
@@ -295,29 +275,31 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     ground.draw(pass.projection);
     passDone("ground");
 
-    Drawn drawn{parts->targets.colours(), {}};
-    std::vector<float> depths = parts->targets.depths(pass.part);
+    Drawn drawn;
+    parts->targets.colours(drawn.colours);
+    parts->shaded.box = pass.part;
+    parts->targets.depths(pass.part, parts->shaded.depth);
     passDone("read");
-    ground.fill(pass.part, depths, drawn.colours, options.width);
-    smooth(scene, pass, depths, drawn);
+    ground.fill(pass.part, parts->shaded.depth, drawn.colours, options.width);
+    smooth(scene, pass, drawn);
     if (!scene.thin.empty()) drawThin(scene, pass, drawn);
     passDone("edges");
     if (view.showMarks) {
         parts->targets.put(drawn.colours);
         parts->targets.bindShading();
         parts->marks.draw(view, pass.projection, options.width, options.height);
-        drawn.colours = parts->targets.colours();
+        parts->targets.colours(drawn.colours);
     }
     return drawn;
 }
 
-void Renderer::Impl::smooth(const Scene& scene, const Pass& pass, const std::vector<float>& depths, Drawn& drawn) {
+void Renderer::Impl::smooth(const Scene& scene, const Pass& pass, Drawn& drawn) {
     if (options.alpha) drawn.alpha = takeShadows(scene.view, drawn.colours);
     if (options.samples == 1) return;
     const EdgeView edges{pass.projection, seenSideOf(scene.view), parts->targets.size()};
-    const ShadedPixels shaded{pass.part, partOf(drawn.colours, options.width, pass.part), depths,
-                              partOf(drawn.alpha, options.width, pass.part)};
-    smoothEdges(scene.solid, edges, shaded, drawn.colours, drawn.alpha);
+    takePart(drawn.colours, options.width, pass.part, parts->shaded.colour);
+    takePart(drawn.alpha, options.width, pass.part, parts->shaded.alpha);
+    smoothEdges(scene.solid, edges, parts->shaded, parts->edges, drawn.colours, drawn.alpha);
 }
 
 // Alone into the targets of the picture, and from there over it. The frame block and the maps are in place.
@@ -331,9 +313,13 @@ void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, Drawn& drawn
     gl().ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     gl().Clear(GL_COLOR_BUFFER_BIT);
     parts->surfaces.light(scene.view.camera, part, parts->targets.size(), pass.shift);
-    const ShadedPixels shaded{part, partOf(parts->targets.colours(), options.width, part), parts->targets.depths(part)};
+    parts->shaded.box = part;
+    parts->targets.colours(parts->thinColours);
+    takePart(parts->thinColours, options.width, part, parts->shaded.colour);
+    parts->shaded.alpha.clear();
+    parts->targets.depths(part, parts->shaded.depth);
     const EdgeView edges{pass.projection, seenSideOf(scene.view), parts->targets.size()};
-    layThinTubes({scene.thin, scene.solid, shaded, scene.scale}, edges, drawn);
+    layThinTubes({scene.thin, scene.solid, parts->shaded, scene.scale}, edges, parts->edges, drawn);
     passDone("thin");
 }
 
@@ -370,7 +356,8 @@ void Renderer::Impl::addLayers(const Scene& scene, image::Image& picture) {
         gl().DepthMask(GL_TRUE);
         gl().Clear(GL_DEPTH_BUFFER_BIT);
         parts->surfaces.draw(items, parts->meshes);
-        const std::vector<float> depths = parts->targets.depths(part);
+        std::vector<float> depths;
+        parts->targets.depths(part, depths);
         const std::vector<float> nearness = parts->targets.nearness(part);
         picture.depth =
             depthLayer(scene.view, {options.width, options.height, part, depths, nearness}, options.depthUnit);

@@ -49,7 +49,7 @@ struct RendererInfo {
     std::string renderer;
     std::string version;
     std::optional<int> device{};  // of EGL; none: it has no number there
-    bool isSoftware = true;     // the processor draws
+    bool isSoftware = true;       // the processor draws
 };
 
 // May be moved between threads between calls, not used by two at once. The picture depends on the view alone,
@@ -67,8 +67,8 @@ class Renderer {
     // be read, Error(badContent) for one that is no picture or no font.
     image::Image draw(const view::FrameView& view);
 
-    // Draws by another size, samples, size of the shadow map and occlusion from now on, as a renderer made so would; the
-    // rest of the options does not count. Costs less than a picture, for programs and meshes stay. Throws as the
+    // Draws by another size, samples, size of the shadow map and occlusion from now on, as a renderer made so would;
+    // the rest of the options does not count. Costs less than a picture, for programs and meshes stay. Throws as the
     // constructor does; then it draws nothing any more.
     void change(const RendererOptions& options);
 

@@ -2,12 +2,16 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "taut/core/error.h"
+#include "taut/render/program.h"
 
 namespace taut::render {
 
 namespace {
+
+constexpr std::array<float, 4> lit{1.0F, 1.0F, 1.0F, 1.0F};
 
 int checkedSize(const Gl& gl, int texels) {
     GLint largest = 0;
@@ -21,25 +25,28 @@ int checkedSize(const Gl& gl, int texels) {
     return texels;
 }
 
-// Half a texel keeps surfaces from shading themselves: a step of 16 bits is a sixteenth of that, or less.
-GLenum depthFormat(int texels) {
-    return texels <= 2048 ? GL_DEPTH_COMPONENT16 : GL_DEPTH_COMPONENT32F;
+// A square texture, outside which everything is lit.
+GlObject mapTexture(const Gl& gl, int edge, GLenum format, GLenum layout, GLenum type, GLint filter) {
+    GlObject texture(gl, GlKind::texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture.id());
+    gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), edge, edge, 0, layout, type, nullptr);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    gl.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, lit.data());
+    return texture;
 }
 
 }  // namespace
 
-ShadowPass::ShadowPass(const Gl& gl, const ShaderFolder& shaders, int texels)
+ShadowPass::ShadowPass(const Gl& gl, int texels)
     : gl_(&gl),
-      depth_(shaders.program("shadow.vert", "shadow.frag")),
-      reduce_(shaders.program("screen.vert", "shadow_reduce.frag",
-                              {"BLOCK " + std::to_string(checkedSize(gl, texels) / boundsEdge)})),
-      spread_(shaders.program("screen.vert", "shadow_spread.frag")),
-      map_(gl, texels, depthFormat(texels), GL_NEAREST, 1.0F),
-      blocks_(gl, boundsEdge, GL_RG32F, GL_NEAREST, 1.0F),
-      neighbourhood_(gl, boundsEdge, GL_RG32F, GL_LINEAR, 1.0F),
-      comparing_(gl, GlKind::sampler),
-      empty_(gl, GlKind::vertexArray) {
-    const std::array<float, 4> lit{1.0F, 1.0F, 1.0F, 1.0F};
+      map_(checkedSize(gl, texels)),
+      depth_(mapTexture(gl, texels, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, GL_NEAREST)),
+      bounds_(mapTexture(gl, boundsEdge, GL_RG32F, GL_RG, GL_FLOAT, GL_LINEAR)),
+      comparing_(gl, GlKind::sampler) {
     gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -47,88 +54,40 @@ ShadowPass::ShadowPass(const Gl& gl, const ShaderFolder& shaders, int texels)
     gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
     gl.SamplerParameteri(comparing_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
     gl.SamplerParameterfv(comparing_.id(), GL_TEXTURE_BORDER_COLOR, lit.data());
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.BindTexture(GL_TEXTURE_2D, depth_.id());
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texels, texels, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT,
+                     map_.depths().data());
 }
 
-void ShadowPass::draw(std::span<const DrawItem> items, const MeshCache& meshes, const LightBox& box, bool anew) {
-    std::vector<const DrawItem*> still, moving;
-    for (const DrawItem& item : items) (item.isStill && !anew ? still : moving).push_back(&item);
-    if (keep(still, meshes, box)) {
-        gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, still_->target.id());
-        gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, map_.target.id());
-        gl_->BlitFramebuffer(0, 0, map_.size, map_.size, 0, 0, map_.size, map_.size, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-        map_.bind(*gl_);
-    } else {
-        map_.bind(*gl_);
-        gl_->DepthMask(GL_TRUE);
-        gl_->ClearDepth(1.0);
-        gl_->Clear(GL_DEPTH_BUFFER_BIT);
-        drawDepth(still, meshes, box);
-    }
-    drawDepth(moving, meshes, box);
-    drawBounds();
-}
-
-// Whether still_ holds these items. It is drawn when they are met a second time.
-bool ShadowPass::keep(std::span<const DrawItem* const> still, const MeshCache& meshes, const LightBox& box) {
+void ShadowPass::draw(std::span<const DrawItem> items, const LightBox& box, bool anew) {
     std::vector<Shape> shapes;
-    for (const DrawItem* item : still) shapes.push_back(item->shape);
-    const bool isSame = !shapes.empty() && box.toMap == stillBox_ && shapes == stillShapes_;
-    if (isSame && !isKept_) {
-        if (!still_) still_.emplace(*gl_, map_.size, depthFormat(map_.size), GL_NEAREST, 1.0F);
-        still_->bind(*gl_);
-        gl_->DepthMask(GL_TRUE);
-        gl_->ClearDepth(1.0);
-        gl_->Clear(GL_DEPTH_BUFFER_BIT);
-        drawDepth(still, meshes, box);
+    for (const DrawItem& item : items) shapes.push_back(item.shape);
+    if (!anew && box.toMap == drawnBox_ && shapes == shapes_) return;
+    shapes_ = std::move(shapes);
+    drawnBox_ = box.toMap;
+    map_.draw(items, box);
+    gl_->ActiveTexture(GL_TEXTURE0 + shadowDepthUnit);
+    gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl_->BindTexture(GL_TEXTURE_2D, depth_.id());
+    for (int strip = 0; strip < ShadowMap::strips; ++strip) {
+        const int low = strip * map_.rowsAStrip();
+        if (!map_.hasChanged(strip)) continue;
+        gl_->TexSubImage2D(GL_TEXTURE_2D, 0, 0, low, map_.edge(), map_.rowsAStrip(), GL_DEPTH_COMPONENT,
+                           GL_UNSIGNED_SHORT, map_.depths().data() + static_cast<std::ptrdiff_t>(low) * map_.edge());
     }
-    stillBox_ = box.toMap;
-    stillShapes_ = std::move(shapes);
-    isKept_ = isSame;
-    return isKept_;
-}
-
-// Casters outside the box sideways are clipped; the box holds all of them along the light.
-void ShadowPass::drawDepth(std::span<const DrawItem* const> items, const MeshCache& meshes, const LightBox& box) {
-    gl_->Enable(GL_DEPTH_TEST);
-    gl_->DepthFunc(GL_LESS);
-    gl_->DepthMask(GL_TRUE);
-    depth_.use();
-    for (const DrawItem* item : items) {
-        // Of closed things the sides towards the light are enough.
-        if (item->surface->twoSided)
-            gl_->Disable(GL_CULL_FACE);
-        else
-            gl_->Enable(GL_CULL_FACE);
-        depth_.set("toMap", box.toMap * item->surface->transform);
-        meshes.drawShape(*item);
-    }
-    gl_->Disable(GL_CULL_FACE);
-}
-
-// Least and largest depth: of each block, then of its neighbourhood.
-void ShadowPass::drawBounds() {
-    gl_->Disable(GL_DEPTH_TEST);
-    gl_->BindVertexArray(empty_.id());
-    gl_->ActiveTexture(GL_TEXTURE0 + shadowBoundsUnit);
-    gl_->BindSampler(shadowBoundsUnit, 0);
-    blocks_.bind(*gl_);
-    gl_->BindTexture(GL_TEXTURE_2D, map_.texture.id());
-    reduce_.use();
-    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
-    neighbourhood_.bind(*gl_);
-    gl_->BindTexture(GL_TEXTURE_2D, blocks_.texture.id());
-    spread_.use();
-    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl_->BindTexture(GL_TEXTURE_2D, bounds_.id());
+    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, boundsEdge, boundsEdge, GL_RG, GL_FLOAT, map_.bounds().data());
 }
 
 void ShadowPass::bindMaps() const {
     gl_->ActiveTexture(GL_TEXTURE0 + shadowMapUnit);
-    gl_->BindTexture(GL_TEXTURE_2D, map_.texture.id());
+    gl_->BindTexture(GL_TEXTURE_2D, depth_.id());
     gl_->BindSampler(shadowMapUnit, comparing_.id());
     gl_->ActiveTexture(GL_TEXTURE0 + shadowDepthUnit);
-    gl_->BindTexture(GL_TEXTURE_2D, map_.texture.id());
+    gl_->BindTexture(GL_TEXTURE_2D, depth_.id());
     gl_->ActiveTexture(GL_TEXTURE0 + shadowBoundsUnit);
-    gl_->BindTexture(GL_TEXTURE_2D, neighbourhood_.texture.id());
+    gl_->BindTexture(GL_TEXTURE_2D, bounds_.id());
     gl_->BindSampler(shadowBoundsUnit, 0);
 }
 

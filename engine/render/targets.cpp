@@ -95,20 +95,18 @@ void Targets::bindShading() const {
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
 }
 
-std::vector<std::uint32_t> Targets::colours() const {
-    std::vector<std::uint32_t> colours(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+void Targets::colours(std::vector<std::uint32_t>& to) const {
+    to.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
-    return colours;
+    gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, to.data());
 }
 
-std::vector<float> Targets::depths(const PixelBox& part) const {
-    std::vector<float> depths(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
+void Targets::depths(const PixelBox& part, std::vector<float>& to) const {
+    to.resize(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.id());
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-    return depths;
+    gl_->ReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, to.data());
 }
 
 std::vector<float> Targets::nearness(const PixelBox& part) const {

@@ -23,8 +23,8 @@ class Targets {
     void bindShading() const;   // to draw into, one sample a pixel; what is seen of surfaces is bound to its units
 
     // What has been shaded: bytes red, green, blue, mark from the lowest on; rows from below.
-    std::vector<std::uint32_t> colours() const;             // (width · height)
-    std::vector<float> depths(const PixelBox& part) const;  // (part.width · part.height) 0 … 1
+    void colours(std::vector<std::uint32_t>& to) const;               // (width · height)
+    void depths(const PixelBox& part, std::vector<float>& to) const;  // (part.width · part.height) 0 … 1
 
     // Of what was drawn of surfaces (part.width · part.height): how far ahead of the eye along the camera's axis it
     // lies, 1 / [m]; anything where there is no surface.

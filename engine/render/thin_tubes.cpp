@@ -136,10 +136,10 @@ view::Surface widened(const view::Surface& tube, const PixelScale& scale, float 
     return wide;
 }
 
-void layThinTubes(const ThinLayer& layer, const EdgeView& view, Drawn& picture) {
+void layThinTubes(const ThinLayer& layer, const EdgeView& view, EdgeTriangles& triangles, Drawn& picture) {
     if (layer.shaded.box.width == 0 || layer.shaded.box.height == 0) return;
     const std::vector<PixelBox> found = edgeTiles(layer.shaded);
-    const EdgeTriangles triangles(layer.tubes, layer.others, view, layer.shaded.box, found);
+    triangles.find(layer.tubes, layer.others, view, layer.shaded.box, found);
     const DepthScale depths(view);
     const std::span<const PixelBox> tiles = triangles.tiles();
     const int count = static_cast<int>(tiles.size());

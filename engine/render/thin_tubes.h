@@ -45,6 +45,6 @@ struct ThinLayer {
 };
 
 // Lays them over a picture (rows from below).
-void layThinTubes(const ThinLayer& layer, const EdgeView& view, Drawn& picture);
+void layThinTubes(const ThinLayer& layer, const EdgeView& view, EdgeTriangles& triangles, Drawn& picture);
 
 }  // namespace taut::render

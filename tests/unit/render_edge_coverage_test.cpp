@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
+#include <vector>
+
+#include "taut/core/instruction_set.h"
 
 namespace taut::render {
 namespace {
@@ -85,6 +89,33 @@ TEST(EdgeCoverage, DepthIsThatOfThePixelsMiddle) {
     const auto pixel = static_cast<std::size_t>(2 * edgeTileSize + 3);
     EXPECT_NEAR(covered.depth[pixel][1], 0.1F + 0.002F * 35.5F + 0.004F * 18.5F, 1e-6F);
     EXPECT_NEAR(covered.nearest[pixel][1], 0.1F + 0.002F * 35.875F + 0.004F * 18.375F, 1e-6F);
+}
+
+TEST(EdgeCoverage, EveryInstructionSetGivesTheSameBits) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> along(20.0, 60.0), depth(0.1, 0.9);
+    const auto place = [&] { return glm::dvec2(along(random), along(random) - 16.0); };
+    std::vector<EdgeTriangle> triangles;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        triangles.push_back(coveringTriangle(place(), place(), place(), i, depth(random)));
+        triangles.back().depthAlong = 1e-3 * depth(random);
+        triangles.back().right -= static_cast<int>(i % 7);
+    }
+    const core::InstructionSet before = core::instructionSet();
+    std::vector<CoveredTile> tiles;
+    for (const auto set : {core::InstructionSet::sse2, core::InstructionSet::avx2, core::InstructionSet::avx512}) {
+        if (!core::isSupported(set)) continue;
+        core::useInstructionSet(set);
+        CoveredTile& covered = tiles.emplace_back();
+        covered.clear();
+        for (const EdgeTriangle& triangle : triangles) covered.add(tileBox, triangle);
+    }
+    core::useInstructionSet(before);
+    for (const CoveredTile& covered : tiles) {
+        EXPECT_EQ(std::memcmp(&covered.nearest, &tiles[0].nearest, sizeof(covered.nearest)), 0);
+        EXPECT_EQ(std::memcmp(&covered.depth, &tiles[0].depth, sizeof(covered.depth)), 0);
+        EXPECT_EQ(std::memcmp(&covered.mark, &tiles[0].mark, sizeof(covered.mark)), 0);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,157 @@
+// Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
+#include "taut/core/vectorise.h"
+#include "taut/render/edge_kernels.h"
+
+namespace taut::render::TAUT_ISA {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int pixels = 4;
+#elif defined(__AVX2__)
+constexpr int pixels = 2;
+#else
+constexpr int pixels = 1;
+#endif
+constexpr int tile = 16;  // [pixels]
+constexpr int group = 4;  // [pixels] beside each other, from whose first one numbers are reckoned
+constexpr int vectors = group / pixels;
+
+// Four samples of each of so many pixels beside each other.
+typedef float Floats __attribute__((vector_size(16 * pixels)));
+typedef std::int32_t Ints __attribute__((vector_size(16 * pixels)));
+
+Floats loaded(const float* from) {
+    Floats result;
+    __builtin_memcpy(&result, from, sizeof(result));
+    return result;
+}
+Ints loaded(const std::int32_t* from) {
+    Ints result;
+    __builtin_memcpy(&result, from, sizeof(result));
+    return result;
+}
+Ints chosen(Ints mask, Ints yes, Ints no) {
+    return (mask & yes) | (~mask & no);
+}
+
+// What each sample has more than the corner of a group's first pixel.
+struct Within {
+    Floats parts[vectors];
+
+    Within(float along, const float* samples) {
+        float result[4 * group];
+        for (int pixel = 0; pixel < group; ++pixel)
+            for (int i = 0; i < 4; ++i) result[4 * pixel + i] = along * static_cast<float>(pixel) + samples[i];
+        __builtin_memcpy(parts, result, sizeof(result));
+    }
+};
+
+float clamped(float x, float low, float high) {
+    return x < low ? low : x > high ? high : x;
+}
+
+// Leaves those of the columns of a row that may have a sample inside.
+void narrow(const TileSlope& side, int y, int& left, int& right) {
+    if (side.along == 0.0F) return;
+    const float up = side.up > 0.0F ? side.up * static_cast<float>(y + 1) : side.up * static_cast<float>(y);
+    const float crossing = clamped(-(side.start + up) / side.along, -2.0F, 1.0F + tile);
+    const int column = static_cast<int>(crossing + 1.0F);
+    if (side.along > 0.0F)
+        left = column - 2 > left ? column - 2 : left;  // not before the pixel with the crossing
+    else
+        right = column < right ? column : right;
+}
+
+constexpr int wide = 10;  // [pixels] narrowing a row pays where it is longer
+
+}  // namespace
+
+void cover(const CoverageArgs& args) {
+    const TileSlope &a = args.sides[0], &b = args.sides[1], &c = args.sides[2], &depth = args.depth;
+    const Within inA(a.along, a.samples), inB(b.along, b.samples), inC(c.along, c.samples);
+    const float middles[4]{args.toMiddle, args.toMiddle, args.toMiddle, args.toMiddle};
+    const Within ahead(depth.along, depth.samples), middle(depth.along, middles);
+    const Ints mark = args.mark - Ints{};
+    for (int y = args.low; y <= args.high; ++y) {
+        int from = args.left, to = args.right;
+        if (to - from >= wide)
+            for (const TileSlope& side : args.sides) narrow(side, y, from, to);
+        const auto row = static_cast<float>(y);
+        const float startA = a.start + a.up * row, startB = b.start + b.up * row, startC = c.start + c.up * row;
+        const float startDepth = depth.start + depth.up * row;
+        for (int x = from & -group; x <= to; x += group) {
+            const auto column = static_cast<float>(x);
+            const float atA = startA + a.along * column, atB = startB + b.along * column;
+            const float atC = startC + c.along * column, atDepth = startDepth + depth.along * column;
+            for (int i = 0; i < vectors; ++i) {
+                const int first = 4 * (y * tile + x + i * pixels);
+                float *nearest = args.nearest + first, *depths = args.middle + first;
+                std::int32_t* marks = args.marks + first;
+                // A sign is that of what is outside, or of what is nearer.
+                const Ints sides = (Ints)(atA + inA.parts[i]) | (Ints)(atB + inB.parts[i]) | (Ints)(atC + inC.parts[i]);
+                const Floats here = atDepth + ahead.parts[i], before = loaded(nearest);
+                const Ints seen = ~(sides >> 31) & ((Ints)(here - before) >> 31);
+                const Ints near = chosen(seen, (Ints)here, (Ints)before);
+                const Ints deep = chosen(seen, (Ints)(atDepth + middle.parts[i]), (Ints)loaded(depths));
+                const Ints whose = chosen(seen, mark, loaded(marks));
+                __builtin_memcpy(nearest, &near, sizeof(near));
+                __builtin_memcpy(depths, &deep, sizeof(deep));
+                __builtin_memcpy(marks, &whose, sizeof(whose));
+            }
+        }
+    }
+}
+
+void findEdges(const std::uint32_t* const colours[3], const float* const depths[3], int first, int last,
+               std::uint8_t* isEdge) {
+    const std::uint32_t *below = colours[0], *here = colours[1], *above = colours[2];
+    const float *depthBelow = depths[0], *depthHere = depths[1], *depthAbove = depths[2];
+    TAUT_INDEPENDENT
+    for (int x = first; x < last; ++x) {
+        const std::uint32_t mark = here[x] >> 24;
+        const std::uint32_t others = (mark ^ (here[x - 1] >> 24)) | (mark ^ (here[x + 1] >> 24)) |
+                                     (mark ^ (below[x] >> 24)) | (mark ^ (above[x] >> 24));
+        const float twice = 2.0F * depthHere[x];
+        const float along = __builtin_fabsf(depthHere[x - 1] + depthHere[x + 1] - twice);
+        const float across = __builtin_fabsf(depthBelow[x] + depthAbove[x] - twice);
+        const float bend = along > across ? along : across;
+        const bool isBent = bend > 0.0004F * (1.0F - depthHere[x]) + 5e-7F;
+        isEdge[x] = static_cast<std::uint8_t>((others != 0) | (isBent & (mark != 0)));
+    }
+}
+
+void fillUndrawn(std::size_t count, std::uint32_t mark, const std::uint32_t* kept, std::uint32_t* colours) {
+    TAUT_INDEPENDENT
+    for (std::size_t i = 0; i < count; ++i) colours[i] = colours[i] >> 24 == mark ? kept[i] : colours[i];
+}
+
+void fillNearer(std::size_t count, const std::uint32_t* kept, const float* keptDepths, std::uint32_t* colours,
+                float* depths) {
+    TAUT_INDEPENDENT
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool isNearer = keptDepths[i] < depths[i];
+        colours[i] = isNearer ? kept[i] : colours[i];
+        depths[i] = isNearer ? keptDepths[i] : depths[i];
+    }
+}
+
+void takeColours(std::size_t count, const std::uint32_t* from, std::uint8_t* to) {
+    std::size_t i = 0;
+#ifdef __AVX2__
+    // Sixteen bytes are written for twelve: the next ones, or the loop below, go over the rest.
+    typedef std::uint8_t Bytes __attribute__((vector_size(16)));
+    for (; i + 6 <= count; i += 4) {
+        Bytes bytes;
+        __builtin_memcpy(&bytes, from + i, sizeof(bytes));
+        bytes = __builtin_shufflevector(bytes, bytes, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 3, 7, 11, 15);
+        __builtin_memcpy(to + 3 * i, &bytes, sizeof(bytes));
+    }
+#endif
+    for (; i < count; ++i) {
+        to[3 * i] = static_cast<std::uint8_t>(from[i]);
+        to[3 * i + 1] = static_cast<std::uint8_t>(from[i] >> 8);
+        to[3 * i + 2] = static_cast<std::uint8_t>(from[i] >> 16);
+    }
+}
+
+}  // namespace taut::render::TAUT_ISA

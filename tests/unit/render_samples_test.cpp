@@ -158,7 +158,8 @@ TEST(RenderSamples, AThinTubeIsHiddenByWhatIsBeforeItAndHasTheSameColourAsAThick
         }
         return sum / cover;
     };
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(colourOf(thin, c) / colourOf(thick, c), 1.0, 0.2) << c;  // three rows stand for all
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(colourOf(thin, c) / colourOf(thick, c), 1.0, 0.2) << c;  // three rows stand for all
 }
 
 }  // namespace

@@ -21,17 +21,17 @@ void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     uvec4 shape = texelFetch(shapes, here, 0);
     vec4 tint = texelFetch(tints, here, 0);
-    int row = int(shape.w & 16383u);
+    int row = int(shape.w & 65535u);
     vec4 backRoughness = texelFetch(materials, ivec2(0, row), 0);
     vec4 kind = texelFetch(materials, ivec2(1, row), 0);
     float roughness = backRoughness.a;
     float sheen = kind.x;
-    bool isBack = (shape.w & 16384u) != 0u;
+    bool isBack = (shape.w & 65536u) != 0u;
     float ahead = 1.0 / uintBitsToFloat(shape.z);
     vec3 way = firstWay + gl_FragCoord.x * rightWay + gl_FragCoord.y * upWay;
     vec3 place = eye.xyz + ahead * way;
     vec3 toEye = -normalize(way);
-    vec3 flatNormal = fromOctahedral(shape.x);
+    vec3 smoothNormal = fromOctahedral(shape.x);
     vec3 normal = fromOctahedral(shape.y);
 
     vec3 pattern = tint.rgb * tint.rgb;
@@ -40,10 +40,10 @@ void main() {
     vec3 through = isBack ? pattern : backRoughness.rgb;
     albedo = mix(albedo, vec3(0.16, 0.022, 0.016) + vec3(0.2, 0.055, 0.045) * dot(albedo, vec3(0.3, 0.6, 0.1)), kind.y);
 
-    float lightSide = (float(shape.w >> 15 & 511u) - 256.0) / 255.0;
-    float steep = max(abs(dot(flatNormal, toEye)), 0.05);
+    float lightSide = dot(smoothNormal, lightWay.xyz);
+    float steep = max(dot(smoothNormal, toEye), 0.05);
     float pixel = ahead * inversesqrt(steep) * length(upWay);
-    float sun = sunlight(place, flatNormal, pixel, true);
+    float sun = sunlight(place, lightSide < 0.0 ? -smoothNormal : smoothNormal, pixel, true);
     float facing = dot(normal, lightWay.xyz);
     float direct = max(facing, 0.0) * sun;
     direct *= max(smoothstep(-0.02, 0.12, lightSide), 1.0 - kind.w);  // threads on the far side stay dark

@@ -1,6 +1,6 @@
-// How much of the light reaches a place, 0 … 1. `normal` is that of the triangle, to either side: with it the surface's
-// depth is known at every tap. What is left is the step from texel to texel and what neighbouring triangles rise.
-// `pixel`: the size of a pixel on the surface [m]. `casts`: whether the surface itself is in the shadow map.
+// How much of the light reaches a place, 0 … 1. `facing` is the surface's normal, on the side of the light.
+// `pixel`: the size of a pixel on the surface [m]. `casts`: whether the surface itself is in the shadow map. Then the
+// place is lifted off it by as far as is looked around at least: a texel, or the better part of a pixel.
 //
 // The penumbra is as wide as the distance to what throws the shadow makes it (percentage-closer soft shadows,
 // Fernando 2005). Reading the map is dear, so the map of bounds (least and largest depth around) tells first where
@@ -12,17 +12,18 @@ uniform sampler2D shadowBounds;
 
 const mat2 goldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
-float sunlight(vec3 place, vec3 normal, float pixel, bool casts) {
+float sunlight(vec3 place, vec3 facing, float pixel, bool casts) {
     const float blocks = 128.0;
     float texel = mapSize.w;
-    vec3 n = mat3(toLight) * normal;
-    vec3 at = (toMap * vec4(place, 1.0)).xyz;
+    float grain = casts ? max(texel, 0.7 * pixel) : 0.0;
+    vec3 n = mat3(toLight) * facing;
+    vec3 at = (toMap * vec4(place + facing * grain, 1.0)).xyz;
     vec2 bounds = textureLod(shadowBounds, at.xy, 0.0).rg;
     float depth = min(at.z, 1.0);
 
     // Depth along the surface's own plane, and how far it can rise within the neighbourhood.
-    vec2 slope = (n.z < 0.0 ? -n.xy : n.xy) / max(abs(n.z), 0.06);
-    float rise = casts ? min(length(slope), 6.6) * 2.5 * max(mapSize.x, mapSize.y) / blocks : 0.0;
+    vec2 slope = n.xy / max(n.z, 0.15);
+    float rise = casts ? length(slope) * 2.5 * max(mapSize.x, mapSize.y) / blocks : 0.0;
     float gap = (at.z - bounds.r) * mapSize.z;
     bool clear = depth - bounds.r <= 0.0005;
     bool dark = depth - rise / mapSize.z > bounds.g + 0.0005;
@@ -33,11 +34,7 @@ float sunlight(vec3 place, vec3 normal, float pixel, bool casts) {
     vec2 way = alone ? vec2(0.8, 0.6) : vec2(cos(angle), sin(angle));  // few taps are better off without noise
     vec2 toUv = 1.0 / mapSize.xy;
     vec2 rising = slope / mapSize.z;
-    // What a texel's depth may lie above the plane at a tap [m], and neighbouring triangles that are turned by some ten
-    // degrees, a metre from it. More than `most` would let light in where triangles stand on edge.
-    float step = casts ? (0.75 * (abs(slope.x) + abs(slope.y)) + 0.2) * texel : 0.0;
-    float most = 0.0125 * max(mapSize.x, mapSize.y);
-    float rough = casts ? 0.16 * (1.0 + dot(slope, slope)) : 0.0;
+    float ref = at.z - 0.5 * grain / mapSize.z;
     float widest = 1.5 * min(mapSize.x, mapSize.y) / blocks;
     float least = min(max(1.2 * texel, 0.7 * pixel), widest);
 
@@ -47,7 +44,6 @@ float sunlight(vec3 place, vec3 normal, float pixel, bool casts) {
     // Where even the farthest throws no penumbra that is wider than the map or the picture shows, that is enough.
     bool narrow = radius <= max(2.0 * texel, pixel);
     int searches = known || narrow ? 0 : 8;
-    float ref = at.z - min(step + rough * radius, most) / mapSize.z;
     for (int i = 0; i < searches; ++i) {
         vec2 off = way * (radius * sqrt((float(i) + 0.5) * 0.125));
         float between = ref + dot(rising, off) - textureLod(shadowDepth, at.xy + off * toUv, 0.0).r;
@@ -58,7 +54,6 @@ float sunlight(vec3 place, vec3 normal, float pixel, bool casts) {
     radius = alone ? least : narrow ? radius : clamp(0.5 * lightWay.w * away, least, widest);
 
     int taps = clear || dark ? 0 : (alone ? 3 : clamp(int(2.0 * radius / texel), 6, 20));
-    ref = at.z - min(step + rough * radius, most) / mapSize.z;
     float share = 1.0 / float(max(taps, 1));
     float reached = 0.0;
     for (int i = 0; i < taps; ++i) {

@@ -1,16 +1,14 @@
 // What of cloth, ropes, blocks and colliders can be seen: kept for light.frag, so that each pixel is lit once and small
 // triangles cost little. Variants: PATTERN 0 … 4, WEAVE, TWO_SIDED.
-#include "frame.glsl"
 #include "pattern.glsl"
 uniform float weave;
 uniform float thread;  // [m]
 uniform int material;  // row of its table
 uniform int mark;      // which surface, 1 … 255
-in vec3 place;
 in vec3 upright;
 in vec2 along;  // [m] along the material
 layout(location = 0) out vec4 tint;    // rgb: square root of the colour, finer where it is dark; a: openness, 0 … 1
-layout(location = 1) out uvec4 shape;  // normal of the triangle, of the threads, bits of 1 / distance, marks
+layout(location = 1) out uvec4 shape;  // normal of the surface, of the threads, bits of 1 / distance, marks
 
 // A unit vector as a place on an octahedron, 16 bits a coordinate.
 uint octahedral(vec3 n) {
@@ -21,9 +19,11 @@ uint octahedral(vec3 n) {
 }
 
 #ifdef WEAVE
+in vec3 place;
+
 // Over and under: each cell of the weave is a pillow, stretched along the thread that lies on top. Tilts the normal
 // and returns how open the place is, 0 … 1. Fades, along either thread, where threads become smaller than pixels.
-float weaveRelief(vec2 uv, vec2 pixel, vec3 placeX, vec3 placeY, inout vec3 normal) {
+float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
     vec2 cell = uv / thread;
     vec2 middle = fract(cell) - 0.5;
     vec2 index = floor(cell);
@@ -34,6 +34,8 @@ float weaveRelief(vec2 uv, vec2 pixel, vec3 placeX, vec3 placeY, inout vec3 norm
     vec2 gap = mix(vec2(0.25), square * square, clamp(1.3 - 3.0 * fine, 0.0, 1.0));
 
     // Directions of the material on the surface, from how place and uv change over the screen.
+    vec3 placeX = dFdx(place);
+    vec3 placeY = dFdy(place);
     vec2 uvX = dFdx(uv);
     vec2 uvY = dFdy(uv);
     vec3 down = placeX * uvY.y - placeY * uvX.y;
@@ -57,14 +59,14 @@ void main() {
 #endif
     vec2 pixel = fwidth(along);
     vec3 colour = patternColour(along, pixel);
-    vec3 placeX = dFdx(place);
-    vec3 placeY = dFdy(place);
-    uint lightSide = uint(dot(normal, lightWay.xyz) * 255.0 + 256.0);  // as the smooth normal has it
+    uint smoothNormal = octahedral(normal);
     float open = 1.0;
 #ifdef WEAVE
-    open = weaveRelief(along, pixel, placeX, placeY, normal);
+    open = weaveRelief(along, pixel, normal);
+    shape.y = octahedral(normal);
+#else
+    shape.y = smoothNormal;
 #endif
     tint = vec4(sqrt(colour), open);
-    shape = uvec4(octahedral(cross(placeX, placeY)), octahedral(normal), floatBitsToUint(gl_FragCoord.w),
-                  uint(material) | side << 14 | lightSide << 15 | uint(mark) << 24);
+    shape.xzw = uvec3(smoothNormal, floatBitsToUint(gl_FragCoord.w), uint(material) | side << 16 | uint(mark) << 24);
 }

@@ -122,16 +122,20 @@ void findEdges(const std::uint32_t* const colours[3], const float* const depths[
 
 void fillUndrawn(std::size_t count, std::uint32_t mark, const std::uint32_t* kept, std::uint32_t* colours) {
     TAUT_INDEPENDENT
-    for (std::size_t i = 0; i < count; ++i) colours[i] = colours[i] >> 24 == mark ? kept[i] : colours[i];
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t before = colours[i], other = kept[i];
+        colours[i] = before >> 24 == mark ? other : before;
+    }
 }
 
 void fillNearer(std::size_t count, const std::uint32_t* kept, const float* keptDepths, std::uint32_t* colours,
                 float* depths) {
     TAUT_INDEPENDENT
     for (std::size_t i = 0; i < count; ++i) {
-        const bool isNearer = keptDepths[i] < depths[i];
-        colours[i] = isNearer ? kept[i] : colours[i];
-        depths[i] = isNearer ? keptDepths[i] : depths[i];
+        const std::uint32_t before = colours[i], other = kept[i];
+        const float depth = depths[i], otherDepth = keptDepths[i];
+        colours[i] = otherDepth < depth ? other : before;
+        depths[i] = otherDepth < depth ? otherDepth : depth;
     }
 }
 

@@ -40,13 +40,13 @@ view::Surface wavySheet(float height, float waves) {
 }
 
 // Waves that are less steep than the light throw no shadow: each pixel is what it is without shadows. The light falls
-// from 17 degrees above the horizon, the slopes are at most 0.7 of its; triangles beside each other differ by 7
+// from 17 degrees above the horizon, the slopes are at most 0.8 of its; triangles beside each other differ by 7
 // degrees.
 TEST(RenderShadow, WavesLessSteepThanTheLightAreLitAllOver) {
     view::FrameView view = floorView();
     view.light.direction = {1.0F, -0.3F, 0.15F};
     constexpr float waves = 2.0F;
-    view.surfaces = {wavySheet(0.7F * 0.3F / (halfTurn * waves), waves)};
+    view.surfaces = {wavySheet(0.8F * 0.3F / (halfTurn * waves), waves)};
     RendererOptions options = optionsWith(512);
     options.shadows = false;
     const image::Image open = pictureOf(view, options);

@@ -47,6 +47,15 @@ void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug) {
                "Moments drawn of each picture while the shutter is open, half the time from one to the next")
         .typeName("N")
         .within(2, 256);
+    options
+        .value("--f-stop", flags.fStop,
+               "Depth of field: the f-number of the lens, with film 24 mm high; each picture is drawn 32 times")
+        .typeName("N")
+        .check(numberWithin(1e-3, 1e3));
+    options
+        .value("--focus", flags.focus, "How far ahead things are sharp with --f-stop; the camera's target if not given")
+        .typeName("METRES")
+        .check(numberWithin(1e-3, 1e6));
     options.flag("--mask", flags.mask,
                  "Beside each frame a NAME.mask.png: one flat colour a body, black where none is; run.json says which");
 }
@@ -63,6 +72,7 @@ void checkLayerFlags(const LayerFlags& flags, const std::string& output, const s
                             std::filesystem::path(name).replace_extension().string()));
     if (flags.depthRange != LayerFlags{}.depthRange && !flags.depth)
         fail("--depth-range says what the numbers of --depth are: give that too");
+    if (flags.focus > 0.0 && flags.fStop == 0.0) fail("--focus says where --f-stop is sharp: give that too");
     if ((flags.depth || flags.mask) && (output.empty() || image::isVideoPath(output)))
         fail(
             fmt::format("{} writes files beside frames: ask for those, -o out/frame_######.png; a video besides with "
@@ -77,7 +87,15 @@ std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& fl
         look.insert(look.end(), {bit(flags.alpha), bit(flags.depth), bit(flags.mask),
                                  flags.depth ? std::bit_cast<std::uint64_t>(flags.depthRange) : 0});
     if (flags.blurMoments > 0) look.push_back(static_cast<std::uint64_t>(flags.blurMoments) << 32U);
+    if (flags.fStop > 0.0)
+        look.insert(look.end(), {std::bit_cast<std::uint64_t>(flags.fStop), std::bit_cast<std::uint64_t>(flags.focus)});
     return look;
+}
+
+void expose(const LayerFlags& flags, pipeline::RunOptions& options) {
+    options.blurMoments = flags.blurMoments;
+    options.fStop = flags.fStop;
+    options.focus = flags.focus;
 }
 
 std::vector<std::string> filesBeside(const LayerFlags& flags) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "game/command_line.h"
+#include "taut/pipeline/run.h"
 #include "taut/pipeline/run_record.h"
 #include "taut/world/world.h"
 
@@ -14,8 +15,9 @@ namespace taut::game {
 
 struct LayerFlags {
     bool alpha = false, depth = false, mask = false;
-    int blurMoments = 0;         // 0: no motion blur
-    double depthRange = 65.534;  // [m] that a depth of 65534 stands for: a millimetre a step
+    int blurMoments = 0;              // 0: no motion blur
+    double fStop = 0.0, focus = 0.0;  // as of pipeline::RunOptions
+    double depthRange = 65.534;       // [m] that a depth of 65534 stands for: a millimetre a step
 };
 
 // `debug` is the flag of the debug view, which is not transparent.
@@ -24,6 +26,9 @@ void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug);
 // Throws core::Error(usage) where an output cannot hold what is asked for. `output` and `video` are as on the command
 // line, empty where there is none.
 void checkLayerFlags(const LayerFlags& flags, const std::string& output, const std::string& video);
+
+// The exposure, into the options of a run.
+void expose(const LayerFlags& flags, pipeline::RunOptions& options);
 
 // What pictures depend on besides the scene; `debug` and `overlay` are flags of their own.
 std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags);

@@ -106,7 +106,7 @@ pipeline::RunOptions runOptions(const RenderFlags& flags, const world::SceneSpec
     options.firstFrame = range.first;
     options.lastFrame = last;
     options.debugView = flags.debug;
-    options.blurMoments = flags.layers.blurMoments;
+    expose(flags.layers, options);
     options.checkpointEvery = flags.continuation.every;
     // Who goes on from a checkpoint may want the figures of the frames before it.
     options.metrics = flags.writesMetrics() || flags.overlay || !flags.quiet || options.checkpointEvery > 0;

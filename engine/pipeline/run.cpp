@@ -66,6 +66,7 @@ class Player {
             view.frame = current_.frame;
             view.time = current_.time;
             addMoments(view);
+            openLens(view.camera);
             current_.simulating += secondsSince(start);
             current_.pictured = true;
             const std::lock_guard lock(mutex_);
@@ -100,6 +101,15 @@ class Player {
             view.moments.back().marks = view.marks;
             view.moments.back().showMarks = view.showMarks;
         }
+    }
+
+    void openLens(view::Camera& camera) const {
+        if (!(options_.fStop > 0.0)) return;
+        constexpr double halfFilm = 0.012;  // [m]
+        const double focalLength = halfFilm / std::tan(0.5 * static_cast<double>(camera.fieldOfView));
+        camera.lensRadius = static_cast<float>(0.5 * focalLength / options_.fStop);
+        camera.focus =
+            options_.focus > 0.0 ? static_cast<float>(options_.focus) : glm::distance(camera.eye, camera.target);
     }
 
     // The state of the current frame waits until the frames before are on disk.

@@ -36,6 +36,10 @@ struct RunOptions {
     int blurMoments = 0;
     double shutter = 0.5;
 
+    // The camera's, with film 24 mm high; 0: all is sharp. What is sharp is `focus` [m] ahead; 0: as far as the target.
+    double fStop = 0.0;
+    double focus = 0.0;
+
     // Other frames are drawn by these at the same time, each on a thread of its own; a picture may not depend on which
     // draws it.
     std::vector<Draw> moreDraws{};

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/ext/matrix_clip_space.hpp>
+#include <numbers>
 
 namespace taut::render {
 
@@ -39,6 +41,22 @@ glm::mat4 projectionOf(const view::Camera& camera, float aspect) {
     view[3] = view * glm::vec4(-camera.eye, 1.0F);
     const float nearPlane = std::max(camera.nearPlane, 1e-3F * glm::distance(camera.eye, camera.target));
     return glm::perspective(camera.fieldOfView, aspect, nearPlane, farPlaneOf(camera)) * view;
+}
+
+glm::vec2 placeOnLens(std::size_t number) {
+    // Roberts' sequence in two dimensions, 2018: steps of 1 / p and 1 / p², p³ = p + 1.
+    const double i = static_cast<double>(number) + 0.5;
+    const double round = 0.7548776662466927 * i, out = 0.5698402909980532 * i;
+    const double angle = 2.0 * std::numbers::pi * (round - std::floor(round)),
+                 radius = std::sqrt(out - std::floor(out));
+    return {static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle))};
+}
+
+void moveAside(view::Camera& camera, glm::vec2 by) {
+    const CameraAxes axes = axesOf(camera);
+    const glm::vec3 way = by.x * axes.right + by.y * axes.up;
+    camera.eye += way;
+    camera.target += way;
 }
 
 }  // namespace taut::render

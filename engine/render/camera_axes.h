@@ -1,6 +1,7 @@
 // The directions of a camera, also of one that looks along its own up direction. Pure geometry.
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 
 #include "taut/view/frame_view.h"
@@ -24,5 +25,11 @@ Fade fadeOf(const view::FrameView& view);
 // picture, above zero.
 float farPlaneOf(const view::Camera& camera);  // [m]
 glm::mat4 projectionOf(const view::Camera& camera, float aspect);
+
+// A place in a disc of radius 1: those of numbers that follow each other are spread evenly.
+inline constexpr std::size_t placesOnLens = 32;
+glm::vec2 placeOnLens(std::size_t number);
+// To the right and up [m], looking the same way.
+void moveAside(view::Camera& camera, glm::vec2 by);
 
 }  // namespace taut::render

@@ -164,7 +164,7 @@ struct Renderer::Impl {
         options.passDone(pass);
     }
     Scene sceneOf(const view::FrameView& view);
-    Pass passOf(const Scene& scene, std::size_t number);
+    Pass passOf(const Scene& scene, std::size_t number, glm::vec2 aside = glm::vec2(0.0F));
     Drawn draw(const Scene& scene, const Pass& pass);
     void smooth(const Scene& scene, const Pass& pass, Drawn& drawn);
     void drawThin(const Scene& scene, const Pass& pass, Drawn& drawn);
@@ -227,11 +227,12 @@ Scene Renderer::Impl::sceneOf(const view::FrameView& view) {
     return scene;
 }
 
-Pass Renderer::Impl::passOf(const Scene& scene, std::size_t number) {
-    const std::span<const glm::vec2> shifts = shiftsOf(options.samples);
-    Pass pass{number, shifts[number], projectionOf(scene.view.camera, scene.aspect), {}};
+// Shifted by as many pixels `aside` besides.
+Pass Renderer::Impl::passOf(const Scene& scene, std::size_t number, glm::vec2 aside) {
+    Pass pass{number, shiftsOf(options.samples)[number] + aside, projectionOf(scene.view.camera, scene.aspect), {}};
     const glm::vec2 clip = 2.0F * pass.shift / glm::vec2(parts->targets.size());
-    if (shifts.size() > 1) pass.projection = glm::translate(glm::mat4(1.0F), glm::vec3(clip, 0.0F)) * pass.projection;
+    if (pass.shift != glm::vec2(0.0F))
+        pass.projection = glm::translate(glm::mat4(1.0F), glm::vec3(clip, 0.0F)) * pass.projection;
     pass.part = pixelBox(scene.solid, pass.projection, options.width, options.height);
     return pass;
 }
@@ -323,20 +324,31 @@ void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, Drawn& drawn
     passDone("thin");
 }
 
-// As often as it is shifted and as there are moments.
+// As often as it is shifted, as there are moments, and as there are places on the lens.
 Drawn Renderer::Impl::drawAll(const Scene& scene) {
-    const std::size_t shifts = shiftsOf(options.samples).size(), moments = scene.view.moments.size();
-    if (moments == 0 && shifts == 1) return draw(scene, passOf(scene, 0));
+    const view::FrameView& view = scene.view;
+    const std::size_t shifts = shiftsOf(options.samples).size(), moments = view.moments.size();
+    const bool hasLens = view.camera.lensRadius > 0.0F;
+    if (moments == 0 && shifts == 1 && !hasLens) return draw(scene, passOf(scene, 0));
     PictureMean mean;
-    if (moments == 0) {
-        for (std::size_t i = 0; i < shifts; ++i) mean.add(draw(scene, passOf(scene, i)));
-        return mean.mean();
-    }
     // Every shift as often as the others: a multiple of both.
-    const std::size_t times = (std::max(moments, shifts) + shifts - 1) / shifts * shifts;
+    const std::size_t least = std::max({moments, shifts, hasLens ? placesOnLens : 1});
+    const std::size_t times = (least + shifts - 1) / shifts * shifts;
     for (std::size_t i = 0; i < times; ++i) {
-        const Scene moment = sceneOf(scene.view.moments[i * moments / times]);
-        mean.add(draw(moment, passOf(moment, i % shifts)));
+        if (moments == 0 && !hasLens) {
+            mean.add(draw(scene, passOf(scene, i)));
+            continue;
+        }
+        view::FrameView seen = moments == 0 ? view : view.moments[i * moments / times];
+        glm::vec2 aside(0.0F);  // [pixels] that keeps in place what is sharp
+        if (hasLens) {
+            const glm::vec2 place = view.camera.lensRadius * placeOnLens(i);
+            moveAside(seen.camera, place);
+            aside = place * (0.5F * static_cast<float>(options.height) /
+                             (std::tan(0.5F * view.camera.fieldOfView) * view.camera.focus));
+        }
+        const Scene moment = sceneOf(seen);
+        mean.add(draw(moment, passOf(moment, i % shifts, aside)));
     }
     return mean.mean();
 }

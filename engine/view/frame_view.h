@@ -60,6 +60,8 @@ struct Camera {
     float fieldOfView = 0.7F;  // [rad] vertical
     float nearPlane = 0.05F;   // [m]
     float farPlane = 200.0F;   // [m]
+    float lensRadius = 0.0F;   // [m] of a thin lens; 0: all is sharp
+    float focus = 5.0F;        // [m] ahead, where things are sharp under a lens
 };
 
 struct Light {

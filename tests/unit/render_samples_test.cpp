@@ -90,6 +90,27 @@ TEST(RenderSamples, APictureOfMomentsIsTheirMeanInLight) {
     }
 }
 
+// An edge that is not where the lens is focused on lies anywhere in a disc of radius c = R |1 - F/D| (focal length in
+// pixels) / F. A place t c from it sees of that disc the part beyond a chord.
+TEST(RenderSamples, WhatIsOutOfFocusIsSpreadOverADisc) {
+    view::FrameView view = emptyView();
+    view.surfaces.push_back(surface(view::quadMesh({0.0F, 0.0F, 1.0F}, 10.0F), {10.0F, 0.0F, 0.0F}, glm::vec3(0.5F)));
+    view.camera.lensRadius = 0.2F;
+    const double focal = 90.0 / std::tan(0.35), behind = 5.0;
+    for (const double focus : {5.0, 4.0, 7.0}) {
+        view.camera.focus = static_cast<float>(focus);
+        const image::Image picture = pictureOf(view, coverageOptions(4));
+        const double c = 0.2 * std::abs(1.0 - focus / behind) * focal / focus;  // [pixels]
+        for (int x = 140; x < 180; ++x) {
+            const double t = c > 0.0 ? std::clamp((x + 0.5 - 160.0) / c, -1.0, 1.0) : (x < 160 ? -1.0 : 1.0);
+            const double seen = 0.5 + (std::asin(t) + t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
+            // 32 places that are spread evenly are off by less than 3 in 64.
+            EXPECT_NEAR(picture.alpha[static_cast<std::size_t>(90 * 320 + x)] / 255.0, seen, c > 0.0 ? 0.05 : 0.01)
+                << focus << " m, column " << x;
+        }
+    }
+}
+
 TEST(RenderSamples, ATubeCoversAsMuchOfThePictureAsItIsWideAtAnyDistance) {
     // Seen across a corner, ten sides are as wide as the cosine of a twentieth of a turn.
     constexpr float radius = 0.01F;

@@ -1,8 +1,19 @@
-# Writes a header with the commit of the checkout; touches it only when that has changed.
-execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10
-  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE result)
-if(NOT result EQUAL 0)
-  set(commit "unknown")
+# Writes a header with the commit of the checkout; touches it only when that has changed. In a tarball by `git archive`
+# the commit stands here; elsewhere away from git, also within somebody else's checkout, there is none.
+set(archived [[$Format:%H$]])
+set(commit "unknown")
+if(archived MATCHES "^[0-9a-f]+$")
+  string(SUBSTRING ${archived} 0 10 commit)
+else()
+  execute_process(COMMAND git -C ${SOURCE} rev-parse --show-prefix
+    OUTPUT_VARIABLE prefix OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE result)
+  if(result EQUAL 0 AND prefix STREQUAL "")
+    execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10
+      OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE result)
+    if(result EQUAL 0)
+      set(commit "${described}")
+    endif()
+  endif()
 endif()
 set(text "#define TAUT_COMMIT \"${commit}\"\n")
 set(before "")

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <system_error>
 
-#include "commit.h"
 #include "game/messages.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
+#include "game/version.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/ode/method_table.h"
@@ -31,12 +31,12 @@ void checkMethods(const std::vector<std::string>& wanted) {
 
 std::vector<std::pair<std::string, std::string>> machineFacts(const pipeline::Machine& machine) {
     return {{"processor", machine.processor}, {"compiler", machine.compiler}, {"flags", TAUT_FLAGS},
-            {"simd", machine.simd},           {"program", machine.program},   {"commit", TAUT_COMMIT},
+            {"simd", machine.simd},           {"program", machine.program},   {"commit", commitText()},
             {"system", machine.system}};
 }
 
 std::string programText(const pipeline::Machine& machine) {
-    return fmt::format("{}, commit {}", machine.program, TAUT_COMMIT);
+    return fmt::format("{}, commit {}", machine.program, commitText());
 }
 
 void LabProgress::show(double done, const std::string& doing) {

@@ -13,6 +13,7 @@
 #include "game/exit_code.h"
 #include "game/folders.h"
 #include "game/messages.h"
+#include "game/version.h"
 #include "taut/core/error.h"
 
 namespace taut::game {
@@ -65,7 +66,7 @@ int runCommandLine(int argc, const char* const* argv, std::span<const Command> c
     CommandLine line(
         {.name = "taut",
          .description = "Plays scenes of ropes, cloth and soft bodies and renders them without a display.",
-         .version = "taut " TAUT_VERSION,
+         .version = versionText(),
          .footer = "Exit codes: 0 ok, 1 a check or golden failed, 2 usage, 3 bad content, 4 diverged, 5 "
                    "need not met,\n"
                    "6 input or output, 7 nothing to draw with, 8 golden missing or of other bits, 130 and 143 "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -46,6 +47,41 @@ Request wrong(const CLI::App& app, const std::string& message) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
     return {Request::Kind::wrong, {}, message, app.get_name() + command};
+}
+
+// "INT:INT in [1 - 9]" and "TEXT:{frame,tick}" are how the library says it.
+void addLimits(const std::string& limits, OptionFacts& facts) {
+    const std::size_t open = limits.find_first_of("{["), close = limits.find_last_of("}]");
+    if (open == std::string::npos || close == std::string::npos) return;
+    const std::string inner = limits.substr(open + 1, close - open - 1);
+    if (limits[open] == '[')
+        facts.range = inner;
+    else
+        facts.words = CLI::detail::split(inner, ',');
+}
+
+OptionFacts factsOf(const CLI::Option& option) {
+    OptionFacts facts;
+    for (const std::string& name : option.get_snames()) facts.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) facts.names.push_back("--" + name);
+    if (facts.names.empty()) facts.names.push_back(option.get_name());
+    if (option.get_items_expected_max() > 0) {
+        const std::string type = option.get_type_name();
+        const std::size_t colon = std::min(type.find(':'), type.size());
+        facts.value = type.substr(0, colon);
+        addLimits(type.substr(colon), facts);
+    }
+    facts.standard = option.get_default_str();
+    facts.help = option.get_description();
+    facts.isRequired = option.get_required();
+    facts.isRepeatable = option.get_expected_max() > 1;
+    return facts;
+}
+
+CommandFacts factsOf(const CLI::App& app) {
+    CommandFacts facts{app.get_name(), app.get_description(), app.get_footer(), {}};
+    for (const CLI::Option* option : app.get_options()) facts.options.push_back(factsOf(*option));
+    return facts;
 }
 
 }  // namespace
@@ -94,6 +130,12 @@ Option Option::oneOf(const std::vector<std::string>& words) const {
     return *this;
 }
 
+Option Option::suggests(const std::vector<std::string>& words) const {
+    option_->check(
+        CLI::Validator([](std::string&) { return std::string(); }, fmt::format("{{{}}}", fmt::join(words, ","))));
+    return *this;
+}
+
 Option Option::check(std::function<std::string(const std::string&)> check) const {
     option_->check(std::move(check));
     return *this;
@@ -132,6 +174,17 @@ template Option Options::value(const std::string&, std::optional<double>&, const
 
 void Options::footer(const std::string& text) {
     app_.footer(text);
+}
+
+std::function<CommandTree()> Options::tree() const {
+    return [&root = *app_.get_parent()] {
+        CommandTree tree{factsOf(root), {}};
+        for (const CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; }))
+            tree.commands.push_back(factsOf(*command));
+        for (CommandFacts& command : tree.commands)
+            if (command.footer == tree.program.footer) command.footer.clear();  // the library hands it down
+        return tree;
+    };
 }
 
 struct CommandLine::Impl {

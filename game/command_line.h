@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "game/command_tree.h"
+
 namespace CLI {
 class App;
 class Option;
@@ -22,16 +24,19 @@ class Option {
     explicit Option(CLI::Option* option) : option_(option) {}
 
     Option required() const;
-    Option typeName(const std::string& name) const;  // in the help, instead of TEXT, INT or FLOAT
-    Option showDefault() const;                      // in the help: what the target holds now
-    Option separatedBy(char separator) const;        // several values in one word
-    Option oneValue() const;                         // one each time that it is given, though it may be given often
-    Option mayBeBare() const;                        // without a value it counts as given, and leaves its target
+    // In the help, instead of TEXT, INT or FLOAT. Shells complete FILE and TEXT to files, FOLDER to folders, and words
+    // named SCENE, SCENARIO or PROBLEM, or a TEXT whose flag has such a name, to scenes.
+    Option typeName(const std::string& name) const;
+    Option showDefault() const;                // in the help: what the target holds now
+    Option separatedBy(char separator) const;  // several values in one word
+    Option oneValue() const;                   // one each time that it is given, though it may be given often
+    Option mayBeBare() const;                  // without a value it counts as given, and leaves its target
 
     // What values may be; numbers are int, std::int64_t or double.
     template <class Number>
     Option within(Number least, Number most) const;
     Option oneOf(const std::vector<std::string>& words) const;
+    Option suggests(const std::vector<std::string>& words) const;  // in the help and to a shell; others may do, too
     // Empty when the text will do, else what is wrong with it.
     Option check(std::function<std::string(const std::string& text)> check) const;
 
@@ -60,6 +65,9 @@ class Options {
 
     // Ends the help.
     void footer(const std::string& text);
+
+    // All that the program takes, of this and the other commands; to be called by an action.
+    std::function<CommandTree()> tree() const;
 
   private:
     CLI::App& app_;

@@ -14,7 +14,9 @@
     COMMAND(replayCommand)     \
     COMMAND(sheetCommand)      \
     COMMAND(schemaCommand)     \
-    COMMAND(doctorCommand)
+    COMMAND(doctorCommand)     \
+    COMMAND(manualCommand)     \
+    COMMAND(completionCommand)
 
 namespace taut::game {
 

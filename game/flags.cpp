@@ -57,6 +57,7 @@ void addInstructionSetFlag(Options& options, std::string& isa) {
         .value(name, isa,
                "Vector instructions: sse2, avx2, avx512, or auto: the fastest here, by a short trial; same bits anyway")
         .typeName("SET")
+        .suggests({"auto", "sse2", "avx2", "avx512"})
         .check([name](const std::string& text) -> std::string {
             try {
                 core::chooseInstructionSet(text, name);

@@ -25,6 +25,15 @@ std::filesystem::path found(const char* variable, const char* name) {
     return {};
 }
 
+std::vector<std::string> shippedIn(const char* folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(assetFolder() / folder, error))
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 }  // namespace
 
 std::filesystem::path assetFolder() {
@@ -40,12 +49,10 @@ std::filesystem::path fontFile() {
 }
 
 std::vector<std::string> shippedScenes() {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(assetFolder() / "scenes", error))
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
+    return shippedIn("scenes");
+}
+std::vector<std::string> shippedScenarios() {
+    return shippedIn("scenarios");
 }
 
 }  // namespace taut::game

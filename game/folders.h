@@ -18,5 +18,6 @@ std::filesystem::path fontFile();
 
 // Names of the scenes in the asset folder, without ".toml", sorted.
 std::vector<std::string> shippedScenes();
+std::vector<std::string> shippedScenarios();  // which are found by name too
 
 }  // namespace taut::game

@@ -40,6 +40,7 @@ void addRendererFlag(Options& options, std::string& gl) {
                "What draws: osmesa, egl, which takes a graphics card where there is one, or egl:N, a device that taut "
                "doctor names; osmesa, if it works, when not given")
         .typeName("NAME")
+        .suggests({"osmesa", "egl"})
         .check([](const std::string& text) -> std::string {
             try {
                 (void)glNamed(text);

@@ -1,4 +1,5 @@
 list(APPEND TAUT_UNIT_TESTS
+  game_completion_test.cpp
   game_continuation_test.cpp
   game_flags_test.cpp
   game_interruption_test.cpp

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,8 @@
 #include "game/exit_code.h"
 #include "game/folders.h"
 #include "game/messages.h"
+#include "game/version.h"
+#include "game/window.h"
 #include "taut/core/error.h"
 #include "taut/core/instruction_set.h"
 #include "taut/core/whole_file.h"
@@ -28,9 +31,23 @@ void printFact(const std::string& name, const std::string& fact) {
     printResult("{:<12}{}\n", name, fact);
 }
 
+// What is missing, by the Debian packages that hold it.
+struct Packages {
+    std::vector<std::string> names;
+    void add(const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+};
+
+// `loss` says what does not work without it.
+void printMissing(const std::string& name, const std::string& loss, const std::string& package, Packages& packages) {
+    printFact(name, fmt::format("MISSING: {}; it is in the package {}", loss, package));
+    packages.add(package);
+}
+
 void printMachine() {
     const pipeline::Machine machine = pipeline::machine();
-    printFact("program", fmt::format("{}, {}", machine.program, machine.compiler));
+    printFact("program", fmt::format("{}, {}", versionText(), machine.compiler));
     printFact("system", machine.system);
     printFact("processor",
               fmt::format("{}, {} threads, {:.1f} GB", machine.processor, machine.threads, machine.memory / 1e9));
@@ -40,20 +57,42 @@ void printMachine() {
     printFact("simd", fmt::format("{}(in use: {}; {})", sets, machine.simd, machine.simdReason));
 }
 
-// Whether the folder is there; the program cannot do without its shaders.
-bool printFolder(const std::string& name, const std::filesystem::path& folder, const char* variable) {
-    printFact(name, folder.empty() ? fmt::format("MISSING; {} may name the folder", variable) : folder.string());
+void printTool(const std::string& name, const std::string& version, const std::string& loss, const std::string& package,
+               Packages& packages) {
+    if (version.empty())
+        printMissing(name, loss, package, packages);
+    else
+        printFact(name, version);
+}
+
+// Whether the folder is there.
+bool printFolder(const std::string& name, const std::filesystem::path& folder, const std::string& loss,
+                 const char* variable) {
+    printFact(name, folder.empty()
+                        ? fmt::format("MISSING: {}; it is in the package taut, and {} may name another", loss, variable)
+                        : folder.string());
     return !folder.empty();
 }
 
-// Only scenes with labels need it, so nothing fails without it.
-void printFont() {
+void printFont(Packages& packages) {
     const std::filesystem::path file = fontFile();
     try {
         const render::Font font(file);
         printFact("font", file.string());
     } catch (const core::Error& error) {
-        printFact("font", fmt::format("MISSING: {}", error.what()));
+        printFact("font", fmt::format("MISSING: no labels in scenes and no figures over pictures: {}", error.what()));
+        packages.add("fonts-dejavu-core");
+    }
+}
+
+void printWindow() {
+    try {
+        printFact("window", fmt::format("ok: {}", windowDriver()));
+    } catch (const core::Error& error) {
+        printFact("window",
+                  fmt::format("MISSING: no taut play, for {}; all else does without. Away from a screen xvfb-run is a "
+                              "display; it is in the package xvfb",
+                              error.what()));
     }
 }
 
@@ -88,8 +127,8 @@ image::Image printRenderer(const std::string& name, render::Backend backend, std
     }
 }
 
-// True when at least one draws.
-bool printRenderers() {
+// True when at least one draws. One that does not is a loss only where the other does not either.
+bool printRenderers(Packages& packages) {
     const image::Image right = printRenderer("osmesa", render::Backend::osmesa, std::nullopt, {});
     bool any = right.isWhole();
     const std::vector<render::EglDevice> devices = render::eglDevices();
@@ -98,9 +137,16 @@ bool printRenderers() {
         const std::string kind = fmt::format("{}, ", render::kindOf(device));
         any = printRenderer(name, render::Backend::egl, device.number, right, kind).isWhole() || any;
     }
-    if (!devices.empty()) return any;
-    const std::string none = "no device here; without one ";
-    return printRenderer("egl", render::Backend::egl, std::nullopt, right, none).isWhole() || any;
+    if (devices.empty()) {
+        const std::string none = "no device here; without one ";
+        const bool draws = printRenderer("egl", render::Backend::egl, std::nullopt, right, none).isWhole();
+        if (!draws)
+            for (const char* package : {"libegl-mesa0", "libgl1-mesa-dri"}) packages.add(package);
+        any = draws || any;
+    }
+    if (!right.isWhole()) packages.add("libosmesa6");
+    if (!any) printFact("pictures", "MISSING: none without osmesa or egl; taut render --no-pictures needs neither");
+    return any;
 }
 
 bool printWriteTest(const std::filesystem::path& folder) {
@@ -117,20 +163,22 @@ bool printWriteTest(const std::filesystem::path& folder) {
 }
 
 int doctor(const std::string& folder) {
+    Packages packages;
     printMachine();
-    const std::string ffmpeg = image::ffmpegVersion();
-    printFact("ffmpeg", ffmpeg.empty() ? "MISSING: videos need the package ffmpeg, picture files do not" : ffmpeg);
-    const std::string gnuplot = report::gnuplotVersion();
-    printFact("gnuplot",
-              gnuplot.empty() ? "MISSING: charts need the package gnuplot-nox, their CSV does not" : gnuplot);
-    bool files = printFolder("shaders", shaderFolder(), "TAUT_SHADERS");
-    files = printFolder("assets", assetFolder(), "TAUT_ASSETS") && files;
-    printFont();
+    printTool("ffmpeg", image::ffmpegVersion(), "no videos; picture files need none", "ffmpeg", packages);
+    printTool("gnuplot", report::gnuplotVersion(), "no charts and maps; their CSV and JSON need none", "gnuplot-nox",
+              packages);
+    bool files = printFolder("shaders", shaderFolder(), "no pictures", "TAUT_SHADERS");
+    files = printFolder("assets", assetFolder(), "no scene by its name", "TAUT_ASSETS") && files;
+    printFont(packages);
+    printWindow();
     printFact("scenes", fmt::format("{}", fmt::join(shippedScenes(), " ")));
-    const bool draws = printRenderers();
+    const bool draws = printRenderers(packages);
     files = printWriteTest(folder) && files;
     const ExitCode code = !files ? ExitCode::inputOutput : !draws ? ExitCode::noRenderer : ExitCode::ok;
     printResult("{}\n", code == ExitCode::ok ? "Everything needed is there." : "Something is missing.");
+    if (!packages.names.empty())
+        printResult("For what is missing, on Debian: apt install {}\n", fmt::join(packages.names, " "));
     return static_cast<int>(code);
 }
 

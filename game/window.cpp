@@ -52,7 +52,22 @@ double densityOfScreen(int width, int height) {
     return density >= least && density <= fits ? density : 1.0;
 }
 
+// Of each call SDL_QuitSubSystem takes one back.
+void reachDisplay() {
+    if (!isThereADisplay()) throw core::Error(core::ErrorKind::noRenderer, "there is no display to open a window on");
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) failWithoutWindow("the display takes no window");
+}
+
 }  // namespace
+
+std::string windowDriver() {
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    reachDisplay();
+    const char* const name = SDL_GetCurrentVideoDriver();
+    std::string driver = name == nullptr ? "" : name;
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    return driver;
+}
 
 struct Window::Impl {
     int width, height;  // on a common screen
@@ -117,8 +132,7 @@ struct Window::Impl {
 
 Window::Window(const std::string& title, int width, int height) : impl_(new Impl{width, height}) {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    if (!isThereADisplay()) throw core::Error(core::ErrorKind::noRenderer, "there is no display to open a window on");
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) failWithoutWindow("the display takes no window");
+    reachDisplay();
     // The pictures are drawn by the processor; so are they shown, with no need of another driver. Wayland takes no
     // pixels from SDL but by a driver.
     if (!isOnWayland()) {

@@ -20,6 +20,9 @@ struct WindowEvent {
     double amount = 0.0;    // wheel: turned away from the user
 };
 
+// By what windows are shown here: "x11", "wayland". Opens none; throws core::Error(noRenderer) without a display.
+std::string windowDriver();
+
 class Window {
   public:
     // Of that size on a common screen; on a dense one it has more pixels, and looks the same. Throws

@@ -1,4 +1,4 @@
-# Sourced by game/demo.sh and game/film.sh. Expects `root` to hold the path of the checkout.
+# Sourced by game/demo.sh, game/film.sh and game/package.sh. Expects `root` to hold the path of the checkout.
 
 # taut_build: installs what is missing and builds the program; `taut` holds its path then.
 taut_build() {

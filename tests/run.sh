@@ -11,7 +11,7 @@ case ${1-} in
 esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/game/install.sh"
-taut_install run test
+taut_install run package test
 
 # build NAME SOURCE "TARGETS" CMAKE-ARGUMENTS...: configures and builds into an ignored folder.
 build() {

@@ -127,26 +127,31 @@ image::Image printRenderer(const std::string& name, render::Backend backend, std
     }
 }
 
-// True when at least one draws. One that does not is a loss only where the other does not either.
-bool printRenderers(Packages& packages) {
-    const image::Image right = printRenderer("osmesa", render::Backend::osmesa, std::nullopt, {});
-    bool any = right.isWhole();
+// Whether EGL draws on any of its devices, or without one.
+bool printEgl(const image::Image& right) {
     const std::vector<render::EglDevice> devices = render::eglDevices();
+    bool any = false;
     for (const render::EglDevice& device : devices) {
         const std::string name = fmt::format("egl:{}", device.number);
         const std::string kind = fmt::format("{}, ", render::kindOf(device));
         any = printRenderer(name, render::Backend::egl, device.number, right, kind).isWhole() || any;
     }
-    if (devices.empty()) {
-        const std::string none = "no device here; without one ";
-        const bool draws = printRenderer("egl", render::Backend::egl, std::nullopt, right, none).isWhole();
-        if (!draws)
-            for (const char* package : {"libegl-mesa0", "libgl1-mesa-dri"}) packages.add(package);
-        any = draws || any;
-    }
+    if (!devices.empty()) return any;
+    const std::string none = "no device here; without one ";
+    return printRenderer("egl", render::Backend::egl, std::nullopt, right, none).isWhole();
+}
+
+// Whether anything draws.
+bool printRenderers(Packages& packages) {
+    const image::Image right = printRenderer("osmesa", render::Backend::osmesa, std::nullopt, {});
+    const bool draws = printEgl(right);
+    if (!draws)
+        for (const char* package : {"libegl-mesa0", "libgl1-mesa-dri"}) packages.add(package);
     if (!right.isWhole()) packages.add("libosmesa6");
-    if (!any) printFact("pictures", "MISSING: none without osmesa or egl; taut render --no-pictures needs neither");
-    return any;
+    if (!draws && right.isWhole()) printFact("--gl egl", "MISSING: no graphics card draws; all else does without");
+    if (draws || right.isWhole()) return true;
+    printFact("pictures", "MISSING: none without osmesa or egl; taut render --no-pictures needs neither");
+    return false;
 }
 
 bool printWriteTest(const std::filesystem::path& folder) {

@@ -30,7 +30,7 @@ void expectDevice(const std::vector<EglDevice>& devices, int number) {
     throw core::Error(
         core::ErrorKind::noRenderer,
         fmt::format("no renderer: EGL has no device {} here; there {}", number,
-                    devices.empty() ? "is none: install Debian's libegl1 and libegl-mesa0"
+                    devices.empty() ? "is none: install Debian's libegl-mesa0 and libgl1-mesa-dri"
                                     : fmt::format("{} {}", devices.size() == 1 ? "is device" : "are", there)));
 }
 
@@ -79,7 +79,7 @@ void Context::connect() {
     if (version < GLAD_MAKE_VERSION(3, 3)) {
         throw core::Error(core::ErrorKind::noRenderer,
                           "no renderer: the GL library offers less than OpenGL 3.3; Mesa's llvmpipe does, on Debian in "
-                          "the package libosmesa6 (or libegl-mesa0 with --gl egl)");
+                          "the package libosmesa6 (or libegl-mesa0 and libgl1-mesa-dri with --gl egl)");
     }
     const auto text = [&](GLenum name) {
         const auto* bytes = gl().GetString(name);

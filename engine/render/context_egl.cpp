@@ -81,10 +81,11 @@ class EglContext final : public Context {
   private:
     [[noreturn]] void fail(const std::string& step) const {
         const std::string what = info_.device ? fmt::format("EGL's device {}", *info_.device) : "EGL without a surface";
-        throw core::Error(core::ErrorKind::noRenderer,
-                          fmt::format("no renderer: {} failed at {}; install Debian's libegl1 and libegl-mesa0, or try "
-                                      "--gl osmesa",
-                                      what, step));
+        throw core::Error(
+            core::ErrorKind::noRenderer,
+            fmt::format("no renderer: {} failed at {}; install Debian's libegl-mesa0 and libgl1-mesa-dri, or try "
+                        "--gl osmesa",
+                        what, step));
     }
 
     EGLDisplay display_ = EGL_NO_DISPLAY;

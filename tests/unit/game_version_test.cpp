@@ -79,7 +79,8 @@ TEST(Changelog, BeginsWithThisVersionAndItsBits) {
     std::getline(file, bits);
     const std::string said = run({"--version"}).out, version = said.substr(5, said.find(',') - 5);
     EXPECT_TRUE(first.starts_with("taut (" + version + ") ")) << first;
-    EXPECT_TRUE(bits.starts_with("  * Bits " + std::to_string(world::resultBits))) << bits;
+    EXPECT_TRUE(bits.starts_with("  * Bits " + std::to_string(world::resultBits) + ": "))
+        << "game/changelog begins with what changed results: " << bits;
 }
 
 }  // namespace

@@ -1,2 +1,8 @@
 # Shaders, which the engine installs for those who draw with it, are in the package of the program.
-file(REMOVE_RECURSE ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/engine/usr/share/taut)
+set(staging ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
+file(REMOVE_RECURSE ${staging}/engine/usr/share/taut)
+
+# Neither symbols that nobody links nor the name of the compiler, as debhelper does it.
+file(GLOB binaries ${staging}/engine/usr/lib/*.a ${staging}/program/usr/bin/*)
+execute_process(COMMAND strip --strip-unneeded --remove-section=.comment --enable-deterministic-archives ${binaries}
+  COMMAND_ERROR_IS_FATAL ANY)

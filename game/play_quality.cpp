@@ -10,7 +10,7 @@ namespace taut::game {
 namespace {
 
 // Costs are those of the curtain in a window of 512 × 288. 0: the scene's.
-const std::array<DrawingLevel, 7> all{{
+const std::array<DrawingLevel, 7> everyLevel{{
     {"coarse", 0.5, 1, 256, false, 6.5},
     {"rough", 0.75, 1, 512, false, 8.5},
     {"low", 0.75, 1, 512, true, 12.0},
@@ -33,7 +33,7 @@ bool DrawingLevel::looksAs(const DrawingLevel& other) const {
 
 std::vector<DrawingLevel> drawingLevels(const world::PictureSpec& scene) {
     std::vector<DrawingLevel> levels;
-    for (DrawingLevel level : all) {
+    for (DrawingLevel level : everyLevel) {
         level.samples = level.samples == 0 ? scene.samples : std::min(level.samples, scene.samples);
         level.shadowSize = level.shadowSize == 0 ? scene.shadowSize : std::min(level.shadowSize, scene.shadowSize);
         if (!levels.empty() && levels.back().looksAs(level)) levels.pop_back();
@@ -43,8 +43,9 @@ std::vector<DrawingLevel> drawingLevels(const world::PictureSpec& scene) {
 }
 
 DrawingLevel levelNamed(const std::string& name, const world::PictureSpec& scene) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const DrawingLevel& l) { return l.name == name; });
-    TAUT_EXPECTS(found != all.end());
+    const auto found =
+        std::find_if(everyLevel.begin(), everyLevel.end(), [&](const DrawingLevel& l) { return l.name == name; });
+    TAUT_EXPECTS(found != everyLevel.end());
     DrawingLevel level = *found;
     if (level.samples == 0) level.samples = scene.samples;
     if (level.shadowSize == 0) level.shadowSize = scene.shadowSize;

@@ -34,7 +34,7 @@ if(TAUT_UNITY GREATER 1)
 endif()
 
 # The folders where a scene's time goes.
-set(TAUT_COMPUTES core ode mechanics collision contact world image)
+set(TAUT_COMPUTES core ode mechanics collision contact world image geometry)
 
 # taut_library(core SOURCES a.cpp HEADERS a.h LINK taut::ode PRIVATE_LINK fmt::fmt): the library of one folder, known
 # as taut::core. LINK is what its headers include, PRIVATE_LINK what only its sources do. With HEADERS, those that others

@@ -4,6 +4,7 @@
 #define TAUT_COMMANDS(COMMAND) \
     COMMAND(renderCommand)     \
     COMMAND(playCommand)       \
+    COMMAND(exportCommand)     \
     COMMAND(checkCommand)      \
     COMMAND(infoCommand)       \
     COMMAND(chartCommand)      \

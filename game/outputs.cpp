@@ -40,7 +40,12 @@ void permitOverwriting(const std::filesystem::path& output, std::int64_t first, 
                        const std::vector<std::string>& besides) {
     if (overwrite == Overwrite::yes) return;
     const std::filesystem::path existing = firstExisting(output, first, last, besides);
-    if (existing.empty()) return;
+    if (!existing.empty()) permitOverwritingFile(existing, overwrite);
+}
+
+void permitOverwritingFile(const std::filesystem::path& existing, Overwrite overwrite) {
+    std::error_code ignored;
+    if (overwrite == Overwrite::yes || !std::filesystem::exists(existing, ignored)) return;
     if (overwrite == Overwrite::ask && ::isatty(STDIN_FILENO) == 1) {
         printNote("{} exists already. Overwrite? [y/N] ", existing.string());
         if (answersYes()) return;

@@ -19,6 +19,9 @@ enum class Overwrite { ask, yes, no };
 void permitOverwriting(const std::filesystem::path& output, std::int64_t first, std::int64_t last, Overwrite overwrite,
                        const std::vector<std::string>& besides = {});
 
+// The same of one file.
+void permitOverwritingFile(const std::filesystem::path& existing, Overwrite overwrite);
+
 // What a run of very many pictures will take on disk and of time, roughly; empty for others.
 std::string largeRunText(std::int64_t pictures, int width, int height);
 

@@ -1,0 +1,79 @@
+#include "taut/geometry/every_nth.h"
+
+#include <cmath>
+#include <utility>
+
+#include "taut/geometry/parts.h"
+
+namespace taut::geometry {
+namespace {
+
+glm::dvec3 placeOf(const view::Surface& surface, std::size_t vertex) {
+    return glm::dvec3(surface.transform * glm::vec4(surface.geometry->positions[vertex], 1.0F));
+}
+
+bool isStill(const view::Surface& a, const view::Surface& b) {
+    return a.geometry == b.geometry && a.transform == b.transform;
+}
+
+bool isOfOneKind(const view::Surface& a, const view::Surface& b) {
+    return a.name == b.name && (a.topology == b.topology || a.topology->triangles == b.topology->triangles) &&
+           a.geometry->positions.size() == b.geometry->positions.size();
+}
+
+}  // namespace
+
+EveryNth::EveryNth(GeometrySink& sink, std::int64_t first, std::int64_t last, std::int64_t every,
+                   std::function<bool(const std::string&)> isWanted)
+    : sink_(sink), first_(first), last_(last), every_(every), isWanted_(std::move(isWanted)) {
+    TAUT_EXPECTS(every >= 1);
+}
+
+void EveryNth::write(const view::FrameView& view) {
+    if ((view.frame - first_) % every_ != 0 && view.frame != last_) {
+        between_.push_back(view);
+        return;
+    }
+    measure(view);
+    between_.clear();
+    sink_.write(view);
+    if (every_ > 1) from_ = view;
+}
+
+void EveryNth::measure(const view::FrameView& to) {
+    for (const view::FrameView& at : between_) {
+        ++lost_.frames;
+        if (!measure(at, to)) ++lost_.unmeasured;
+    }
+}
+
+bool EveryNth::measure(const view::FrameView& at, const view::FrameView& to) {
+    if (at.surfaces.size() != from_.surfaces.size() || to.surfaces.size() != from_.surfaces.size()) return false;
+    for (std::size_t i = 0; i < to.surfaces.size(); ++i)
+        if (!isOfOneKind(at.surfaces[i], from_.surfaces[i]) || !isOfOneKind(to.surfaces[i], from_.surfaces[i]))
+            return false;
+    const double share = static_cast<double>(at.frame - from_.frame) / static_cast<double>(to.frame - from_.frame);
+    for (std::size_t i = 0; i < to.surfaces.size(); ++i) {
+        const view::Surface &a = from_.surfaces[i], &x = at.surfaces[i], &b = to.surfaces[i];
+        if ((isStill(a, b) && isStill(a, x)) || (isWanted_ && !isWanted_(PartFinder::fullName(x)))) continue;
+        for (std::size_t v = 0; v < x.geometry->positions.size(); ++v) {
+            const glm::dvec3 off = glm::mix(placeOf(a, v), placeOf(b, v), share) - placeOf(x, v);
+            const double square = glm::dot(off, off);
+            sum_ += square;
+            ++count_;
+            if (square <= lost_.worst * lost_.worst) continue;
+            lost_.worst = std::sqrt(square);
+            lost_.worstFrame = at.frame;
+            lost_.worstName = PartFinder::fullName(x);
+        }
+    }
+    return true;
+}
+
+LostMotion EveryNth::lost() const {
+    LostMotion lost = lost_;
+    lost.rms = count_ > 0 ? std::sqrt(sum_ / static_cast<double>(count_)) : 0.0;
+    return lost;
+}
+
+}  // namespace taut::geometry

@@ -1,0 +1,52 @@
+// Where the geometry of frames goes, one after the other: to a file that other programs read. It does not know where
+// the frames come from.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "taut/core/error.h"
+#include "taut/view/frame_view.h"
+
+namespace taut::geometry {
+
+struct GeometryOptions {
+    double fps = 60.0;               // frames a second of scene time
+    double aspect = 16.0 / 9.0;      // width of the picture over its height
+    bool normals = true;             // written with every frame
+    int digits = 5;                  // behind the point, in formats of text; 1 … 9
+    std::string generator = "taut";  // named in the file
+    // Of what is wanted, by its full name: "cloth.flag", "collider.ball", "ground"; null: everything.
+    std::function<bool(const std::string& name)> isWanted{};
+};
+
+// The triangles of something change, or it is drawn anew, where a format has one topology for all frames.
+class TopologyChanged : public core::Error {
+  public:
+    TopologyChanged(std::string name, std::int64_t frame)
+        : Error(core::ErrorKind::badContent, name + " tears or is cut before frame " + std::to_string(frame)),
+          name_(std::move(name)),
+          frame_(frame) {}
+    const std::string& name() const { return name_; }  // "cloth.flag"
+    std::int64_t frame() const { return frame_; }      // the first one that shows it
+
+  private:
+    std::string name_;
+    std::int64_t frame_;
+};
+
+class GeometrySink {
+  public:
+    virtual ~GeometrySink() = default;
+
+    // Takes what a frame shows; frames come in ascending order. Throws core::Error: inputOutput, a full disk included;
+    // badContent where the format cannot hold it; TopologyChanged.
+    virtual void write(const view::FrameView& view) = 0;
+
+    // Gives the file its name; expects a frame. Without it none comes into being, and what was there stays. Throws
+    // core::Error(inputOutput).
+    virtual void finish() = 0;
+};
+
+}  // namespace taut::geometry

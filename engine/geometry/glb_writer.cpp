@@ -1,0 +1,320 @@
+#include "taut/geometry/glb_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "taut/core/whole_file.h"
+#include "taut/geometry/gltf_text.h"
+#include "taut/geometry/parts.h"
+#include "taut/geometry/poses.h"
+
+namespace taut::geometry {
+namespace {
+
+constexpr std::uint64_t mostTexture = std::uint64_t{64} << 20U;  // [bytes]
+
+template <class T>
+bool isConstant(const std::vector<T>& values) {
+    return std::all_of(
+        values.begin(), values.end(), [&](const T& value) { return value == values.front(); });
+}
+
+std::string endingOf(const std::string& name) {
+    std::string ending = name.substr(std::min(name.rfind('.'), name.size()));
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending;
+}
+
+std::string joinedNumbers(std::size_t count) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) text += fmt::format("{}{}", i > 0 ? "," : "", i);
+    return text;
+}
+
+}  // namespace
+
+struct GlbWriter::Impl {
+    // A part through all frames.
+    struct Track {
+        Part part;  // as it was at first
+        std::string attributes;
+        std::size_t indices = 0;
+        JsonItems targets;
+        std::shared_ptr<const view::Geometry> last;
+        std::vector<std::size_t> targetOf;  // (keys) 0: the shape at first, else the number of the target, from 1
+        std::vector<glm::mat4> transforms;  // (keys)
+        std::vector<bool> isThere;          // (keys)
+    };
+
+    Impl(std::filesystem::path file, GeometryOptions given)
+        : path(std::move(file)), options(std::move(given)), finder(options.isWanted), data(path) {}
+
+    std::filesystem::path path;
+    GeometryOptions options;
+    PartFinder finder;
+    GltfData data;
+    std::vector<Track> tracks;
+    std::map<std::string, std::size_t> trackOf;  // by identifier
+    std::vector<float> times;                    // (keys) [s]
+    double start = 0.0;                          // [s]
+    std::vector<glm::mat4> cameras;              // (keys)
+    view::Camera camera;
+    view::Light light;
+
+    JsonItems nodes, meshes, materials, images, channels, samplers;
+    std::map<std::pair<std::shared_ptr<const view::Finish>, bool>, std::size_t> materialOf;
+    std::map<std::vector<std::size_t>, std::size_t> weightsOf;
+    std::optional<std::size_t> timesAccessor;
+
+    void addTrack(const Part& part);
+    void addTarget(Track& track, const view::Geometry& now, std::size_t view);
+    void checkSize() const;
+
+    std::size_t material(const Part& part);
+    std::string texture(const view::Finish& finish);
+    std::size_t weights(const Track& track);
+    void animate(std::size_t node, const char* path, std::size_t output, const char* interpolation);
+    std::string pose(const std::vector<glm::mat4>& matrices, std::size_t node);
+    void addNode(const Track& track);
+    std::string json();
+};
+
+void GlbWriter::Impl::addTrack(const Part& part) {
+    const view::Geometry& shape = *part.geometry;
+    Track track;
+    track.part = part;
+    track.last = part.geometry;
+    const std::size_t view = data.openView();
+    track.attributes = fmt::format(R"("POSITION":{})", data.addVectors(shape.positions, true, view));
+    if (options.normals)
+        track.attributes += fmt::format(R"(,"NORMAL":{})", data.addVectors(shape.normals, false, view));
+    data.closeView();
+    std::vector<glm::vec2> uv;
+    for (const glm::vec2& at : part.topology->uv)
+        uv.push_back(glm::vec2(at.x, -at.y) / std::max(part.finish->repeat, 1e-6F));  // v runs down
+    track.attributes += fmt::format(R"(,"TEXCOORD_0":{})", data.addVectors(uv));
+    track.indices = data.addIndices(part.topology->triangles);
+    // What comes later is hidden until then.
+    track.targetOf.assign(times.size() - 1, 0);
+    track.transforms.assign(times.size() - 1, part.transform);
+    track.isThere.assign(times.size() - 1, false);
+    trackOf[part.identifier] = tracks.size();
+    tracks.push_back(std::move(track));
+}
+
+// How far every vertex is from where it was at first.
+void GlbWriter::Impl::addTarget(Track& track, const view::Geometry& now, std::size_t view) {
+    const auto differences = [](const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+        std::vector<glm::vec3> out(a.size());
+        for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] - b[i];
+        return out;
+    };
+    const view::Geometry& first = *track.part.geometry;
+    std::string target =
+        fmt::format(R"({{"POSITION":{})", data.addVectors(differences(now.positions, first.positions), true, view));
+    if (options.normals)
+        target += fmt::format(R"(,"NORMAL":{})", data.addVectors(differences(now.normals, first.normals), false, view));
+    track.targets.add(target + "}");
+}
+
+void GlbWriter::Impl::checkSize() const {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    // The JSON half, and weights: a number a key and target.
+    const std::uint64_t rest = data.views.text().size() + data.accessors.text().size() +
+                               4 * times.size() * times.size() + (std::uint64_t{1} << 20U);
+    if (data.bytes.size() + rest * 2 < most) return;
+    throw core::Error(core::ErrorKind::badContent,
+                      fmt::format("{}: more than 4 GB, the most that GLB holds, at {} frames: leave frames out with "
+                                  "--every, take some of them with --frames or some bodies with --only, or write .usda",
+                                  path.string(), times.size()));
+}
+
+std::string GlbWriter::Impl::texture(const view::Finish& finish) {
+    if (finish.pattern != view::Pattern::image || finish.texture.empty()) return "";
+    const std::string ending = endingOf(finish.texture);
+    if (ending != ".png" && ending != ".jpg" && ending != ".jpeg") return "";
+    const std::string content = core::fileContent(finish.texture, mostTexture);
+    const std::size_t view = data.addBytes(std::as_bytes(std::span(content)));
+    const std::size_t image = images.add(
+        fmt::format(R"({{"bufferView":{},"mimeType":"image/{}"}})", view, ending == ".png" ? "png" : "jpeg"));
+    return fmt::format(R"(,"baseColorTexture":{{"index":{}}})", image);
+}
+
+std::size_t GlbWriter::Impl::material(const Part& part) {
+    const auto [entry, isNew] = materialOf.try_emplace({part.finish, part.isTwoSided}, materials.count());
+    if (!isNew) return entry->second;
+    const view::Finish& finish = *part.finish;
+    const std::string image = texture(finish);
+    const glm::vec3 colour = image.empty() ? glm::clamp(finish.front, 0.0F, 1.0F) : glm::vec3(1.0F);
+    return materials.add(fmt::format(
+        R"({{"name":{},"doubleSided":{},"pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],"metallicFactor":0,"roughnessFactor":{}{}}}}})",
+        jsonText(part.identifier), part.isTwoSided, colour.x, colour.y, colour.z,
+        std::clamp(finish.roughness, 0.0F, 1.0F), image));
+}
+
+// At each key one target counts whole, or none.
+std::size_t GlbWriter::Impl::weights(const Track& track) {
+    const auto [entry, isNew] = weightsOf.try_emplace(track.targetOf, 0);
+    if (!isNew) return entry->second;
+    std::vector<float> values(track.targetOf.size() * track.targets.count(), 0.0F);
+    for (std::size_t key = 0; key < track.targetOf.size(); ++key)
+        if (track.targetOf[key] > 0) values[key * track.targets.count() + track.targetOf[key] - 1] = 1.0F;
+    return entry->second = data.addScalars(values, false);
+}
+
+void GlbWriter::Impl::animate(std::size_t node, const char* what, std::size_t output, const char* interpolation) {
+    if (!timesAccessor) timesAccessor = data.addScalars(times, true);
+    const std::size_t sampler = samplers.add(
+        fmt::format(R"({{"input":{},"output":{},"interpolation":"{}"}})", *timesAccessor, output, interpolation));
+    channels.add(fmt::format(R"({{"sampler":{},"target":{{"node":{},"path":"{}"}}}})", sampler, node, what));
+}
+
+std::string GlbWriter::Impl::pose(const std::vector<glm::mat4>& matrices, std::size_t node) {
+    std::vector<glm::vec3> shifts;
+    std::vector<glm::vec4> rotations;
+    glm::quat q(1.0F, 0.0F, 0.0F, 0.0F);
+    for (const glm::mat4& matrix : matrices) {
+        q = rotationIn(matrix, q);
+        shifts.emplace_back(matrix[3]);
+        rotations.emplace_back(q.x, q.y, q.z, q.w);
+    }
+    if (!isConstant(shifts)) animate(node, "translation", data.addVectors(shifts), "LINEAR");
+    if (!isConstant(rotations)) animate(node, "rotation", data.addVectors(rotations), "LINEAR");
+    const glm::vec3 shift = shifts.front();
+    const glm::vec4 turn = rotations.front();
+    return fmt::format(R"("translation":[{},{},{}],"rotation":[{},{},{},{}])", shift.x, shift.y, shift.z, turn.x,
+                       turn.y, turn.z, turn.w);
+}
+
+void GlbWriter::Impl::addNode(const Track& track) {
+    const std::string name = jsonText(track.part.identifier);
+    const std::size_t targets = track.targets.count();
+    const std::size_t mesh = meshes.add(fmt::format(
+        R"({{"name":{},"primitives":[{{"attributes":{{{}}},"indices":{},"material":{}{}}}]}})", name, track.attributes,
+        track.indices, material(track.part), targets > 0 ? ",\"targets\":[" + track.targets.text() + "]" : ""));
+    const std::size_t node = nodes.count();
+    if (targets > 0) animate(node, "weights", weights(track), "LINEAR");
+    std::string more = pose(track.transforms, node);
+    if (!isConstant(track.isThere)) {
+        std::vector<glm::vec3> scales;
+        for (const bool isThere : track.isThere) scales.emplace_back(isThere ? 1.0F : 0.0F);
+        animate(node, "scale", data.addVectors(scales), "STEP");
+    }
+    nodes.add(fmt::format(R"({{"name":{},"mesh":{},{}}})", name, mesh, more));
+}
+
+std::string GlbWriter::Impl::json() {
+    for (const Track& track : tracks) addNode(track);
+    nodes.add(fmt::format(R"({{"name":"camera","camera":0,{}}})", pose(cameras, nodes.count())));
+    const glm::mat4 sun = looking(glm::vec3(0.0F), light.direction, glm::vec3(0.0F, 1.0F, 0.0F));
+    nodes.add(fmt::format(R"({{"name":"sun","extensions":{{"KHR_lights_punctual":{{"light":0}}}},{}}})",
+                          pose({sun}, nodes.count())));
+    const float brightness = std::max({light.colour.x, light.colour.y, light.colour.z, 1e-6F});
+    const glm::vec3 colour = light.colour / brightness;
+    std::string text = fmt::format(
+        R"({{"asset":{{"version":"2.0","generator":{}}},"extensionsUsed":["KHR_lights_punctual"],"extensions":{{"KHR_lights_punctual":{{"lights":[{{"type":"directional","name":"sun","color":[{},{},{}],"intensity":{}}}]}}}},"scene":0,"scenes":[{{"nodes":[{}]}}],"nodes":[{}])",
+        jsonText(options.generator), colour.x, colour.y, colour.z, brightness, joinedNumbers(nodes.count()),
+        nodes.text());
+    text += fmt::format(
+        R"(,"cameras":[{{"type":"perspective","perspective":{{"aspectRatio":{},"yfov":{},"znear":{},"zfar":{}}}}}])",
+        options.aspect, camera.fieldOfView, camera.nearPlane, camera.farPlane);
+    const auto add = [&](const char* key, const JsonItems& items) {
+        if (items.count() > 0) text += fmt::format(R"(,"{}":[{}])", key, items.text());
+    };
+    add("meshes", meshes);
+    add("materials", materials);
+    if (images.count() > 0) {
+        add("images", images);
+        JsonItems textures;
+        for (std::size_t i = 0; i < images.count(); ++i) textures.add(fmt::format(R"({{"source":{}}})", i));
+        add("textures", textures);
+    }
+    if (channels.count() > 0)
+        text += fmt::format(R"(,"animations":[{{"name":"motion","channels":[{}],"samplers":[{}]}}])", channels.text(),
+                            samplers.text());
+    add("accessors", data.accessors);
+    add("bufferViews", data.views);
+    if (data.bytes.size() > 0) text += fmt::format(R"(,"buffers":[{{"byteLength":{}}}])", data.bytes.size());
+    return text + "}";
+}
+
+GlbWriter::GlbWriter(const std::filesystem::path& path, GeometryOptions options)
+    : impl_(std::make_unique<Impl>(path, std::move(options))) {}
+
+GlbWriter::~GlbWriter() = default;
+
+void GlbWriter::write(const view::FrameView& view) {
+    Impl& w = *impl_;
+    if (w.times.empty()) {
+        w.start = view.time;
+        w.camera = view.camera;
+        w.light = view.light;
+    }
+    w.times.push_back(static_cast<float>(view.time - w.start));
+    w.cameras.push_back(looking(view.camera.eye, view.camera.target - view.camera.eye, view.camera.up));
+    std::vector<std::pair<std::size_t, std::shared_ptr<const view::Geometry>>> moved;
+    for (const Part& part : w.finder.partsOf(view)) {
+        if (part.geometry->positions.empty()) continue;
+        if (!w.trackOf.contains(part.identifier)) w.addTrack(part);
+        const std::size_t number = w.trackOf.at(part.identifier);
+        Impl::Track& track = w.tracks[number];
+        if (track.part.topology != part.topology) throw TopologyChanged(part.name, view.frame);
+        if (part.geometry != track.last) {
+            track.last = part.geometry;
+            if (part.geometry == track.part.geometry)
+                track.targetOf.push_back(0);
+            else
+                moved.emplace_back(number, part.geometry);
+        } else {
+            track.targetOf.push_back(track.targetOf.empty() ? 0 : track.targetOf.back());
+        }
+        track.transforms.push_back(part.transform);
+        track.isThere.push_back(true);
+    }
+    if (!moved.empty()) {
+        const std::size_t shared = w.data.openView();
+        for (const auto& [number, geometry] : moved) {
+            w.addTarget(w.tracks[number], *geometry, shared);
+            w.tracks[number].targetOf.push_back(w.tracks[number].targets.count());
+        }
+        w.data.closeView();
+    }
+    for (Impl::Track& track : w.tracks)
+        if (track.transforms.size() < w.times.size()) {
+            track.targetOf.push_back(track.targetOf.back());
+            track.transforms.push_back(track.transforms.back());
+            track.isThere.push_back(false);
+        }
+    w.checkSize();
+}
+
+void GlbWriter::finish() {
+    Impl& w = *impl_;
+    TAUT_EXPECTS(!w.times.empty());
+    std::string json = w.json();
+    json.append((4 - json.size() % 4) % 4, ' ');
+    core::WholeFile file(w.path);
+    const auto put = [&](std::initializer_list<std::uint64_t> values) {
+        std::vector<std::uint32_t> words;
+        for (const std::uint64_t value : values) words.push_back(static_cast<std::uint32_t>(value));
+        file.write(std::as_bytes(std::span(words)));
+    };
+    constexpr std::uint64_t magic = 0x46546C67, jsonChunk = 0x4E4F534A, binaryChunk = 0x004E4942;
+    const std::uint64_t binary = w.data.bytes.size();
+    put({magic, 2, 12 + 8 + json.size() + (binary > 0 ? 8 + binary : 0), json.size(), jsonChunk});
+    file.write(json);
+    if (binary > 0) {
+        put({binary, binaryChunk});
+        w.data.bytes.copy({0, binary}, file);
+    }
+    file.commit();
+}
+
+}  // namespace taut::geometry

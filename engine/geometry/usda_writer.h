@@ -1,0 +1,26 @@
+// A film as USD text, .usda: what Houdini, Omniverse, Unreal and Blender read. Time codes are the numbers of frames.
+// Meshes have points and normals at every frame that changes them, and other triangles from when something tears.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "taut/geometry/geometry_sink.h"
+
+namespace taut::geometry {
+
+class UsdaWriter : public GeometrySink {
+  public:
+    // Throws core::Error(inputOutput).
+    UsdaWriter(const std::filesystem::path& path, GeometryOptions options);
+    ~UsdaWriter() override;
+
+    void write(const view::FrameView& view) override;
+    void finish() override;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace taut::geometry

@@ -1,0 +1,31 @@
+// Plays a scene and hands its geometry on: world and writers joined, side by side. It knows no format.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "taut/geometry/geometry_sink.h"
+#include "taut/geometry/points_writer.h"
+#include "taut/world/world.h"
+
+namespace taut::pipeline {
+
+struct GeometryRun {
+    std::int64_t firstFrame = 0;         // frames before it are simulated and not written
+    std::int64_t lastFrame = 0;          // included
+    std::int64_t every = 1;              // points are written of the frames first, first + every, …, and the last
+    std::vector<std::string> targets{};  // whose points are written
+    std::function<void(std::int64_t frame)> frameSimulated{};  // called on a thread of its own
+};
+
+// Frames firstFrame … lastFrame of a world at its start go to the sink, all of them, and to the points; either may be
+// null. Both are finished where the run came to its end, else left: false means that `stop` became true. Throws
+// core::Error: diverged; badContent, with the tick, where a body tears that the sink has one topology for; what the
+// writers throw.
+bool exportGeometry(world::World& world, const GeometryRun& run, geometry::GeometrySink* sink,
+                    geometry::PointsWriter* points, const std::atomic<bool>& stop);
+
+}  // namespace taut::pipeline

@@ -1,0 +1,244 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/command_line.h"
+#include "game/exit_code.h"
+#include "game/flags.h"
+#include "game/interruption.h"
+#include "game/lab.h"
+#include "game/messages.h"
+#include "game/outputs.h"
+#include "game/scene_file.h"
+#include "taut/core/error.h"
+#include "taut/core/glob.h"
+#include "taut/core/parallel.h"
+#include "taut/core/whole_file.h"
+#include "taut/geometry/every_nth.h"
+#include "taut/geometry/glb_writer.h"
+#include "taut/geometry/points_writer.h"
+#include "taut/geometry/usda_writer.h"
+#include "taut/pipeline/geometry_run.h"
+#include "taut/pipeline/run.h"
+#include "taut/scene/load.h"
+
+namespace taut::game {
+namespace {
+
+struct ExportFlags {
+    std::string scene, output, points, frames, isa;
+    std::vector<std::string> only, of, overrides;
+    std::int64_t every = 1;
+    int digits = 0;  // 0: not given
+    double fps = 0.0, seconds = 0.0;
+    int threads = 0;
+    bool noNormals = false, yes = false, no = false, quiet = false, isConfined = false;
+    bool isUsd() const { return std::filesystem::path(output).extension() == ".usda"; }
+    bool isGlb() const { return std::filesystem::path(output).extension() == ".glb"; }
+};
+
+[[noreturn]] void failUsage(const std::string& message) {
+    throw core::Error(core::ErrorKind::usage, message);
+}
+
+void checkFlags(const ExportFlags& flags) {
+    if (flags.output.empty() && flags.points.empty())
+        failUsage("say where the geometry goes: -o out.usda, -o out.glb, or --points out.npz");
+    if (!flags.output.empty() && !flags.isUsd() && !flags.isGlb())
+        failUsage(
+            fmt::format("{}: geometry goes to .usda (Houdini, Omniverse, Unreal, Blender; may tear) or .glb (the "
+                        "web, Blender, VTK)",
+                        flags.output));
+    if (!flags.points.empty() && !geometry::isPointsPath(flags.points))
+        failUsage(fmt::format("{}: points go to .npz (numpy.load) or .csv", flags.points));
+    if (flags.points.empty() && !flags.of.empty()) failUsage("--of says whose points: add --points out.npz");
+    if (flags.digits > 0 && !flags.isUsd()) failUsage("--digits are those of .usda; other formats hold all of a number");
+    if (flags.output.empty() && (flags.noNormals || !flags.only.empty()))
+        failUsage("--only and --no-normals are for geometry: add -o, or name points with --of");
+}
+
+std::vector<std::string> allOverrides(const ExportFlags& flags) {
+    std::vector<std::string> overrides = flags.overrides;
+    if (flags.fps > 0.0) overrides.push_back(fmt::format("run.fps={}", flags.fps));
+    if (flags.seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
+    return overrides;
+}
+
+// Why --only names nothing in the scene; empty if it does.
+std::string onlyFault(const world::SceneSpec& spec, const std::string& target) {
+    if (target == "ground") return "";
+    if (!target.starts_with("collider.")) return scene::targetFault(spec, target, false);
+    std::string there;
+    for (const world::ColliderSpec& collider : spec.colliders) {
+        if (core::matches(target, "collider." + collider.name)) return "";
+        there += (there.empty() ? "" : ", ") + ("collider." + collider.name);
+    }
+    return fmt::format("there is no {}{}", target,
+                       there.empty() ? "; the scene has no colliders" : "; there are " + there);
+}
+
+pipeline::GeometryRun runOf(const ExportFlags& flags, const world::SceneSpec& spec) {
+    const std::int64_t count = pipeline::frameCount(spec.run);
+    const FrameRange range = flags.frames.empty() ? FrameRange{} : frameRange(flags.frames);
+    pipeline::GeometryRun run;
+    run.firstFrame = range.first;
+    run.lastFrame = range.last.value_or(count - 1);
+    run.every = flags.every;
+    if (run.firstFrame >= count || run.lastFrame >= count)
+        failUsage(
+            fmt::format("--frames {}: the scene has frames 0-{}; --seconds makes it longer", flags.frames, count - 1));
+    if (flags.points.empty()) return run;
+    run.targets = flags.of;
+    if (run.targets.empty())
+        for (const world::BodySpec& body : spec.bodies) run.targets.push_back(body.fullName());
+    if (run.targets.empty()) failUsage("--points: the scene has no bodies");
+    return run;
+}
+
+geometry::GeometryOptions geometryOptions(const ExportFlags& flags, const world::SceneSpec& spec) {
+    geometry::GeometryOptions options;
+    options.fps = spec.run.fps;
+    options.aspect = static_cast<double>(spec.picture.size.x) / spec.picture.size.y;
+    options.normals = !flags.noNormals;
+    if (flags.digits > 0) options.digits = flags.digits;
+    options.generator = fmt::format("taut {}", TAUT_VERSION);
+    if (!flags.only.empty())
+        options.isWanted = [only = flags.only](const std::string& name) {
+            return std::any_of(only.begin(), only.end(),
+                               [&](const std::string& pattern) { return core::matches(pattern, name); });
+        };
+    return options;
+}
+
+std::string sizeText(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const auto bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
+    return bytes < 1e6 ? fmt::format("{:.1f} kB", 1e-3 * bytes) : fmt::format("{:.1f} MB", 1e-6 * bytes);
+}
+
+void printLost(const geometry::LostMotion& lost, std::int64_t every) {
+    if (every == 1) return;
+    std::string text = fmt::format("--every {}: {} frames left out", every, lost.frames);
+    if (lost.worstName.empty())
+        text += ", nothing moved in them";
+    else
+        text += fmt::format(", off by {:.3g} mm rms, {:.3g} mm at worst ({}, frame {}), moved evenly in between",
+                            1e3 * lost.rms, 1e3 * lost.worst, lost.worstName, lost.worstFrame);
+    if (lost.unmeasured > 0) text += fmt::format("; {} of them, where something tears, not measured", lost.unmeasured);
+    printResult("{}\n", text);
+}
+
+int exportScene(const ExportFlags& flags) {
+    checkFlags(flags);
+    const world::SceneSpec spec = readScene(flags.scene, allOverrides(flags), flags.isConfined);
+    for (const std::string& target : flags.only)
+        if (const std::string fault = onlyFault(spec, target); !fault.empty()) failUsage("--only: " + fault);
+    for (const std::string& target : flags.of)
+        if (const std::string fault = scene::targetFault(spec, target, true); !fault.empty())
+            failUsage("--of: " + fault);
+    pipeline::GeometryRun run = runOf(flags, spec);
+    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
+    for (const std::string& file : {flags.output, flags.points}) {
+        if (file.empty()) continue;
+        permitOverwritingFile(file, overwrite);
+        core::prepareFolderOf(file);
+    }
+    const std::int64_t keys = (run.lastFrame - run.firstFrame + run.every - 1) / run.every + 1;
+    if (flags.isGlb() && keys > static_cast<std::int64_t>(geometry::GlbWriter::mostWebKeys) && !flags.quiet)
+        printNote("note: {} keys: browsers promise room for {} a mesh; --every {} has fewer\n", keys,
+                  geometry::GlbWriter::mostWebKeys,
+                  (run.lastFrame - run.firstFrame) / static_cast<std::int64_t>(geometry::GlbWriter::mostWebKeys) + 1);
+
+    const Interruption interruption;
+    if (!flags.quiet) notePreparation(spec);
+    const core::ThreadLimit threads(flags.threads);
+    world::World world(spec, {.threads = flags.threads});
+    printWarnings(world.warnings());
+    const geometry::GeometryOptions options = geometryOptions(flags, spec);
+    std::unique_ptr<geometry::GeometrySink> sink;
+    if (flags.isUsd()) sink = std::make_unique<geometry::UsdaWriter>(flags.output, options);
+    if (flags.isGlb()) sink = std::make_unique<geometry::GlbWriter>(flags.output, options);
+    std::unique_ptr<geometry::EveryNth> fewer;
+    if (sink)
+        fewer = std::make_unique<geometry::EveryNth>(*sink, run.firstFrame, run.lastFrame, run.every, options.isWanted);
+    std::unique_ptr<geometry::PointsWriter> points;
+    if (!flags.points.empty()) points = geometry::makePointsWriter(flags.points, run.targets);
+
+    const auto start = std::chrono::steady_clock::now();
+    LabProgress progress("export", flags.quiet, interruption.flag());
+    run.frameSimulated = [&](std::int64_t frame) {
+        progress.show(static_cast<double>(frame + 1) / static_cast<double>(run.lastFrame + 1),
+                      fmt::format("frame {}/{}", frame + 1, run.lastFrame + 1));
+    };
+    bool isWhole = false;
+    try {
+        isWhole = pipeline::exportGeometry(world, run, fewer.get(), points.get(), interruption.flag());
+    } catch (const core::Error& error) {
+        if (error.kind() != core::ErrorKind::diverged) throw;
+        throw core::Error(core::ErrorKind::diverged,
+                          fmt::format("{}\nnothing was written; --frames {}-{} writes what came before", error.what(),
+                                      run.firstFrame, world.tick() / world.ticksPerFrame()));
+    }
+    if (!isWhole) return static_cast<int>(interruption.exitCode().value_or(ExitCode::interrupted));
+    if (fewer) printLost(fewer->lost(), flags.every);
+    if (flags.quiet) return static_cast<int>(ExitCode::ok);
+    std::string text;
+    for (const std::string& file : {flags.output, flags.points})
+        if (!file.empty()) text += fmt::format("{}{} ({})", text.empty() ? "" : " and ", file, sizeText(file));
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    printNote("{} frames in {}, {:.1f} s\n", keys, text, seconds);
+    return static_cast<int>(ExitCode::ok);
+}
+
+Action declareExport(Options& options) {
+    const auto flags = std::make_shared<ExportFlags>();
+    options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene").required();
+    options.value("-o,--output", flags->output, "Geometry: out.usda, or out.glb").typeName("FILE");
+    options.value("--points", flags->points, "Positions and velocities of points: out.npz for numpy.load, or out.csv")
+        .typeName("FILE");
+    options.value("--of", flags->of, "Whose points, such as cloth.flag@left; all bodies when not given")
+        .typeName("TARGET,…")
+        .separatedBy(',');
+    options.value("--only", flags->only, "Only these in the geometry, such as cloth.* or collider.ball")
+        .typeName("TARGET,…")
+        .separatedBy(',');
+    const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
+    options.flag("-n,--no", flags->no, "Never overwrite").excludes(yes);
+    options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
+    options.value("--every", flags->every, "Every n-th frame only, and the last; tells how far off that is in between")
+        .within<std::int64_t>(1, 1000000);
+    options.value("--fps", flags->fps, "Frames a second of scene time").check(numberWithin(1e-3, 1e6));
+    options.value("--seconds", flags->seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+    options.flag("--no-normals", flags->noNormals, "Leave normals out: half the size, and others shade as they like");
+    options.value("--digits", flags->digits, "Digits behind the point in .usda, 5 when not given: 0.01 mm")
+        .within(1, 9);
+    options.flag("--quiet", flags->quiet, "No progress; warnings and errors only");
+    options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    addInstructionSetFlag(options, flags->isa);
+    options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    addConfinedFlag(options, flags->isConfined);
+    options.footer(
+        "Lengths are metres, y is up. In .usda time codes are numbers of frames; in .glb time begins at the first "
+        "frame,\n"
+        "and nothing may tear.\n"
+        "Examples:\n"
+        "  taut export torn-banner -o banner.usda\n"
+        "  taut export flag -o flag.glb --every 2 --only cloth.flag\n"
+        "  taut export flag --points corner.npz --of cloth.flag@bottom-right");
+    return [flags] { return exportScene(*flags); };
+}
+
+}  // namespace
+
+Command exportCommand() {
+    return {"export", "Write moving geometry for other programs: USD, GLB, points as numbers", declareExport};
+}
+
+}  // namespace taut::game

@@ -21,11 +21,13 @@ struct GeometryOptions {
     std::function<bool(const std::string& name)> isWanted{};
 };
 
-// The triangles of something change, or it is drawn anew, where a format has one topology for all frames.
+// The triangles of something change, where a format has the same ones for all frames.
 class TopologyChanged : public core::Error {
   public:
-    TopologyChanged(std::string name, std::int64_t frame)
-        : Error(core::ErrorKind::badContent, name + " tears or is cut before frame " + std::to_string(frame)),
+    TopologyChanged(const std::string& file, std::string name, std::int64_t frame)
+        : Error(core::ErrorKind::badContent, file + ": " + name + " tears or is cut before frame " +
+                                                 std::to_string(frame) +
+                                                 ", and GLB keeps the triangles of the first frame"),
           name_(std::move(name)),
           frame_(frame) {}
     const std::string& name() const { return name_; }  // "cloth.flag"
@@ -44,7 +46,7 @@ class GeometrySink {
     // badContent where the format cannot hold it; TopologyChanged.
     virtual void write(const view::FrameView& view) = 0;
 
-    // Gives the file its name; expects a frame. Without it none comes into being, and what was there stays. Throws
+    // Gives the file its name; expects a frame, and none after it. Without it none comes into being, and what was there stays. Throws
     // core::Error(inputOutput).
     virtual void finish() = 0;
 };

@@ -196,9 +196,15 @@ std::string GlbWriter::Impl::pose(const std::vector<glm::mat4>& matrices, std::s
 void GlbWriter::Impl::addNode(const Track& track) {
     const std::string name = jsonText(track.part.identifier);
     const std::size_t targets = track.targets.count();
-    const std::size_t mesh = meshes.add(fmt::format(
-        R"({{"name":{},"primitives":[{{"attributes":{{{}}},"indices":{},"material":{}{}}}]}})", name, track.attributes,
-        track.indices, material(track.part), targets > 0 ? ",\"targets\":[" + track.targets.text() + "]" : ""));
+    std::string shapes, zeros;
+    if (targets > 0) {
+        for (std::size_t i = 0; i < targets; ++i) zeros += i > 0 ? ",0" : "0";
+        shapes = ",\"targets\":[" + track.targets.text() + "]";
+        zeros = ",\"weights\":[" + zeros + "]";  // the default, without which some readers fail
+    }
+    const std::size_t mesh =
+        meshes.add(fmt::format(R"({{"name":{},"primitives":[{{"attributes":{{{}}},"indices":{},"material":{}{}}}]{}}})",
+                               name, track.attributes, track.indices, material(track.part), shapes, zeros));
     const std::size_t node = nodes.count();
     if (targets > 0) animate(node, "weights", weights(track), "LINEAR");
     std::string more = pose(track.transforms, node);
@@ -265,7 +271,7 @@ void GlbWriter::write(const view::FrameView& view) {
         if (!w.trackOf.contains(part.identifier)) w.addTrack(part);
         const std::size_t number = w.trackOf.at(part.identifier);
         Impl::Track& track = w.tracks[number];
-        if (track.part.topology != part.topology) throw TopologyChanged(part.name, view.frame);
+        if (track.part.topology != part.topology) throw TopologyChanged(w.path.string(), part.name, view.frame);
         if (part.geometry != track.last) {
             track.last = part.geometry;
             if (part.geometry == track.part.geometry)
@@ -315,6 +321,7 @@ void GlbWriter::finish() {
         w.data.bytes.copy({0, binary}, file);
     }
     file.commit();
+    impl_.reset();
 }
 
 }  // namespace taut::geometry

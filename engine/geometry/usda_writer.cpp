@@ -80,8 +80,8 @@ struct UsdaWriter::Impl {
     PartFinder finder;
     ScratchFile scratch;
     std::vector<Prim> prims;
-    std::map<std::string, std::size_t> primOf;  // by identifier
-    std::map<std::shared_ptr<const view::Finish>, std::string> materials;
+    std::map<std::string, std::size_t> primOf;                                           // by identifier
+    std::vector<std::pair<std::shared_ptr<const view::Finish>, std::string>> materials;  // with their names
     UsdaSamples camera, focalLength;
     view::Light light;
     view::Camera firstCamera;
@@ -104,7 +104,10 @@ UsdaWriter::Impl::Prim& UsdaWriter::Impl::primFor(const Part& part) {
     Prim& prim = prims.emplace_back();
     prim.part.identifier = part.identifier;
     prim.part.isTwoSided = part.isTwoSided;
-    prim.material = materials.try_emplace(part.finish, part.identifier).first->second;
+    auto known = std::find_if(materials.begin(), materials.end(),
+                              [&](const auto& material) { return material.first == part.finish; });
+    if (known == materials.end()) known = materials.insert(known, {part.finish, part.identifier});
+    prim.material = known->second;
     if (last > first) prim.visibility.set(first, "\"invisible\"", scratch);
     return prim;
 }
@@ -298,6 +301,7 @@ void UsdaWriter::finish() {
     to.add(w.tail());
     to.flush();
     file.commit();
+    impl_.reset();
 }
 
 }  // namespace taut::geometry

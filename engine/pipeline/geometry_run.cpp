@@ -96,11 +96,8 @@ void write(const Delivery& delivery, geometry::GeometrySink* sink, geometry::Poi
 [[noreturn]] void failTorn(const geometry::TopologyChanged& torn, const Source& source, const world::World& world,
                            std::int64_t firstFrame) {
     const std::int64_t tick = source.tickOf(torn.name(), torn.frame());
-    std::string text = fmt::format(
-        "{} tears or is cut at tick {} ({:.6g} s), and this format keeps the triangles of the first frame: write "
-        ".usda, "
-        "where they may change",
-        torn.name(), tick, static_cast<double>(tick) * world.tickSeconds());
+    std::string text = fmt::format("{}; it is tick {} ({:.6g} s): write .usda, where they may change", torn.what(),
+                                   tick, static_cast<double>(tick) * world.tickSeconds());
     if (torn.frame() > firstFrame)
         text += fmt::format(", or end before it with --frames {}-{}", firstFrame, torn.frame() - 1);
     throw core::Error(core::ErrorKind::badContent, text);

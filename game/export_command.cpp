@@ -32,7 +32,8 @@ namespace {
 
 struct ExportFlags {
     std::string scene, output, points, frames, isa;
-    std::vector<std::string> only, of, overrides;
+    std::vector<std::string> only, of;  // as they are given
+    std::vector<std::string> overrides;
     std::int64_t every = 1;
     int digits = 0;  // 0: not given
     double fps = 0.0, seconds = 0.0;
@@ -46,6 +47,28 @@ struct ExportFlags {
     throw core::Error(core::ErrorKind::usage, message);
 }
 
+// What stands between commas, but for those of places such as cloth.flag@(0.5,0.5); each once.
+std::vector<std::string> targetsIn(const std::vector<std::string>& texts) {
+    std::vector<std::string> targets;
+    for (const std::string& text : texts) {
+        std::string target;
+        int depth = 0;
+        const auto take = [&] {
+            if (std::find(targets.begin(), targets.end(), target) == targets.end()) targets.push_back(target);
+            target.clear();
+        };
+        for (const char c : text) {
+            depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+            if (c == ',' && depth == 0)
+                take();
+            else
+                target += c;
+        }
+        take();
+    }
+    return targets;
+}
+
 void checkFlags(const ExportFlags& flags) {
     if (flags.output.empty() && flags.points.empty())
         failUsage("say where the geometry goes: -o out.usda, -o out.glb, or --points out.npz");
@@ -57,7 +80,8 @@ void checkFlags(const ExportFlags& flags) {
     if (!flags.points.empty() && !geometry::isPointsPath(flags.points))
         failUsage(fmt::format("{}: points go to .npz (numpy.load) or .csv", flags.points));
     if (flags.points.empty() && !flags.of.empty()) failUsage("--of says whose points: add --points out.npz");
-    if (flags.digits > 0 && !flags.isUsd()) failUsage("--digits are those of .usda; other formats hold all of a number");
+    if (flags.digits > 0 && !flags.isUsd())
+        failUsage("--digits are those of .usda; other formats hold all of a number");
     if (flags.output.empty() && (flags.noNormals || !flags.only.empty()))
         failUsage("--only and --no-normals are for geometry: add -o, or name points with --of");
 }
@@ -93,7 +117,7 @@ pipeline::GeometryRun runOf(const ExportFlags& flags, const world::SceneSpec& sp
         failUsage(
             fmt::format("--frames {}: the scene has frames 0-{}; --seconds makes it longer", flags.frames, count - 1));
     if (flags.points.empty()) return run;
-    run.targets = flags.of;
+    run.targets = targetsIn(flags.of);
     if (run.targets.empty())
         for (const world::BodySpec& body : spec.bodies) run.targets.push_back(body.fullName());
     if (run.targets.empty()) failUsage("--points: the scene has no bodies");
@@ -108,7 +132,7 @@ geometry::GeometryOptions geometryOptions(const ExportFlags& flags, const world:
     if (flags.digits > 0) options.digits = flags.digits;
     options.generator = fmt::format("taut {}", TAUT_VERSION);
     if (!flags.only.empty())
-        options.isWanted = [only = flags.only](const std::string& name) {
+        options.isWanted = [only = targetsIn(flags.only)](const std::string& name) {
             return std::any_of(only.begin(), only.end(),
                                [&](const std::string& pattern) { return core::matches(pattern, name); });
         };
@@ -136,9 +160,9 @@ void printLost(const geometry::LostMotion& lost, std::int64_t every) {
 int exportScene(const ExportFlags& flags) {
     checkFlags(flags);
     const world::SceneSpec spec = readScene(flags.scene, allOverrides(flags), flags.isConfined);
-    for (const std::string& target : flags.only)
+    for (const std::string& target : targetsIn(flags.only))
         if (const std::string fault = onlyFault(spec, target); !fault.empty()) failUsage("--only: " + fault);
-    for (const std::string& target : flags.of)
+    for (const std::string& target : targetsIn(flags.of))
         if (const std::string fault = scene::targetFault(spec, target, true); !fault.empty())
             failUsage("--of: " + fault);
     pipeline::GeometryRun run = runOf(flags, spec);
@@ -203,10 +227,10 @@ Action declareExport(Options& options) {
         .typeName("FILE");
     options.value("--of", flags->of, "Whose points, such as cloth.flag@left; all bodies when not given")
         .typeName("TARGET,…")
-        .separatedBy(',');
+        .oneValue();
     options.value("--only", flags->only, "Only these in the geometry, such as cloth.* or collider.ball")
         .typeName("TARGET,…")
-        .separatedBy(',');
+        .oneValue();
     const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
     options.flag("-n,--no", flags->no, "Never overwrite").excludes(yes);
     options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");

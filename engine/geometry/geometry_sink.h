@@ -46,8 +46,8 @@ class GeometrySink {
     // badContent where the format cannot hold it; TopologyChanged.
     virtual void write(const view::FrameView& view) = 0;
 
-    // Gives the file its name; expects a frame, and none after it. Without it none comes into being, and what was there stays. Throws
-    // core::Error(inputOutput).
+    // Gives the file its name; expects a frame, and none after it. Without it none comes into being, and what was there
+    // stays. Throws core::Error(inputOutput).
     virtual void finish() = 0;
 };
 

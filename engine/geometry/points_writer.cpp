@@ -17,6 +17,8 @@ class CsvPoints : public PointsWriter {
   public:
     CsvPoints(const std::filesystem::path& path, std::vector<std::string> targets)
         : file_(path), targets_(std::move(targets)) {
+        for (std::string& target : targets_)
+            if (target.find(',') != std::string::npos) target = '"' + target + '"';
         file_.write("frame,time_s,target,point,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n");
     }
 

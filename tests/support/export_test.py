@@ -4,6 +4,7 @@
 export_test.py PROGRAM: the points of .npz and .csv are the same numbers; the meshes that VTK and Blender show, and those
 of .usda, are where the points are; what cannot be written is refused and leaves nothing.
 """
+import csv
 import os
 import pathlib
 import re
@@ -116,6 +117,10 @@ def blocks_of(reader, frame):
 def points_agree():
     export("small.toml", "-o", "small.glb", "--points", "small.npz")
     export("small.toml", "-o", "small.usda", "--points", "small.csv", "--of", "cloth.flag")
+    export("small.toml", "--points", "places.csv", "--frames", "7", "--of", "rope.line@end,cloth.flag@(1,0)")
+    with open("places.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    expect([(row[2], row[0]) for row in rows[1:]] == [("rope.line@end", "7"), ("cloth.flag@(1,0)", "7")], str(rows))
     points = numpy.load("small.npz")
     x, v = points["cloth.flag.x"], points["cloth.flag.v"]
     expect(x.shape == (30, 99, 3) and v.shape == x.shape and x.dtype == numpy.float64, "shapes of .npz")

@@ -204,9 +204,11 @@ int exportScene(const ExportFlags& flags) {
         isWhole = pipeline::exportGeometry(world, run, fewer.get(), points.get(), interruption.flag());
     } catch (const core::Error& error) {
         if (error.kind() != core::ErrorKind::diverged) throw;
-        throw core::Error(core::ErrorKind::diverged,
-                          fmt::format("{}\nnothing was written; --frames {}-{} writes what came before", error.what(),
-                                      run.firstFrame, world.tick() / world.ticksPerFrame()));
+        const std::int64_t good = world.tick() / world.ticksPerFrame();
+        std::string text = fmt::format("{}\nnothing was written", error.what());
+        if (good >= run.firstFrame)
+            text += fmt::format("; --frames {}-{} writes what came before", run.firstFrame, good);
+        throw core::Error(core::ErrorKind::diverged, text);
     }
     if (!isWhole) return static_cast<int>(interruption.exitCode().value_or(ExitCode::interrupted));
     if (fewer) printLost(fewer->lost(), flags.every);

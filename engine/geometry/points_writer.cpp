@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstring>
 #include <limits>
 
 #include "taut/core/error.h"
@@ -55,25 +56,40 @@ class CsvPoints : public PointsWriter {
     std::string text_;
 };
 
-// The CRC of ZIP files (ISO 3309), a table of 256 entries.
+// The CRC of ZIP files (ISO 3309), eight bytes at a time: table k has what a byte does k bytes later (Kounavis and
+// Berry, A systematic approach to building high performance, software-based, CRC generators, 2005).
 class Crc {
   public:
     Crc() {
         for (std::uint32_t i = 0; i < 256; ++i) {
             std::uint32_t c = i;
             for (int k = 0; k < 8; ++k) c = (c & 1U) != 0 ? 0xEDB88320U ^ (c >> 1U) : c >> 1U;
-            table_[i] = c;
+            tables_[0][i] = c;
         }
+        for (std::size_t k = 1; k < 8; ++k)
+            for (std::size_t i = 0; i < 256; ++i) tables_[k][i] = after(tables_[k - 1][i], 0);
     }
+
     // Goes on from `crc`, 0 at first.
     std::uint32_t of(std::span<const std::byte> bytes, std::uint32_t crc) const {
         crc = ~crc;
-        for (const std::byte byte : bytes) crc = table_[(crc ^ static_cast<std::uint32_t>(byte)) & 0xFFU] ^ (crc >> 8U);
+        for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
+            std::uint32_t words[2];
+            std::memcpy(words, bytes.data(), 8);
+            words[0] ^= crc;
+            crc = 0;
+            for (std::size_t k = 0; k < 8; ++k) crc ^= tables_[7 - k][(words[k / 4] >> (8 * (k % 4))) & 0xFFU];
+        }
+        for (const std::byte byte : bytes) crc = after(crc, static_cast<std::uint32_t>(byte));
         return ~crc;
     }
 
   private:
-    std::array<std::uint32_t, 256> table_{};
+    std::uint32_t after(std::uint32_t crc, std::uint32_t byte) const {
+        return tables_[0][(crc ^ byte) & 0xFFU] ^ (crc >> 8U);
+    }
+
+    std::array<std::array<std::uint32_t, 256>, 8> tables_{};
 };
 
 // Numbers of a ZIP header, little-endian.

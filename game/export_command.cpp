@@ -253,7 +253,9 @@ Action declareExport(Options& options) {
     options.footer(
         "Lengths are metres, y is up. In .usda time codes are numbers of frames; in .glb time begins at the first "
         "frame,\n"
-        "and nothing may tear.\n"
+        "and nothing may tear. Patterns but pictures become their first colour. Vertices have an order of their own; "
+        "--points\n"
+        "has that of the scene.\n"
         "Examples:\n"
         "  taut export torn-banner -o banner.usda\n"
         "  taut export flag -o flag.glb --every 2 --only cloth.flag\n"

@@ -16,10 +16,11 @@ mkdir -p "$out"
 
 if [ "${1-film}" = stills ]; then
     # Scene and frame.
-    for still in show:75 cape:160 laundry:285 flag:166; do
+    for still in show:75 cape:160 laundry:300 flag:166; do
         scene=${still%:*} frame=${still#*:}
-        "$taut" render "$scene" -o "$out/$scene.png" --frames "$frame" --size "$size" -y
-        ffmpeg -v error -y -i "$out/$scene.png" -q:v 2 "$root/assets/pictures/$scene-still.jpg"
+        "$taut" render "$scene" -o "$out/$scene-######.png" --frames "$frame" --size "$size" --samples 16 -y --quiet
+        number=$(printf %06d "$frame")
+        ffmpeg -v error -y -i "$out/$scene-$number.png" -q:v 2 "$root/assets/pictures/$scene-still.jpg"
     done
     echo "Stills: $root/assets/pictures/*-still.jpg"
     exit 0

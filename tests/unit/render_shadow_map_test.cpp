@@ -26,11 +26,11 @@ TEST(ShadowMap, APlaneOfTrianglesHasItsDepthInEachTexel) {
     std::uniform_real_distribution<float> along(1.0F, 127.0F);
     for (int trial = 0; trial < 20; ++trial) {
         const glm::vec2 middle(along(random), along(random));
-        const std::vector<glm::vec2> rim{{-9.0F, -9.0F},   {along(random), -9.0F},  {150.0F, -30.0F},
-                                         {140.0F, 141.0F}, {along(random), 135.0F}, {-20.0F, 140.0F}};
+        const std::vector<glm::vec2> outline{{-9.0F, -9.0F},   {along(random), -9.0F},  {150.0F, -30.0F},
+                                             {140.0F, 141.0F}, {along(random), 135.0F}, {-20.0F, 140.0F}};
         std::vector<MapTriangle> triangles;
-        for (std::size_t i = 0; i < rim.size(); ++i) {
-            const glm::vec2 a = rim[i], b = rim[(i + 1) % rim.size()];
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const glm::vec2 a = outline[i], b = outline[(i + 1) % outline.size()];
             triangles.push_back({{middle.x, a.x, b.x},
                                  {middle.y, a.y, b.y},
                                  {depthAt(middle.x, middle.y), depthAt(a.x, a.y), depthAt(b.x, b.y)}});

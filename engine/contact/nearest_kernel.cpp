@@ -122,7 +122,8 @@ void onSegments(NearestLanes& lanes, int n) {
         lanes.weights[1][i] = first;
         lanes.weights[2][i] = second - 1.0;
         lanes.weights[3][i] = -second;
-        lanes.where[i] = (first > 0) & (first < 1) & (second > 0) & (second < 1) ? 1L : 0L;
+        const bool areInside = (first > 0) & (first < 1) & (second > 0) & (second < 1);
+        lanes.where[i] = areInside ? 1L : 0L;
     }
     sumUp(lanes, n);
 }
@@ -165,8 +166,8 @@ int findAwake(NearPairRows& rows) {
             const double left = near[i] - travelled, leftFirst = nearFirst[i] - approached;
             const bool isAsleep = (left > 0) | (leftFirst > 0), isFurther = left > leftFirst;
             isAwake[i] = isAsleep ? 0L : 1L;
-            byTravelled[i] = isAsleep & isFurther ? -near[i] : -1e300;
-            byApproached[i] = isAsleep & !isFurther ? -nearFirst[i] : -1e300;
+            byTravelled[i] = (isAsleep & isFurther) ? -near[i] : -1e300;
+            byApproached[i] = (isAsleep & !isFurther) ? -nearFirst[i] : -1e300;
         }
         int full = 0;
         if (n >= width) {

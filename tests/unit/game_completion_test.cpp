@@ -51,7 +51,7 @@ TEST(Completion, BashOffersCommandsFlagsTheirWordsScenesFilesAndFolders) {
     writeText(folder / "here/flare.toml", "");
     writeText(folder / "here/flute.txt", "");
     EXPECT_EQ(offered(folder, "re"), (Words{"record", "render", "replay"}));
-    EXPECT_EQ(offered(folder, "render --m"), (Words{"--metrics", "--metrics-of"}));
+    EXPECT_EQ(offered(folder, "render --metr"), (Words{"--metrics", "--metrics-of"}));
     EXPECT_EQ(offered(folder, "render fl"), (Words{"flag", "flare.toml"}));
     EXPECT_EQ(offered(folder, "test torn-"), (Words{"torn-banner"}));
     EXPECT_EQ(offered(folder, "render flag --hash-every ''"), (Words{"frame", "tick"}));

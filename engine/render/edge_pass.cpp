@@ -118,11 +118,8 @@ glm::vec4 seenSideOf(const view::FrameView& view) {
     return {0.0F, side, 0.0F, -side * view.ground->height};
 }
 
-void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const ShadedPixels& shaded,
-                 EdgeTriangles& triangles, std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha) {
-    if (shaded.box.width == 0 || shaded.box.height == 0) return;
-    const std::vector<PixelBox> found = edgeTiles(shaded);
-    triangles.find(items, view, shaded.box, found);
+void forEachTile(const EdgeTriangles& triangles,
+                 const std::function<void(const PixelBox& tile, const CoveredTile& covered)>& each) {
     const std::span<const PixelBox> tiles = triangles.tiles();
     const int count = static_cast<int>(tiles.size());
     core::parallelFor((count + tilesATask - 1) / tilesATask, [&](int task) {
@@ -132,11 +129,21 @@ void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const Sh
             covered.clear();
             triangles.visit(static_cast<std::size_t>(i),
                             [&](const EdgeTriangle& triangle) { covered.add(tile, triangle); });
-            if (shaded.alpha.empty())
-                smoothTile<true>(tile, covered, shaded, view.size.x, picture, alpha);
-            else
-                smoothTile<false>(tile, covered, shaded, view.size.x, picture, alpha);
+            each(tile, covered);
         }
+    });
+}
+
+void smoothEdges(std::span<const DrawItem> items, const EdgeView& view, const ShadedPixels& shaded,
+                 EdgeTriangles& triangles, std::span<std::uint32_t> picture, std::span<std::uint8_t> alpha) {
+    if (shaded.box.width == 0 || shaded.box.height == 0) return;
+    const std::vector<PixelBox> found = edgeTiles(shaded);
+    triangles.find(items, view, shaded.box, found);
+    forEachTile(triangles, [&](const PixelBox& tile, const CoveredTile& covered) {
+        if (shaded.alpha.empty())
+            smoothTile<true>(tile, covered, shaded, view.size.x, picture, alpha);
+        else
+            smoothTile<false>(tile, covered, shaded, view.size.x, picture, alpha);
     });
 }
 

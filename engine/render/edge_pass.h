@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "taut/render/edge_coverage.h"
 #include "taut/render/edge_triangles.h"
 #include "taut/render/mesh_cache.h"
 #include "taut/view/frame_view.h"
@@ -19,6 +21,10 @@ inline constexpr std::uint32_t nothingMark = 255;  // where nothing has been dra
 
 // The part of a picture in which the items can be seen; all of it if one of them reaches behind the camera.
 PixelBox pixelBox(std::span<const DrawItem> items, const glm::mat4& viewProjection, int width, int height);
+
+// Calls each for every tile with what the triangles cover of it; tiles go side by side.
+void forEachTile(const EdgeTriangles& triangles,
+                 const std::function<void(const PixelBox& tile, const CoveredTile& covered)>& each);
 
 // Smooths the part of a picture (rows from below, as wide as view.size says) that shows the items. `shaded` is that
 // part as it was drawn, `triangles` room for those of the items; where it has alpha, `alpha` is that of the picture.

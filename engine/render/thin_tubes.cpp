@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/parallel.h"
 #include "taut/render/camera_axes.h"
 #include "taut/render/edge_coverage.h"
 #include "taut/render/edge_pass.h"
@@ -11,8 +10,6 @@
 namespace taut::render {
 
 namespace {
-
-constexpr int tilesATask = 16;
 
 // From the depth of a picture to metres along the camera's axis: 1 / ahead is linear in it.
 struct DepthScale {
@@ -141,17 +138,8 @@ void layThinTubes(const ThinLayer& layer, const EdgeView& view, EdgeTriangles& t
     const std::vector<PixelBox> found = edgeTiles(layer.shaded);
     triangles.find(layer.tubes, layer.others, view, layer.shaded.box, found);
     const DepthScale depths(view);
-    const std::span<const PixelBox> tiles = triangles.tiles();
-    const int count = static_cast<int>(tiles.size());
-    core::parallelFor((count + tilesATask - 1) / tilesATask, [&](int task) {
-        CoveredTile covered;
-        for (int i = task * tilesATask; i < std::min((task + 1) * tilesATask, count); ++i) {
-            const PixelBox& tile = tiles[static_cast<std::size_t>(i)];
-            covered.clear();
-            triangles.visit(static_cast<std::size_t>(i),
-                            [&](const EdgeTriangle& triangle) { covered.add(tile, triangle); });
-            layTile(tile, covered, layer, depths, view.size.x, picture);
-        }
+    forEachTile(triangles, [&](const PixelBox& tile, const CoveredTile& covered) {
+        layTile(tile, covered, layer, depths, view.size.x, picture);
     });
 }
 

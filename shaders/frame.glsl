@@ -15,4 +15,6 @@ layout(std140) uniform Frame {
     vec4 occlusionArea; // xy: corner of the occlusion map [m]; zw: 1 / its extent
     vec4 groundColour;  // w: distance of its lines [m]
     vec4 debug;         // x: 1 in the debug view, else 0
+    vec4 around;        // the picture around: cosine and sine of its turn, strength, texels a radian
+    vec4 ambient[9];    // light of it, as factors of spherical harmonics
 };

@@ -1,4 +1,5 @@
 // The floor with its lines, fading into the horizon. SHADED where shadows may fall, DARKENED where things hide the sky.
+// ENVIRONMENT: into the picture around instead.
 // TRANSPARENT: without lines, and only what shadows leave of its colour, 0 … 1.
 #include "tone.glsl"
 #ifdef SHADED
@@ -6,6 +7,9 @@
 #endif
 #ifdef DARKENED
 uniform sampler2D occlusion;
+#endif
+#ifdef ENVIRONMENT
+#include "environment.glsl"
 #endif
 in vec3 place;
 out vec4 colour;
@@ -62,6 +66,12 @@ void main() {
 #ifdef TRANSPARENT
     colour = vec4(mix(shown, vec3(1.0), away), 0.0);
 #else
-    colour = vec4(dithered(mix(shown, backgroundHorizon.rgb, away)), 0.0);
+#ifdef ENVIRONMENT
+    vec3 way = normalize(place - eye.xyz);
+    vec3 behind = filmic(lightFrom(way, length(dFdy(way))));
+#else
+    vec3 behind = backgroundHorizon.rgb;
+#endif
+    colour = vec4(dithered(mix(shown, behind, away)), 0.0);
 #endif
 }

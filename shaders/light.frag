@@ -1,6 +1,12 @@
 // Surfaces in sun and sky, from what surface.frag has kept of them.
 #include "tone.glsl"
 #include "shadow.glsl"
+#ifdef ENVIRONMENT
+#include "environment.glsl"
+#else
+vec3 lightOn(vec3 normal) { return hemisphere(normal); }
+vec3 lightFrom(vec3 way, float cone) { return hemisphere(way); }
+#endif
 uniform sampler2D tints;
 uniform usampler2D shapes;
 uniform sampler2D materials;  // two texels a row: colour of the back, roughness; sheen, dulled, two-sided, woven
@@ -48,7 +54,7 @@ void main() {
     float direct = max(facing, 0.0) * sun;
     direct *= max(smoothstep(-0.02, 0.12, lightSide), 1.0 - kind.w);  // threads on the far side stay dark
 
-    vec3 diffuse = lightColour.rgb * direct + hemisphere(normal) * open;
+    vec3 diffuse = lightColour.rgb * direct + lightOn(normal) * open;
     vec3 light = albedo * open * diffuse;
     light += (0.18 * kind.z) * albedo * through * lightColour.rgb * (max(-lightSide, 0.0) * sun);
 
@@ -62,7 +68,7 @@ void main() {
     float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
     light += lightColour.rgb * (0.04 * gloss * direct * open);
     vec3 mirrored = reflect(-toEye, normal);
-    light += hemisphere(mirrored) * (fresnel * (1.0 - roughness) * 0.6 * open);
+    light += lightFrom(mirrored, 2.0 * roughness * roughness) * (fresnel * (1.0 - roughness) * 0.6 * open);
     light += sheen * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight.rgb);
 
     if (debug.x > 0.0) {

@@ -1,6 +1,7 @@
 // What all shaders know of a picture, laid out as the uniform block Frame of shaders/frame.glsl (std140).
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 
@@ -26,10 +27,13 @@ struct FrameBlock {
     glm::vec4 occlusionArea;
     glm::vec4 groundColour;
     glm::vec4 debug;
+    glm::vec4 around;
+    std::array<glm::vec4, 9> ambient;
 };
-static_assert(sizeof(FrameBlock) == 3 * 64 + 12 * 16);
+static_assert(sizeof(FrameBlock) == 3 * 64 + 22 * 16);
 
-// Of a view, a shadow map of so many texels a side, and where things darken the ground.
+// Of a view, a shadow map of so many texels a side, and where things darken the ground; EnvironmentMap adds the picture
+// around.
 FrameBlock blockOf(const view::FrameView& view, const glm::mat4& projection, const LightBox& box, int texels,
                    const std::optional<OcclusionArea>& occlusion);
 

@@ -13,29 +13,35 @@ namespace taut::render {
 
 namespace {
 
-std::vector<std::string> definitions(std::vector<std::string> own, bool transparent) {
-    if (transparent) own.emplace_back("TRANSPARENT");
-    return own;
-}
-
 constexpr int steadyPictures = 8;  // after so many with the maps in the same place, what they shade is kept
 
 }  // namespace
 
+GroundPass::Programs GroundPass::programsOf(const ShaderFolder& shaders, const std::vector<std::string>& definitions) {
+    const auto with = [&](std::vector<std::string> own) {
+        own.insert(own.end(), definitions.begin(), definitions.end());
+        return own;
+    };
+    return {shaders.program("ground.vert", "ground.frag", with({"SHADED", "DARKENED"})),
+            shaders.program("ground.vert", "ground.frag", with({"DARKENED"})),
+            shaders.program("ground.vert", "ground.frag", with({})),
+            shaders.program("background.vert", "background.frag", with({}))};
+}
+
 GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill, bool transparent)
     : gl_(&gl),
+      shaders_(&shaders),
       keepsStill_(keepsStill),
-      shaded_(shaders.program("ground.vert", "ground.frag", definitions({"SHADED", "DARKENED"}, transparent))),
-      darkened_(shaders.program("ground.vert", "ground.frag", definitions({"DARKENED"}, transparent))),
-      open_(shaders.program("ground.vert", "ground.frag", definitions({}, transparent))),
-      background_(shaders.program("background.vert", "background.frag", definitions({}, transparent))),
+      isTransparent_(transparent),
+      plain_(programsOf(shaders, transparent ? std::vector<std::string>{"TRANSPARENT"} : std::vector<std::string>{})),
       layout_(gl, GlKind::vertexArray),
       vertices_(gl, GlKind::buffer),
       indices_(gl, GlKind::buffer),
       empty_(gl, GlKind::vertexArray) {}
 
 bool GroundPass::Still::operator==(const Still& other) const {
-    return groundHeight == other.groundHeight && std::memcmp(&block, &other.block, sizeof(block)) == 0;
+    return groundHeight == other.groundHeight && environment == other.environment &&
+           std::memcmp(&block, &other.block, sizeof(block)) == 0;
 }
 
 bool GroundPass::StillShade::operator==(const StillShade& other) const {
@@ -45,6 +51,9 @@ bool GroundPass::StillShade::operator==(const StillShade& other) const {
 void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, const LightBox& box,
                        std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion,
                        Targets& targets) {
+    const bool isPictured = view.environment && view.environment->isShown && !isTransparent_;
+    if (isPictured && !pictured_) pictured_ = programsOf(*shaders_, {"ENVIRONMENT"});
+    now_ = isPictured ? &*pictured_ : &plain_;
     StillShade shade{block, {}};
     std::vector<Bounds> all, moving;
     for (const DrawItem& item : items) {
@@ -67,7 +76,7 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
     }
 
     // Where the maps lie is nothing that the open ground knows.
-    Still now{block, view.ground ? std::optional(view.ground->height) : std::nullopt};
+    Still now{block, view.ground ? std::optional(view.ground->height) : std::nullopt, view.environment};
     now.block.toMap = glm::mat4(0.0F);
     now.block.mapSize = now.block.occlusionArea = glm::vec4(0.0F);
     const bool isStill = keepsStill_ && !view.showMarks && before_ == now;
@@ -110,8 +119,8 @@ void GroundPass::keep(const glm::mat4& projection, Targets& targets) {
     gl_->Clear(GL_DEPTH_BUFFER_BIT);
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
-    drawCells(shaded_, shaded);
-    drawCells(darkened_, darkened);
+    drawCells(now_->shaded, shaded);
+    drawCells(now_->darkened, darkened);
     drawOpen(projection, open);
     targets.colours(keptColours_);
     targets.depths({0, 0, targets.size().x, targets.size().y}, keptDepths_);
@@ -134,10 +143,10 @@ void GroundPass::leaveOut(std::vector<std::uint32_t>& triangles, Look look) cons
 void GroundPass::draw(const glm::mat4& projection) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
-    drawCells(shaded_, mesh_.shaded);
-    drawCells(darkened_, mesh_.darkened);
+    drawCells(now_->shaded, mesh_.shaded);
+    drawCells(now_->darkened, mesh_.darkened);
     if (isKept_)
-        drawCells(open_, mesh_.open);
+        drawCells(now_->open, mesh_.open);
     else
         drawOpen(projection, mesh_.open);
 }
@@ -158,11 +167,11 @@ void GroundPass::fill(const PixelBox& part, std::span<float> depths, std::span<s
 void GroundPass::drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
-    drawCells(open_, triangles);
+    drawCells(now_->open, triangles);
     gl_->DepthFunc(GL_LEQUAL);
     gl_->BindVertexArray(empty_.id());
-    background_.use();
-    background_.set("toWorld", glm::inverse(projection));
+    now_->background.use();
+    now_->background.set("toWorld", glm::inverse(projection));
     gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

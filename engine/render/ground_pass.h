@@ -4,6 +4,8 @@
 
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "taut/render/frame_block.h"
 #include "taut/render/ground.h"
@@ -39,6 +41,7 @@ class GroundPass {
     struct Still {
         FrameBlock block{};
         std::optional<float> groundHeight;
+        std::optional<view::Environment> environment;
         bool operator==(const Still& other) const;
     };
     // What ground depends on besides that only still things shade.
@@ -50,14 +53,22 @@ class GroundPass {
     // How a cell looks in what is kept.
     enum class Look : std::uint8_t { open, darkened, shaded };
 
+    struct Programs {
+        Program shaded, darkened, open, background;
+    };
+    static Programs programsOf(const ShaderFolder& shaders, const std::vector<std::string>& definitions);
+
     void keep(const glm::mat4& projection, Targets& targets);
     void leaveOut(std::vector<std::uint32_t>& triangles, Look look) const;
     void drawCells(const Program& program, const std::vector<std::uint32_t>& triangles);
     void drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles);
 
     const Gl* gl_;
-    bool keepsStill_;
-    Program shaded_, darkened_, open_, background_;
+    const ShaderFolder* shaders_;
+    bool keepsStill_, isTransparent_;
+    Programs plain_;
+    std::optional<Programs> pictured_;  // in front of a picture of what is around; made when there is one
+    Programs* now_ = &plain_;           // for what is drawn now
     GlObject layout_, vertices_, indices_, empty_;
     GroundMesh mesh_;
     std::optional<Still> before_;         // of the picture before

@@ -61,6 +61,7 @@ Program::Program(const Gl& gl, GlObject object) : gl_(&gl), object_(std::move(ob
     set("tints", static_cast<int>(tintsUnit));
     set("shapes", static_cast<int>(shapesUnit));
     set("materials", static_cast<int>(materialsUnit));
+    set("environment", static_cast<int>(environmentUnit));
     const GLuint block = gl_->GetUniformBlockIndex(object_.id(), "Frame");
     if (block != GL_INVALID_INDEX) gl_->UniformBlockBinding(object_.id(), block, frameBlockBinding);
 }

@@ -22,6 +22,7 @@ enum TextureUnit : int {
     tintsUnit = 5,
     shapesUnit = 6,
     materialsUnit = 7,
+    environmentUnit = 8,
 };
 
 class Program {

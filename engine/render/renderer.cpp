@@ -13,6 +13,7 @@
 #include "taut/render/depth_layer.h"
 #include "taut/render/edge_kernels.h"
 #include "taut/render/edge_pass.h"
+#include "taut/render/environment_map.h"
 #include "taut/render/frame_block.h"
 #include "taut/render/ground_pass.h"
 #include "taut/render/label_pass.h"
@@ -101,7 +102,8 @@ struct RendererParts {
           thinMeshes(gl),
           shadow(gl, options.shadowSize),
           occlusion(gl),
-          surfaces(gl, shaders),
+          surfaces(gl, shaders, textures),
+          environment(gl, textures),
           marks(gl, shaders),
           labels(options.font),
           frameBlock(gl, GlKind::buffer) {
@@ -119,7 +121,9 @@ struct RendererParts {
     MeshCache meshes, thinMeshes;
     ShadowPass shadow;
     OcclusionPass occlusion;
+    TextureBudget textures;
     SurfacePass surfaces;
+    EnvironmentMap environment;
     std::vector<std::unique_ptr<GroundPass>> grounds;  // one for each shift, for each keeps its own picture
     MarksPass marks;
     LabelPass labels;
@@ -255,7 +259,8 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     passDone("occlusion");
 
     // The picture; ground and sky last, for what is hidden need not be shaded.
-    const FrameBlock block = blockOf(view, pass.projection, box, options.shadowSize, occlusion);
+    FrameBlock block = blockOf(view, pass.projection, box, options.shadowSize, occlusion);
+    parts->environment.show(view, block);
     gl().BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts->frameBlock.id());
     gl().BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
     parts->shadow.bindMaps();
@@ -271,7 +276,7 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
         gl().ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         gl().Clear(GL_COLOR_BUFFER_BIT);
     }
-    parts->surfaces.light(view.camera, pass.part, parts->targets.size(), pass.shift);
+    parts->surfaces.light(view, pass.part, parts->targets.size(), pass.shift);
     passDone("light");
     ground.draw(pass.projection);
     passDone("ground");
@@ -313,7 +318,7 @@ void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, Drawn& drawn
     parts->targets.bindShading();
     gl().ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     gl().Clear(GL_COLOR_BUFFER_BIT);
-    parts->surfaces.light(scene.view.camera, part, parts->targets.size(), pass.shift);
+    parts->surfaces.light(scene.view, part, parts->targets.size(), pass.shift);
     parts->shaded.box = part;
     parts->targets.colours(parts->thinColours);
     takePart(parts->thinColours, options.width, part, parts->shaded.colour);

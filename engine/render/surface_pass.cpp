@@ -14,10 +14,10 @@ constexpr std::size_t mostMaterials = 16384;  // GL takes textures of that many 
 
 }  // namespace
 
-SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders)
+SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget)
     : gl_(&gl),
       shaders_(&shaders),
-      textures_(gl),
+      textures_(gl, budget),
       light_(shaders.program("screen.vert", "light.frag")),
       materialTexture_(gl, GlKind::texture),
       empty_(gl, GlKind::vertexArray) {
@@ -90,16 +90,20 @@ void SurfacePass::uploadMaterials() {
                     materials_.data());
 }
 
-void SurfacePass::light(const view::Camera& camera, const PixelBox& part, glm::ivec2 size, glm::vec2 shift) {
+void SurfacePass::light(const view::FrameView& view, const PixelBox& part, glm::ivec2 size, glm::vec2 shift) {
     if (materials_.empty() || part.width == 0 || part.height == 0) return;
     uploadMaterials();
+    const view::Camera& camera = view.camera;
     const CameraAxes axes = axesOf(camera);
     const float pixel = 2.0F * std::tan(0.5F * camera.fieldOfView) / static_cast<float>(size.y);  // [m] 1 m ahead
     const glm::vec2 half = 0.5F * glm::vec2(size) + shift;
-    light_.use();
-    light_.set("firstWay", axes.forward - pixel * (half.x * axes.right + half.y * axes.up));
-    light_.set("rightWay", pixel * axes.right);
-    light_.set("upWay", pixel * axes.up);
+    if (view.environment && !lightAround_)
+        lightAround_ = shaders_->program("screen.vert", "light.frag", {"ENVIRONMENT"});
+    Program& light = view.environment ? *lightAround_ : light_;
+    light.use();
+    light.set("firstWay", axes.forward - pixel * (half.x * axes.right + half.y * axes.up));
+    light.set("rightWay", pixel * axes.right);
+    light.set("upWay", pixel * axes.up);
     // At the far plane, where something lies before it.
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_GREATER);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -17,14 +18,14 @@ namespace taut::render {
 
 class SurfacePass {
   public:
-    SurfacePass(const Gl& gl, const ShaderFolder& shaders);
+    SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudget& budget);
 
     // What is seen, into the target of surfaces.
     void draw(std::span<const DrawItem> items, const MeshCache& meshes);
 
     // The light on it, in a part of the bound picture, which shows everything `shift` [pixels] to the right and up; the
     // frame block and the shadow maps must be in place.
-    void light(const view::Camera& camera, const PixelBox& part, glm::ivec2 size, glm::vec2 shift);
+    void light(const view::FrameView& view, const PixelBox& part, glm::ivec2 size, glm::vec2 shift);
 
   private:
     // What light.frag has to know of a surface: a row of its table.
@@ -43,6 +44,7 @@ class SurfacePass {
     TextureCache textures_;
     std::map<std::tuple<view::Pattern, bool, bool>, Program> programs_;  // pattern, woven, two-sided
     Program light_;
+    std::optional<Program> lightAround_;  // under a picture; made when there is one
     std::vector<Material> materials_;
     GlObject materialTexture_, empty_;
 };

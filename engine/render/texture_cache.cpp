@@ -6,11 +6,6 @@
 #include "taut/render/program.h"
 
 namespace taut::render {
-namespace {
-
-constexpr std::int64_t maxPixels = std::int64_t{1} << 27U;  // of all textures: 700 MB with their smaller levels
-
-}  // namespace
 
 void TextureCache::bind(const std::string& path) {
     gl_->ActiveTexture(GL_TEXTURE0 + pictureUnit);
@@ -20,8 +15,8 @@ void TextureCache::bind(const std::string& path) {
         return;
     }
 
-    const image::Image picture = image::readImage(path, std::min(image::mostPixels, maxPixels - pixels_));
-    pixels_ += std::int64_t{picture.width} * picture.height;
+    const image::Image picture = image::readImage(path, std::min(image::mostPixels, budget_->pixels));
+    budget_->pixels -= std::int64_t{picture.width} * picture.height;
     GlObject texture(*gl_, GlKind::texture);
     gl_->BindTexture(GL_TEXTURE_2D, texture.id());
     gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);

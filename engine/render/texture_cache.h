@@ -9,19 +9,24 @@
 
 namespace taut::render {
 
+// How many pixels all pictures of a renderer together may still have.
+struct TextureBudget {
+    std::int64_t pixels = std::int64_t{1} << 27U;  // 700 MB with their smaller levels
+};
+
 class TextureCache {
   public:
-    explicit TextureCache(const Gl& gl) : gl_(&gl) {}
+    TextureCache(const Gl& gl, TextureBudget& budget) : gl_(&gl), budget_(&budget) {}
 
     // Binds a repeating, mip-mapped sRGB texture from a PNG or JPEG file to the unit of pictures. Throws what
     // image::readImage throws: Error(inputOutput) for a file that cannot be read, Error(badContent) for one that is no
-    // picture, or with which all textures together had more than 134 million pixels.
+    // picture, or with which all of the budget had more than 134 million pixels.
     void bind(const std::string& path);
 
   private:
     const Gl* gl_;
+    TextureBudget* budget_;
     std::map<std::string, GlObject> textures_;
-    std::int64_t pixels_ = 0;  // of all of them
 };
 
 }  // namespace taut::render

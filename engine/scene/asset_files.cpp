@@ -34,8 +34,8 @@ std::vector<path> placesFor(const path& name, const std::vector<path>& folders, 
     return places;
 }
 
-void setAsset(world::FinishSpec& finish, const Assets& textures) {
-    if (const auto found = textures.find(finish.texture); found != textures.end()) finish.texture = found->second.found;
+void setTexture(std::string& path, const Assets& textures) {
+    if (const auto found = textures.find(path); found != textures.end()) path = found->second.found;
 }
 
 void setMesh(world::MeshSource& spec, const Assets& meshes) {
@@ -90,14 +90,15 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vect
         assets.emplace(reference.text, asset);
     }
 
+    setTexture(scene.spec.environment.image, textures);
     for (world::BodySpec& body : scene.spec.bodies) {
         if (world::MeshSource* source = body.meshSource()) setMesh(*source, meshes);
-        setAsset(body.finish, textures);
+        setTexture(body.finish.texture, textures);
     }
     for (world::ColliderSpec& collider : scene.spec.colliders) {
         setMesh(collider, meshes);
         for (world::ColliderSpec& part : collider.parts) setMesh(part, meshes);
-        setAsset(collider.finish, textures);
+        setTexture(collider.finish.texture, textures);
     }
 }
 

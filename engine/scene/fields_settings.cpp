@@ -203,6 +203,27 @@ SceneSection lightSection() {
     return section;
 }
 
+SceneSection environmentSection() {
+    SceneSection section;
+    section.name = "environment";
+    section.help = "A picture of all that is around, far away, which lights in place of the light's sky and ground.";
+    section.enter = enterPart(&SceneSpec::environment);
+    section.existing = findPart(&SceneSpec::environment);
+    section.fields =
+        FieldList<EnvironmentSpec>()
+            .text("image", &EnvironmentSpec::image, Role::texture,
+                  "Equirectangular Radiance HDR, PNG or JPEG, twice as wide as high; its middle lies at -z, its right "
+                  "at +x.")
+            .required()
+            .number("strength", &EnvironmentSpec::strength, "", Range{0.0, 1000.0}, "Factor on its light.")
+            .ramps(inPicture)
+            .degrees("turn_deg", &EnvironmentSpec::turn, Range{-3600.0, 3600.0}, "Turns it about the vertical.")
+            .ramps(inPicture)
+            .flag("visible", &EnvironmentSpec::visible, "Whether it is seen in place of the background.")
+            .take();
+    return section;
+}
+
 SceneSection backgroundSection() {
     SceneSection section;
     section.name = "background";

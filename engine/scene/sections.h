@@ -34,6 +34,7 @@ SceneSection contactSection();
 SceneSection runSection();
 SceneSection pictureSection();
 SceneSection lightSection();
+SceneSection environmentSection();
 SceneSection backgroundSection();
 
 SceneSection materialSection();

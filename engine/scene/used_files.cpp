@@ -32,6 +32,7 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
     };
     add(scene.file);
     add(scene.base);
+    add(scene.environment.image);
     for (const world::BodySpec& body : scene.bodies) {
         if (const world::MeshSource* mesh = body.meshSource()) add(mesh->mesh);
         add(body.finish.texture);

@@ -72,6 +72,16 @@ struct Light {
     float softness = 0.03F;                    // [rad] apparent size of the light: width of the penumbra
 };
 
+// A picture of all that is around, far away: light from everywhere, in place of that of the sky and the ground.
+struct Environment {
+    std::string
+        picture;  // path of an equirectangular Radiance HDR, PNG or JPEG; its middle lies at -z, its right at +x
+    float strength = 1.0F;  // factor on its light
+    float turn = 0.0F;      // [rad] about y
+    bool isShown = true;    // behind everything, in place of the background
+    bool operator==(const Environment&) const = default;
+};
+
 struct Background {
     glm::vec3 top{0.051F, 0.084F, 0.163F};
     glm::vec3 horizon{0.319F, 0.367F, 0.448F};
@@ -120,6 +130,7 @@ struct FrameView {
     double time = 0.0;  // [s]
     Camera camera;
     Light light;
+    std::optional<Environment> environment;
     Background background;
     std::optional<Ground> ground;
     std::vector<Surface> surfaces;

@@ -37,6 +37,13 @@ struct LightSpec {
     double ambient = 0.6;  // factor on sky and ground
 };
 
+struct EnvironmentSpec {
+    std::string image;      // path, resolved by the loader; empty: none
+    double strength = 1.0;  // factor on its light
+    double turn = 0.0;      // [rad] about y
+    bool visible = true;
+};
+
 struct BackgroundSpec {
     dvec3 top{0.25, 0.32, 0.44};
     dvec3 horizon{0.60, 0.64, 0.70};

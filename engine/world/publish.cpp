@@ -89,6 +89,9 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
     view.frame = w.tick / w.ticksPerFrame;
     view.time = time;
     view.light = lightOf(w.spec.light);
+    if (const EnvironmentSpec& around = w.spec.environment; !around.image.empty())
+        view.environment = view::Environment{around.image, static_cast<float>(around.strength),
+                                             static_cast<float>(around.turn), around.visible};
     view.background = {linearColour(w.spec.background.top), linearColour(w.spec.background.horizon),
                        static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd),
                        w.spec.background.fadesWithCamera};

@@ -80,6 +80,7 @@ struct SceneSpec {
     NeedSpec need;
     PictureSpec picture;
     LightSpec light;
+    EnvironmentSpec environment;
     BackgroundSpec background;
     std::map<std::string, MaterialSpec> materials;
     Specs<BodySpec> bodies;

@@ -1,6 +1,7 @@
 #include <libdeflate.h>
 
 #include "fuzz/support.h"
+#include "taut/image/light_image.h"
 #include "taut/image/read.h"
 
 namespace taut::fuzz {
@@ -29,6 +30,10 @@ void mendChecksums(Bytes& bytes) {
 
 void readImage(View bytes) {
     image::readImage(MemoryFile(bytes).path(), 1 << 16);
+}
+
+void readLightImage(View bytes) {
+    image::readLightImage(MemoryFile(bytes).path(), 1 << 16);
 }
 
 // Little would come past the checksums of a PNG file; now and then they are left wrong.

@@ -6,7 +6,7 @@ goldens=$1/tests/golden
 rm -rf "$2"
 mkdir -p "$2"
 cd "$2"
-mkdir scene timeline check overrides obj image tape manifest world
+mkdir scene timeline check overrides obj image light tape manifest world
 
 cp "$assets"/scenes/*.toml scene
 # One of each kind, as in the small scene of fuzz.h.
@@ -32,6 +32,9 @@ done
 for format in rgb24.png pal8.png yuvj420p.jpg gray.jpg; do
     ffmpeg -nostdin -loglevel error -i "$assets/textures/flag.png" -vf scale=24:16 -pix_fmt "${format%.*}" "image/$format"
 done
+# A line in planes with runs, and one of pixels that repeat.
+printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2.5\n\n-Y 2 +X 9\n\2\2\0\11\211\100\211\0\11\1\2\3\4\5\6\7\10\11\211\201\1\2\3\4\1\1\1\10' >light/runs
+printf '#?RGBE\n\n-Y 1 +X 600\n\200\0\40\211\1\1\1\127\1\1\1\2' >light/repeats
 for file in "$goldens"/*/state.tape; do cp "$file" "tape/$(basename "$(dirname "$file")")"; done
 cp "$goldens/manifest.json" manifest
 find . -size 0 -type f -delete

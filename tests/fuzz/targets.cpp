@@ -8,6 +8,7 @@ std::span<const Target> targets() {
     static constexpr Target all[] = {
         {"check", readCheck},
         {"image", readImage, changedImage},
+        {"light", readLightImage},
         {"manifest", readManifest},
         {"obj", readObj},
         {"overrides", readOverrides},

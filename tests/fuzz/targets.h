@@ -31,6 +31,7 @@ Bytes changed(const Target& target, Bytes bytes, const Change& change, unsigned 
 
 void readCheck(View bytes);
 void readImage(View bytes);
+void readLightImage(View bytes);
 void readManifest(View bytes);
 void readObj(View bytes);
 void readOverrides(View bytes);

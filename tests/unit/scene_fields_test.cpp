@@ -74,6 +74,10 @@ TEST(SceneFields, LightAndBackgroundLandInTheirMembers) {
     EXPECT_EQ(scene.light.sky, dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(scene.light.ground, dvec3(0.4, 0.5, 0.6));
     EXPECT_EQ(scene.light.ambient, 0.7);
+    EXPECT_TRUE(scene.environment.image.ends_with("/square.png")) << scene.environment.image;
+    EXPECT_EQ(scene.environment.strength, 1.5);
+    EXPECT_EQ(scene.environment.turn, radians(-90.0));
+    EXPECT_FALSE(scene.environment.visible);
     EXPECT_EQ(scene.background.top, dvec3(0.11, 0.12, 0.13));
     EXPECT_EQ(scene.background.horizon, dvec3(0.21, 0.22, 0.23));
     EXPECT_EQ(scene.background.fadeStart, 9.0);
@@ -129,7 +133,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 57);
+    EXPECT_EQ(flag.source.line, 62);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 
@@ -210,7 +214,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 114);
+    EXPECT_EQ(net.points[1].source.line, 119);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");

@@ -43,6 +43,11 @@ softness_deg = 90e-1
 sky = [0.1, 0.2, 0.3]
 ground = [0.4, 0.5, 0.6]
 ambient = 0.7
+[environment]
+image = "square.png"
+strength = 1.5
+turn_deg = -90
+visible = false
 [background]
 top = [0.11, 0.12, 0.13]
 horizon = [0.21, 0.22, 0.23]

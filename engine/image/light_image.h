@@ -1,0 +1,25 @@
+// Pictures of light: what stands around a scene, as bright as it is.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace taut::image {
+
+// Linear light, 1 is white paper in full light, rows from the top.
+struct LightImage {
+    int width = 0, height = 0;
+    std::vector<float> rgb;  // (3 · width · height), 0 … brightest
+};
+
+inline constexpr float brightest = 65504.0F;                             // the largest half float
+inline constexpr std::int64_t mostLightPixels = std::int64_t{1} << 25U;  // 8192 x 4096: 400 MB
+
+// The picture in a file: Radiance HDR (G. Ward, "Real Pixels", Graphics Gems II, 1991; lines from the top, left to
+// right, "-Y height +X width"), or PNG or JPEG, whose bytes are taken as sRGB. What is brighter than `brightest` is
+// made so. Throws core::Error: inputOutput when the file cannot be read, badContent when it is not a whole picture or
+// has more pixels than that, before memory is taken for them.
+LightImage readLightImage(const std::filesystem::path& path, std::int64_t maxPixels = mostLightPixels);
+
+}  // namespace taut::image

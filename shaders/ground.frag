@@ -1,9 +1,12 @@
 // The floor with its lines, fading into the horizon. SHADED where shadows may fall, DARKENED where things hide the sky.
 // ENVIRONMENT: into the picture around instead.
-// TRANSPARENT: without lines, and only what shadows leave of its colour, 0 … 1.
+// TRANSPARENT: without lines, and only what shadows leave of its colour, 0 … 1. LAMPS further lights shine on it.
 #include "tone.glsl"
 #ifdef SHADED
 #include "shadow.glsl"
+#if LAMPS > 0
+#include "lamps.glsl"
+#endif
 #endif
 #ifdef DARKENED
 uniform sampler2D occlusion;
@@ -33,6 +36,9 @@ vec3 decoded(vec3 bytes) {
 }
 #endif
 
+// Of a light that reaches it unhindered.
+vec3 onGround(vec4 colour, vec4 way) { return colour.rgb * max(way.y, 0.0); }
+
 void main() {
     vec3 albedo = groundColour.rgb;
 #ifndef TRANSPARENT
@@ -43,20 +49,36 @@ void main() {
         albedo *= 1.0 - 0.3 * cover;
     }
 #endif
-    vec3 direct = lightColour.rgb * max(lightWay.y, 0.0);
+    vec3 direct = onGround(lightColour, lightWay);
+    vec3 whole = direct;  // of all lights, in the open
+#if LAMPS > 0
+    whole += onGround(lamps[0].colour, lamps[0].way);
+#endif
+#if LAMPS > 1
+    whole += onGround(lamps[1].colour, lamps[1].way);
+#endif
     vec3 ambient = skyLight.rgb;
 #ifdef SHADED
     vec3 right = dFdx(place);
     vec3 below = dFdy(place);
     float pixel = sqrt(sqrt(dot(right, right) * dot(below, below)));
-    direct *= sunlight(place, vec3(0.0, 1.0, 0.0), pixel, false);
+    const vec3 up = vec3(0.0, 1.0, 0.0);
+    direct *= sunlight(place, up, pixel, false);
+#if LAMPS > 0
+    direct += onGround(lamps[0].colour, lamps[0].way) * lamplight(0, place, up, pixel, false);
+#endif
+#if LAMPS > 1
+    direct += onGround(lamps[1].colour, lamps[1].way) * lamplight(1, place, up, pixel, false);
+#endif
+#else
+    direct = whole;
 #endif
 #ifdef DARKENED
     ambient *= 1.0 - 0.9 * texture(occlusion, (place.xz - occlusionArea.xy) * occlusionArea.zw).r;
 #endif
     vec3 shown = filmic(albedo * (direct + ambient));
 #ifdef TRANSPARENT
-    vec3 lit = filmic(albedo * (lightColour.rgb * max(lightWay.y, 0.0) + skyLight.rgb));
+    vec3 lit = filmic(albedo * (whole + skyLight.rgb));
     float noise = (pixelNoise() - 0.5) * (0.98 / 255.0);  // which changes no whole byte
     shown = decoded(clamp(encoded(shown) / max(encoded(lit), 1e-3) + noise, 0.0, 1.0));
 #endif

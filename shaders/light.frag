@@ -1,4 +1,4 @@
-// Surfaces in sun and sky, from what surface.frag has kept of them.
+// Surfaces in sun and sky, from what surface.frag has kept of them. LAMPS further lights shine on them besides.
 #include "tone.glsl"
 #include "shadow.glsl"
 #ifdef ENVIRONMENT
@@ -6,6 +6,9 @@
 #else
 vec3 lightOn(vec3 normal) { return hemisphere(normal); }
 vec3 lightFrom(vec3 way, float cone) { return hemisphere(way); }
+#endif
+#if LAMPS > 0
+#include "lamps.glsl"
 #endif
 uniform sampler2D tints;
 uniform usampler2D shapes;
@@ -22,6 +25,26 @@ vec3 fromOctahedral(uint bits) {
     n.xy += vec2(n.x < 0.0 ? folded : -folded, n.y < 0.0 ? folded : -folded);
     return normalize(n);
 }
+
+#if LAMPS > 0
+// What the lamps add: on the side that is seen, from the other side, and mirrored.
+struct Lamplight {
+    vec3 direct, behind, mirrored;
+};
+
+void addLamp(int lamp, vec3 place, vec3 normal, vec3 smoothNormal, vec3 toEye, float pixel, float woven,
+             float exponent, inout Lamplight sum) {
+    vec3 way = lamps[lamp].way.xyz;
+    float side = dot(smoothNormal, way);
+    float reached = lamplight(lamp, place, side < 0.0 ? -smoothNormal : smoothNormal, pixel, true);
+    float direct = max(dot(normal, way), 0.0) * reached * max(smoothstep(-0.02, 0.12, side), 1.0 - woven);
+    vec3 colour = lamps[lamp].colour.rgb;
+    sum.direct += colour * direct;
+    sum.behind += colour * (max(-side, 0.0) * reached);
+    float gloss = pow(max(dot(normal, normalize(way + toEye)), 0.0), exponent) * (exponent + 8.0) * 0.125;
+    sum.mirrored += colour * (gloss * direct);
+}
+#endif
 
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
@@ -54,19 +77,31 @@ void main() {
     float direct = max(facing, 0.0) * sun;
     direct *= max(smoothstep(-0.02, 0.12, lightSide), 1.0 - kind.w);  // threads on the far side stay dark
 
+    float alpha = mix(0.04, 1.0, roughness * roughness);
+    float exponent = 2.0 / (alpha * alpha);
+
     vec3 diffuse = lightColour.rgb * direct + lightOn(normal) * open;
+#if LAMPS > 0
+    Lamplight fromLamps = Lamplight(vec3(0.0), vec3(0.0), vec3(0.0));
+    addLamp(0, place, normal, smoothNormal, toEye, pixel, kind.w, exponent, fromLamps);
+#if LAMPS > 1
+    addLamp(1, place, normal, smoothNormal, toEye, pixel, kind.w, exponent, fromLamps);
+#endif
+    diffuse += fromLamps.direct;
+#endif
     vec3 light = albedo * open * diffuse;
     light += (0.18 * kind.z) * albedo * through * lightColour.rgb * (max(-lightSide, 0.0) * sun);
 
     // Gloss of a dielectric, and the bright rim of fibres.
     vec3 halfWay = normalize(lightWay.xyz + toEye);
-    float alpha = mix(0.04, 1.0, roughness * roughness);
-    float exponent = 2.0 / (alpha * alpha);
     float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
     float rim2 = rim * rim;
     float gloss = pow(max(dot(normal, halfWay), 0.0), exponent) * (exponent + 8.0) * 0.125;
     float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
     light += lightColour.rgb * (0.04 * gloss * direct * open);
+#if LAMPS > 0
+    light += (0.18 * kind.z) * albedo * through * fromLamps.behind + 0.04 * open * fromLamps.mirrored;
+#endif
     vec3 mirrored = reflect(-toEye, normal);
     light += lightFrom(mirrored, 2.0 * roughness * roughness) * (fresnel * (1.0 - roughness) * 0.6 * open);
     light += sheen * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight.rgb);

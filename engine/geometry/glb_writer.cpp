@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "taut/core/whole_file.h"
+#include "taut/geometry/far_lights.h"
 #include "taut/geometry/gltf_text.h"
 #include "taut/geometry/parts.h"
 #include "taut/geometry/poses.h"
@@ -66,7 +67,7 @@ struct GlbWriter::Impl {
     double start = 0.0;                          // [s]
     std::vector<glm::mat4> cameras;              // (keys)
     view::Camera camera;
-    view::Light light;
+    std::vector<FarLight> lights;
 
     JsonItems nodes, meshes, materials, images, channels, samplers;
     std::map<std::pair<std::shared_ptr<const view::Finish>, bool>, std::size_t> materialOf;
@@ -219,15 +220,17 @@ void GlbWriter::Impl::addNode(const Track& track) {
 std::string GlbWriter::Impl::json() {
     for (const Track& track : tracks) addNode(track);
     nodes.add(fmt::format(R"({{"name":"camera","camera":0,{}}})", pose(cameras, nodes.count())));
-    const glm::mat4 sun = looking(glm::vec3(0.0F), light.direction, glm::vec3(0.0F, 1.0F, 0.0F));
-    nodes.add(fmt::format(R"({{"name":"sun","extensions":{{"KHR_lights_punctual":{{"light":0}}}},{}}})",
-                          pose({sun}, nodes.count())));
-    const float brightness = std::max({light.colour.x, light.colour.y, light.colour.z, 1e-6F});
-    const glm::vec3 colour = light.colour / brightness;
+    JsonItems shining;
+    for (const FarLight& light : lights) {
+        const std::size_t number = shining.add(
+            fmt::format(R"({{"type":"directional","name":{},"color":[{},{},{}],"intensity":{}}})", jsonText(light.name),
+                        light.colour.x, light.colour.y, light.colour.z, light.brightness));
+        nodes.add(fmt::format(R"({{"name":{},"extensions":{{"KHR_lights_punctual":{{"light":{}}}}},{}}})",
+                              jsonText(light.name), number, pose({light.pose}, nodes.count())));
+    }
     std::string text = fmt::format(
-        R"({{"asset":{{"version":"2.0","generator":{}}},"extensionsUsed":["KHR_lights_punctual"],"extensions":{{"KHR_lights_punctual":{{"lights":[{{"type":"directional","name":"sun","color":[{},{},{}],"intensity":{}}}]}}}},"scene":0,"scenes":[{{"nodes":[{}]}}],"nodes":[{}])",
-        jsonText(options.generator), colour.x, colour.y, colour.z, brightness, joinedNumbers(nodes.count()),
-        nodes.text());
+        R"({{"asset":{{"version":"2.0","generator":{}}},"extensionsUsed":["KHR_lights_punctual"],"extensions":{{"KHR_lights_punctual":{{"lights":[{}]}}}},"scene":0,"scenes":[{{"nodes":[{}]}}],"nodes":[{}])",
+        jsonText(options.generator), shining.text(), joinedNumbers(nodes.count()), nodes.text());
     text += fmt::format(
         R"(,"cameras":[{{"type":"perspective","perspective":{{"aspectRatio":{},"yfov":{},"znear":{},"zfar":{}}}}}])",
         options.aspect, camera.fieldOfView, camera.nearPlane, camera.farPlane);
@@ -261,7 +264,7 @@ void GlbWriter::write(const view::FrameView& view) {
     if (w.times.empty()) {
         w.start = view.time;
         w.camera = view.camera;
-        w.light = view.light;
+        w.lights = farLightsOf(view);
     }
     w.times.push_back(static_cast<float>(view.time - w.start));
     w.cameras.push_back(looking(view.camera.eye, view.camera.target - view.camera.eye, view.camera.up));

@@ -49,6 +49,8 @@ std::shared_ptr<const view::Geometry> joined(const std::vector<const view::Surfa
     return geometry;
 }
 
+}  // namespace
+
 std::string identifierOf(const std::string& name) {
     std::string identifier;
     for (const char c : name) {
@@ -57,8 +59,6 @@ std::string identifierOf(const std::string& name) {
     }
     return identifier;
 }
-
-}  // namespace
 
 std::string PartFinder::fullName(const view::Surface& surface) {
     return surface.name.find('.') == std::string::npos ? "collider." + surface.name : surface.name;

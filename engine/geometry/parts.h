@@ -14,6 +14,9 @@
 
 namespace taut::geometry {
 
+// The same with underscores for all but letters and digits.
+std::string identifierOf(const std::string& name);
+
 struct Part {
     std::string identifier;  // letters, digits and underscores; unique: "cloth_flag"
     std::string name;        // "cloth.flag", of several pieces of one thing the same

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "taut/core/whole_file.h"
+#include "taut/geometry/far_lights.h"
 #include "taut/geometry/number_text.h"
 #include "taut/geometry/parts.h"
 #include "taut/geometry/poses.h"
@@ -83,7 +85,7 @@ struct UsdaWriter::Impl {
     std::map<std::string, std::size_t> primOf;                                           // by identifier
     std::vector<std::pair<std::shared_ptr<const view::Finish>, std::string>> materials;  // with their names
     UsdaSamples camera, focalLength;
-    view::Light light;
+    std::vector<FarLight> lights;
     view::Camera firstCamera;
     std::int64_t first = 0, last = 0;
     std::string text;
@@ -168,7 +170,7 @@ void UsdaWriter::write(const view::FrameView& view) {
     Impl& w = *impl_;
     if (w.camera.isEmpty()) {
         w.first = view.frame;
-        w.light = view.light;
+        w.lights = farLightsOf(view);
         w.firstCamera = view.camera;
     }
     w.last = view.frame;
@@ -266,17 +268,23 @@ std::string UsdaWriter::Impl::materialText(const std::string& name, const view::
 }
 
 std::string UsdaWriter::Impl::tail() const {
-    const glm::mat4 sun = looking(glm::vec3(0.0F), light.direction, glm::vec3(0.0F, 1.0F, 0.0F));
-    const float brightness = std::max({light.colour.x, light.colour.y, light.colour.z, 1e-6F});
-    std::string out = fmt::format(
-        "    def DistantLight \"sun\"\n    {{\n"
-        "        float inputs:angle = {:.6g}\n"
-        "        color3f inputs:color = {}\n"
-        "        float inputs:intensity = {:.6g}\n"
-        "        bool inputs:normalize = 1\n"
-        "        matrix4d xformOp:transform = {}\n"
-        "        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }}\n\n",
-        glm::degrees(light.softness), colourText(light.colour / brightness), brightness, matrixText(sun));
+    std::string out;
+    std::set<std::string> names;
+    for (const FarLight& light : lights) {
+        std::string name = identifierOf(light.name);
+        while (!names.insert(name).second) name += "_2";
+        out += fmt::format(
+            "    def DistantLight \"{}\"{}\n    {{\n"
+            "        float inputs:angle = {:.6g}\n"
+            "        color3f inputs:color = {}\n"
+            "        float inputs:intensity = {:.6g}\n"
+            "        bool inputs:normalize = 1\n{}"
+            "        matrix4d xformOp:transform = {}\n"
+            "        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }}\n\n",
+            name, light.shadow ? "" : " (\n        prepend apiSchemas = [\"ShadowAPI\"]\n    )",
+            glm::degrees(light.softness), colourText(light.colour), light.brightness,
+            light.shadow ? "" : "        bool inputs:shadow:enable = 0\n", matrixText(light.pose));
+    }
     out += "    def Scope \"materials\"\n    {\n";
     for (const auto& [finish, name] : materials) out += materialText(name, *finish);
     return out + "    }\n}\n";

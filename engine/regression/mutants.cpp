@@ -78,6 +78,7 @@ void turnByOnePixel(view::FrameView& view, int height) {
 // Too weak for any pixel to count alone in most pictures.
 void dim(view::FrameView& view, int) {
     for (glm::vec3* light : {&view.light.colour, &view.light.sky, &view.light.ground}) *light *= 0.98F;
+    for (view::Lamp& lamp : view.lamps) lamp.colour *= 0.98F;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "taut/render/shadow_map.h"
+
 namespace taut::render {
 
 namespace {
@@ -34,8 +36,9 @@ glm::vec2 grownBy(float radius, const glm::vec3& towards, float sine) {
 }
 
 // Where the light may be kept from the ground, with the widest penumbra and `beyond`, a part of the map, around it.
-Footprint shadowOf(const Bounds& caster, const LightBox& box, float height, float softness, float beyond) {
-    const glm::vec3 towards = glm::transpose(box.toLight)[2];
+Footprint shadowOf(const Bounds& caster, const Shadower& light, float height, float beyond) {
+    const LightBox& box = light.box;
+    const glm::vec3 towards = towardsLight(box);
     const float sine = towards.y;  // of the sun's elevation
     if (sine < 0.05F) return {glm::vec2(-INFINITY), glm::vec2(INFINITY)};
     Footprint shadow{glm::vec2(INFINITY), glm::vec2(-INFINITY)};
@@ -45,13 +48,17 @@ Footprint shadowOf(const Bounds& caster, const LightBox& box, float height, floa
         shadow.low = glm::min(shadow.low, place);
         shadow.high = glm::max(shadow.high, place);
     }
-    const float radius = softness * (caster.high.y - height) / sine + beyond * glm::max(box.size.x, box.size.y);
+    const float radius = light.softness * (caster.high.y - height) / sine + beyond * glm::max(box.size.x, box.size.y);
     const glm::vec2 grow = grownBy(radius, towards, sine);
     return {shadow.low - grow, shadow.high + grow};
 }
 
-constexpr float readAround = 0.02F;    // of the map: as far as a penumbra is looked for, and more
-constexpr float boundsAround = 0.03F;  // of the map: three blocks and a half, as far as bounds are gathered
+constexpr float readAround = 0.02F;  // of the map: as far as a penumbra is looked for, and more
+
+// Of the map: a block and a half more than bounds are gathered from, and more.
+float boundsAround(const Shadower& light) {
+    return std::max(0.03F, (static_cast<float>(light.blocks) + 1.5F) / static_cast<float>(boundsEdge));
+}
 
 enum class Light : std::uint8_t { open, darkened, shaded };
 
@@ -99,20 +106,24 @@ class Cells {
 
 }  // namespace
 
-GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightBox& box,
-                      std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion,
+GroundMesh groundMesh(glm::vec3 middle, float height, float radius, std::span<const Shadower> lights,
+                      std::span<const Bounds> casters, const std::optional<OcclusionArea>& occlusion,
                       std::span<const Bounds> moving) {
     Cells cells({middle.x, middle.z}, radius), changes({middle.x, middle.z}, radius);
-    const auto mark = [&](Cells& which, const Bounds& caster, float beyond) {
+    const auto mark = [&](Cells& which, const Bounds& caster, bool isMoving) {
         if (caster.empty) return;
-        if (caster.high.y >= height) which.mark(shadowOf(caster, box, height, softness, beyond), Light::shaded);
+        for (const Shadower& light : lights) {
+            if (caster.high.y < height) break;
+            const float beyond = isMoving ? boundsAround(light) : readAround;
+            which.mark(shadowOf(caster, light, height, beyond), Light::shaded);
+        }
         if (!occlusion || caster.low.y > height + occlusionCeiling) return;
         const glm::vec2 reach = occlusionReach(*occlusion);
         which.mark({glm::vec2(caster.low.x, caster.low.z) - reach, glm::vec2(caster.high.x, caster.high.z) + reach},
                    Light::darkened);
     };
-    for (const Bounds& caster : casters) mark(cells, caster, readAround);
-    for (const Bounds& caster : moving) mark(changes, caster, boundsAround);
+    for (const Bounds& caster : casters) mark(cells, caster, false);
+    for (const Bounds& caster : moving) mark(changes, caster, true);
     GroundMesh mesh;
     for (int row = 0; row <= Cells::cellsAcross; ++row) {
         for (int column = 0; column <= Cells::cellsAcross; ++column) {

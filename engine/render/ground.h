@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "taut/render/light_box.h"
+#include "taut/render/lights.h"
 #include "taut/render/occlusion_pass.h"
 
 namespace taut::render {
@@ -21,9 +21,10 @@ struct GroundMesh {
 };
 
 // The disc of `radius` [m] around the camera's target, fine in the middle, coarse outside. `casters` are boxes around
-// all that throws a shadow, the smaller the better, `moving` those around what was elsewhere a picture ago.
-GroundMesh groundMesh(glm::vec3 middle, float height, float radius, const LightBox& box,
-                      std::span<const Bounds> casters, float softness, const std::optional<OcclusionArea>& occlusion,
+// all that throws a shadow in any of the lights, the smaller the better, `moving` those around what was elsewhere a
+// picture ago.
+GroundMesh groundMesh(glm::vec3 middle, float height, float radius, std::span<const Shadower> lights,
+                      std::span<const Bounds> casters, const std::optional<OcclusionArea>& occlusion,
                       std::span<const Bounds> moving = {});
 
 }  // namespace taut::render

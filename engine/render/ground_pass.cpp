@@ -17,27 +17,31 @@ constexpr int steadyPictures = 8;  // after so many with the maps in the same pl
 
 }  // namespace
 
-GroundPass::Programs GroundPass::programsOf(const ShaderFolder& shaders, const std::vector<std::string>& definitions) {
-    const auto with = [&](std::vector<std::string> own) {
-        own.insert(own.end(), definitions.begin(), definitions.end());
-        return own;
-    };
-    return {shaders.program("ground.vert", "ground.frag", with({"SHADED", "DARKENED"})),
-            shaders.program("ground.vert", "ground.frag", with({"DARKENED"})),
-            shaders.program("ground.vert", "ground.frag", with({})),
-            shaders.program("background.vert", "background.frag", with({}))};
-}
-
 GroundPass::GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill, bool transparent)
     : gl_(&gl),
-      shaders_(&shaders),
       keepsStill_(keepsStill),
       isTransparent_(transparent),
-      plain_(programsOf(shaders, transparent ? std::vector<std::string>{"TRANSPARENT"} : std::vector<std::string>{})),
+      shaders_(&shaders),
       layout_(gl, GlKind::vertexArray),
       vertices_(gl, GlKind::buffer),
       indices_(gl, GlKind::buffer),
-      empty_(gl, GlKind::vertexArray) {}
+      empty_(gl, GlKind::vertexArray) {
+    groundsUnder({});
+}
+
+GroundPass::Grounds& GroundPass::groundsUnder(const LightKind& kind) {
+    const auto known = grounds_.find(kind);
+    if (known != grounds_.end()) return known->second;
+    const auto program = [&](const std::string& name, std::vector<std::string> definitions) {
+        const std::vector<std::string> lights = definitionsOf(kind);
+        definitions.insert(definitions.end(), lights.begin(), lights.end());
+        if (isTransparent_) definitions.emplace_back("TRANSPARENT");
+        return shaders_->program(name + ".vert", name + ".frag", definitions);
+    };
+    Grounds grounds{program("ground", {"SHADED", "DARKENED"}), program("ground", {"DARKENED"}), program("ground", {}),
+                    program("background", {})};
+    return grounds_.emplace(kind, std::move(grounds)).first->second;
+}
 
 bool GroundPass::Still::operator==(const Still& other) const {
     return groundHeight == other.groundHeight && environment == other.environment &&
@@ -48,12 +52,9 @@ bool GroundPass::StillShade::operator==(const StillShade& other) const {
     return shapes == other.shapes && std::memcmp(&block, &other.block, sizeof(block)) == 0;
 }
 
-void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, const LightBox& box,
+void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, const LightSet& lights,
                        std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion,
                        Targets& targets) {
-    const bool isPictured = view.environment && view.environment->isShown && !isTransparent_;
-    if (isPictured && !pictured_) pictured_ = programsOf(*shaders_, {"ENVIRONMENT"});
-    now_ = isPictured ? &*pictured_ : &plain_;
     StillShade shade{block, {}};
     std::vector<Bounds> all, moving;
     for (const DrawItem& item : items) {
@@ -63,10 +64,16 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
         else
             moving.insert(moving.end(), item.pieces.begin(), item.pieces.end());
     }
+    // The light of a picture around is the same all over the ground: only what is seen of it counts here.
+    LightKind kind = lights.kind;
+    kind.isAround = view.environment && view.environment->isShown && !isTransparent_;
+    now_ = &groundsUnder(kind);
     mesh_ = {};
     if (view.ground) {
-        mesh_ = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, box, all, view.light.softness,
-                           occlusion, moving);
+        std::vector<Shadower> above{lights.sun};
+        for (const Shadower& lamp : lights.lampShadows)
+            if (towardsLight(lamp.box).y > 0.0F) above.push_back(lamp);
+        mesh_ = groundMesh(view.camera.target, view.ground->height, fadeOf(view).end, above, all, occlusion, moving);
         gl_->BindVertexArray(layout_.id());
         gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
         gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh_.positions.size() * sizeof(glm::vec3)),
@@ -79,6 +86,12 @@ void GroundPass::begin(const view::FrameView& view, const FrameBlock& block, con
     Still now{block, view.ground ? std::optional(view.ground->height) : std::nullopt, view.environment};
     now.block.toMap = glm::mat4(0.0F);
     now.block.mapSize = now.block.occlusionArea = glm::vec4(0.0F);
+    now.block.lightColour.w = 0.0F;
+    for (LampBlock& lamp : now.block.lamps) {
+        lamp.toMap = glm::mat4(0.0F);
+        lamp.mapSize = glm::vec4(0.0F);
+        lamp.colour.w = 0.0F;
+    }
     const bool isStill = keepsStill_ && !view.showMarks && before_ == now;
     before_ = now;
     shadeStays_ = isStill && shadeNow_ == shade ? shadeStays_ + 1 : 0;

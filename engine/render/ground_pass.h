@@ -2,6 +2,7 @@
 // a still camera is drawn once and kept.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,7 +22,7 @@ class GroundPass {
 
     // Before anything else of a picture is drawn, with the frame block and the maps in place. `block` is what all
     // shaders know of the picture.
-    void begin(const view::FrameView& view, const FrameBlock& block, const LightBox& box,
+    void begin(const view::FrameView& view, const FrameBlock& block, const LightSet& lights,
                std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion, Targets& targets);
 
     // Behind what has been drawn into the bound target, with the frame block and the maps in place.
@@ -53,22 +54,22 @@ class GroundPass {
     // How a cell looks in what is kept.
     enum class Look : std::uint8_t { open, darkened, shaded };
 
-    struct Programs {
+    // The ground under lights of a kind, and the sky.
+    struct Grounds {
         Program shaded, darkened, open, background;
     };
-    static Programs programsOf(const ShaderFolder& shaders, const std::vector<std::string>& definitions);
 
+    Grounds& groundsUnder(const LightKind& kind);
     void keep(const glm::mat4& projection, Targets& targets);
     void leaveOut(std::vector<std::uint32_t>& triangles, Look look) const;
     void drawCells(const Program& program, const std::vector<std::uint32_t>& triangles);
     void drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles);
 
     const Gl* gl_;
-    const ShaderFolder* shaders_;
     bool keepsStill_, isTransparent_;
-    Programs plain_;
-    std::optional<Programs> pictured_;  // in front of a picture of what is around; made when there is one
-    Programs* now_ = &plain_;           // for what is drawn now
+    const ShaderFolder* shaders_;
+    std::map<LightKind, Grounds> grounds_;
+    Grounds* now_ = nullptr;  // of them
     GlObject layout_, vertices_, indices_, empty_;
     GroundMesh mesh_;
     std::optional<Still> before_;         // of the picture before

@@ -54,9 +54,10 @@ Bounds Bounds::transformed(const glm::mat4& transform) const {
     return result;
 }
 
-LightBox lightBox(const view::FrameView& view, std::span<const Bounds> casters, float aspect, int texels) {
-    TAUT_EXPECTS(glm::length(view.light.direction) > 0.0F);
-    const glm::vec3 towards = -glm::normalize(view.light.direction);
+LightBox lightBox(const view::FrameView& view, glm::vec3 direction, std::span<const Bounds> casters, float aspect,
+                  int texels) {
+    TAUT_EXPECTS(glm::length(direction) > 0.0F);
+    const glm::vec3 towards = -glm::normalize(direction);
     const glm::vec3 helper = std::abs(towards.y) < 0.99F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(0.0F, 0.0F, 1.0F);
     const glm::vec3 right = glm::normalize(glm::cross(helper, towards));
     const glm::vec3 up = glm::cross(towards, right);

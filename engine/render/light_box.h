@@ -26,8 +26,14 @@ struct LightBox {
     glm::vec3 size{1.0F};     // [m] extent along right, up and towards the light
 };
 
-// Fits the box to the casters as far as the camera needs them, in steps so that the map does not crawl from frame
-// to frame. `texels` is the edge of the map.
-LightBox lightBox(const view::FrameView& view, std::span<const Bounds> casters, float aspect, int texels);
+// Unit.
+inline glm::vec3 towardsLight(const LightBox& box) {
+    return glm::transpose(box.toLight)[2];
+}
+
+// Fits the box of a light that travels in a direction to the casters as far as the camera needs them, in steps so that
+// the map does not crawl from frame to frame. `texels` is the edge of the map.
+LightBox lightBox(const view::FrameView& view, glm::vec3 direction, std::span<const Bounds> casters, float aspect,
+                  int texels);
 
 }  // namespace taut::render

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "taut/core/error.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::render {
 
@@ -62,6 +63,12 @@ Program::Program(const Gl& gl, GlObject object) : gl_(&gl), object_(std::move(ob
     set("shapes", static_cast<int>(shapesUnit));
     set("materials", static_cast<int>(materialsUnit));
     set("environment", static_cast<int>(environmentUnit));
+    for (std::size_t lamp = 0; lamp < view::mostLamps; ++lamp) {
+        const std::string number = "[" + std::to_string(lamp) + "]";
+        set("lampMaps" + number, lampUnits(lamp).map);
+        set("lampDepths" + number, lampUnits(lamp).depth);
+        set("lampBounds" + number, lampUnits(lamp).bounds);
+    }
     const GLuint block = gl_->GetUniformBlockIndex(object_.id(), "Frame");
     if (block != GL_INVALID_INDEX) gl_->UniformBlockBinding(object_.id(), block, frameBlockBinding);
 }

@@ -23,7 +23,18 @@ enum TextureUnit : int {
     shapesUnit = 6,
     materialsUnit = 7,
     environmentUnit = 8,
+    lampsUnit = 10,  // three of each lamp that throws shadows
 };
+
+// Where the shadow map of a light is bound: to be compared, as depth, its bounds.
+struct ShadowUnits {
+    int map, depth, bounds;
+};
+inline constexpr ShadowUnits sunUnits{shadowMapUnit, shadowDepthUnit, shadowBoundsUnit};
+inline constexpr ShadowUnits lampUnits(std::size_t lamp) {
+    const int first = lampsUnit + 3 * static_cast<int>(lamp);
+    return {first, first + 1, first + 2};
+}
 
 class Program {
   public:

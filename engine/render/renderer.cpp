@@ -17,14 +17,13 @@
 #include "taut/render/frame_block.h"
 #include "taut/render/ground_pass.h"
 #include "taut/render/label_pass.h"
-#include "taut/render/light_box.h"
+#include "taut/render/light_maps.h"
 #include "taut/render/marks_pass.h"
 #include "taut/render/mask_pass.h"
 #include "taut/render/mesh_cache.h"
 #include "taut/render/occlusion_pass.h"
 #include "taut/render/picture_mean.h"
 #include "taut/render/program.h"
-#include "taut/render/shadow_pass.h"
 #include "taut/render/surface_pass.h"
 #include "taut/render/targets.h"
 #include "taut/render/thin_tubes.h"
@@ -100,7 +99,7 @@ struct RendererParts {
           targets(gl, options.width, options.height),
           meshes(gl),
           thinMeshes(gl),
-          shadow(gl, options.shadowSize),
+          lightMaps(gl, options.shadowSize),
           occlusion(gl),
           surfaces(gl, shaders, textures),
           environment(gl, textures),
@@ -119,7 +118,7 @@ struct RendererParts {
     ShaderFolder shaders;
     Targets targets;
     MeshCache meshes, thinMeshes;
-    ShadowPass shadow;
+    LightMaps lightMaps;
     OcclusionPass occlusion;
     TextureBudget textures;
     SurfacePass surfaces;
@@ -171,7 +170,7 @@ struct Renderer::Impl {
     Pass passOf(const Scene& scene, std::size_t number, glm::vec2 aside = glm::vec2(0.0F));
     Drawn draw(const Scene& scene, const Pass& pass);
     void smooth(const Scene& scene, const Pass& pass, Drawn& drawn);
-    void drawThin(const Scene& scene, const Pass& pass, Drawn& drawn);
+    void drawThin(const Scene& scene, const Pass& pass, const LightKind& lights, Drawn& drawn);
     Drawn drawAll(const Scene& scene);
     void addLayers(const Scene& scene, image::Image& picture);
 };
@@ -197,7 +196,7 @@ void Renderer::change(const RendererOptions& options) {
     RendererOptions& now = impl_->options;
     if (options.width != now.width || options.height != now.height)
         parts.targets = Targets(gl, options.width, options.height);
-    if (options.shadowSize != now.shadowSize) parts.shadow = ShadowPass(gl, options.shadowSize);
+    if (options.shadowSize != now.shadowSize) parts.lightMaps = LightMaps(gl, options.shadowSize);
     for (const auto& ground : parts.grounds) ground->forget();
     parts.addGrounds(gl, options);
     if (parts.mask) parts.mask.emplace(gl, parts.shaders, parts.targets.size(), now.maskColours);
@@ -245,7 +244,7 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     const view::FrameView& view = scene.view;
     const std::vector<DrawItem>& items = scene.items;
     GroundPass& ground = *parts->grounds[pass.number];
-    const LightBox box = lightBox(view, scene.casters, scene.aspect, options.shadowSize);
+    const LightSet lights = lightsOf(view, scene.casters, scene.aspect, options.shadowSize);
     std::optional<OcclusionArea> occlusion;
     if (view.ground && options.occlusion) occlusion = occlusionArea(scene.casters, view.ground->height);
 
@@ -253,19 +252,19 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     const std::span<const DrawItem> shadowed =
         options.shadows ? std::span<const DrawItem>(items) : std::span<const DrawItem>();
     passDone("meshes");
-    parts->shadow.draw(shadowed, box, !options.keepsStill);
+    parts->lightMaps.draw(shadowed, lights, !options.keepsStill);
     passDone("shadow");
     if (occlusion) parts->occlusion.draw(items, *occlusion, view.ground->height, !options.keepsStill);
     passDone("occlusion");
 
     // The picture; ground and sky last, for what is hidden need not be shaded.
-    FrameBlock block = blockOf(view, pass.projection, box, options.shadowSize, occlusion);
+    FrameBlock block = blockOf(view, pass.projection, lights, options.shadowSize, occlusion);
     parts->environment.show(view, block);
     gl().BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts->frameBlock.id());
     gl().BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
-    parts->shadow.bindMaps();
+    parts->lightMaps.bind();
     parts->occlusion.bindMap();
-    ground.begin(view, block, box, items, occlusion, parts->targets);
+    ground.begin(view, block, lights, items, occlusion, parts->targets);
     parts->targets.bindSurfaces();
     gl().DepthMask(GL_TRUE);
     gl().Clear(GL_DEPTH_BUFFER_BIT);
@@ -276,7 +275,7 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
         gl().ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         gl().Clear(GL_COLOR_BUFFER_BIT);
     }
-    parts->surfaces.light(view, pass.part, parts->targets.size(), pass.shift);
+    parts->surfaces.light(lights.kind, view.camera, pass.part, parts->targets.size(), pass.shift);
     passDone("light");
     ground.draw(pass.projection);
     passDone("ground");
@@ -288,7 +287,7 @@ Drawn Renderer::Impl::draw(const Scene& scene, const Pass& pass) {
     passDone("read");
     ground.fill(pass.part, parts->shaded.depth, drawn.colours, options.width);
     smooth(scene, pass, drawn);
-    if (!scene.thin.empty()) drawThin(scene, pass, drawn);
+    if (!scene.thin.empty()) drawThin(scene, pass, lights.kind, drawn);
     passDone("edges");
     if (view.showMarks) {
         parts->targets.put(drawn.colours);
@@ -309,7 +308,7 @@ void Renderer::Impl::smooth(const Scene& scene, const Pass& pass, Drawn& drawn) 
 }
 
 // Alone into the targets of the picture, and from there over it. The frame block and the maps are in place.
-void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, Drawn& drawn) {
+void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, const LightKind& lights, Drawn& drawn) {
     const PixelBox part = pixelBox(scene.shadedThin, pass.projection, options.width, options.height);
     parts->targets.bindSurfaces();
     gl().DepthMask(GL_TRUE);
@@ -318,7 +317,7 @@ void Renderer::Impl::drawThin(const Scene& scene, const Pass& pass, Drawn& drawn
     parts->targets.bindShading();
     gl().ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     gl().Clear(GL_COLOR_BUFFER_BIT);
-    parts->surfaces.light(scene.view, part, parts->targets.size(), pass.shift);
+    parts->surfaces.light(lights, scene.view.camera, part, parts->targets.size(), pass.shift);
     parts->shaded.box = part;
     parts->targets.colours(parts->thinColours);
     takePart(parts->thinColours, options.width, part, parts->shaded.colour);

@@ -42,7 +42,7 @@ void ShadowMap::draw(std::span<const DrawItem> items, const LightBox& box) {
         kernels.drawTriangles(triangles.data(), static_cast<int>(triangles.size()), edge_, low, high, depths_.data());
         findBlocks(strip, kernels);
     });
-    findBounds();
+    bounds_ = boundsWithin(2);
 }
 
 void ShadowMap::findBlocks(int strip, const DepthKernels& kernels) {
@@ -85,24 +85,24 @@ void ShadowMap::addTriangles(const DrawItem& item, const LightBox& box) {
     }
 }
 
-void ShadowMap::findBounds() {
+std::vector<glm::vec2> ShadowMap::boundsWithin(int reach) const {
     const auto at = [](int row, int column) { return static_cast<std::size_t>(row * boundsEdge + column); };
     const auto joined = [](glm::vec2 a, glm::vec2 b) { return glm::vec2(std::min(a.x, b.x), std::max(a.y, b.y)); };
     const auto widened = [&](const std::vector<glm::vec2>& from, bool alongRows, int row, int column) {
         const int middle = alongRows ? column : row;
         glm::vec2 found(1.0F, 0.0F);
-        for (int i = middle - 2; i <= middle + 2; ++i) {
+        for (int i = middle - reach; i <= middle + reach; ++i) {
             const bool isOutside = i < 0 || i >= boundsEdge;
             found = joined(found, isOutside ? glm::vec2(1.0F) : from[alongRows ? at(row, i) : at(i, column)]);
         }
         return found;
     };
-    std::vector<glm::vec2> rows(blocks_.size());
+    std::vector<glm::vec2> rows(blocks_.size()), bounds(blocks_.size());
     for (int row = 0; row < boundsEdge; ++row)
         for (int column = 0; column < boundsEdge; ++column) rows[at(row, column)] = widened(blocks_, true, row, column);
     for (int row = 0; row < boundsEdge; ++row)
-        for (int column = 0; column < boundsEdge; ++column)
-            bounds_[at(row, column)] = widened(rows, false, row, column);
+        for (int column = 0; column < boundsEdge; ++column) bounds[at(row, column)] = widened(rows, false, row, column);
+    return bounds;
 }
 
 }  // namespace taut::render

@@ -33,11 +33,12 @@ class ShadowMap {
     // (boundsEdge²) least and largest depth of a block and the two blocks to each side: wide enough that the filtered
     // value still bounds everything within one and a half blocks. Outside everything is lit.
     const std::vector<glm::vec2>& bounds() const { return bounds_; }
+    // The same of as many blocks to each side, which bound everything within half a block less.
+    std::vector<glm::vec2> boundsWithin(int blocks) const;
 
   private:
     void addTriangles(const DrawItem& item, const LightBox& box);
     void findBlocks(int strip, const DepthKernels& kernels);
-    void findBounds();
 
     int edge_;
     std::vector<std::uint16_t> depths_;

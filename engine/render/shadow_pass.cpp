@@ -60,12 +60,15 @@ ShadowPass::ShadowPass(const Gl& gl, int texels)
                      map_.depths().data());
 }
 
-void ShadowPass::draw(std::span<const DrawItem> items, const LightBox& box, bool anew) {
+void ShadowPass::draw(std::span<const DrawItem> items, const Shadower& light, bool isWide, bool anew) {
+    const LightBox& box = light.box;
+    const int wide = isWide ? light.blocks : 0;
     std::vector<Shape> shapes;
     for (const DrawItem& item : items) shapes.push_back(item.shape);
-    if (!anew && box.toMap == drawnBox_ && shapes == shapes_) return;
+    if (!anew && box.toMap == drawnBox_ && wide == wide_ && shapes == shapes_) return;
     shapes_ = std::move(shapes);
     drawnBox_ = box.toMap;
+    wide_ = wide;
     map_.draw(items, box);
     gl_->ActiveTexture(GL_TEXTURE0 + shadowDepthUnit);
     gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -77,18 +80,29 @@ void ShadowPass::draw(std::span<const DrawItem> items, const LightBox& box, bool
                            GL_UNSIGNED_SHORT, map_.depths().data() + static_cast<std::ptrdiff_t>(low) * map_.edge());
     }
     gl_->BindTexture(GL_TEXTURE_2D, bounds_.id());
-    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, boundsEdge, boundsEdge, GL_RG, GL_FLOAT, map_.bounds().data());
+    if (wide > 0)
+        putWideBounds(wide);
+    else
+        gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, boundsEdge, boundsEdge, 0, GL_RG, GL_FLOAT, map_.bounds().data());
 }
 
-void ShadowPass::bindMaps() const {
-    gl_->ActiveTexture(GL_TEXTURE0 + shadowMapUnit);
-    gl_->BindTexture(GL_TEXTURE_2D, depth_.id());
-    gl_->BindSampler(shadowMapUnit, comparing_.id());
-    gl_->ActiveTexture(GL_TEXTURE0 + shadowDepthUnit);
-    gl_->BindTexture(GL_TEXTURE_2D, depth_.id());
-    gl_->ActiveTexture(GL_TEXTURE0 + shadowBoundsUnit);
-    gl_->BindTexture(GL_TEXTURE_2D, bounds_.id());
-    gl_->BindSampler(shadowBoundsUnit, 0);
+void ShadowPass::putWideBounds(int blocks) {
+    const std::vector<glm::vec2>& narrow = map_.bounds();
+    const std::vector<glm::vec2> wide = map_.boundsWithin(blocks);
+    std::vector<glm::vec4> both;
+    for (std::size_t i = 0; i < wide.size(); ++i) both.emplace_back(narrow[i], wide[i]);
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, boundsEdge, boundsEdge, 0, GL_RGBA, GL_FLOAT, both.data());
+}
+
+void ShadowPass::bindMaps(const ShadowUnits& units) const {
+    const auto bind = [&](int unit, const GlObject& texture, GLuint sampler) {
+        gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        gl_->BindTexture(GL_TEXTURE_2D, texture.id());
+        gl_->BindSampler(static_cast<GLuint>(unit), sampler);
+    };
+    bind(units.map, depth_, comparing_.id());
+    bind(units.depth, depth_, 0);
+    bind(units.bounds, bounds_, 0);
 }
 
 }  // namespace taut::render

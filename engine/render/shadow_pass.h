@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "taut/render/gl.h"
-#include "taut/render/light_box.h"
+#include "taut/render/lights.h"
 #include "taut/render/mesh_cache.h"
+#include "taut/render/program.h"
 #include "taut/render/shadow_map.h"
 
 namespace taut::render {
@@ -15,17 +16,20 @@ class ShadowPass {
   public:
     ShadowPass(const Gl& gl, int texels);
 
-    // What is the same as before in the same box is not drawn again, unless `anew`.
-    void draw(std::span<const DrawItem> items, const LightBox& box, bool anew);
+    // What is the same as before in the same box is not drawn again, unless `anew`. `isWide`: the shaders read how far
+    // wide lights look around.
+    void draw(std::span<const DrawItem> items, const Shadower& light, bool isWide, bool anew);
 
-    // Binds the maps to their texture units.
-    void bindMaps() const;
+    void bindMaps(const ShadowUnits& units) const;
 
   private:
+    void putWideBounds(int blocks);
+
     const Gl* gl_;
     ShadowMap map_;
     GlObject depth_;             // texture of the map
-    GlObject bounds_;            // texture of its bounds
+    GlObject bounds_;            // texture of its bounds; b, a: the wide ones, if `wide_` is above 0
+    int wide_ = 0;               // [blocks] that they reach
     std::vector<Shape> shapes_;  // in the map
     glm::mat4 drawnBox_{0.0F};   // its toMap
     GlObject comparing_;         // a sampler that compares

@@ -18,9 +18,9 @@ SurfacePass::SurfacePass(const Gl& gl, const ShaderFolder& shaders, TextureBudge
     : gl_(&gl),
       shaders_(&shaders),
       textures_(gl, budget),
-      light_(shaders.program("screen.vert", "light.frag")),
       materialTexture_(gl, GlKind::texture),
       empty_(gl, GlKind::vertexArray) {
+    programUnder({});
     gl.BindTexture(GL_TEXTURE_2D, materialTexture_.id());
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -36,6 +36,12 @@ Program& SurfacePass::programFor(const view::Surface& surface) {
     if (woven) definitions.emplace_back("WEAVE");
     if (surface.twoSided) definitions.emplace_back("TWO_SIDED");
     return programs_.emplace(key, shaders_->program("surface.vert", "surface.frag", definitions)).first->second;
+}
+
+Program& SurfacePass::programUnder(const LightKind& kind) {
+    const auto known = lights_.find(kind);
+    if (known != lights_.end()) return known->second;
+    return lights_.emplace(kind, shaders_->program("screen.vert", "light.frag", definitionsOf(kind))).first->second;
 }
 
 // Neighbours mostly share a material: it is looked for from the last backwards.
@@ -90,16 +96,14 @@ void SurfacePass::uploadMaterials() {
                     materials_.data());
 }
 
-void SurfacePass::light(const view::FrameView& view, const PixelBox& part, glm::ivec2 size, glm::vec2 shift) {
+void SurfacePass::light(const LightKind& kind, const view::Camera& camera, const PixelBox& part, glm::ivec2 size,
+                        glm::vec2 shift) {
     if (materials_.empty() || part.width == 0 || part.height == 0) return;
     uploadMaterials();
-    const view::Camera& camera = view.camera;
     const CameraAxes axes = axesOf(camera);
     const float pixel = 2.0F * std::tan(0.5F * camera.fieldOfView) / static_cast<float>(size.y);  // [m] 1 m ahead
     const glm::vec2 half = 0.5F * glm::vec2(size) + shift;
-    if (view.environment && !lightAround_)
-        lightAround_ = shaders_->program("screen.vert", "light.frag", {"ENVIRONMENT"});
-    Program& light = view.environment ? *lightAround_ : light_;
+    Program& light = programUnder(kind);
     light.use();
     light.set("firstWay", axes.forward - pixel * (half.x * axes.right + half.y * axes.up));
     light.set("rightWay", pixel * axes.right);

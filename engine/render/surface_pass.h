@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "taut/render/camera_axes.h"
+#include "taut/render/lights.h"
 #include "taut/render/mesh_cache.h"
 #include "taut/render/program.h"
 #include "taut/render/targets.h"
@@ -25,7 +26,8 @@ class SurfacePass {
 
     // The light on it, in a part of the bound picture, which shows everything `shift` [pixels] to the right and up; the
     // frame block and the shadow maps must be in place.
-    void light(const view::FrameView& view, const PixelBox& part, glm::ivec2 size, glm::vec2 shift);
+    void light(const LightKind& kind, const view::Camera& camera, const PixelBox& part, glm::ivec2 size,
+               glm::vec2 shift);
 
   private:
     // What light.frag has to know of a surface: a row of its table.
@@ -36,6 +38,7 @@ class SurfacePass {
     };
 
     Program& programFor(const view::Surface& surface);
+    Program& programUnder(const LightKind& kind);
     int rowOf(const view::Surface& surface);
     void uploadMaterials();
 
@@ -43,8 +46,7 @@ class SurfacePass {
     const ShaderFolder* shaders_;
     TextureCache textures_;
     std::map<std::tuple<view::Pattern, bool, bool>, Program> programs_;  // pattern, woven, two-sided
-    Program light_;
-    std::optional<Program> lightAround_;  // under a picture; made when there is one
+    std::map<LightKind, Program> lights_;
     std::vector<Material> materials_;
     GlObject materialTexture_, empty_;
 };

@@ -11,6 +11,7 @@ namespace {
 
 constexpr Range seconds{1e-3, 1e6};
 constexpr Range fieldOfView{1.0, 170.0};
+constexpr Range lightSize{0.0, 45.0};  // [degrees]
 constexpr auto inPicture = Affects::picture;
 
 // Whether one can look from one point to another with y up.
@@ -190,8 +191,9 @@ SceneSection lightSection() {
             .ramps(inPicture)
             .number("intensity", &LightSpec::intensity, "", Range{0.0, 1000.0}, "Strength of the direct light.")
             .ramps(inPicture)
-            .degrees("softness_deg", &LightSpec::softness, Range{0.0, 45.0},
-                     "Apparent size of the light; wider makes softer shadows.")
+            .degrees("softness_deg", &LightSpec::softness, lightSize,
+                     "Apparent size of the light: a penumbra is 2 tan(size / 2) as wide as what throws the shadow is "
+                     "far; 0: hard.")
             .ramps(inPicture)
             .colour("sky", &LightSpec::sky, "Ambient light from above.")
             .ramps(inPicture)
@@ -220,6 +222,28 @@ SceneSection environmentSection() {
             .degrees("turn_deg", &EnvironmentSpec::turn, Range{-3600.0, 3600.0}, "Turns it about the vertical.")
             .ramps(inPicture)
             .flag("visible", &EnvironmentSpec::visible, "Whether it is seen in place of the background.")
+            .take();
+    return section;
+}
+
+SceneSection lampSection() {
+    SceneSection section;
+    section.name = "lamp";
+    section.layout = Layout::named;
+    section.help = "A light beside the sun and as far away, e.g. to fill shadows or to draw an outline; at most two.";
+    section.enter = enterNamed(&SceneSpec::lamps);
+    section.existing = findNamed(&SceneSpec::lamps);
+    section.fields =
+        FieldList<LampSpec>()
+            .direction("direction", &LampSpec::direction, "The way the light travels; any length.")
+            .ramps(inPicture)
+            .colour("colour", &LampSpec::colour, "Its colour.")
+            .ramps(inPicture)
+            .number("intensity", &LampSpec::intensity, "", Range{0.0, 1000.0}, "Its strength.")
+            .ramps(inPicture)
+            .degrees("softness_deg", &LampSpec::softness, lightSize, "Its apparent size, as that of the sun.")
+            .ramps(inPicture)
+            .flag("shadow", &LampSpec::shadow, "Whether things throw shadows in it, which cost as much as the sun's.")
             .take();
     return section;
 }

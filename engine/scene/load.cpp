@@ -89,8 +89,16 @@ void sortByName(world::SceneSpec& spec, const world::Kinds& kinds) {
     sortByKind(spec.forces, kinds.forces);
     sortByName(spec.colliders);
     sortByName(spec.cameras);
+    sortByName(spec.lamps);
     sortByName(spec.labels);
     spec.actions.stableSort([](const world::ActionSpec& a, const world::ActionSpec& b) { return a.t < b.t; });
+}
+
+void checkLights(const ReadScene& scene, Problems& problems) {
+    for (std::size_t i = world::mostLamps; i < scene.spec.lamps.size(); ++i)
+        problems.addError(scene.owners.at("lamp." + scene.spec.lamps[i].name),
+                          fmt::format("a scene has three lights at most: the sun and {} lamps", world::mostLamps),
+                          "leave out a lamp");
 }
 
 Node treeOf(std::string_view text, int origin, Problems& problems) {
@@ -156,6 +164,7 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     checkReferences(scene, bodies, problems);
     checkTimeline(root, sections, bodies, scene, problems);
     checkClaims(root, bodies, scene, problems);
+    checkLights(scene, problems);
     throwIfAny(problems);
     checkSize(scene, options.memoryLimit > 0 ? options.memoryLimit : memoryLimit(), problems);
     throwIfAny(problems);

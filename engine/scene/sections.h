@@ -35,6 +35,7 @@ SceneSection runSection();
 SceneSection pictureSection();
 SceneSection lightSection();
 SceneSection environmentSection();
+SceneSection lampSection();
 SceneSection backgroundSection();
 
 SceneSection materialSection();

@@ -12,7 +12,7 @@ namespace taut::scene {
 namespace {
 
 // Sections that only a picture shows, and keys of bodies and colliders.
-constexpr std::string_view picturesOnly[] = {"picture", "camera", "light", "environment", "background", "label"};
+constexpr std::string_view picturesOnly[] = {"picture", "camera", "light", "lamp", "environment", "background", "label"};
 constexpr std::string_view finishOnly[] = {"finish", "visible", "edge", "ball"};
 // What changes nothing before its time, or nothing at all. Of the files that are named the content counts.
 constexpr std::string_view neither[] = {"schema", "title", "scene", "need", "check", "golden", "at"};

@@ -82,6 +82,16 @@ struct Environment {
     bool operator==(const Environment&) const = default;
 };
 
+// A light beside the sun and as far away; at most mostLamps of them.
+struct Lamp {
+    std::string name;
+    glm::vec3 direction{0.5F, -1.0F, 0.4F};  // the way the light travels
+    glm::vec3 colour{1.0F};                  // radiance times intensity
+    float softness = 0.03F;                  // [rad] apparent size
+    bool shadow = true;                      // whether things throw shadows in it
+};
+inline constexpr std::size_t mostLamps = 2;
+
 struct Background {
     glm::vec3 top{0.051F, 0.084F, 0.163F};
     glm::vec3 horizon{0.319F, 0.367F, 0.448F};
@@ -124,13 +134,14 @@ struct Label {
     float plate = 0.0F;            // darkness of a plate behind the text, 0 (none) … 1
 };
 
-// Expects of every surface topology, geometry and finish, and as many uv, positions and normals.
+// Expects of every surface topology, geometry and finish, and as many uv, positions and normals; mostLamps at most.
 struct FrameView {
     std::int64_t frame = 0;
     double time = 0.0;  // [s]
     Camera camera;
     Light light;
     std::optional<Environment> environment;
+    std::vector<Lamp> lamps;
     Background background;
     std::optional<Ground> ground;
     std::vector<Surface> surfaces;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/view/frame_view.h"
 #include "taut/world/source.h"
 
 namespace taut::world {
@@ -43,6 +44,18 @@ struct EnvironmentSpec {
     double turn = 0.0;      // [rad] about y
     bool visible = true;
 };
+
+// A light beside the sun and as far away.
+struct LampSpec {
+    std::string name;
+    Source source;
+    dvec3 direction{0.5, -1.0, 0.4};  // the way the light travels
+    dvec3 colour{1.0, 1.0, 1.0};
+    double intensity = 1.0;  // factor on colour
+    double softness = 0.03;  // [rad]
+    bool shadow = true;      // whether things throw shadows in it
+};
+inline constexpr std::size_t mostLamps = view::mostLamps;
 
 struct BackgroundSpec {
     dvec3 top{0.25, 0.32, 0.44};

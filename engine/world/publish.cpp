@@ -64,6 +64,12 @@ view::Light lightOf(const LightSpec& spec) {
     return light;
 }
 
+view::Lamp lampOf(const LampSpec& spec) {
+    return {spec.name, glm::normalize(glm::vec3(spec.direction)),
+            static_cast<float>(spec.intensity) * linearColour(spec.colour), static_cast<float>(spec.softness),
+            spec.shadow};
+}
+
 // Where it will be if it goes on as in the tick before.
 collision::Pose poseAhead(const Placement& placement, double ticks) {
     const auto& [from, to, moved] = placement;
@@ -92,6 +98,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
     if (const EnvironmentSpec& around = w.spec.environment; !around.image.empty())
         view.environment = view::Environment{around.image, static_cast<float>(around.strength),
                                              static_cast<float>(around.turn), around.visible};
+    for (const LampSpec& lamp : w.spec.lamps) view.lamps.push_back(lampOf(lamp));
     view.background = {linearColour(w.spec.background.top), linearColour(w.spec.background.horizon),
                        static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd),
                        w.spec.background.fadesWithCamera};

@@ -81,6 +81,7 @@ struct SceneSpec {
     PictureSpec picture;
     LightSpec light;
     EnvironmentSpec environment;
+    std::vector<LampSpec> lamps;
     BackgroundSpec background;
     std::map<std::string, MaterialSpec> materials;
     Specs<BodySpec> bodies;

@@ -24,7 +24,7 @@ view::FrameView slantedView() {
 TEST(RenderLightBox, HoldsAllCastersInView) {
     const std::vector<Bounds> casters{boundsOf({-1.0F, 0.0F, -1.0F}, {1.0F, 2.0F, 0.5F}),
                                       boundsOf({1.5F, 0.2F, 0.0F}, {2.0F, 0.7F, 0.5F})};
-    const LightBox box = lightBox(slantedView(), casters, 16.0F / 9.0F, 2048);
+    const LightBox box = lightBox(slantedView(), slantedView().light.direction, casters, 16.0F / 9.0F, 2048);
     for (const Bounds& caster : casters) {
         for (const glm::vec3& corner : caster.corners()) {
             const glm::vec3 at = box.toMap * glm::vec4(corner, 1.0F);
@@ -39,7 +39,7 @@ TEST(RenderLightBox, HoldsAllCastersInView) {
 TEST(RenderLightBox, DepthGrowsAlongTheLight) {
     const view::FrameView view = slantedView();
     const std::vector<Bounds> casters{boundsOf(glm::vec3(-1.0F), glm::vec3(1.0F))};
-    const LightBox box = lightBox(view, casters, 1.5F, 2048);
+    const LightBox box = lightBox(view, view.light.direction, casters, 1.5F, 2048);
     const glm::vec3 way = glm::normalize(view.light.direction);
     const glm::vec3 step = glm::vec3(box.toMap * glm::vec4(way, 0.0F));
     EXPECT_NEAR(step.x, 0.0F, 1e-6F);  // rounding of unit vectors
@@ -50,13 +50,14 @@ TEST(RenderLightBox, DepthGrowsAlongTheLight) {
 TEST(RenderLightBox, TexelsStayInPlaceWhileACasterMoves) {
     const view::FrameView view = slantedView();
     const int texels = 2048;
-    const LightBox before =
-        lightBox(view, std::vector{boundsOf({-1.0F, 0.0F, -1.0F}, {1.0F, 1.5F, 1.0F})}, 1.5F, texels);
+    const LightBox before = lightBox(view, view.light.direction,
+                                     std::vector{boundsOf({-1.0F, 0.0F, -1.0F}, {1.0F, 1.5F, 1.0F})}, 1.5F, texels);
     for (int i = 1; i < 20; ++i) {
         const glm::vec3 moved(0.0013F * static_cast<float>(i), 0.0F, -0.0007F * static_cast<float>(i));
-        const LightBox after = lightBox(
-            view, std::vector{boundsOf(glm::vec3(-1.0F, 0.0F, -1.0F) + moved, glm::vec3(1.0F, 1.5F, 1.0F) + moved)},
-            1.5F, texels);
+        const LightBox after =
+            lightBox(view, view.light.direction,
+                     std::vector{boundsOf(glm::vec3(-1.0F, 0.0F, -1.0F) + moved, glm::vec3(1.0F, 1.5F, 1.0F) + moved)},
+                     1.5F, texels);
         ASSERT_EQ(before.size.x, after.size.x);
         ASSERT_EQ(before.size.y, after.size.y);
         const glm::vec2 shift = glm::vec2(after.toMap[3] - before.toMap[3]) * static_cast<float>(texels);
@@ -70,13 +71,13 @@ TEST(RenderLightBox, FarCastersDoNotCoarsenWhatIsSeen) {
     const view::FrameView view = slantedView();
     const Bounds near = boundsOf({-1.0F, 0.0F, -1.0F}, {1.0F, 1.5F, 1.0F});
     const Bounds endless = boundsOf({-5000.0F, -0.1F, -5000.0F}, {5000.0F, 0.0F, 5000.0F});
-    const LightBox box = lightBox(view, std::vector{near, endless}, 1.5F, 2048);
+    const LightBox box = lightBox(view, view.light.direction, std::vector{near, endless}, 1.5F, 2048);
     EXPECT_LT(box.size.x, 200.0F);  // the camera sees some 36 m far
     EXPECT_LT(box.size.y, 200.0F);
 }
 
 TEST(RenderLightBox, WorksWithoutCasters) {
-    const LightBox box = lightBox(slantedView(), {}, 1.5F, 2048);
+    const LightBox box = lightBox(slantedView(), slantedView().light.direction, {}, 1.5F, 2048);
     EXPECT_GT(box.size.x, 0.0F);
     EXPECT_TRUE(std::isfinite(box.toMap[3][0]));
 }
@@ -84,8 +85,8 @@ TEST(RenderLightBox, WorksWithoutCasters) {
 TEST(RenderGround, CellsInShadowAreShaded) {
     const view::FrameView view = slantedView();
     const std::vector<Bounds> casters{boundsOf({-0.2F, 1.0F, -0.2F}, {0.2F, 1.2F, 0.2F})};
-    const LightBox box = lightBox(view, casters, 1.5F, 2048);
-    const GroundMesh mesh = groundMesh(glm::vec3(0.0F), 0.0F, 30.0F, box, casters, 0.03F, std::nullopt);
+    const std::array light{Shadower{lightBox(view, view.light.direction, casters, 1.5F, 2048), 0.03F}};
+    const GroundMesh mesh = groundMesh(glm::vec3(0.0F), 0.0F, 30.0F, light, casters, std::nullopt);
     const auto covers = [&](const std::vector<std::uint32_t>& triangles, glm::vec2 place) {
         for (std::size_t i = 0; i < triangles.size(); i += 6) {  // two triangles a cell: corners a, c opposite
             const glm::vec3 a = mesh.positions[triangles[i]];
@@ -104,9 +105,9 @@ TEST(RenderGround, OnlyCellsNearTheShadowOfWhatMovesChange) {
     const view::FrameView view = slantedView();
     const std::vector<Bounds> casters{boundsOf({-0.2F, 1.0F, -0.2F}, {0.2F, 1.2F, 0.2F}),
                                       boundsOf({-3.2F, 1.0F, -0.2F}, {-2.8F, 1.2F, 0.2F})};
-    const LightBox box = lightBox(view, casters, 1.5F, 2048);
+    const std::array light{Shadower{lightBox(view, view.light.direction, casters, 1.5F, 2048), 0.03F}};
     const GroundMesh mesh =
-        groundMesh(glm::vec3(0.0F), 0.0F, 30.0F, box, casters, 0.03F, std::nullopt, std::span(casters).subspan(1));
+        groundMesh(glm::vec3(0.0F), 0.0F, 30.0F, light, casters, std::nullopt, std::span(casters).subspan(1));
     // Shadows fall 0.66 m to the right and 0.44 m back: of the still box to x = 0.66, of the other to x = -2.34.
     const auto changesAt = [&](glm::vec2 place) {
         for (std::size_t i = 0; i < mesh.shaded.size(); i += 6) {
@@ -124,8 +125,8 @@ TEST(RenderGround, OnlyCellsNearTheShadowOfWhatMovesChange) {
 TEST(RenderGround, CellsCoverTheDiscOnce) {
     const view::FrameView view = slantedView();
     const std::vector<Bounds> casters{boundsOf({-0.2F, 1.0F, -0.2F}, {0.2F, 1.2F, 0.2F})};
-    const LightBox box = lightBox(view, casters, 1.5F, 2048);
-    const GroundMesh mesh = groundMesh({1.0F, 5.0F, 2.0F}, 0.25F, 10.0F, box, casters, 0.03F, std::nullopt);
+    const std::array light{Shadower{lightBox(view, view.light.direction, casters, 1.5F, 2048), 0.03F}};
+    const GroundMesh mesh = groundMesh({1.0F, 5.0F, 2.0F}, 0.25F, 10.0F, light, casters, std::nullopt);
     double area = 0.0;
     for (const auto* triangles : {&mesh.shaded, &mesh.open}) {
         for (std::size_t i = 0; i < triangles->size(); i += 3) {

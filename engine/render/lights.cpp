@@ -1,0 +1,52 @@
+#include "taut/render/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/core/error.h"
+#include "taut/render/shadow_map.h"
+
+namespace taut::render {
+
+namespace {
+
+constexpr int mostBlocks = 32;  // a quarter of the map
+
+// So many blocks that a penumbra as long as the box is within them.
+int blocksFor(const LightBox& box, float softness) {
+    if (softness <= widestNarrow) return Shadower{}.blocks;
+    const float radius = std::tan(0.5F * softness) * box.size.z;
+    const float blocks = radius * static_cast<float>(boundsEdge) / std::min(box.size.x, box.size.y);
+    return std::clamp(static_cast<int>(std::ceil(std::min(blocks, 1e3F) + 0.5F)), Shadower{}.blocks, mostBlocks);
+}
+
+}  // namespace
+
+std::vector<std::string> definitionsOf(const LightKind& kind) {
+    std::vector<std::string> definitions{"LAMPS " + std::to_string(kind.lamps),
+                                         "LAMP_SHADOWS " + std::to_string(kind.lampShadows)};
+    if (kind.isWide) definitions.emplace_back("WIDE");
+    if (kind.isAround) definitions.emplace_back("ENVIRONMENT");
+    return definitions;
+}
+
+LightSet lightsOf(const view::FrameView& view, std::span<const Bounds> casters, float aspect, int texels) {
+    TAUT_EXPECTS(view.lamps.size() <= view::mostLamps);
+    LightSet lights;
+    lights.kind.isAround = view.environment.has_value();
+    const auto shadower = [&](glm::vec3 direction, float softness) {
+        const LightBox box = lightBox(view, direction, casters, aspect, texels);
+        lights.kind.isWide |= softness > widestNarrow;
+        return Shadower{box, softness, blocksFor(box, softness)};
+    };
+    lights.sun = shadower(view.light.direction, view.light.softness);
+    lights.lamps = view.lamps;
+    std::stable_partition(lights.lamps.begin(), lights.lamps.end(), [](const view::Lamp& lamp) { return lamp.shadow; });
+    for (const view::Lamp& lamp : lights.lamps)
+        if (lamp.shadow) lights.lampShadows.push_back(shadower(lamp.direction, lamp.softness));
+    lights.kind.lamps = static_cast<int>(lights.lamps.size());
+    lights.kind.lampShadows = static_cast<int>(lights.lampShadows.size());
+    return lights;
+}
+
+}  // namespace taut::render

@@ -16,6 +16,7 @@
 #include "taut/render/environment_map.h"
 #include "taut/render/frame_block.h"
 #include "taut/render/ground_pass.h"
+#include "taut/render/hem.h"
 #include "taut/render/label_pass.h"
 #include "taut/render/light_maps.h"
 #include "taut/render/marks_pass.h"
@@ -99,6 +100,7 @@ struct RendererParts {
           targets(gl, options.width, options.height),
           meshes(gl),
           thinMeshes(gl),
+          hemMeshes(gl),
           lightMaps(gl, options.shadowSize),
           occlusion(gl),
           surfaces(gl, shaders, textures),
@@ -117,7 +119,8 @@ struct RendererParts {
 
     ShaderFolder shaders;
     Targets targets;
-    MeshCache meshes, thinMeshes;
+    MeshCache meshes, thinMeshes, hemMeshes;
+    Hems hems;
     LightMaps lightMaps;
     OcclusionPass occlusion;
     TextureBudget textures;
@@ -139,7 +142,8 @@ struct RendererParts {
 struct Scene {
     const view::FrameView& view;
     std::vector<DrawItem> items;  // the nearest first
-    std::vector<DrawItem> solid;  // of them without thin tubes
+    std::vector<DrawItem> solid;  // of them without thin tubes, with what hems they show
+    std::vector<view::Surface> hemmed;
     std::vector<view::Surface> thinSurfaces;
     std::vector<DrawItem> thin, shadedThin;  // tubes as they cover pixels, and as they are shaded; the nearest first
     std::vector<Bounds> casters;
@@ -213,13 +217,14 @@ RendererInfo Renderer::info() const {
 
 Scene Renderer::Impl::sceneOf(const view::FrameView& view) {
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-    Scene scene{view,   parts->meshes.items(view.surfaces),     {}, {}, {}, {}, {},
+    Scene scene{view,   parts->meshes.items(view.surfaces),     {}, {}, {}, {}, {}, {},
                 aspect, PixelScale(view.camera, options.height)};
     sortByDistance(scene.items, view.camera.eye);
     for (const DrawItem& item : scene.items) {
         scene.casters.push_back(item.bounds);
         if (!isThin(item, scene.scale)) scene.solid.push_back(item);
     }
+    scene.hemmed = parts->hems.addTo(scene.solid, scene.scale, parts->hemMeshes);  // after what throws shadows
     for (const float radius : {coveringRadius, shadedRadius})
         for (const DrawItem& item : scene.items)
             if (isThin(item, scene.scale)) scene.thinSurfaces.push_back(widened(*item.surface, scene.scale, radius));

@@ -50,6 +50,7 @@ struct Surface {
     bool twoSided = false;  // a cloth; anything else is closed, or is seen and lit from its front only
     float tubeRadius =
         0.0F;  // [m] of a rope or rod as tubeGeometry makes it: it is never drawn thinner than a pixel; 0: other
+    float hem = 0.0F;     // [m] thickness of a cloth as its free edges show it, seen close
     float dulled = 0.0F;  // 0 … 1: how far its colours give way to a dull red, for what has stopped
 };
 

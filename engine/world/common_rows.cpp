@@ -80,6 +80,9 @@ Section finishSection() {
             .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")
             .number("roughness", &FinishSpec::roughness, "", fields::share, "0 a mirror, 1 chalk.")
             .number("sheen", &FinishSpec::sheen, "", fields::share, "Bright rim of fabric.")
+            .number("hem_m", &FinishSpec::hem, "m", Range{0.0, 1.0},
+                    "Thickness of a cloth as its free edges show it where that is more than a pixel; nothing else "
+                    "knows of it.")
             .text("texture", &FinishSpec::texture, Role::texture, "Picture file, PNG or JPEG.")
             .required()
             .only({"the pattern image"})

@@ -55,7 +55,10 @@ Skin wholeSkin(const mechanics::Model& model) {
 class SkinDrawing final : public BodyDrawing {
   public:
     SkinDrawing(const Body& body, bool twoSided)
-        : name_(body.fullName()), twoSided_(twoSided), finish_(finishOf(body.spec->finish)) {
+        : name_(body.fullName()),
+          twoSided_(twoSided),
+          hem_(twoSided ? static_cast<float>(body.spec->finish.hem) : 0.0F),
+          finish_(finishOf(body.spec->finish)) {
         auto topology = std::make_shared<view::Topology>();
         const mechanics::Model& model = body.model;
         const Skin skin = body.damage.isEmpty() ? wholeSkin(model) : skinOf(body);
@@ -94,6 +97,7 @@ class SkinDrawing final : public BodyDrawing {
         surface.geometry = geometry;
         surface.finish = finish_;
         surface.twoSided = twoSided_;
+        surface.hem = hem_;
         surfaces.push_back(std::move(surface));
     }
 
@@ -125,6 +129,7 @@ class SkinDrawing final : public BodyDrawing {
 
     std::string name_;
     bool twoSided_;
+    float hem_;  // [m]
     std::shared_ptr<const view::Finish> finish_;
     std::vector<int> points_;                                 // (vertices) point of the model
     std::vector<std::pair<std::size_t, SkinVertex>> beyond_;  // vertices at a cut, beyond any point

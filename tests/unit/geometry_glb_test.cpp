@@ -108,6 +108,20 @@ TEST(Glb, HasAShapeAFrameAndPosesOfWhatIsRigid) {
     EXPECT_EQ(test::filesIn(path.parent_path()), 1U);
 }
 
+TEST(Glb, HasEveryLightOnANode) {
+    const auto path = test::emptyFolder("glb_lights") / "film.glb";
+    geometry::GlbWriter writer(path, {});
+    view::FrameView view = test::Film().frame(0, 1.0F);
+    view.lamps = {{"fill", {0.0F, -1.0F, 0.0F}, {1.0F, 2.0F, 0.0F}, 0.5F, true}};
+    writer.write(view);
+    writer.finish();
+    const Glb glb(path);
+    const json& lights = glb.text["extensions"]["KHR_lights_punctual"]["lights"];
+    ASSERT_EQ(lights.size(), 2U);
+    EXPECT_EQ(lights[1], json::parse(R"({"type":"directional","name":"lamp.fill","color":[0.5,1,0],"intensity":2})"));
+    EXPECT_EQ(glb.named("nodes", "lamp.fill")["extensions"]["KHR_lights_punctual"]["light"], 1);
+}
+
 TEST(Glb, RefusesWhatTearsAndLeavesNothing) {
     const auto folder = test::emptyFolder("torn");
     test::Film film;

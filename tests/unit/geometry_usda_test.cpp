@@ -68,6 +68,22 @@ TEST(Usda, SamplesWhatChangesWhereItChanges) {
     EXPECT_EQ(test::filesIn(path.parent_path()), 1U);
 }
 
+// One that throws no shadows says so.
+TEST(Usda, HasEveryLight) {
+    const auto path = test::emptyFolder("usda_lights") / "film.usda";
+    geometry::UsdaWriter writer(path, {});
+    view::FrameView view = test::Film().frame(0, 1.0F);
+    view.lamps = {{"a-b", {0.0F, -1.0F, 0.0F}, {1.0F, 2.0F, 0.0F}, 0.5F, true},
+                  {"a_b", {0.0F, -1.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, 0.5F, false}};
+    writer.write(view);
+    writer.finish();
+    const std::string text = test::bytesOf(path);
+    EXPECT_EQ(attribute(text, "lamp_a_b", "color3f inputs:color"), "color3f inputs:color = (0.5,1,0)\n");
+    EXPECT_EQ(attribute(text, "lamp_a_b", "float inputs:intensity"), "float inputs:intensity = 2\n");
+    EXPECT_EQ(attribute(text, "lamp_a_b_2", "bool inputs:shadow:enable"), "bool inputs:shadow:enable = 0\n");
+    EXPECT_NE(text.find("\"sun\""), std::string::npos);
+}
+
 TEST(Usda, LeavesNothingWithoutItsEnd) {
     const auto folder = test::emptyFolder("usda_left");
     {

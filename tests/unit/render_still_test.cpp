@@ -50,6 +50,15 @@ TEST(RenderStill, ANewLightFallsOnWhatIsStill) {
     expectSameBytes([](int i, view::FrameView& view) { view.light.colour = glm::vec3(i < 12 ? 3.0F : 1.0F); });
 }
 
+TEST(RenderStill, LampsThatTurnAndAWideSunAreFollowed) {
+    expectSameBytes([](int i, view::FrameView& view) {
+        view.light.softness = 0.2F;
+        view.lamps.resize(2);
+        view.lamps[0].direction = {i < 12 ? 0.5F : 0.4F, -1.0F, 0.6F};
+        view.lamps[1].shadow = i < 13;
+    });
+}
+
 TEST(RenderStill, GroundThatSinksIsDrawnAnew) {
     expectSameBytes([](int i, view::FrameView& view) { view.ground->height = i < 12 ? 0.0F : -0.1F; });
 }

@@ -56,6 +56,14 @@ inline float filmic(float light) {
     return x * (2.51F * x + 0.03F) / (x * (2.43F * x + 0.59F) + 0.14F);
 }
 
+// The light that a byte of a picture stands for: both curves backwards.
+inline float lightOf(int byte) {
+    const float c = static_cast<float>(byte) / 255.0F;
+    const float y = c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
+    const float a = 2.51F - 2.43F * y, b = 0.03F - 0.59F * y;
+    return (std::sqrt(b * b + 0.56F * a * y) - b) / (2.0F * a) / 0.75F;
+}
+
 inline view::Surface surface(const view::Mesh& mesh, glm::vec3 at, glm::vec3 colour) {
     view::Finish finish;
     finish.front = finish.back = colour;

@@ -65,7 +65,7 @@ TEST(SceneFields, SettingsLandInTheirMembers) {
     EXPECT_EQ(scene.picture.shadowSize, 1024);
 }
 
-TEST(SceneFields, LightAndBackgroundLandInTheirMembers) {
+TEST(SceneFields, LightsAndBackgroundLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
     EXPECT_EQ(scene.light.direction, dvec3(1, -2, 3));
     EXPECT_EQ(scene.light.colour, dvec3(1.0, 128.0 / 255.0, 0.0));
@@ -78,6 +78,13 @@ TEST(SceneFields, LightAndBackgroundLandInTheirMembers) {
     EXPECT_EQ(scene.environment.strength, 1.5);
     EXPECT_EQ(scene.environment.turn, radians(-90.0));
     EXPECT_FALSE(scene.environment.visible);
+    ASSERT_EQ(scene.lamps.size(), 1U);
+    EXPECT_EQ(scene.lamps[0].name, "rim");
+    EXPECT_EQ(scene.lamps[0].direction, dvec3(2, -1, 0));
+    EXPECT_EQ(scene.lamps[0].colour, dvec3(0.2, 0.4, 0.6));
+    EXPECT_EQ(scene.lamps[0].intensity, 1.5);
+    EXPECT_EQ(scene.lamps[0].softness, radians(18.0));
+    EXPECT_FALSE(scene.lamps[0].shadow);
     EXPECT_EQ(scene.background.top, dvec3(0.11, 0.12, 0.13));
     EXPECT_EQ(scene.background.horizon, dvec3(0.21, 0.22, 0.23));
     EXPECT_EQ(scene.background.fadeStart, 9.0);
@@ -133,7 +140,7 @@ TEST(SceneFields, WhatEveryBodyHasLandsInItsMembers) {
     EXPECT_EQ(flag.hold, (std::vector<std::string>{"left", "#7", "(0.5,1)"}));
     EXPECT_EQ(flag.holdOn, "collider.ball");
     EXPECT_EQ(flag.source.file, (folder / "s.toml").string());
-    EXPECT_EQ(flag.source.line, 62);
+    EXPECT_EQ(flag.source.line, 68);
     EXPECT_EQ(flag.source.column, 8);
     expectCommonMembers(flag, folder);
 
@@ -214,7 +221,7 @@ TEST(SceneFields, NetLandsInItsMembers) {
     EXPECT_EQ(net.points[0].mass, 3.0);
     EXPECT_TRUE(net.points[0].hold);
     EXPECT_FALSE(net.points[1].hold);
-    EXPECT_EQ(net.points[1].source.line, 119);
+    EXPECT_EQ(net.points[1].source.line, 125);
     ASSERT_EQ(net.springs.size(), 1U);
     EXPECT_EQ(net.springs[0].a, "a");
     EXPECT_EQ(net.springs[0].b, "b");

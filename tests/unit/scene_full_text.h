@@ -48,6 +48,12 @@ image = "square.png"
 strength = 1.5
 turn_deg = -90
 visible = false
+[lamp.rim]
+direction = [2, -1, 0]
+colour = [0.2, 0.4, 0.6]
+intensity = 1.5
+softness_deg = 18
+shadow = false
 [background]
 top = [0.11, 0.12, 0.13]
 horizon = [0.21, 0.22, 0.23]
@@ -81,7 +87,7 @@ friction = 0.9
 thickness = 0.01
 collide = false
 touch = "others"
-finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, thread_m = 0.02, roughness = 0.5, sheen = 0.6, texture = "square.png" }
+finish = { colour = [0.1, 0.2, 0.3], back_colour = [0.4, 0.5, 0.6], accent = [0.7, 0.8, 0.9], pattern = "image", repeat_m = 0.3, weave = 0.4, thread_m = 0.02, roughness = 0.5, sheen = 0.6, hem_m = 0.004, texture = "square.png" }
 solver = { integrator = "euler", dt = 2e-4, safety = 0.7, newton_steps = 5, cg_tolerance = 1e-8, cg_iterations = 400 }
 array = { count = [2, 3, 4], step_x = [1, 0, 0], step_y = [0, 2, 0], step_z = [0, 0, 3] }
 [cloth.shirt]

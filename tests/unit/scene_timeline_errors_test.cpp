@@ -161,7 +161,7 @@ TEST(SceneErrors, RampsOfWhatCannotChangeAreReported) {
          "s.toml:3:31: error: nothing of solver can change while the scene runs\n"
          "    { t = 1, do = \"ramp\", key = \"solver.dt\", to = 0.1 },\n"
          "                                ^ what may: world, material, rope, block, net, anchor, wind, collider, "
-         "camera, light, environment, background"},
+         "camera, light, lamp, environment, background"},
         {"an unknown wind",
          "at = [\n"
          "  { t = 1, do = \"ramp\", key = \"wind.breze.velocity\", to = [0, 0, 0] },\n"

@@ -295,6 +295,19 @@ TEST(SceneErrors, ValuesOutOfRangeAreReported) {
          "s.toml:3:13: error: direction must not be [0, 0, 0]\n"
          "  direction = [0, 0, 0]\n"
          "              ^"},
+        {"a light that fills the sky",
+         "[light]\n"
+         "softness_deg = 60\n",
+         "s.toml:3:16: error: softness_deg must be between 0 and 45 degrees, not 60\n"
+         "  softness_deg = 60\n"
+         "                 ^"},
+        {"a fourth light",
+         "[lamp.one]\n"
+         "[lamp.two]\n"
+         "[lamp.three]\n",
+         "s.toml:4:7: error: a scene has three lights at most: the sun and 2 lamps\n"
+         "  [lamp.three]\n"
+         "        ^ leave out a lamp"},
         {"a restitution above 1",
          "[collider.s]\n"
          "shape = \"sphere\"\n"

@@ -1,0 +1,139 @@
+// What several lights do together, and what the size of one does, from the theory of light alone.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "render_support.h"
+
+namespace taut::render::test {
+namespace {
+
+// A ball and a sheet that is lit through, on a floor without end, in slanted light.
+view::FrameView litView() {
+    view::FrameView view = floorView();
+    view.background.fadeStart = 80.0F;
+    view.background.fadeEnd = 90.0F;
+    view.light.direction = {0.5F, -1.0F, -0.3F};
+    view.light.colour = {1.2F, 0.9F, 0.6F};
+    view.surfaces = {surface(view::sphereMesh(0.5F), {-0.6F, 0.5F, 0.0F}, {0.5F, 0.3F, 0.2F}),
+                     surface(view::quadMesh({0.3F, 0.6F, 0.5F}, 0.5F), {0.7F, 0.8F, 0.0F}, {0.2F, 0.3F, 0.5F})};
+    view.surfaces[1].twoSided = true;
+    view::Finish woven = *view.surfaces[1].finish;
+    woven.weave = 0.5F;
+    woven.sheen = 0.4F;
+    woven.roughness = 0.3F;
+    view.surfaces[1].finish = std::make_shared<const view::Finish>(woven);
+    return view;
+}
+
+RendererOptions lampOptions() {
+    RendererOptions options = smallOptions();
+    options.samples = 1;
+    options.shadowSize = 512;
+    return options;
+}
+
+int largestDifference(const image::Image& a, const image::Image& b) {
+    int largest = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) largest = std::max(largest, std::abs(a.rgb[i] - b.rgb[i]));
+    return largest;
+}
+
+// Within the last bit of each byte: other programs may round otherwise.
+TEST(RenderLamps, ALampInTheSunsPlaceDrawsWhatTheSunDoes) {
+    for (const float softness : {0.03F, 0.2F}) {
+        for (const bool hasShadow : {true, false}) {
+            view::FrameView view = litView();
+            view.light.softness = softness;
+            RendererOptions options = lampOptions();
+            options.shadows = hasShadow;
+            const image::Image bySun = pictureOf(view, options);
+            view.lamps = {{"a", view.light.direction, view.light.colour, softness, hasShadow}};
+            view.light.colour = glm::vec3(0.0F);
+            options.shadows = true;
+            EXPECT_LE(largestDifference(bySun, pictureOf(view, options)), 1) << softness << hasShadow;
+        }
+    }
+}
+
+// Bytes of each picture are off by up to half a step, and by half a step of noise on the ground: three of them and
+// their sum by four steps of that, of which one at the sum is the smallest, for both curves are steepest at 0.
+TEST(RenderLamps, TheLightOfThreeAddsUp) {
+    view::FrameView view = litView();
+    view.light.sky = view.light.ground = glm::vec3(0.0F);
+    const std::vector<glm::vec3> colours{view.light.colour, {0.3F, 1.0F, 0.4F}, {0.4F, 0.3F, 1.4F}};
+    Renderer renderer(lampOptions());
+    const auto litBy = [&](const std::vector<bool>& isOn) {
+        const auto colour = [&](std::size_t i) { return isOn[i] ? colours[i] : glm::vec3(0.0F); };
+        view.light.colour = colour(0);
+        view.lamps = {{"a", {-0.6F, -0.5F, -0.2F}, colour(1), 0.1F, true},
+                      {"b", {0.2F, -1.0F, 0.7F}, colour(2), 0.0F, true}};
+        return renderer.draw(view);
+    };
+    const image::Image all = litBy({true, true, true});
+    const image::Image one = litBy({true, false, false}), two = litBy({false, true, false}),
+                       three = litBy({false, false, true});
+    int worst = 0, lit = 0;
+    for (int y = 60; y < all.height; ++y) {  // below the horizon
+        for (int x = 0; x < all.width; ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto at = [&](const image::Image& picture) { return pixelAt(picture, x, y)[c]; };
+                if (at(all) > 245) continue;  // where curves are flat
+                const float sum = lightOf(at(one)) + lightOf(at(two)) + lightOf(at(three));
+                worst = std::max(worst, static_cast<int>(std::fabs(srgb(filmic(sum)) - static_cast<float>(at(all)))));
+                lit += at(one) > 20 && at(two) > 20 && at(three) > 20 ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_LE(worst, 4);
+    EXPECT_GT(lit, 20000);  // of 115200
+}
+
+// A roof of which one edge runs across the picture, 1 m above the ground. Behind it the light grows as the part of a
+// disc that has come out from behind a straight edge: so that its spread, the root of the second moment of the growth,
+// is a quarter of the disc's width.
+float penumbraOf(float softness) {
+    view::FrameView view = floorView();
+    view.camera.eye = {0.0F, 0.9F, 1.2F};
+    view.light.direction = {0.0F, -1.0F, 0.0F};
+    view.light.softness = softness;
+    view.surfaces = {surface(view::boxMesh({1.0F, 0.002F, 2.0F}, 0.0F), {-1.0F, 1.0F, 0.0F}, glm::vec3(0.5F))};
+    RendererOptions options = lampOptions();
+    options.width = 640;
+    options.height = 360;
+    options.shadowSize = 1024;
+    options.occlusion = false;
+    const image::Image picture = pictureOf(view, options);
+    constexpr float step = 0.002F;
+    std::vector<float> growth;
+    for (float x = -0.6F; x < 0.6F; x += step) {
+        float sum = 0.0F;
+        for (float z = -0.1F; z < 0.1F; z += 0.004F) sum += lightOf(pixelOf(picture, view.camera, {x, 0.0F, z})[1]);
+        growth.push_back(sum);
+    }
+    const float dark = growth.front(), range = growth.back() - dark;
+    float mean = 0.0F, square = 0.0F, total = 0.0F;
+    for (std::size_t i = 1; i < growth.size(); ++i) {
+        const float part = (growth[i] - growth[i - 1]) / range, x = step * static_cast<float>(i) - 0.6F;
+        total += part;
+        mean += part * x;
+        square += part * x * x;
+    }
+    EXPECT_NEAR(total, 1.0F, 1e-3F);
+    EXPECT_NEAR(mean, 0.0F, 0.01F);
+    return 4.0F * std::sqrt(std::max(square - mean * mean, 0.0F));
+}
+
+// 1 m · 2 tan(size / 2), within 6 %: the roof is 2 mm off, and the mean of distances is known to a step of 16 bits
+// from 24 places. A narrow one is widened by what is looked around at least, 1.2 texels of 4 mm, and so is a hard one.
+TEST(RenderLamps, APenumbraIsAsWideAsTheLightIsLarge) {
+    for (const float size : {0.05F, 0.1F, 0.2F, 0.4F, 0.7F}) {
+        const float width = 2.0F * std::tan(0.5F * size);
+        EXPECT_NEAR(penumbraOf(size), width, 0.06F * width) << size;
+    }
+    EXPECT_LT(penumbraOf(0.0F), 0.02F);
+}
+
+}  // namespace
+}  // namespace taut::render::test

@@ -163,13 +163,15 @@ std::optional<view::Surface> Hems::hemmed(const view::Surface& surface, const Bo
         const glm::vec3 along = positions[own.border[b]] - positions[own.border[a]];
         for (const std::uint32_t end : {a, b}) out[end] += unitOrZero(glm::cross(along, normals[own.border[end]]));
     }
-    for (glm::vec3& way : out) way = unitOrZero(way);
+    // Mitred: as far out at a corner as beside it.
+    for (glm::vec3& way : out)
+        way *= 2.0F / std::max(glm::dot(way, way), std::numbers::sqrt2_v<float> * glm::length(way) + 1e-6F);
     const auto addRow = [&](std::uint32_t row, float side) {
         const float c = std::cos(angleOf(row)), s = std::sin(angleOf(row));
         for (std::size_t i = 0; i < own.border.size(); ++i) {
-            const glm::vec3 way = c * normals[own.border[i]] + s * out[i];
-            geometry->positions.push_back(positions[own.border[i]] + radius[i] * way);
-            geometry->normals.push_back(side * way);
+            const glm::vec3 n = c * normals[own.border[i]];
+            geometry->positions.push_back(positions[own.border[i]] + radius[i] * (n + s * out[i]));
+            geometry->normals.push_back(side * unitOrZero(n + s * unitOrZero(out[i])));
         }
     };
     for (std::uint32_t row = 1; row <= halfRows; ++row) addRow(row, 1.0F);

@@ -12,10 +12,19 @@ namespace {
 
 constexpr int mostBlocks = 32;  // a quarter of the map
 
-// So many blocks that a penumbra as long as the box is within them.
-int blocksFor(const LightBox& box, float softness) {
+// [m] The longest way of light between things, and from them to the ground.
+float longestWay(const view::FrameView& view, const LightBox& box, std::span<const Bounds> casters) {
+    float way = box.size.z;
+    if (!view.ground) return way;
+    for (const Bounds& caster : casters)
+        if (!caster.empty) way = std::max(way, (caster.high.y - view.ground->height) / towardsLight(box).y);
+    return way;
+}
+
+// So many blocks that the widest penumbra is within them.
+int blocksFor(const LightBox& box, float softness, float way) {
     if (softness <= widestNarrow) return Shadower{}.blocks;
-    const float radius = std::tan(0.5F * softness) * box.size.z;
+    const float radius = std::tan(0.5F * softness) * way;
     const float blocks = radius * static_cast<float>(boundsEdge) / std::min(box.size.x, box.size.y);
     return std::clamp(static_cast<int>(std::ceil(std::min(blocks, 1e3F) + 0.5F)), Shadower{}.blocks, mostBlocks);
 }
@@ -37,7 +46,7 @@ LightSet lightsOf(const view::FrameView& view, std::span<const Bounds> casters, 
     const auto shadower = [&](glm::vec3 direction, float softness) {
         const LightBox box = lightBox(view, direction, casters, aspect, texels);
         lights.kind.isWide |= softness > widestNarrow;
-        return Shadower{box, softness, blocksFor(box, softness)};
+        return Shadower{box, softness, blocksFor(box, softness, longestWay(view, box, casters))};
     };
     lights.sun = shadower(view.light.direction, view.light.softness);
     lights.lamps = view.lamps;

@@ -20,7 +20,7 @@ struct FinishSpec {
     double thread = 0.012;   // [m]
     double roughness = 0.7;  // 0 … 1
     double sheen = 0.0;      // 0 … 1
-    double hem = 0.002;      // [m] thickness of a cloth at its free edges
+    double hem = 0.001;      // [m] thickness of a cloth at its free edges
     std::string texture;     // path, resolved by the loader
 };
 

@@ -78,7 +78,7 @@ TEST(Usda, HasEveryLight) {
     writer.write(view);
     writer.finish();
     const std::string text = test::bytesOf(path);
-    EXPECT_EQ(attribute(text, "lamp_a_b", "color3f inputs:color"), "color3f inputs:color = (0.5,1,0)\n");
+    EXPECT_EQ(attribute(text, "lamp_a_b", "color3f inputs:color"), "color3f inputs:color = (0.5, 1, 0)\n");
     EXPECT_EQ(attribute(text, "lamp_a_b", "float inputs:intensity"), "float inputs:intensity = 2\n");
     EXPECT_EQ(attribute(text, "lamp_a_b_2", "bool inputs:shadow:enable"), "bool inputs:shadow:enable = 0\n");
     EXPECT_NE(text.find("\"sun\""), std::string::npos);

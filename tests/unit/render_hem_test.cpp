@@ -28,7 +28,7 @@ TEST(RenderHem, AnEdgeSeenCloseIsAsThickAsTheCloth) {
     int rows = 0;
     for (std::size_t y = 0; y < 180; ++y) rows += picture.mask[3 * (y * 320 + 160)] != 0 ? 1 : 0;
     EXPECT_NEAR(rows, 12.3, 1.0);
-    EXPECT_NEAR(picture.depth[90 * 320 + 160], 1950.0, 1.0);  // a chord of the rim is 1 mm inside
+    EXPECT_NEAR(picture.depth[90 * 320 + 160], 1950.0, 1.0);
     EXPECT_EQ(picture.depth[80 * 320 + 160], image::farDepth);
 }
 

@@ -48,12 +48,6 @@ image = "square.png"
 strength = 1.5
 turn_deg = -90
 visible = false
-[lamp.rim]
-direction = [2, -1, 0]
-colour = [0.2, 0.4, 0.6]
-intensity = 1.5
-softness_deg = 18
-shadow = false
 [background]
 top = [0.11, 0.12, 0.13]
 horizon = [0.21, 0.22, 0.23]
@@ -196,6 +190,12 @@ keys = [{ t = 0, eye = [1, 2, 3], target = [4, 5, 6], fov_deg = 30, ease = "hold
 eye = [3, 2, 1]
 target = [0, 1, 0.5]
 orbit_period_s = 20
+[lamp.rim]
+direction = [2, -1, 0]
+colour = [0.2, 0.4, 0.6]
+intensity = 1.5
+softness_deg = 18
+shadow = false
 [label.name]
 of = "rope.rail"
 size = 0.05

@@ -191,15 +191,15 @@ int exportScene(const ExportFlags& flags) {
         if (const std::string fault = scene::targetFault(spec, target, true); !fault.empty())
             failUsage("--of: " + fault);
     pipeline::GeometryRun run = runOf(flags, spec);
-    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
-    for (const std::string& file : flags.files()) {
-        permitOverwritingFile(file, overwrite);
-        core::prepareFolderOf(file);
-    }
     geometry::WebPage page;
     if (!flags.web.empty()) {
         const std::string name = std::filesystem::path(flags.scene).stem().string();
         page = webPage(spec.title.empty() ? name : spec.title, name, flags.viewer);
+    }
+    const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
+    for (const std::string& file : flags.files()) {
+        permitOverwritingFile(file, overwrite);
+        core::prepareFolderOf(file);
     }
     const std::int64_t keys = (run.lastFrame - run.firstFrame + run.every - 1) / run.every + 1;
     if (flags.isGlb() && keys > static_cast<std::int64_t>(geometry::GlbWriter::mostWebKeys) && !flags.quiet)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 #include "game/folders.h"
 #include "taut/core/error.h"
@@ -65,24 +66,20 @@ geometry::WebPage webPage(const std::string& title, const std::string& scene, co
         throw core::Error(core::ErrorKind::inputOutput,
                           fmt::format("--web: three.js, which draws in the page, is not there; {}", toInstall));
     const std::filesystem::path own = assetFolder() / "viewer";
-    std::string text = core::fileContent(own / "page.html");
-    std::string libraryElements, ownElements;
-    for (const char* script : scripts) libraryElements += scriptElement(library / script);
-    for (const char* script : {"film.js", "look.js", "page.js"}) ownElements += scriptElement(own / script);
-    replace(text, "@GENERATOR@", fmt::format("taut {}", TAUT_VERSION));
-    replace(text, "@TITLE@", report::htmlText(title));
-    replace(text, "@SCENE@", report::htmlText(scene));
-    replace(text, "@STYLE@", core::fileContent(own / "page.css"));
-    // Whatever they hold is left alone: they come last, from the end of the page to its start.
-    const std::string mark = "@MODEL@";
-    const std::size_t at = text.find(mark);
+    const std::string whole = core::fileContent(own / "page.html"), mark = "@MODEL@";
+    const std::size_t at = whole.find(mark);
     if (at == std::string::npos)
         throw core::Error(core::ErrorKind::badContent, (own / "page.html").string() + ": there is no " + mark);
-    geometry::WebPage page{text.substr(0, at), text.substr(at + mark.size())};
-    const std::string scriptsMark = "@LIBRARY@@OWN@";
-    const std::size_t head = page.before.find(scriptsMark);
-    if (head != std::string::npos) page.before.replace(head, scriptsMark.size(), libraryElements + ownElements);
-    return page;
+    std::string scriptElements;
+    for (const char* script : scripts) scriptElements += scriptElement(library / script);
+    for (const char* script : {"film.js", "look.js", "page.js"}) scriptElements += scriptElement(own / script);
+    std::string before = whole.substr(0, at);
+    replace(before, "@GENERATOR@", fmt::format("taut {}", TAUT_VERSION));
+    replace(before, "@STYLE@", core::fileContent(own / "page.css"));
+    replace(before, "@SCRIPTS@", scriptElements);
+    replace(before, "@SCENE@", report::htmlText(scene));
+    replace(before, "@TITLE@", report::htmlText(title));
+    return {std::move(before), whole.substr(at + mark.size())};
 }
 
 }  // namespace taut::game

@@ -74,8 +74,9 @@ function keysOf(track, targets) {
 class Film {
   constructor(gltf) {
     this.scene = gltf.scene;
-    this.around = gltf.scene.userData.taut;  // light, background, ground
+    this.around = gltf.scene.userData.taut;  // light, background, ground, camera
     this.camera = gltf.cameras[0];
+    this.target = new THREE.Vector3();  // [m] that the camera looks at
     this.shapes = [];
     this.times = [0];
     const tracks = gltf.animations.length > 0 ? gltf.animations[0].tracks : [];
@@ -94,7 +95,6 @@ class Film {
       this.shapes.push(new MovingShape(mesh, track));
       mesh.frustumCulled = false;  // the bounds known of it are those at first
     }
-    this.hasMovingCamera = poses.some((track) => track.name.startsWith('camera.'));
     this.mixer = new THREE.AnimationMixer(this.scene);
     this.action = poses.length > 0 ? this.mixer.clipAction(new THREE.AnimationClip('poses', -1, poses)) : null;
     if (this.action) this.action.play();
@@ -122,15 +122,15 @@ class Film {
       this.mixer.update(0);
     }
     this.scene.updateMatrixWorld(true);
+    const {target, fieldOfView} = this.around.camera, a = Math.min(key, target.length - 1), b = Math.min(a + 1, target.length - 1);
+    this.target.set(...target[a]).lerp(new THREE.Vector3(...target[b]), share);
+    this.camera.fov = (fieldOfView[a] + share * (fieldOfView[b] - fieldOfView[a])) * 180 / Math.PI;
   }
 
-  // All that things reach from the first key to the last but for the ground: [m].
+  // All that what is visible reaches from the first key to the last [m].
   bounds() {
     const box = new THREE.Box3();
-    for (const shape of this.shapes) {
-      if (!shape.mesh.visible) continue;
-      shape.addTo(box);
-    }
+    for (const shape of this.shapes) if (shape.mesh.visible) shape.addTo(box);
     if (!this.action) return box;
     for (let key = 0; key < this.times.length; ++key) {
       this.action.time = this.times[key];

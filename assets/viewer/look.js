@@ -268,12 +268,9 @@ class Picture {
     this.scene = new THREE.Scene();
     this.scene.add(film.scene);
     this.camera = film.camera.clone();
-    const {light, background, ground, target} = film.around;
-    this.target = vector(target);
-    film.camera.getWorldPosition(this.camera.position);
-    this.distance = Math.max(this.camera.position.distanceTo(this.target), 0.01);  // [m]
+    const {light, background, ground} = film.around;
     this.light = {
-      lightWay: vector(light.direction).normalize().negate(), lightColour: vector(light.colour),
+      lightWay: vector(light.direction).normalize().negate(), lightColour: vector(light.colour).divideScalar(Math.PI),
       skyLight: vector(light.sky), groundLight: vector(light.ground), ...this.shadowFrom(light),
     };
     this.around = [];
@@ -287,7 +284,7 @@ class Picture {
   shadowFrom(light) {
     for (const {mesh} of this.film.shapes) mesh.visible = mesh.name !== 'ground';  // there is an endless one
     const box = this.film.bounds(), corner = new THREE.Vector3(), seen = new THREE.Box3();
-    if (box.isEmpty()) box.expandByPoint(this.target);
+    if (box.isEmpty()) box.expandByPoint(this.film.target);
     const sun = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
     sun.up.set(0, Math.abs(light.direction[1]) > 0.99 * Math.hypot(...light.direction) ? 0 : 1, 0);
     if (sun.up.y === 0) sun.up.x = 1;
@@ -298,7 +295,6 @@ class Picture {
       seen.expandByPoint(corner.set(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z).applyMatrix4(toSun));
     seen.expandByScalar(0.02 * seen.getSize(corner).length() + 0.01);
     Object.assign(sun, {left: seen.min.x, right: seen.max.x, bottom: seen.min.y, top: seen.max.y, near: -seen.max.z});
-    sun.far = -seen.min.z + 1000;  // the ground may lie far below
     sun.far = -seen.min.z;
     sun.updateProjectionMatrix();
     this.sun = sun;
@@ -327,16 +323,15 @@ class Picture {
   }
 
   addGround(ground, background) {
-    const reach = 2.5 * this.distance - 30;
+    const {target} = this.film, reach = 2.5 * this.film.camera.getWorldPosition(new THREE.Vector3()).distanceTo(target) - 30;
     const scale = background.fadesWithCamera ? Math.max(reach / background.fadeEnd, 1) : 1, end = scale * background.fadeEnd;
     const material = shader(groundVertex, groundFragment, {
       ...this.light, groundColour: vector(ground.colour), horizon: vector(background.horizon), gridSpacing: ground.gridSpacing,
-      fade: new THREE.Vector4(this.target.x, this.target.z, scale * background.fadeStart, end),
+      fade: new THREE.Vector4(target.x, target.z, scale * background.fadeStart, end),
     });
     const plane = this.addAround(new THREE.PlaneBufferGeometry(2.2 * end, 2.2 * end), material);
     plane.rotation.x = -Math.PI / 2;
-    plane.position.set(this.target.x, ground.height, this.target.z);
-    this.lowest = ground.height + 0.05;
+    plane.position.set(target.x, ground.height, target.z);
   }
 
   addAround(geometry, material) {
@@ -354,18 +349,14 @@ class Picture {
   }
 
   // At least as much is seen as the scene's camera sees, up and across.
-  fit(camera) {
-    const canvas = this.renderer.domElement, aspect = canvas.clientWidth / Math.max(canvas.clientHeight, 1);
+  fit() {
+    const {camera} = this.film, canvas = this.renderer.domElement, aspect = canvas.clientWidth / Math.max(canvas.clientHeight, 1);
     const half = Math.tan(camera.fov * Math.PI / 360) * Math.max(1, camera.aspect / aspect);
     Object.assign(this.camera, {fov: Math.atan(half) * 360 / Math.PI, aspect});
     this.camera.updateProjectionMatrix();
   }
 
   draw() {
-    if (this.lowest !== undefined && this.camera.position.y < this.lowest) {
-      this.camera.position.y = this.lowest;
-      this.camera.lookAt(this.target);
-    }
     for (const mesh of this.around) mesh.visible = false;
     this.scene.overrideMaterial = this.depth;
     this.renderer.setClearColor(0xffffff, 1);

@@ -74,23 +74,31 @@ class Player {
 
   resetView() {
     this.isFollowing = true;
-    this.picture.fit(this.film.camera);
     this.follow();
     this.isStale = true;
   }
 
-  // Takes the place of the scene's camera, and looks as far ahead as it did at first.
+  // Takes the place of the scene's camera.
   follow() {
-    const camera = this.picture.camera, to = this.controls.target;
-    this.film.camera.getWorldPosition(camera.position);
-    this.film.camera.getWorldDirection(to);
-    to.multiplyScalar(this.picture.distance).add(camera.position);
+    this.picture.fit();
+    this.film.camera.getWorldPosition(this.picture.camera.position);
+    this.controls.target.copy(this.film.target);
     this.controls.update();
+  }
+
+  // Whether the eye has moved, or goes on by itself; it stays above the ground.
+  look() {
+    const moved = this.controls.update(), {ground} = this.film.around, eye = this.picture.camera.position;
+    if (ground && eye.y < ground.height + 0.02) {
+      eye.y = ground.height + 0.02;
+      this.picture.camera.lookAt(this.controls.target);
+    }
+    return moved;
   }
 
   resize() {
     this.picture.resize();
-    this.picture.fit(this.film.camera);
+    this.picture.fit();
     this.isStale = true;
   }
 
@@ -103,7 +111,7 @@ class Player {
       const time = this.time + passed * Number(this.speedElement.value);
       this.seek(time <= this.film.duration ? time : 0);
     }
-    if (!this.isFollowing && this.controls.update()) this.isStale = true;
+    if (!this.isFollowing && this.look()) this.isStale = true;
     if (!this.isStale) return;
     this.isStale = false;
     this.picture.draw();

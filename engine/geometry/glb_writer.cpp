@@ -79,6 +79,8 @@ struct GlbWriter::Impl {
     std::vector<float> times;                    // (keys) [s]
     double start = 0.0;                          // [s]
     std::vector<glm::mat4> cameras;              // (keys)
+    std::vector<glm::vec3> cameraTargets;        // (keys) [m]
+    std::vector<float> fieldsOfView;             // (keys) [rad]
     view::Camera camera;                         // as it was at first, like the rest of what is around
     view::Light light;
     view::Background background;
@@ -233,12 +235,20 @@ void GlbWriter::Impl::addNode(const Track& track) {
     nodes.add(fmt::format(R"({{"name":{},"mesh":{},{}}})", name, mesh, more));
 }
 
-// What glTF's scenes have no place for, by the words of view::FrameView.
+// What glTF's scenes have no place for, by the words of view::FrameView. Of the camera there is one value a key, or one
+// for all.
 std::string GlbWriter::Impl::sceneExtras() const {
-    std::string text = fmt::format(
-        R"({{"taut":{{"target":{},"light":{{"direction":{},"colour":{},"sky":{},"ground":{},"softness":{}}})",
-        vectorText(camera.target), vectorText(light.direction), vectorText(light.colour), vectorText(light.sky),
-        vectorText(light.ground), light.softness);
+    const std::size_t keys = isConstant(cameraTargets) && isConstant(fieldsOfView) ? 1 : cameraTargets.size();
+    JsonItems lookedAt, angles;
+    for (std::size_t key = 0; key < keys; ++key) {
+        lookedAt.add(vectorText(cameraTargets[key]));
+        angles.add(fmt::format("{}", fieldsOfView[key]));
+    }
+    std::string text =
+        fmt::format(R"({{"taut":{{"camera":{{"target":[{}],"fieldOfView":[{}]}})", lookedAt.text(), angles.text());
+    text += fmt::format(R"(,"light":{{"direction":{},"colour":{},"sky":{},"ground":{},"softness":{}}})",
+                        vectorText(light.direction), vectorText(light.colour), vectorText(light.sky),
+                        vectorText(light.ground), light.softness);
     text += fmt::format(R"(,"background":{{"top":{},"horizon":{},"fadeStart":{},"fadeEnd":{},"fadesWithCamera":{}}})",
                         vectorText(background.top), vectorText(background.horizon), background.fadeStart,
                         background.fadeEnd, background.fadesWithCamera);
@@ -298,6 +308,8 @@ void GlbWriter::write(const view::FrameView& view) {
         if (!w.options.isWanted || w.options.isWanted("ground")) w.ground = view.ground;
     }
     w.times.push_back(static_cast<float>(view.time - w.start));
+    w.cameraTargets.push_back(view.camera.target);
+    w.fieldsOfView.push_back(view.camera.fieldOfView);
     w.cameras.push_back(looking(view.camera.eye, view.camera.target - view.camera.eye, view.camera.up));
     std::vector<std::pair<std::size_t, std::shared_ptr<const view::Geometry>>> moved;
     for (const Part& part : w.finder.partsOf(view)) {

@@ -28,6 +28,7 @@ class Player {
 
   listen() {
     this.controls.addEventListener('start', () => { this.isFollowing = false; });
+    this.controls.addEventListener('change', () => { this.isStale = true; });
     this.playElement.addEventListener('click', () => this.play(!this.isPlaying));
     this.timeElement.addEventListener('input', () => { this.play(false); this.seek(Number(this.timeElement.value)); });
     this.resetElement.addEventListener('click', () => this.resetView());
@@ -86,14 +87,13 @@ class Player {
     this.controls.update();
   }
 
-  // Whether the eye has moved, or goes on by itself; it stays above the ground.
+  // Lets the eye go on where it was sent, but not below the ground.
   look() {
-    const moved = this.controls.update(), {ground} = this.film.around, eye = this.picture.camera.position;
-    if (ground && eye.y < ground.height + 0.02) {
-      eye.y = ground.height + 0.02;
-      this.picture.camera.lookAt(this.controls.target);
-    }
-    return moved;
+    this.controls.update();
+    const {ground} = this.film.around, eye = this.picture.camera.position;
+    if (!ground || eye.y >= ground.height + 0.02) return;
+    eye.y = ground.height + 0.02;
+    this.picture.camera.lookAt(this.controls.target);
   }
 
   resize() {
@@ -111,7 +111,7 @@ class Player {
       const time = this.time + passed * Number(this.speedElement.value);
       this.seek(time <= this.film.duration ? time : 0);
     }
-    if (!this.isFollowing && this.look()) this.isStale = true;
+    if (!this.isFollowing) this.look();
     if (!this.isStale) return;
     this.isStale = false;
     this.picture.draw();

@@ -41,7 +41,7 @@ taut_deb(program NAME taut SECTION graphics
     "every x86-64 processor and with any number of threads, so that its states and"
     "pictures can be tested against recorded ones."
   RECOMMENDS ffmpeg fonts-dejavu-core libgl1-mesa-dri
-  SUGGESTS gnuplot-nox xvfb)
+  SUGGESTS gnuplot-nox libjs-three xvfb)
 taut_deb(engine NAME libtaut-dev SECTION libdevel
   SUMMARY "mass-spring engine, for C++ programs"
   TEXT "The static libraries of taut, an engine for ropes, cloth, blocks and nets, with"

@@ -12,6 +12,7 @@
 #include "game/folders.h"
 #include "game/messages.h"
 #include "game/version.h"
+#include "game/web_page.h"
 #include "game/window.h"
 #include "taut/core/error.h"
 #include "taut/core/instruction_set.h"
@@ -173,6 +174,7 @@ int doctor(const std::string& folder) {
     printTool("ffmpeg", image::ffmpegVersion(), "no videos; picture files need none", "ffmpeg", packages);
     printTool("gnuplot", report::gnuplotVersion(), "no charts and maps; their CSV and JSON need none", "gnuplot-nox",
               packages);
+    printTool("three.js", viewerLibrary().string(), "no pages by taut export --web", "libjs-three", packages);
     bool files = printFolder("shaders", shaderFolder(), "no pictures", "TAUT_SHADERS");
     files = printFolder("assets", assetFolder(), "no scene by its name", "TAUT_ASSETS") && files;
     printFont(packages);

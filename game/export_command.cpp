@@ -15,6 +15,7 @@
 #include "game/messages.h"
 #include "game/outputs.h"
 #include "game/scene_file.h"
+#include "game/web_page.h"
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
 #include "taut/core/parallel.h"
@@ -23,6 +24,7 @@
 #include "taut/geometry/glb_writer.h"
 #include "taut/geometry/points_writer.h"
 #include "taut/geometry/usda_writer.h"
+#include "taut/geometry/web_page_writer.h"
 #include "taut/pipeline/geometry_run.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/load.h"
@@ -31,7 +33,7 @@ namespace taut::game {
 namespace {
 
 struct ExportFlags {
-    std::string scene, output, points, frames, isa;
+    std::string scene, output, points, web, viewer, frames, isa;
     std::vector<std::string> only, of;  // as they are given
     std::vector<std::string> overrides;
     std::int64_t every = 1;
@@ -39,6 +41,11 @@ struct ExportFlags {
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
     bool noNormals = false, yes = false, no = false, quiet = false, isConfined = false;
+    std::vector<std::string> files() const {
+        std::vector<std::string> all = {output, web, points};
+        std::erase(all, "");
+        return all;
+    }
     bool isUsd() const { return std::filesystem::path(output).extension() == ".usda"; }
     bool isGlb() const { return std::filesystem::path(output).extension() == ".glb"; }
 };
@@ -69,20 +76,27 @@ std::vector<std::string> targetsIn(const std::vector<std::string>& texts) {
     return targets;
 }
 
+bool isPage(const std::filesystem::path& path) {
+    return path.extension() == ".html" || path.extension() == ".htm";
+}
+
 void checkFlags(const ExportFlags& flags) {
-    if (flags.output.empty() && flags.points.empty())
-        failUsage("say where the geometry goes: -o out.usda, -o out.glb, or --points out.npz");
+    if (flags.output.empty() && flags.points.empty() && flags.web.empty())
+        failUsage("say where the geometry goes: -o out.usda, -o out.glb, --web out.html, or --points out.npz");
     if (!flags.output.empty() && !flags.isUsd() && !flags.isGlb())
         failUsage(
             fmt::format("{}: geometry goes to .usda (Houdini, Omniverse, Unreal, Blender; may tear) or .glb (the "
-                        "web, Blender, VTK)",
-                        flags.output));
+                        "web, Blender, VTK){}",
+                        flags.output, isPage(flags.output) ? "; a page that shows it is --web " + flags.output : ""));
+    if (!flags.web.empty() && !isPage(flags.web)) failUsage(fmt::format("{}: --web writes a page, .html", flags.web));
+    if (flags.web.empty() && !flags.viewer.empty()) failUsage("--viewer is what draws in a page: add --web out.html");
+    if (!flags.web.empty() && flags.noNormals) failUsage("--no-normals: a page is shaded by its normals");
     if (!flags.points.empty() && !geometry::isPointsPath(flags.points))
         failUsage(fmt::format("{}: points go to .npz (numpy.load) or .csv", flags.points));
     if (flags.points.empty() && !flags.of.empty()) failUsage("--of says whose points: add --points out.npz");
     if (flags.digits > 0 && !flags.isUsd())
         failUsage("--digits are those of .usda; other formats hold all of a number");
-    if (flags.output.empty() && (flags.noNormals || !flags.only.empty()))
+    if (flags.output.empty() && flags.web.empty() && (flags.noNormals || !flags.only.empty()))
         failUsage("--only and --no-normals are for geometry: add -o, or name points with --of");
 }
 
@@ -139,6 +153,17 @@ geometry::GeometryOptions geometryOptions(const ExportFlags& flags, const world:
     return options;
 }
 
+// One film to several files.
+struct Sinks : geometry::GeometrySink {
+    void write(const view::FrameView& view) override {
+        for (const auto& sink : all) sink->write(view);
+    }
+    void finish() override {
+        for (const auto& sink : all) sink->finish();
+    }
+    std::vector<std::unique_ptr<geometry::GeometrySink>> all;
+};
+
 std::string sizeText(const std::filesystem::path& path) {
     std::error_code ignored;
     const auto bytes = static_cast<double>(std::filesystem::file_size(path, ignored));
@@ -166,9 +191,13 @@ int exportScene(const ExportFlags& flags) {
         if (const std::string fault = scene::targetFault(spec, target, true); !fault.empty())
             failUsage("--of: " + fault);
     pipeline::GeometryRun run = runOf(flags, spec);
+    geometry::WebPage page;
+    if (!flags.web.empty()) {
+        const std::string name = std::filesystem::path(flags.scene).stem().string();
+        page = webPage(spec.title.empty() ? name : spec.title, name, flags.viewer);
+    }
     const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
-    for (const std::string& file : {flags.output, flags.points}) {
-        if (file.empty()) continue;
+    for (const std::string& file : flags.files()) {
         permitOverwritingFile(file, overwrite);
         core::prepareFolderOf(file);
     }
@@ -184,12 +213,14 @@ int exportScene(const ExportFlags& flags) {
     world::World world(spec, {.threads = flags.threads});
     printWarnings(world.warnings());
     const geometry::GeometryOptions options = geometryOptions(flags, spec);
-    std::unique_ptr<geometry::GeometrySink> sink;
-    if (flags.isUsd()) sink = std::make_unique<geometry::UsdaWriter>(flags.output, options);
-    if (flags.isGlb()) sink = std::make_unique<geometry::GlbWriter>(flags.output, options);
+    Sinks sinks;
+    if (flags.isUsd()) sinks.all.push_back(std::make_unique<geometry::UsdaWriter>(flags.output, options));
+    if (flags.isGlb()) sinks.all.push_back(std::make_unique<geometry::GlbWriter>(flags.output, options));
+    if (!flags.web.empty())
+        sinks.all.push_back(std::make_unique<geometry::WebPageWriter>(flags.web, std::move(page), options));
     std::unique_ptr<geometry::EveryNth> fewer;
-    if (sink)
-        fewer = std::make_unique<geometry::EveryNth>(*sink, run.firstFrame, run.lastFrame, run.every, options.isWanted);
+    if (!sinks.all.empty())
+        fewer = std::make_unique<geometry::EveryNth>(sinks, run.firstFrame, run.lastFrame, run.every, options.isWanted);
     std::unique_ptr<geometry::PointsWriter> points;
     if (!flags.points.empty()) points = geometry::makePointsWriter(flags.points, run.targets);
 
@@ -214,8 +245,8 @@ int exportScene(const ExportFlags& flags) {
     if (fewer) printLost(fewer->lost(), flags.every);
     if (flags.quiet) return static_cast<int>(ExitCode::ok);
     std::string text;
-    for (const std::string& file : {flags.output, flags.points})
-        if (!file.empty()) text += fmt::format("{}{} ({})", text.empty() ? "" : " and ", file, sizeText(file));
+    for (const std::string& file : flags.files())
+        text += fmt::format("{}{} ({})", text.empty() ? "" : " and ", file, sizeText(file));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     printNote("{} frames in {}, {:.1f} s\n", keys, text, seconds);
     return static_cast<int>(ExitCode::ok);
@@ -225,6 +256,12 @@ Action declareExport(Options& options) {
     const auto flags = std::make_shared<ExportFlags>();
     options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene").required();
     options.value("-o,--output", flags->output, "Geometry: out.usda, or out.glb").typeName("FILE");
+    options
+        .value("--web", flags->web,
+               "A page that plays it in any browser, offline, to be looked at from all sides: out.html")
+        .typeName("FILE");
+    options.value("--viewer", flags->viewer, "The three.js that draws in the page; Debian's libjs-three when not given")
+        .typeName("FOLDER");
     options.value("--points", flags->points, "Positions and velocities of points: out.npz for numpy.load, or out.csv")
         .typeName("FILE");
     options.value("--of", flags->of, "Whose points, such as cloth.flag@left; all bodies when not given")
@@ -259,6 +296,7 @@ Action declareExport(Options& options) {
         "Examples:\n"
         "  taut export torn-banner -o banner.usda\n"
         "  taut export flag -o flag.glb --every 2 --only cloth.flag\n"
+        "  taut export flag --web flag.html\n"
         "  taut export flag --points corner.npz --of cloth.flag@bottom-right");
     return [flags] { return exportScene(*flags); };
 }

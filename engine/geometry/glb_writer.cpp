@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <limits>
 #include <map>
@@ -39,6 +40,19 @@ std::string joinedNumbers(std::size_t count) {
     return text;
 }
 
+std::string vectorText(const glm::vec3& v) {
+    return fmt::format("[{},{},{}]", v.x, v.y, v.z);
+}
+
+// What glTF's materials have no place for, by the words of view::Finish.
+std::string finishExtras(const view::Finish& finish) {
+    constexpr std::array<const char*, 5> patterns = {"plain", "checker", "stripes", "tartan", "image"};
+    return fmt::format(
+        R"({{"taut":{{"back":{},"accent":{},"pattern":"{}","repeat":{},"weave":{},"thread":{},"sheen":{}}}}})",
+        vectorText(finish.back), vectorText(finish.accent), patterns.at(static_cast<std::size_t>(finish.pattern)),
+        finish.repeat, finish.weave, finish.thread, finish.sheen);
+}
+
 }  // namespace
 
 struct GlbWriter::Impl {
@@ -68,6 +82,12 @@ struct GlbWriter::Impl {
     std::vector<glm::mat4> cameras;              // (keys)
     view::Camera camera;
     std::vector<FarLight> lights;
+    std::vector<glm::vec3> cameraTargets;  // (keys) [m]
+    std::vector<float> fieldsOfView;       // (keys) [rad]
+    view::Camera camera;                   // as it was at first, like the rest of what is around
+    view::Light light;
+    view::Background background;
+    std::optional<view::Ground> ground;
 
     JsonItems nodes, meshes, materials, images, channels, samplers;
     std::map<std::pair<std::shared_ptr<const view::Finish>, bool>, std::size_t> materialOf;
@@ -80,6 +100,7 @@ struct GlbWriter::Impl {
 
     std::size_t material(const Part& part);
     std::string texture(const view::Finish& finish);
+    std::string sceneExtras() const;
     std::size_t weights(const Track& track);
     void animate(std::size_t node, const char* path, std::size_t output, const char* interpolation);
     std::string pose(const std::vector<glm::mat4>& matrices, std::size_t node);
@@ -155,9 +176,9 @@ std::size_t GlbWriter::Impl::material(const Part& part) {
     const std::string image = texture(finish);
     const glm::vec3 colour = image.empty() ? glm::clamp(finish.front, 0.0F, 1.0F) : glm::vec3(1.0F);
     return materials.add(fmt::format(
-        R"({{"name":{},"doubleSided":{},"pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],"metallicFactor":0,"roughnessFactor":{}{}}}}})",
+        R"({{"name":{},"doubleSided":{},"pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],"metallicFactor":0,"roughnessFactor":{}{}}},"extras":{}}})",
         jsonText(part.identifier), part.isTwoSided, colour.x, colour.y, colour.z,
-        std::clamp(finish.roughness, 0.0F, 1.0F), image));
+        std::clamp(finish.roughness, 0.0F, 1.0F), image, finishExtras(finish)));
 }
 
 // At each key one target counts whole, or none.
@@ -217,6 +238,29 @@ void GlbWriter::Impl::addNode(const Track& track) {
     nodes.add(fmt::format(R"({{"name":{},"mesh":{},{}}})", name, mesh, more));
 }
 
+// What glTF's scenes have no place for, by the words of view::FrameView. Of the camera there is one value a key, or one
+// for all.
+std::string GlbWriter::Impl::sceneExtras() const {
+    const std::size_t keys = isConstant(cameraTargets) && isConstant(fieldsOfView) ? 1 : cameraTargets.size();
+    JsonItems lookedAt, angles;
+    for (std::size_t key = 0; key < keys; ++key) {
+        lookedAt.add(vectorText(cameraTargets[key]));
+        angles.add(fmt::format("{}", fieldsOfView[key]));
+    }
+    std::string text =
+        fmt::format(R"({{"taut":{{"camera":{{"target":[{}],"fieldOfView":[{}]}})", lookedAt.text(), angles.text());
+    text += fmt::format(R"(,"light":{{"direction":{},"colour":{},"sky":{},"ground":{},"softness":{}}})",
+                        vectorText(light.direction), vectorText(light.colour), vectorText(light.sky),
+                        vectorText(light.ground), light.softness);
+    text += fmt::format(R"(,"background":{{"top":{},"horizon":{},"fadeStart":{},"fadeEnd":{},"fadesWithCamera":{}}})",
+                        vectorText(background.top), vectorText(background.horizon), background.fadeStart,
+                        background.fadeEnd, background.fadesWithCamera);
+    if (ground)
+        text += fmt::format(R"(,"ground":{{"height":{},"colour":{},"gridSpacing":{}}})", ground->height,
+                            vectorText(ground->colour), ground->gridSpacing);
+    return text + "}}";
+}
+
 std::string GlbWriter::Impl::json() {
     for (const Track& track : tracks) addNode(track);
     nodes.add(fmt::format(R"({{"name":"camera","camera":0,{}}})", pose(cameras, nodes.count())));
@@ -229,8 +273,8 @@ std::string GlbWriter::Impl::json() {
                               jsonText(light.name), number, pose({light.pose}, nodes.count())));
     }
     std::string text = fmt::format(
-        R"({{"asset":{{"version":"2.0","generator":{}}},"extensionsUsed":["KHR_lights_punctual"],"extensions":{{"KHR_lights_punctual":{{"lights":[{}]}}}},"scene":0,"scenes":[{{"nodes":[{}]}}],"nodes":[{}])",
-        jsonText(options.generator), shining.text(), joinedNumbers(nodes.count()), nodes.text());
+        R"({{"asset":{{"version":"2.0","generator":{}}},"extensionsUsed":["KHR_lights_punctual"],"extensions":{{"KHR_lights_punctual":{{"lights":[{}]}}}},"scene":0,"scenes":[{{"nodes":[{}],"extras":{}}}],"nodes":[{}])",
+        jsonText(options.generator), shining.text(), joinedNumbers(nodes.count()), sceneExtras(), nodes.text());
     text += fmt::format(
         R"(,"cameras":[{{"type":"perspective","perspective":{{"aspectRatio":{},"yfov":{},"znear":{},"zfar":{}}}}}])",
         options.aspect, camera.fieldOfView, camera.nearPlane, camera.farPlane);
@@ -265,8 +309,13 @@ void GlbWriter::write(const view::FrameView& view) {
         w.start = view.time;
         w.camera = view.camera;
         w.lights = farLightsOf(view);
+        w.light = view.light;
+        w.background = view.background;
+        if (!w.options.isWanted || w.options.isWanted("ground")) w.ground = view.ground;
     }
     w.times.push_back(static_cast<float>(view.time - w.start));
+    w.cameraTargets.push_back(view.camera.target);
+    w.fieldsOfView.push_back(view.camera.fieldOfView);
     w.cameras.push_back(looking(view.camera.eye, view.camera.target - view.camera.eye, view.camera.up));
     std::vector<std::pair<std::size_t, std::shared_ptr<const view::Geometry>>> moved;
     for (const Part& part : w.finder.partsOf(view)) {
@@ -305,25 +354,29 @@ void GlbWriter::write(const view::FrameView& view) {
 }
 
 void GlbWriter::finish() {
+    core::WholeFile file(impl_->path);
+    finish([&](std::span<const std::byte> bytes) { file.write(bytes); });
+    file.commit();
+}
+
+void GlbWriter::finish(const std::function<void(std::span<const std::byte>)>& take) {
     Impl& w = *impl_;
     TAUT_EXPECTS(!w.times.empty());
     std::string json = w.json();
     json.append((4 - json.size() % 4) % 4, ' ');
-    core::WholeFile file(w.path);
     const auto put = [&](std::initializer_list<std::uint64_t> values) {
         std::vector<std::uint32_t> words;
         for (const std::uint64_t value : values) words.push_back(static_cast<std::uint32_t>(value));
-        file.write(std::as_bytes(std::span(words)));
+        take(std::as_bytes(std::span(words)));
     };
     constexpr std::uint64_t magic = 0x46546C67, jsonChunk = 0x4E4F534A, binaryChunk = 0x004E4942;
     const std::uint64_t binary = w.data.bytes.size();
     put({magic, 2, 12 + 8 + json.size() + (binary > 0 ? 8 + binary : 0), json.size(), jsonChunk});
-    file.write(json);
+    take(std::as_bytes(std::span(json)));
     if (binary > 0) {
         put({binary, binaryChunk});
-        w.data.bytes.copy({0, binary}, file);
+        w.data.bytes.visit({0, binary}, take);
     }
-    file.commit();
     impl_.reset();
 }
 

@@ -3,8 +3,11 @@
 // frame. It holds one topology for all frames, and at most 4 GB.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <span>
 
 #include "taut/geometry/geometry_sink.h"
 
@@ -18,6 +21,9 @@ class GlbWriter : public GeometrySink {
 
     void write(const view::FrameView& view) override;
     void finish() override;
+
+    // Hands the bytes of the file on, block by block, instead of making one.
+    void finish(const std::function<void(std::span<const std::byte>)>& take);
 
     // Browsers promise room for 256 frames a mesh.
     static constexpr std::size_t mostWebKeys = 255;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "taut/core/base64.h"
 #include "taut/core/utf8.h"
 #include "taut/report/page_parts.h"
 
@@ -90,8 +91,8 @@ std::string frameJson(const TestPicture& picture) {
         scriptText(picture.key), picture.frame,
         scriptText(fmt::format("frame {}, {:.3f} s", picture.frame, picture.time)), nameOf(picture.verdict),
         scriptText(picture.reason), scriptText(picture.figures), scriptText(picture.why), scriptText(picture.madeBy),
-        picture.isSame, fmt::join(picture.size, ","), fmt::join(picture.worstTile, ","), base64(picture.golden),
-        picture.isSame ? "" : base64(picture.actual), base64(picture.difference));
+        picture.isSame, fmt::join(picture.size, ","), fmt::join(picture.worstTile, ","), core::base64(picture.golden),
+        picture.isSame ? "" : core::base64(picture.actual), core::base64(picture.difference));
 }
 
 std::string figurePart(const char* kind, bool swaps, const char* none) {
@@ -236,18 +237,6 @@ std::string htmlText(const std::string& text) {
             case '\'': out += "&#39;"; break;
             default: out += c;
         }
-    return out;
-}
-
-std::string base64(const std::vector<std::byte>& bytes) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t at) { return at < bytes.size() ? std::to_integer<unsigned>(bytes[at]) : 0U; };
-        const unsigned three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
-        for (unsigned k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : letters[(three >> (18U - 6U * k)) & 63U];
-    }
     return out;
 }
 

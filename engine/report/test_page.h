@@ -13,7 +13,4 @@ std::string testPage(const TestReport& report);
 // For text and attributes.
 std::string htmlText(const std::string& text);
 
-// Of bytes, as RFC 4648 has it.
-std::string base64(const std::vector<std::byte>& bytes);
-
 }  // namespace taut::report

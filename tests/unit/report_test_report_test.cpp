@@ -7,6 +7,7 @@
 
 #include "report_test_results.h"
 #include "support/text.h"
+#include "taut/core/base64.h"
 #include "taut/report/junit.h"
 #include "taut/report/test_page.h"
 #include "taut/report/text_changes.h"
@@ -14,6 +15,7 @@
 namespace taut::report::report_test_report {
 namespace {
 
+using core::base64;
 using taut::test::has;
 using test::bytes;
 using test::mixedReport;
@@ -101,17 +103,6 @@ TEST(TestReport, WhatIsOutdatedIsSkippedAndSaidOnceForAll) {
     EXPECT_EQ(count(page, "accept both"), 1);
     EXPECT_EQ(count(page, "<code>accept one</code>"), 2);
     EXPECT_FALSE(has(page, "0/1"));
-}
-
-// RFC 4648, section 10.
-TEST(TestReportPage, Base64IsThatOfTheStandard) {
-    EXPECT_EQ(base64(bytes("")), "");
-    EXPECT_EQ(base64(bytes("f")), "Zg==");
-    EXPECT_EQ(base64(bytes("fo")), "Zm8=");
-    EXPECT_EQ(base64(bytes("foo")), "Zm9v");
-    EXPECT_EQ(base64(bytes("foob")), "Zm9vYg==");
-    EXPECT_EQ(base64(bytes("fooba")), "Zm9vYmE=");
-    EXPECT_EQ(base64(bytes("foobar")), "Zm9vYmFy");
 }
 
 TEST(TestReportPage, HoldsItsPicturesAndNamesNoOtherPlace) {

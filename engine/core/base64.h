@@ -1,0 +1,26 @@
+// Bytes as text of 64 letters (RFC 4648, section 4), piece by piece.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace taut::core {
+
+class Base64 {
+  public:
+    // Appends the letters of whole groups of three bytes; up to two bytes wait for the next piece.
+    void append(std::string& text, std::span<const std::byte> bytes);
+
+    // Appends those of what waits, padded.
+    void finish(std::string& text);
+
+  private:
+    std::array<std::byte, 3> waiting_{};
+    std::size_t count_ = 0;  // of those that wait
+};
+
+std::string base64(std::span<const std::byte> bytes);
+
+}  // namespace taut::core

@@ -1,0 +1,35 @@
+// A film as one page for browsers: the GLB of it, as text, between two halves of a page that somebody else has written.
+// It does not know what the page does with it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "taut/geometry/glb_writer.h"
+
+namespace taut::geometry {
+
+struct WebPage {
+    std::string before, after;  // the GLB in base64 stands between them
+};
+
+class WebPageWriter : public GeometrySink {
+  public:
+    // Throws core::Error(inputOutput).
+    WebPageWriter(std::filesystem::path path, WebPage page, GeometryOptions options);
+
+    void write(const view::FrameView& view) override { glb_.write(view); }
+    // Throws core::Error(badContent), too: more than mostBytes.
+    void finish() override;
+
+    // The longest text that Chromium makes of a part of a page is 512 MiB; three of its letters are four here.
+    static constexpr std::uint64_t mostBytes = std::uint64_t{384} << 20U;  // [bytes] of the GLB
+
+  private:
+    std::filesystem::path path_;
+    WebPage page_;
+    GlbWriter glb_;
+};
+
+}  // namespace taut::geometry

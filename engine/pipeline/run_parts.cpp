@@ -45,6 +45,9 @@ PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& pat
     record.size = fmt::format("{} x {}", json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>());
     record.fps = json.at("fps").get<double>();
     record.hasAlpha = !json.at("layers").at("alpha").is_null();
+    for (const char* kind : {"depth", "mask"})
+        if (json.at("layers").contains(kind) && !json.at("layers").at(kind).is_null())
+            record.besides.emplace_back(kind);
     const nlohmann::json& frames = json.at("frames");
     record.first = frames.at("first").get<std::int64_t>();
     record.last = frames.at("last").get<std::int64_t>();

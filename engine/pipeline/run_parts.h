@@ -23,6 +23,7 @@ struct PartRecord {
     render::RendererInfo gl;
     double fps = 60.0;
     bool hasAlpha = false;
+    std::vector<std::string> besides;  // kinds of files beside the frames, "depth"
     int bits = 1;
     std::int64_t first = 0, last = 0;   // frames that it was to draw
     std::int64_t count = 0;             // frames of the whole run

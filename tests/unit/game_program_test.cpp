@@ -362,7 +362,7 @@ TEST(Program, ADivergenceThatIsFrozenIsAWarningAndInTheRecord) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "warning: net.spring diverged at t = ")) << outcome.err;
     EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_000399.png"));
-    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
+    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run_399-399.json"));
     EXPECT_EQ(json["ended"], "complete");
     ASSERT_EQ(json["frozen"].size(), 1U);
     EXPECT_EQ(json["frozen"][0]["name"], "net.spring");

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -21,6 +22,7 @@
 #include "game/outputs.h"
 #include "game/progress.h"
 #include "game/render_flags.h"
+#include "game/render_jobs.h"
 #include "game/render_outputs.h"
 #include "game/renderers.h"
 #include "game/run_part.h"
@@ -91,7 +93,9 @@ std::vector<pipeline::RunLock> locksOf(const RenderFlags& flags, const RunPart& 
     if (keepsStates) locks.emplace_back(states, pipeline::RunParty{std::nullopt, name});
     std::error_code ignored;
     if (!place || (keepsStates && std::filesystem::equivalent(place->pattern.folder(), states, ignored))) return locks;
-    std::vector<pipeline::RunLock> more = lockPart(part, *place, name);
+    RunPart locked = part;
+    if (flags.jobs > 0) locked.isShared = false;  // its shards lock their parts
+    std::vector<pipeline::RunLock> more = lockPart(locked, *place, name);
     std::move(more.begin(), more.end(), std::back_inserter(locks));
     return locks;
 }
@@ -140,6 +144,9 @@ void printSummary(const RenderFlags& flags, const pipeline::RunResult& result, s
     for (std::size_t i = before; i < result.frames.size(); ++i) pictures += result.frames[i].pictured ? 1 : 0;
     const std::size_t simulated = result.frames.size() - before;
     std::string text = fmt::format("{} of {} simulated frames drawn", pictures, simulated);
+    if (flags.jobs > 0)
+        text = fmt::format("{} frames simulated, {}", simulated,
+                           result.divergence || result.interrupted ? "not all drawn" : "and drawn by shards");
     if (flags.noPictures) text = fmt::format("{} frames simulated", simulated);
     if (!flags.output.empty()) text += fmt::format(", in {}", flags.output);
     if (!flags.video.empty()) text += fmt::format(" and {}", flags.video);
@@ -151,11 +158,8 @@ struct Drawing {
     pipeline::PictureLayers layers;
     std::vector<std::unique_ptr<render::Renderer>> renderers;
     pipeline::Draw draw;  // null: nothing is drawn
+    std::optional<render::RendererInfo> info;
     std::unique_ptr<pipeline::Overlay> overlay;
-
-    std::optional<render::RendererInfo> info() const {
-        return renderers.empty() ? std::nullopt : std::optional(renderers.front()->info());
-    }
 };
 
 Drawing makeDrawing(const RenderFlags& flags, const world::World& world, const world::PictureSpec& picture,
@@ -165,6 +169,7 @@ Drawing makeDrawing(const RenderFlags& flags, const world::World& world, const w
     if (flags.noPictures || flags.jobs > 0) return drawing;
     drawing.renderers = makeRenderers(picture, flags.threads, flags.gl, drawing.layers,
                                       drawersFor(flags.drawThreads, flags.threads, picture, options));
+    drawing.info = drawing.renderers.front()->info();
     std::vector<pipeline::Draw> draws;
     for (const auto& each : drawing.renderers)
         draws.emplace_back([renderer = each.get()](const view::FrameView& view) { return renderer->draw(view); });
@@ -186,6 +191,7 @@ void addOverlay(const world::World& world, const pipeline::RecordLog& before, pi
 }
 
 int render(const RenderFlags& flags) {
+    endWithStarter();
     checkFlags(flags);
     const scene::Loaded scene = readSceneWithKeys(flags.scene, allOverrides(flags), flags.isConfined);
     const world::SceneSpec& spec = scene.spec;
@@ -207,32 +213,40 @@ int render(const RenderFlags& flags) {
     const std::vector<std::string> foreseen = world.warnings();
     printWarnings(foreseen);
 
-    const std::filesystem::path states = checkpointFolder(flags);
+    std::filesystem::path states = checkpointFolder(flags);
     const RunKeys keys = runKeys(scene, lookOf(flags.debug, flags.overlay, flags.layers), world);
     const std::uint64_t key = keyOfRun(keys, part.count - 1);
     const std::optional<PartPlace> place = placeOf(flags, key);
     const std::vector<pipeline::RunLock> locks = locksOf(flags, part, place, states);
+    std::optional<JobsFolder> jobs;
+    if (flags.jobs > 0) {
+        jobs.emplace(flags.output);
+        states = jobs->states();
+        options.checkpointEvery = checkpointEveryFor(flags.jobs, part.frames.last + 1);
+        options.metrics = true;
+    }
     Drawing drawing = makeDrawing(flags, world, spec.picture, options);
     pipeline::RunRequest request{flags.output, allOverrides(flags), flags.threads, options, drawing.layers,
                                  key,          part.frames.first,   part.count,    true};
     const auto writeJson = [&](const pipeline::RunResult& result) {
         return [&](const pipeline::Write& write) {
-            pipeline::writeRunJson(write, spec, world, request, pipeline::machine(), drawing.info(), result);
+            pipeline::writeRunJson(write, spec, world, request, pipeline::machine(), drawing.info, result);
         };
     };
     PicturesThere pictures{flags.noPictures ? "" : flags.output, filesBeside(flags.layers)};
     if (place) {
-        const PartState state = claimPart(part, *place, pipeline::rendererText(drawing.info()));
+        const PartState state = claimPart(part, *place, pipeline::rendererText(drawing.info));
         if (state == PartState::complete) {
             printNote("{}: frames {}-{} are there already, in {}\n", part.title, part.frames.first, part.frames.last,
                       flags.output);
             return static_cast<int>(ExitCode::ok);
         }
         pictures.areOurs = state == PartState::begun;
-        if (part.isShared) writeWith(recordPath(flags, part, "run", ".json"), writeJson({}));
+        if (part.isShared && !jobs) writeWith(recordPath(flags, part, "run", ".json"), writeJson({}));
     }
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.yes;
+    continuation.every = options.checkpointEvery;
     continuation.startsLate = !part.title.empty();
     pipeline::RecordLog records = goOn(continuation, states, keys, pictures, options, world);
     const std::size_t before = records.size();
@@ -244,10 +258,16 @@ int render(const RenderFlags& flags) {
         pipeline::RunListener listener =
             listenerFor(flags, options, progress, drawing.overlay.get(), world.ticksPerFrame());
         if (options.checkpointEvery > 0) keepCheckpoints(states, keys, world, listener);
-        result = pipeline::play(world, options, drawing.draw, flags.noPictures ? nullptr : sink.get(), listener,
+        result = pipeline::play(world, options, drawing.draw, drawing.draw ? sink.get() : nullptr, listener,
                                 interruption.flag(), std::move(records));
     }
-    if (sink) {
+    if (jobs && !result.divergence && !result.interrupted) {
+        const auto start = std::chrono::steady_clock::now();
+        drawing.info = drawByJobs(flags, part, key, result.frames, *jobs, sink.get(), interruption.flag());
+        result.interrupted = !drawing.info;
+        result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    if (!flags.output.empty() && (!jobs || drawing.info)) {
         request.options = options;
         request.isBegun = false;
         writeRecords(flags, part, writeJson(result), result, figures ? figures->names() : std::vector<std::string>{});

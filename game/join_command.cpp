@@ -13,6 +13,8 @@
 #include "game/messages.h"
 #include "game/outputs.h"
 #include "game/render_outputs.h"
+#include "game/test_outcome.h"
+#include "game/test_shards.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/video_writer.h"
@@ -21,7 +23,7 @@ namespace taut::game {
 namespace {
 
 struct JoinFlags {
-    std::string place, output, frames;
+    std::string place, output, frames, junit;
     bool anyRenderer = false, yes = false, no = false, quiet = false;
 };
 
@@ -73,16 +75,40 @@ int joinFrames(const JoinFlags& flags) {
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
 }
 
+// The report of all shards, with the exit code that taut test has for it.
+int joinTests(const JoinFlags& flags) {
+    if (!flags.frames.empty() || flags.anyRenderer)
+        failUsage("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
+    const std::filesystem::path folder = flags.output.empty() ? flags.place : flags.output;
+    if (image::isVideoPath(folder))
+        failUsage(fmt::format("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are",
+                              flags.output));
+    TestShard all = joinedShards(flags.place);
+    core::prepareFolderOf(pageIn(folder));
+    if (!flags.junit.empty()) core::prepareFolderOf(flags.junit);
+    addAcceptance(all.accepts, all.report);
+    showOutcome(all.report, folder);
+    writeReport(all.report, folder, flags.junit);
+    return all.hasUnread ? static_cast<int>(ExitCode::badContent) : exitCodeOf(report::verdictOf(all.report));
+}
+
 int join(const JoinFlags& flags) {
-    return joinFrames(flags);
+    const bool hasTests = hasTestShards(flags.place);
+    if (hasTests && !pipeline::partRecords(flags.place).empty())
+        failUsage(fmt::format("{}: there are shards of taut test and of taut render: which? Move either elsewhere",
+                              flags.place));
+    if (!hasTests && !flags.junit.empty()) failUsage("--junit goes with shards of taut test");
+    return hasTests ? joinTests(flags) : joinFrames(flags);
 }
 
 Action declareJoin(Options& options) {
     const auto flags = std::make_shared<JoinFlags>();
-    options.value("FOLDER", flags->place, "Where the shards have written: frames, or their names: out/frame_######.png")
+    options.value("FOLDER", flags->place, "Where the shards have written; of frames also their names: out/f_######.png")
         .required();
-    options.value("-o,--output", flags->output,
-                  "The video to make (.mp4 .mov .mkv .webm .gif); of frames without it nothing is written");
+    options.value(
+        "-o,--output", flags->output,
+        "The video to make (.mp4 .mov .mkv .webm .gif), nothing if not given; of tests the folder of the report");
+    options.value("--junit", flags->junit, "Of tests: write the results as JUnit XML too").typeName("FILE");
     options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
     options.flag("--any-renderer", flags->anyRenderer,
                  "Join pictures also where not all were drawn by the same renderer");
@@ -93,6 +119,7 @@ Action declareJoin(Options& options) {
         "Examples:\n"
         "  taut join out/show                    whether all frames are there, and of one run\n"
         "  taut join out/show -o show.mp4        likewise, then the video that taut render -o show.mp4 makes\n"
+        "  taut join out/test                    the report of all shards of taut test, and its exit code\n"
         "What is missing, or not of one run, is named, and the exit code is 6.");
     return [flags] { return join(*flags); };
 }

@@ -24,8 +24,8 @@ trap 'exit 1' INT TERM
 # on_node NAME: the processes of jobs there, with the daemons that watch over them.
 on_node() {
     for process in /proc/[0-9]*; do
-        tr '\0' '\n' <"$process/environ" 2>/dev/null | grep -qx "SLURMD_NODENAME=$1" || continue
-        tr '\0' '\n' <"$process/environ" 2>/dev/null | grep -qx "SLURM_CONF=$D/slurm.conf" || continue
+        { tr '\0' '\n' <"$process/environ"; } >"$D/environ" 2>/dev/null || continue
+        grep -qx "SLURMD_NODENAME=$1" "$D/environ" && grep -qx "SLURM_CONF=$D/slurm.conf" "$D/environ" || continue
         echo "${process#/proc/}"
         parent=$(awk '/^PPid:/ { print $2 }' "$process/status" 2>/dev/null) || continue
         if grep -qs slurmstepd "/proc/$parent/comm"; then echo "$parent"; fi
@@ -71,7 +71,7 @@ PartitionName=farm Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
 END
 export SLURM_CONF="$D/slurm.conf"
 setpriv --reuid munge --regid munge --clear-groups munged -F --key-file="$D/munge/key" --socket="$D/run/munge.socket" \
-    --pid-file="$D/munge/pid" --log-file="$D/munge/log" --seed-file="$D/munge/seed" &
+    --pid-file="$D/munge/pid" --log-file="$D/munge/log" --seed-file="$D/munge/seed" >"$D/log/munged.out" 2>&1 &
 started="$started $!"
 sleep 1
 slurmctld -D -c -f "$SLURM_CONF" >"$D/log/slurmctld.out" 2>&1 &

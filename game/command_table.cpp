@@ -3,6 +3,7 @@
 // A line a command, in the order in which the help names them: the function that returns its row.
 #define TAUT_COMMANDS(COMMAND) \
     COMMAND(renderCommand)     \
+    COMMAND(joinCommand)       \
     COMMAND(playCommand)       \
     COMMAND(exportCommand)     \
     COMMAND(checkCommand)      \

@@ -16,13 +16,20 @@
 namespace taut::game {
 namespace {
 
-// The first frame of the run without a picture on disk; one past the last when all are there.
-std::int64_t firstMissing(const std::string& output, const pipeline::RunOptions& options) {
-    if (output.empty()) return options.lastFrame;
-    std::int64_t frame = options.firstFrame;
-    for (std::int64_t there : image::FramePattern(output).framesThere())
-        if (there == frame) ++frame;
-    return frame;
+// The first frame of the run without a picture, or a file beside it, on disk; one past the last when all are there.
+std::int64_t firstMissing(const PicturesThere& pictures, const pipeline::RunOptions& options) {
+    if (pictures.output.empty()) return options.lastFrame;
+    const image::FramePattern pattern(pictures.output);
+    std::vector<image::FramePattern> all{pattern};
+    for (const std::string& kind : pictures.besides) all.push_back(pattern.beside(kind));
+    std::int64_t first = options.lastFrame + 1;
+    for (const image::FramePattern& each : all) {
+        std::int64_t frame = options.firstFrame;
+        for (std::int64_t there : each.framesThere())
+            if (there == frame) ++frame;
+        first = std::min(first, frame);
+    }
+    return first;
 }
 
 // What a state of this world may take, with room for what comes and tears on the way.
@@ -53,6 +60,13 @@ void addContinuationFlags(Options& options, ContinuationFlags& flags) {
         .within(std::int64_t{0}, mostFrames);
 }
 
+std::uint64_t keyOfRun(const RunKeys& keys, std::int64_t lastOfAll) {
+    core::Hash run;
+    run.add(keys.state(lastOfAll));
+    run.add(keys.picture);
+    return run.value();
+}
+
 RunKeys runKeys(const scene::Loaded& scene, const std::vector<std::uint64_t>& look, const world::World& world) {
     core::Hash steps;  // chosen with an eye on the whole timeline
     for (const world::IslandInfo& island : world.islands()) {
@@ -73,7 +87,7 @@ RunKeys runKeys(const scene::Loaded& scene, const std::vector<std::uint64_t>& lo
 }
 
 pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
-                         const std::string& output, pipeline::RunOptions& options, world::World& world) {
+                         const PicturesThere& pictures, pipeline::RunOptions& options, world::World& world) {
     const pipeline::CheckpointFolder checkpoints(folder);
     if (flags.every > 0 && !flags.resume && !flags.from && !flags.mayOverwrite && !checkpoints.framesThere().empty())
         throw core::Error(core::ErrorKind::inputOutput,
@@ -83,17 +97,24 @@ pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::
         return flags.every > 0 ? pipeline::RecordLog(checkpoints.records(), options.figureColumns)
                                : pipeline::RecordLog(options.figureColumns);
     };
-    if (!flags.resume && !flags.from) return fromStart();
-    const std::int64_t goal = flags.from ? *flags.from : std::min(firstMissing(output, options), options.lastFrame);
+    const bool startsLate = flags.startsLate && !flags.folder.empty() && flags.every == 0;
+    if (flags.resume && pictures.areOurs)
+        options.firstFrame = std::min(firstMissing(pictures, options), options.lastFrame);
+    if (!flags.resume && !flags.from && !startsLate) return fromStart();
+    const std::int64_t goal = flags.from     ? *flags.from
+                              : flags.resume ? std::min(firstMissing(pictures, options), options.lastFrame)
+                                             : options.firstFrame;
     std::vector<pipeline::PassedOver> refused;
     const std::optional<pipeline::Checkpoint> checkpoint =
         checkpoints.latest(goal, keys.state, mostBytes(world), refused);
     for (const pipeline::PassedOver& each : refused) {
-        if (each.isOfOtherBits && !checkpoint && (flags.from || !flags.mayOverwrite)) refuseOtherBits(each, flags);
+        if (each.isOfOtherBits && !checkpoint &&
+            (flags.from || (flags.resume && !pictures.areOurs && !flags.mayOverwrite)))
+            refuseOtherBits(each, flags);
         printNote("note: {}\n", each.why);
     }
-    const bool goesOnWithPictures =
-        flags.resume && !output.empty() && !image::FramePattern(output).framesThere().empty();
+    const bool goesOnWithPictures = flags.resume && !pictures.areOurs && !pictures.output.empty() &&
+                                    !image::FramePattern(pictures.output).framesThere().empty();
     if (!checkpoint) {
         if (goesOnWithPictures && !flags.mayOverwrite)
             throw core::Error(core::ErrorKind::inputOutput,

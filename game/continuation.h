@@ -22,6 +22,7 @@ struct ContinuationFlags {
     bool resume = false;               // go on where the frames on disk end
     std::optional<std::int64_t> from;  // draw from this frame on
     bool mayOverwrite = false;         // frames that no state goes on from may be drawn again
+    bool startsLate = false;           // states that lie in `folder` are looked for before the first frame to draw
     bool isWanted() const { return every > 0 || resume || from; }
 };
 
@@ -36,13 +37,24 @@ struct RunKeys {
 // `look`: what else of the command line pictures depend on.
 RunKeys runKeys(const scene::Loaded& scene, const std::vector<std::uint64_t>& look, const world::World& world);
 
+// Of the whole run with that last frame: what its parts have in common.
+std::uint64_t keyOfRun(const RunKeys& keys, std::int64_t lastOfAll);
+
+// Pictures that may be on disk.
+struct PicturesThere {
+    std::string output;                  // empty: none are drawn
+    std::vector<std::string> besides{};  // kinds of files beside them
+    bool areOurs = false;                // a record says that those of this run's frames are
+};
+
 // Puts the world where the run is to go on, says so in the options, and returns the records of the frames before: for
-// --from the last checkpoint at or before that frame, for --resume the last before the first frame that `output` lacks
-// (empty: none are drawn). Without any the run starts at frame 0. Prints what it does and what it had to pass over.
-// Throws core::Error: badContent when the pictures on disk were made with other settings, inputOutput when no state
-// goes on from them and they may not be overwritten, or when all that there is was recorded by other bits.
+// --from the last checkpoint at or before that frame, for --resume the last before the first frame that `pictures`
+// lack, for a part that starts late the last before its first frame. Without any the run starts at frame 0. Prints what
+// it does and what it had to pass over. Throws core::Error: badContent when the pictures on disk were made with other
+// settings, inputOutput when no state goes on from them and they may not be overwritten, or when all that there is was
+// recorded by other bits.
 pipeline::RecordLog goOn(const ContinuationFlags& flags, const std::filesystem::path& folder, const RunKeys& keys,
-                         const std::string& output, pipeline::RunOptions& options, world::World& world);
+                         const PicturesThere& pictures, pipeline::RunOptions& options, world::World& world);
 
 // Lets the listener write every checkpoint of the run into the folder, and one of its start at once, so that whatever
 // is killed can be resumed. Expects that the folder is there. Throws core::Error(inputOutput).

@@ -38,6 +38,21 @@ FrameRange frameRange(const std::string& text) {
     return {*first, last};
 }
 
+Shard shard(const std::string& text) {
+    constexpr std::int64_t most = 1'000'000;
+    const std::string_view view = text;
+    const std::size_t slash = view.find('/');
+    const auto fail = [&](const std::string& reason) {
+        throw core::Error(core::ErrorKind::usage, fmt::format("--shard {}: {}", text, reason));
+    };
+    const auto index = whole<std::int64_t>(view.substr(0, slash));
+    const auto count = slash == std::string_view::npos ? std::nullopt : whole<std::int64_t>(view.substr(slash + 1));
+    if (!index || !count) fail("expected a number and how many there are, like 0/8");
+    if (*count < 1 || *count > most) fail(fmt::format("there may be 1 to {} shards", most));
+    if (*index >= *count) fail(fmt::format("there is none; they count from 0/{0} to {1}/{0}", *count, *count - 1));
+    return {*index, *count};
+}
+
 Size pictureSize(const std::string& text) {
     constexpr int largest = 16384;
     const std::string_view view = text;

@@ -16,6 +16,19 @@ struct FrameRange {
 // "120", "120-239" or "120-"; throws core::Error(usage).
 FrameRange frameRange(const std::string& text);
 
+// A piece of work that is cut into `count`.
+struct Shard {
+    std::int64_t index = 0, count = 1;
+
+    // The pieces of so many things are contiguous and differ by one thing at most.
+    std::int64_t begin(std::int64_t things) const { return things * index / count; }
+    std::int64_t end(std::int64_t things) const { return things * (index + 1) / count; }
+    std::string text() const { return std::to_string(index) + "/" + std::to_string(count); }
+};
+
+// "3/8", the first is 0/8; throws core::Error(usage).
+Shard shard(const std::string& text);
+
 struct Size {
     int width = 0, height = 0;  // [px]
 };

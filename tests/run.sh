@@ -5,13 +5,14 @@
 # long, which take minutes and rarely break.
 set -eu
 case ${1-} in
-    '') without='-LE long' sanitized=unit fuzzed= ;;
-    --long) without= sanitized='unit|physics' fuzzed=yes ;;
+    '') without='-LE long' sanitized=unit fuzzed= farm= ;;
+    --long) without= sanitized='unit|physics' fuzzed=yes farm=farm ;;
     *) echo "usage: sh tests/run.sh [--long]" >&2 && exit 2 ;;
 esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/game/install.sh"
-taut_install run package test
+# shellcheck disable=SC2086  # a word or none
+taut_install run package test $farm
 
 # build NAME SOURCE "TARGETS" CMAKE-ARGUMENTS...: configures and builds into an ignored folder.
 build() {

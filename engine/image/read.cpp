@@ -128,9 +128,10 @@ bool jpegIsDamaged(const std::string& content) {
     throw core::Error(core::ErrorKind::badContent, path.string() + ": not a whole PNG or JPEG picture: " + reason);
 }
 
-}  // namespace
-
-Image readImage(const std::filesystem::path& path, std::int64_t maxPixels) {
+// The pixels of a whole picture, so many channels each; its size goes to `image`.
+using Pixels = std::unique_ptr<stbi_uc, decltype(&stbi_image_free)>;
+Pixels readPixels(const std::filesystem::path& path, std::int64_t maxPixels, bool keepsAlpha, Image& image,
+                  std::size_t& channels) {
     const std::string content = core::fileContent(path, maxBytes);
     if (content.empty()) fail(path, "the file is empty");
     // Without this, what is not looked through here might be a JPEG picture to stb_image all the same.
@@ -138,7 +139,6 @@ Image readImage(const std::filesystem::path& path, std::int64_t maxPixels) {
     if (isPng(content) ? pngIsDamaged(content) : jpegIsDamaged(content))
         fail(path, "the file breaks off or is damaged");
 
-    Image image;
     int channelsInFile = 0;
     const auto* bytes = reinterpret_cast<const stbi_uc*>(content.data());
     const int size = static_cast<int>(content.size());
@@ -149,12 +149,40 @@ Image readImage(const std::filesystem::path& path, std::int64_t maxPixels) {
                                                            std::to_string(image.width) + " x " +
                                                            std::to_string(image.height) + " pixels; up to " +
                                                            std::to_string(maxPixels / 1000000) + " million are read");
-    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load_from_memory(bytes, size, &image.width, &image.height, &channelsInFile, 3), &stbi_image_free);
+    const int wanted = keepsAlpha && channelsInFile % 2 == 0 ? 4 : 3;  // grey and colours with alpha have 2 and 4
+    Pixels pixels(stbi_load_from_memory(bytes, size, &image.width, &image.height, &channelsInFile, wanted),
+                  &stbi_image_free);
     if (!pixels) fail(path, stbi_failure_reason());
-    const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3;
-    image.rgb.assign(pixels.get(), pixels.get() + count);
+    channels = static_cast<std::size_t>(wanted);
+    return pixels;
+}
+
+Image read(const std::filesystem::path& path, std::int64_t maxPixels, bool keepsAlpha) {
+    Image image;
+    std::size_t channels = 3;
+    const Pixels pixels = readPixels(path, maxPixels, keepsAlpha, image, channels);
+    const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    if (channels == 3) {
+        image.rgb.assign(pixels.get(), pixels.get() + 3 * count);
+        return image;
+    }
+    image.rgb.resize(3 * count);
+    image.alpha.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) image.rgb[3 * i + c] = pixels.get()[4 * i + c];
+        image.alpha[i] = pixels.get()[4 * i + 3];
+    }
     return image;
+}
+
+}  // namespace
+
+Image readImage(const std::filesystem::path& path, std::int64_t maxPixels) {
+    return read(path, maxPixels, false);
+}
+
+Image readImageWithAlpha(const std::filesystem::path& path, std::int64_t maxPixels) {
+    return read(path, maxPixels, true);
 }
 
 }  // namespace taut::image

@@ -15,4 +15,7 @@ inline constexpr std::int64_t mostPixels = std::int64_t{1} << 26U;  // 8192 x 81
 // side) or has more pixels than that, before memory is taken for them.
 Image readImage(const std::filesystem::path& path, std::int64_t maxPixels = mostPixels);
 
+// The same with its transparency, if it has any.
+Image readImageWithAlpha(const std::filesystem::path& path, std::int64_t maxPixels = mostPixels);
+
 }  // namespace taut::image

@@ -57,7 +57,8 @@ std::string nameIn(const std::string& content) {
 
 }  // namespace
 
-RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party) : path_(folder / ".taut-lock") {
+RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party, const std::string& part)
+    : path_(folder / (part.empty() ? ".taut-lock" : ".taut-lock_" + part)) {
     hasMadeFolder_ = !core::isThere(folder);
     core::prepareFolderOf(path_);
     std::string other;
@@ -82,6 +83,8 @@ RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party) : p
         ++refusals;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
+    if (!part.empty())
+        fail(folder, fmt::format("{} is being written by another process ({}); wait for its end", part, nameIn(other)));
     fail(folder, fmt::format("another run is writing here ({}); wait for its end, or give this one a folder of its own",
                              nameIn(other)));
 }

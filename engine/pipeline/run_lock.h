@@ -13,14 +13,15 @@ struct RunParty {
     std::string name;                  // for the message to another run: "taut render flag, process 4711"
 };
 
-// Holds a folder until it is destroyed, or its process ends in whatever way. A file `.taut-lock` lies in the folder
-// meanwhile; one that a killed process has left locks nothing.
+// Holds a folder, or of what a run writes there one part ("60-119"), until it is destroyed, or its process ends in
+// whatever way. A file `.taut-lock` or `.taut-lock_60-119` lies in the folder meanwhile; one that a killed process has
+// left locks nothing.
 class RunLock {
   public:
     RunLock() = default;  // holds nothing
 
     // Makes the folder. Throws core::Error(inputOutput): another run writes there, or the folder cannot be written.
-    RunLock(const std::filesystem::path& folder, const RunParty& party);
+    RunLock(const std::filesystem::path& folder, const RunParty& party, const std::string& part = {});
 
     RunLock(RunLock&& other) noexcept;
     RunLock& operator=(RunLock&& other) noexcept;

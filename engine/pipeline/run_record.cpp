@@ -130,7 +130,10 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     json["scene"] = spec.file;
     json["output"] = request.output;
     json["overrides"] = request.overrides;
-    json["ended"] = result.divergence ? "diverged" : result.interrupted ? "interrupted" : "complete";
+    json["ended"] = request.isBegun      ? "begun"
+                    : result.divergence  ? "diverged"
+                    : result.interrupted ? "interrupted"
+                                         : "complete";
     if (result.divergence) json["divergence"] = divergenceJson(*result.divergence);
     json["machine"] = machineJson(machine);
     json["threads"] = request.threads == 0 ? machine.threads : request.threads;
@@ -142,7 +145,8 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     json["tick_s"] = world.tickSeconds();
     json["size"] = {spec.picture.size.x, spec.picture.size.y};
     json["layers"] = layersJson(request.layers);
-    json["frames"] = {{"first", request.options.firstFrame}, {"last", request.options.lastFrame}};
+    json["frames"] = {{"first", request.firstFrame}, {"last", request.options.lastFrame}, {"of", request.frames}};
+    json["run"] = hex(request.key);
     json["seeds"] = seedsJson(spec);
     json["islands"] = islandsJson(world);
     json["frozen"] = frozenJson(world);

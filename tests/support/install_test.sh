@@ -11,4 +11,4 @@ grep -q "^shaders *$folder/prefix/share/taut/shaders" said || { cat said; exit 1
 grep -q "^assets *$folder/prefix/share/taut/assets" said || { cat said; exit 1; }
 prefix/bin/taut render flag -o pictures/frame_######.png --frames 0-1 --size 320x180 --quiet
 test -s pictures/frame_000001.png
-test -s pictures/run.json
+test -s pictures/run_0-1.json

@@ -55,6 +55,12 @@ TEST(ChildProcess, ThatCannotBeRunIsAnErrorWithItsName) {
 TEST(ChildProcess, EndsWhenItIsAskedToOrForgotten) {
     const std::atomic<bool> stop = true;
     EXPECT_EQ(runChild(shell("exec sleep 60"), {}, &stop).end.signal, SIGKILL);
+    ChildProcess sleeper(shell("exec sleep 60"));
+    EXPECT_TRUE(sleeper.isRunning());
+    sleeper.askToEnd();
+    while (sleeper.isRunning()) {
+    }
+    EXPECT_EQ(sleeper.wait().signal, SIGTERM);
     const test::TemporaryFolder folder;
     {
         ChildProcess child(shell("echo $$ > " + (folder / "id").string() + "; read line; exec sleep 60"));

@@ -7,6 +7,7 @@ list(APPEND TAUT_UNIT_TESTS
   game_own_command_test.cpp
   game_play_test.cpp
   game_program_test.cpp
+  game_shards_test.cpp
   game_streams_test.cpp
   game_version_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::game)

@@ -118,12 +118,12 @@ TEST(Program, LayersLieBesideTheirFramesAndTheRecordExplainsThem) {
     EXPECT_EQ(run({"render", scene, "-o", out, "--frames", "0", "--depth", "--mask", "--quiet"}).code, 0);
     for (const char* name : {"frame_000000.png", "frame_000000.depth.png", "frame_000000.mask.png"})
         EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
-    const auto layers = nlohmann::json::parse(test::contentOf(folder / "out/run.json"))["layers"];
+    const auto layers = nlohmann::json::parse(test::contentOf(folder / "out/run_0-0.json"))["layers"];
     EXPECT_DOUBLE_EQ(layers["depth"]["metres_per_unit"].get<double>(), 0.001);
     EXPECT_EQ(layers["mask"]["net.spring"], "#800000");
     // The frame itself is not there any more, but what lies beside it is spared too.
     std::filesystem::remove(folder / "out/frame_000000.png");
-    std::filesystem::remove(folder / "out/run.json");
+    std::filesystem::remove(folder / "out/run_0-0.json");
     EXPECT_EQ(run({"render", scene, "-o", out, "--frames", "0", "--depth", "-n", "--quiet"}).code, 6);
 }
 
@@ -146,8 +146,8 @@ TEST(Program, MetricsOfExpressionsAreColumnsBesideTheOthers) {
 TEST(Program, NeverOverwritingSparesTheRecordOfTheRunToo) {
     const TemporaryFolder folder;
     const std::string scene = springScene(folder).string(), frames = (folder / "f_######.png").string();
-    EXPECT_EQ(run({"render", scene, "-o", frames, "--frames", "0-1", "--quiet"}).code, 0);
-    const Outcome again = run({"render", scene, "-o", frames, "--frames", "2-3", "-n"});
+    EXPECT_EQ(run({"render", scene, "-o", frames, "--seconds", "0.1", "--quiet"}).code, 0);
+    const Outcome again = run({"render", scene, "-o", frames, "--no-pictures", "-n"});
     EXPECT_EQ(again.code, 6);
     EXPECT_TRUE(has(again.err, "run.json exists already")) << again.err;
 }
@@ -321,10 +321,10 @@ TEST(Program, RendersFramesWithTheirRecordAndKeepsWhatExists) {
     const std::string pattern = (folder / "out/f_###.png").string();
     const Outcome outcome = run({"render", scene, "-o", pattern, "--frames", "2-4", "--metrics"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    for (const char* name : {"f_002.png", "f_004.png", "run.json", "metrics.csv"})
+    for (const char* name : {"f_002.png", "f_004.png", "run_2-4.json", "metrics_2-4.csv"})
         EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
     EXPECT_FALSE(std::filesystem::exists(folder / "out/f_001.png"));
-    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
+    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run_2-4.json"));
     EXPECT_EQ(json["state_hash"].size(), 5U);
     EXPECT_EQ(json["bits"], world::resultBits);
     EXPECT_EQ(json["gl"]["backend"], "osmesa");
@@ -362,7 +362,7 @@ TEST(Program, ADivergenceThatIsFrozenIsAWarningAndInTheRecord) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "warning: net.spring diverged at t = ")) << outcome.err;
     EXPECT_TRUE(std::filesystem::exists(folder / "out/frame_000399.png"));
-    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run.json"));
+    const auto json = nlohmann::json::parse(test::contentOf(folder / "out/run_399-399.json"));
     EXPECT_EQ(json["ended"], "complete");
     ASSERT_EQ(json["frozen"].size(), 1U);
     EXPECT_EQ(json["frozen"][0]["name"], "net.spring");

@@ -41,7 +41,11 @@ TEST(Png, ReadsBackColoursBesideAlpha) {
     for (std::size_t i = 0; i < picture.rgb.size() / 3; ++i) picture.alpha.push_back(static_cast<std::uint8_t>(i));
     writePng(folder / "a.png", picture);
     EXPECT_EQ(readImage(folder / "a.png").rgb, picture.rgb);
+    EXPECT_EQ(readImageWithAlpha(folder / "a.png").rgb, picture.rgb);
+    EXPECT_EQ(readImageWithAlpha(folder / "a.png").alpha, picture.alpha);
     EXPECT_EQ(contentOf(folder / "a.png")[25], 6);  // colour type: RGBA
+    writePng(folder / "opaque.png", testPicture(3, 2));
+    EXPECT_TRUE(readImageWithAlpha(folder / "opaque.png").alpha.empty());
 }
 
 TEST(Png, GreyOfSixteenBitsReadsBackByItsUpperByte) {

@@ -114,7 +114,7 @@ TEST(Calibration, AProcessOfItsOwnDrawsAsAnOlderProcessorDoes) {
     command.environment["GALLIUM_OVERRIDE_CPU_CAPS"] = "sse2";
     ASSERT_TRUE(core::runChild(command).end.succeeded());
     // The widest registers of SSE2; AVX has 256 bits.
-    EXPECT_TRUE(test::has(test::contentOf(folder / "out/run.json"), "128 bits"));
+    EXPECT_TRUE(test::has(test::contentOf(folder / "out/run_0-0.json"), "128 bits"));
 }
 
 // What a mutant changes, and that it leaves a scene alone that has nothing of the kind.

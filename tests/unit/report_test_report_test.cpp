@@ -5,10 +5,12 @@
 #include <span>
 #include <string>
 
+#include "image_support.h"
 #include "report_test_results.h"
 #include "support/text.h"
 #include "taut/core/base64.h"
 #include "taut/report/junit.h"
+#include "taut/report/saved_report.h"
 #include "taut/report/test_page.h"
 #include "taut/report/text_changes.h"
 
@@ -79,6 +81,15 @@ TEST(TestReportJunit, EscapesWhatXmlDoesNotAllow) {
 }
 
 // Nothing of it was compared: it is no failure of its own, but no success of the run either.
+TEST(TestReport, AsBytesAndBackIsTheSamePage) {
+    const TestReport report = mixedReport();
+    const std::vector<std::byte> saved = bytesOf(report);
+    EXPECT_EQ(testPage(reportIn(saved)), testPage(report));
+    EXPECT_EQ(bytesOf(reportIn(saved)), saved);
+    for (std::size_t length = 0; length < saved.size(); length += 7)
+        taut::test::messageOf(core::ErrorKind::badContent, [&] { (void)reportIn(std::span(saved).first(length)); });
+}
+
 TEST(TestReport, WhatIsOutdatedIsSkippedAndSaidOnceForAll) {
     TestReport report;
     for (const char* name : {"a", "b"}) {

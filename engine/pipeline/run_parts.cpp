@@ -1,0 +1,189 @@
+#include "taut/pipeline/run_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "taut/core/error.h"
+#include "taut/core/whole_file.h"
+
+namespace taut::pipeline {
+namespace {
+
+constexpr std::uint64_t mostBytes = std::uint64_t{1} << 30U;  // of a record
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
+    throw core::Error(core::ErrorKind::badContent, fmt::format("{}: no record of a run: {}", path.string(), why));
+}
+
+std::uint64_t hashIn(const std::string& text, const std::filesystem::path& path) {
+    std::uint64_t hash = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
+    if (error != std::errc() || end != text.data() + text.size() || text.size() != 16)
+        refuse(path, fmt::format("\"{}\" is no state hash", text.substr(0, 40)));
+    return hash;
+}
+
+render::RendererInfo rendererIn(const nlohmann::json& gl) {
+    return {gl.at("backend").get<std::string>(), gl.at("vendor").get<std::string>(),
+            gl.at("renderer").get<std::string>(), gl.at("version").get<std::string>()};
+}
+
+PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& path) {
+    PartRecord record;
+    record.path = path;
+    record.ended = json.at("ended").get<std::string>();
+    record.program = json.at("program").get<std::string>();
+    record.bits = json.value("bits", 1);
+    if (!json.at("gl").is_null()) {
+        record.gl = rendererIn(json.at("gl"));
+        record.renderer = rendererText(record.gl);
+    }
+    record.size = fmt::format("{} x {}", json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>());
+    record.fps = json.at("fps").get<double>();
+    record.hasAlpha = !json.at("layers").at("alpha").is_null();
+    for (const char* kind : {"depth", "mask"})
+        if (json.at("layers").contains(kind) && !json.at("layers").at(kind).is_null())
+            record.besides.emplace_back(kind);
+    const nlohmann::json& frames = json.at("frames");
+    record.first = frames.at("first").get<std::int64_t>();
+    record.last = frames.at("last").get<std::int64_t>();
+    record.count = frames.value("of", record.last + 1);
+    record.key = json.value("run", "");
+    for (const nlohmann::json& hash : json.at("state_hash"))
+        record.hashes.push_back(hashIn(hash.get<std::string>(), path));
+    if (record.first < 0 || record.last < record.first || record.count <= record.last || !(record.fps > 0.0))
+        refuse(path, "its frames are none");
+    return record;
+}
+
+// What a file of that name records; none for other names. All of a run has no frames in its name.
+bool isRecordName(const std::string& name) {
+    if (name == "run.json") return true;
+    if (!name.starts_with("run_") || !name.ends_with(".json")) return false;
+    const std::string_view span = std::string_view(name).substr(4, name.size() - 9);
+    const std::size_t dash = span.find('-');
+    const auto isNumber = [](std::string_view text) {
+        return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    return dash != std::string_view::npos && isNumber(span.substr(0, dash)) && isNumber(span.substr(dash + 1));
+}
+
+}  // namespace
+
+std::int64_t PartRecord::lastDrawn() const {
+    if (ended == "begun") return first - 1;
+    return std::max(first - 1, std::min(last, static_cast<std::int64_t>(hashes.size()) - 1));
+}
+
+std::string rendererText(const std::optional<render::RendererInfo>& info) {
+    if (!info) return "";
+    return fmt::format("{}, {}, {}, {}", info->backend, info->vendor, info->renderer, info->version);
+}
+
+std::string partName(std::int64_t first, std::int64_t last, const std::string& stem, const std::string& extension) {
+    return fmt::format("{}_{}-{}{}", stem, first, last, extension);
+}
+
+PartRecord readPartRecord(const std::filesystem::path& path) {
+    const std::string text = core::fileContent(path, mostBytes);
+    try {
+        return recordIn(nlohmann::json::parse(text), path);
+    } catch (const nlohmann::json::exception& error) {
+        refuse(path, error.what());
+    }
+}
+
+std::vector<PartRecord> partRecords(const std::filesystem::path& folder) {
+    std::vector<PartRecord> records;
+    std::error_code ignored;  // a missing folder has none
+    for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, ignored)) {
+        if (!isRecordName(entry.path().filename().string())) continue;
+        try {
+            PartRecord record = readPartRecord(folder / entry.path().filename());
+            if (!record.renderer.empty()) records.push_back(std::move(record));
+        } catch (const core::Error&) {
+            if (core::isThere(entry.path())) throw;  // else a part that begins anew has taken it away
+        }
+    }
+    std::sort(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
+        return std::pair(a.first, a.path) < std::pair(b.first, b.path);
+    });
+    return records;
+}
+
+std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesRenderers) {
+    if (a.bits != b.bits) return fmt::format("results of bits {} and {}", a.bits, b.bits);
+    if (a.size != b.size) return fmt::format("{} and {} pixels", a.size, b.size);
+    if (a.fps != b.fps) return fmt::format("{} and {} pictures a second", a.fps, b.fps);
+    if (a.count != b.count) return fmt::format("runs of {} and {} frames", a.count, b.count);
+    if (a.key.empty() || a.key != b.key) return "other settings of scene, timeline or look";
+    if (comparesRenderers && a.renderer != b.renderer)
+        return fmt::format("drawn by {} and by {}", a.renderer, b.renderer);
+    const auto [x, y] = std::mismatch(
+        a.hashes.begin(), a.hashes.begin() + static_cast<std::ptrdiff_t>(std::min(a.hashes.size(), b.hashes.size())),
+        b.hashes.begin());
+    if (y != b.hashes.end() && x != a.hashes.end())
+        return fmt::format("other states from frame {} on", x - a.hashes.begin());
+    return "";
+}
+
+std::vector<FrameSpan> framesWithoutRecord(const std::vector<PartRecord>& records, const FrameSpan& wanted) {
+    std::vector<FrameSpan> drawn;
+    for (const PartRecord& record : records)
+        if (record.lastDrawn() >= record.first) drawn.push_back({record.first, record.lastDrawn()});
+    std::sort(drawn.begin(), drawn.end(), [](const FrameSpan& a, const FrameSpan& b) { return a.first < b.first; });
+    std::vector<FrameSpan> missing;
+    std::int64_t next = wanted.first;
+    for (const FrameSpan& span : drawn) {
+        if (span.first > wanted.last) break;
+        if (span.first > next) missing.push_back({next, span.first - 1});
+        next = std::max(next, span.last + 1);
+    }
+    if (next <= wanted.last) missing.push_back({next, wanted.last});
+    return missing;
+}
+
+std::vector<FrameSpan> framesMissing(const std::vector<std::int64_t>& there, const FrameSpan& wanted) {
+    std::vector<FrameSpan> missing;
+    std::int64_t next = wanted.first;
+    for (const std::int64_t frame : there) {
+        if (frame < next) continue;
+        if (frame > wanted.last) break;
+        if (frame > next) missing.push_back({next, frame - 1});
+        next = frame + 1;
+    }
+    if (next <= wanted.last) missing.push_back({next, wanted.last});
+    return missing;
+}
+
+std::string inWords(const std::vector<FrameSpan>& spans) {
+    TAUT_EXPECTS(!spans.empty());
+    constexpr std::size_t most = 8;
+    const bool isOne = spans.size() == 1 && spans.front().first == spans.front().last;
+    std::string text = isOne ? "frame " : "frames ";
+    for (std::size_t i = 0; i < std::min(spans.size(), most); ++i) {
+        const FrameSpan& span = spans[i];
+        text += fmt::format("{}{}{}", i > 0 ? ", " : "", span.first,
+                            span.first == span.last ? "" : fmt::format("-{}", span.last));
+    }
+    return spans.size() > most ? fmt::format("{} and {} more spans", text, spans.size() - most) : text;
+}
+
+void writeJoinedJson(const std::function<void(std::string_view)>& write, const std::vector<PartRecord>& records,
+                     const FrameSpan& frames) {
+    TAUT_EXPECTS(!records.empty());
+    const auto longest = std::max_element(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
+        return a.hashes.size() < b.hashes.size();
+    });
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(core::fileContent(longest->path, mostBytes));
+    json["frames"] = {{"first", frames.first}, {"last", frames.last}, {"of", longest->count}};
+    json["joined"] = nlohmann::ordered_json::array();
+    for (const PartRecord& record : records) json["joined"].push_back(record.path.filename().string());
+    write(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace taut::pipeline

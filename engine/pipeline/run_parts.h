@@ -1,0 +1,73 @@
+// The records of a run's parts, read back: which frames each has drawn, and whether all of them are parts of one run.
+// It draws nothing and encodes nothing.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "taut/render/renderer.h"
+
+namespace taut::pipeline {
+
+struct PartRecord {
+    std::filesystem::path path;  // "out/run_120-239.json"
+    std::string key;             // of the whole run; empty in records that have none
+    std::string ended;           // "complete", "interrupted", "diverged"; "begun" while it is at work
+    std::string program, size;   // "640 x 360"
+    std::string renderer;        // rendererText(gl)
+    render::RendererInfo gl;
+    double fps = 60.0;
+    bool hasAlpha = false;
+    std::vector<std::string> besides;  // kinds of files beside the frames, "depth"
+    int bits = 1;
+    std::int64_t first = 0, last = 0;   // frames that it was to draw
+    std::int64_t count = 0;             // frames of the whole run
+    std::vector<std::uint64_t> hashes;  // of the states of frames 0, 1, …
+
+    // The last frame that is its own and drawn; before `first` where there is none.
+    std::int64_t lastDrawn() const;
+};
+
+// What drew, as records tell it; empty where nothing did.
+std::string rendererText(const std::optional<render::RendererInfo>& info);
+
+// "run_120-239.json"; "metrics", ".csv" gives "metrics_120-239.csv".
+std::string partName(std::int64_t first, std::int64_t last, const std::string& stem = "run",
+                     const std::string& extension = ".json");
+
+// Throws core::Error: inputOutput, or badContent for what is no record of a run.
+PartRecord readPartRecord(const std::filesystem::path& path);
+
+// Of run.json and of parts in a folder, by their first frame; those that drew no pictures are left out. Throws as
+// readPartRecord does.
+std::vector<PartRecord> partRecords(const std::filesystem::path& folder);
+
+// In what two records show that they are not of one run: "other settings of scene, timeline or look", "64 x 48 and 32 x
+// 24 pixels", "other states from frame 12 on"; empty where they may be. Renderers are compared if asked for.
+std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesRenderers = true);
+
+struct FrameSpan {
+    std::int64_t first = 0, last = 0;  // included
+    bool operator==(const FrameSpan&) const = default;
+};
+
+// Frames of `wanted` that no record has drawn, in spans.
+std::vector<FrameSpan> framesWithoutRecord(const std::vector<PartRecord>& records, const FrameSpan& wanted);
+
+// Frames of `wanted` that are not among those there, which ascend, in spans.
+std::vector<FrameSpan> framesMissing(const std::vector<std::int64_t>& there, const FrameSpan& wanted);
+
+// "frames 12, 60-119 and 3 more spans"; expects at least one.
+std::string inWords(const std::vector<FrameSpan>& spans);
+
+// The record of all of them as one run: the one that knows most states, with the frames and the names of its parts.
+// Expects that they are of one run.
+void writeJoinedJson(const std::function<void(std::string_view)>& write, const std::vector<PartRecord>& records,
+                     const FrameSpan& frames);
+
+}  // namespace taut::pipeline

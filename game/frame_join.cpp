@@ -1,0 +1,167 @@
+#include "game/frame_join.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "game/live_line.h"
+#include "taut/core/error.h"
+#include "taut/image/read.h"
+#include "taut/pipeline/ordered_handover.h"
+
+namespace taut::game {
+namespace {
+
+using pipeline::FrameSpan;
+using pipeline::PartRecord;
+
+[[noreturn]] void refuse(const image::FramePattern& pattern, const std::string& why) {
+    const std::string folder = pattern.folder().empty() ? "." : pattern.folder().string();
+    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", folder, why));
+}
+
+std::string nameOf(const PartRecord& record) {
+    return record.path.filename().string();
+}
+
+// Each against the one that knows most states: what agrees with it agrees with the others.
+void expectOneRun(const image::FramePattern& pattern, const std::vector<PartRecord>& records, bool takesAnyRenderer) {
+    const auto longest = std::max_element(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
+        return a.hashes.size() < b.hashes.size();
+    });
+    for (const PartRecord& record : records) {
+        if (&record == &*longest) continue;
+        const std::string difference = pipeline::differenceOf(record, *longest, !takesAnyRenderer);
+        if (difference.empty()) continue;
+        const bool isRenderer = pipeline::differenceOf(record, *longest, false).empty();
+        refuse(pattern, fmt::format("{} and {} are not parts of one run: {}{}", nameOf(record), nameOf(*longest),
+                                    difference, isRenderer ? "; --any-renderer joins them all the same" : ""));
+    }
+}
+
+// What has no record, and why as far as records tell.
+std::string withoutRecord(const std::vector<PartRecord>& records, const std::vector<FrameSpan>& spans) {
+    std::string text = fmt::format("\n  {}: no record of a part that has drawn them", pipeline::inWords(spans));
+    for (const PartRecord& record : records) {
+        if (record.lastDrawn() >= record.last) continue;
+        text += fmt::format(
+            "\n  {}: {}", nameOf(record),
+            record.ended == "begun"
+                ? "has begun and not ended"
+                : fmt::format("{} {}", record.ended,
+                              record.lastDrawn() < record.first ? "before its first frame"
+                                                                : fmt::format("after frame {}", record.lastDrawn())));
+    }
+    return text;
+}
+
+void expectAll(const FrameJoin& join) {
+    std::string missing;
+    const std::vector<FrameSpan> unknown = pipeline::framesWithoutRecord(join.records, join.frames);
+    if (!unknown.empty()) missing += withoutRecord(join.records, unknown);
+    const auto look = [&](const image::FramePattern& pattern, const std::string& what) {
+        const std::vector<FrameSpan> spans = pipeline::framesMissing(pattern.framesThere(), join.frames);
+        if (!spans.empty()) missing += fmt::format("\n  {}: no {}", pipeline::inWords(spans), what);
+    };
+    look(join.pattern, "picture");
+    for (const std::string& kind : join.records.front().besides) look(join.pattern.beside(kind), kind);
+    if (missing.empty()) return;
+    refuse(join.pattern,
+           fmt::format("frames {}-{} are not all there:{}\nThe same --shard K/N --resume again draws what "
+                       "is missing, and so does taut render SCENE --frames A-B",
+                       join.frames.first, join.frames.last, missing));
+}
+
+// Reads pictures ahead, on several threads, and hands them on in order.
+class Reading {
+  public:
+    explicit Reading(const FrameJoin& join)
+        : join_(join), next_(join.frames.first), pictures_(2 * threadCount()), size_(join.records.front().size) {
+        for (std::size_t i = 0; i < threadCount(); ++i) workers_.emplace_back([this] { work(); });
+    }
+    ~Reading() { pictures_.abandon(); }
+
+    // The next one; throws core::Error where it cannot be read.
+    image::Image take() {
+        std::optional<image::Image> picture = pictures_.take();
+        if (!picture) std::rethrow_exception(failure_);
+        return std::move(*picture);
+    }
+
+  private:
+    static std::size_t threadCount() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+    image::Image read(std::int64_t frame) const {
+        const std::filesystem::path path = join_.pattern.pathOf(frame);
+        image::Image picture = join_.hasAlpha() ? image::readImageWithAlpha(path) : image::readImage(path);
+        const std::string size = fmt::format("{} x {}", picture.width, picture.height);
+        if (size != size_ || picture.alpha.empty() == join_.hasAlpha())
+            throw core::Error(core::ErrorKind::inputOutput,
+                              fmt::format("{}: {}, and not {} pixels {} transparency as the record of its run says",
+                                          path.string(), size, size_, join_.hasAlpha() ? "with" : "without"));
+        return picture;
+    }
+
+    void work() {
+        for (std::int64_t frame = next_++; frame <= join_.frames.last; frame = next_++) {
+            try {
+                if (!pictures_.put(frame - join_.frames.first, read(frame))) return;
+            } catch (...) {
+                const std::lock_guard lock(mutex_);
+                if (frame < failed_) failure_ = std::current_exception();
+                failed_ = std::min(failed_, frame);
+                pictures_.endAt(frame - join_.frames.first);
+                return;
+            }
+        }
+    }
+
+    const FrameJoin& join_;
+    std::atomic<std::int64_t> next_;
+    pipeline::OrderedHandover<image::Image> pictures_;
+    std::string size_;
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+    std::int64_t failed_ = std::numeric_limits<std::int64_t>::max();
+    std::vector<std::jthread> workers_;  // last: they end before what they use
+};
+
+}  // namespace
+
+FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
+                       bool takesAnyRenderer) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(pattern.folder().empty() ? "." : pattern.folder(), ignored))
+        refuse(pattern, "there is no such folder");
+    FrameJoin join{pattern, pipeline::partRecords(pattern.folder()), {}};
+    if (join.records.empty())
+        refuse(pattern, "there is no record of pictures, run.json or run_0-119.json: nothing was drawn here");
+    expectOneRun(pattern, join.records, takesAnyRenderer);
+    const std::int64_t count = join.records.front().count;
+    const FrameRange range = wanted.value_or(FrameRange{});
+    join.frames = {range.first, range.last.value_or(count - 1)};
+    if (join.frames.last >= count || join.frames.first >= count)
+        throw core::Error(core::ErrorKind::usage, fmt::format("--frames: the run has frames 0-{}", count - 1));
+    expectAll(join);
+    return join;
+}
+
+bool encodeFrames(const FrameJoin& join, image::FrameSink& sink, bool quiet, const std::atomic<bool>& stop) {
+    Reading reading(join);
+    LiveLine line(quiet);
+    const std::int64_t count = join.frames.last - join.frames.first + 1;
+    for (std::int64_t frame = join.frames.first; frame <= join.frames.last; ++frame) {
+        if (stop) return false;
+        sink.write(frame, reading.take());
+        const std::int64_t done = frame - join.frames.first + 1;
+        if (line.isDue(done == count)) line.show(fmt::format("encoding {} of {} frames", done, count));
+    }
+    if (stop) return false;
+    sink.finish();
+    return true;
+}
+
+}  // namespace taut::game

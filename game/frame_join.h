@@ -1,0 +1,34 @@
+// Frames that the parts of a run have drawn: proved to be one run's, and made a video. It knows no scene.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "game/flags.h"
+#include "taut/image/frame_sequence.h"
+#include "taut/image/frame_sink.h"
+#include "taut/pipeline/run_parts.h"
+
+namespace taut::game {
+
+struct FrameJoin {
+    image::FramePattern pattern;
+    std::vector<pipeline::PartRecord> records;  // at least one
+    pipeline::FrameSpan frames;
+    bool hasAlpha() const { return records.front().hasAlpha; }
+    double fps() const { return records.front().fps; }
+};
+
+// All frames of the run, or those wanted. Throws core::Error(inputOutput) where records are not of one run, by their
+// keys, their renderers unless any will do, or their state hashes; and where frames or records are missing, with all
+// that is.
+FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
+                       bool takesAnyRenderer);
+
+// Into the sink, which is not finished where `stop` became true: false then. Throws core::Error: badContent for a
+// picture that is damaged or of another size, what the sink throws.
+bool encodeFrames(const FrameJoin& join, image::FrameSink& sink, bool quiet, const std::atomic<bool>& stop);
+
+}  // namespace taut::game

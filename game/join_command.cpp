@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "game/command_line.h"
+#include "game/exit_code.h"
+#include "game/frame_join.h"
+#include "game/interruption.h"
+#include "game/messages.h"
+#include "game/outputs.h"
+#include "game/render_outputs.h"
+#include "game/test_outcome.h"
+#include "game/test_shards.h"
+#include "taut/core/error.h"
+#include "taut/core/whole_file.h"
+#include "taut/image/video_writer.h"
+
+namespace taut::game {
+namespace {
+
+struct JoinFlags {
+    std::string place, output, frames, junit;
+    bool anyRenderer = false, yes = false, no = false, quiet = false;
+};
+
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void failUsage(const std::string& message) {
+    throw core::Error(core::ErrorKind::usage, message);
+}
+
+// The record of the whole run, and its metrics where a part knows all of them.
+void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
+    writeWith(sink.companion("run.json"),
+              [&](const pipeline::Write& write) { pipeline::writeJoinedJson(write, join.records, join.frames); });
+    for (const pipeline::PartRecord& record : join.records) {
+        // run_0-119.json: metrics_0-119.csv
+        const std::string name = "metrics" + record.path.stem().string().substr(3) + ".csv";
+        const std::filesystem::path metrics = record.path.parent_path() / name;
+        if (record.last != join.frames.last || !core::isThere(metrics)) continue;
+        core::writeWholeFile(sink.companion("metrics.csv"), core::fileContent(metrics, std::uint64_t{1} << 32U));
+    }
+}
+
+int joinFrames(const JoinFlags& flags) {
+    const auto start = Clock::now();
+    if (!flags.output.empty() && !image::isVideoPath(flags.output))
+        failUsage(fmt::format("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output));
+    const std::optional<FrameRange> wanted =
+        flags.frames.empty() ? std::nullopt : std::optional(frameRange(flags.frames));
+    const FrameJoin join = provedFrames(image::FramePattern(flags.place), wanted, flags.anyRenderer);
+    const std::string proved = fmt::format("frames {}-{} of one run, in {} part{}", join.frames.first, join.frames.last,
+                                           join.records.size(), join.records.size() == 1 ? "" : "s");
+    if (flags.output.empty()) {
+        printResult("{}: {}\n", flags.place, proved);
+        return static_cast<int>(ExitCode::ok);
+    }
+    if (join.hasAlpha() && !image::mayHaveAlpha(flags.output))
+        failUsage(fmt::format("{}: these frames are transparent, which .webm and .mov can be", flags.output));
+    permitOverwriting(flags.output, join.frames.first, join.frames.last,
+                      flags.yes  ? Overwrite::yes
+                      : flags.no ? Overwrite::no
+                                 : Overwrite::ask);
+    const std::unique_ptr<image::FrameSink> sink = makeSink(flags.output, join.fps(), join.hasAlpha());
+    const Interruption interruption;
+    if (encodeFrames(join, *sink, flags.quiet, interruption.flag())) {
+        writeJoinedRecords(join, *sink);
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        if (!flags.quiet) printNote("{}, in {}, {:.1f} s\n", proved, flags.output, seconds);
+    }
+    return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
+}
+
+// The report of all shards, with the exit code that taut test has for it.
+int joinTests(const JoinFlags& flags) {
+    if (!flags.frames.empty() || flags.anyRenderer)
+        failUsage("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
+    const std::filesystem::path folder = flags.output.empty() ? flags.place : flags.output;
+    if (image::isVideoPath(folder))
+        failUsage(fmt::format("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are",
+                              flags.output));
+    TestShard all = joinedShards(flags.place);
+    core::prepareFolderOf(pageIn(folder));
+    if (!flags.junit.empty()) core::prepareFolderOf(flags.junit);
+    addAcceptance(all.accepts, all.report);
+    showOutcome(all.report, folder);
+    writeReport(all.report, folder, flags.junit);
+    return all.hasUnread ? static_cast<int>(ExitCode::badContent) : exitCodeOf(report::verdictOf(all.report));
+}
+
+int join(const JoinFlags& flags) {
+    const bool hasTests = hasTestShards(flags.place);
+    if (hasTests && !pipeline::partRecords(flags.place).empty())
+        failUsage(fmt::format("{}: there are shards of taut test and of taut render: which? Move either elsewhere",
+                              flags.place));
+    if (!hasTests && !flags.junit.empty()) failUsage("--junit goes with shards of taut test");
+    return hasTests ? joinTests(flags) : joinFrames(flags);
+}
+
+Action declareJoin(Options& options) {
+    const auto flags = std::make_shared<JoinFlags>();
+    options.value("FOLDER", flags->place, "Where the shards have written; of frames also their names: out/f_######.png")
+        .required();
+    options.value(
+        "-o,--output", flags->output,
+        "The video to make (.mp4 .mov .mkv .webm .gif), nothing if not given; of tests the folder of the report");
+    options.value("--junit", flags->junit, "Of tests: write the results as JUnit XML too").typeName("FILE");
+    options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
+    options.flag("--any-renderer", flags->anyRenderer,
+                 "Join pictures also where not all were drawn by the same renderer");
+    const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
+    options.flag("-n,--no", flags->no, "Never overwrite").excludes(yes);
+    options.flag("--quiet", flags->quiet, "No progress");
+    options.footer(
+        "Examples:\n"
+        "  taut join out/show                    whether all frames are there, and of one run\n"
+        "  taut join out/show -o show.mp4        likewise, then the video that taut render -o show.mp4 makes\n"
+        "  taut join out/test                    the report of all shards of taut test, and its exit code\n"
+        "What is missing, or not of one run, is named, and the exit code is 6.");
+    return [flags] { return join(*flags); };
+}
+
+}  // namespace
+
+Command joinCommand() {
+    return {"join", "Prove that shards are one run, and make their video or report", declareJoin};
+}
+
+}  // namespace taut::game

@@ -1,0 +1,156 @@
+#include "game/render_flags.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "game/flags.h"
+#include "game/outputs.h"
+#include "game/renderers.h"
+#include "game/scene_file.h"
+#include "taut/core/error.h"
+#include "taut/image/video_writer.h"
+
+namespace taut::game {
+
+std::vector<std::string> allOverrides(const RenderFlags& flags) {
+    std::vector<std::string> overrides = flags.overrides;
+    if (flags.fps > 0.0) overrides.push_back(fmt::format("run.fps={}", flags.fps));
+    if (flags.seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
+    if (!flags.size.empty()) {
+        const Size size = pictureSize(flags.size);
+        overrides.push_back(fmt::format("picture.size=[{}, {}]", size.width, size.height));
+    }
+    if (flags.samples > 0) overrides.push_back(fmt::format("picture.samples={}", flags.samples));
+    if (!flags.camera.empty()) overrides.push_back(fmt::format("picture.camera=\"{}\"", flags.camera));
+    return overrides;
+}
+
+namespace {
+
+[[noreturn]] void failUsage(const std::string& message) {
+    throw core::Error(core::ErrorKind::usage, message);
+}
+
+void checkShard(const RenderFlags& flags) {
+    (void)shard(flags.shard);
+    if (flags.noPictures) failUsage("--shard shares out what is drawn: leave --no-pictures out");
+    if (!flags.video.empty() || image::isVideoPath(flags.output))
+        failUsage(fmt::format("a shard draws frames, -o FOLDER; of all shards taut join FOLDER -o {} makes the video",
+                              flags.video.empty() ? flags.output : flags.video));
+    if (flags.continuation.from) failUsage("--from and --shard exclude each other");
+    if (flags.continuation.every > 0)
+        failUsage(
+            "states are those of the whole run: keep them by a run before, taut render SCENE --no-pictures "
+            "--checkpoint-every 60 --checkpoints FOLDER, and give --checkpoints FOLDER to the shards");
+}
+
+void checkJobs(const RenderFlags& flags) {
+    if (!flags.shard.empty()) failUsage("--jobs starts the shards itself: leave --shard out");
+    if (flags.noPictures) failUsage("--jobs shares out what is drawn: leave --no-pictures out");
+    if (flags.continuation.isWanted() || !flags.continuation.folder.empty())
+        failUsage("--jobs keeps states of its own: leave --checkpoint-every, --checkpoints, --resume and --from out");
+}
+
+}  // namespace
+
+void checkFlags(const RenderFlags& flags) {
+    const auto fail = [](const char* message) { throw core::Error(core::ErrorKind::usage, message); };
+    if (!flags.output.empty()) checkOutputName(flags.output);
+    if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
+    if (!flags.video.empty() && !image::isVideoPath(flags.video))
+        fail("--video: the name must end in .mp4, .mov, .mkv, .webm or .gif");
+    std::error_code ignored;
+    if (!flags.video.empty() && std::filesystem::weakly_canonical(flags.video, ignored) ==
+                                    std::filesystem::weakly_canonical(flags.output, ignored))
+        fail("-o and --video name the same file");
+    if (flags.output.empty() && !flags.noPictures)
+        fail("say where the pictures go: -o out/frame_######.png, or -o out.mp4");
+    if (flags.output.empty() && flags.writesMetrics()) fail("--metrics writes a file beside the output: add -o");
+    if (flags.continuation.isWanted() && flags.output.empty() && flags.continuation.folder.empty())
+        fail("states are kept beside the output: add -o, or say where with --checkpoints FOLDER");
+    if (flags.continuation.resume && (!flags.video.empty() || image::isVideoPath(flags.output)))
+        fail("a video cannot be continued: --resume goes on with frames, -o out/frame_######.png");
+    if (flags.continuation.resume && flags.no) fail("--resume replaces frames: it does not go with -n");
+    if (flags.continuation.from && !flags.frames.empty()) fail("--from and --frames exclude each other");
+    if (!flags.shard.empty()) checkShard(flags);
+    if (flags.jobs > 0) checkJobs(flags);
+    checkLayerFlags(flags.layers, flags.output, flags.video);
+}
+
+namespace {
+
+void addOutputFlags(Options& options, RenderFlags& flags) {
+    options.value("-o,--output", flags.output,
+                  "out/frame_######.png, a folder, or a video (.mp4 .mov .mkv .webm .gif)");
+    options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
+    const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
+    options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
+    options.flag("--metrics", flags.metrics, "Write metrics.csv: energy, momentum, strain, contacts of each frame");
+    options.value("--metrics-of", flags.metricsOf, "Besides: what these expressions of checks give, to 17 digits")
+        .typeName("EXPR,…");
+    options.flag("--hash", flags.hash, "Print the state hash of each frame");
+    options.value("--hash-every", flags.hashEvery, "Print the state hash of each frame or each tick")
+        .oneOf({"frame", "tick"})
+        .each([&flags](const std::string&) { flags.hash = true; });
+    options.flag("--quiet", flags.quiet, "No progress; warnings and errors only");
+}
+
+void addPictureFlags(Options& options, RenderFlags& flags) {
+    options.value("--frames", flags.frames, "Draw these frames only: 0-119, 60, or 60-").typeName("A-B");
+    options
+        .value("--shard", flags.shard,
+               "Draw this of N pieces of the frames, 0/N to N-1/N, into a folder that they share; then taut join")
+        .typeName("K/N");
+    options
+        .value("--jobs", flags.jobs,
+               "Draw by so many processes, each a piece of the frames; the same pictures and video")
+        .typeName("N")
+        .within(1, 1024);
+    options.value("--fps", flags.fps, "Pictures a second of scene time").check(numberWithin(1e-3, 1e6));
+    options.value("--seconds", flags.seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+    options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
+    options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
+    options
+        .value("--samples", flags.samples,
+               "Samples a pixel against jagged edges; 8 and 16 draw each picture two and four times")
+        .oneOf({"1", "4", "8", "16"});
+    addRendererFlag(options, flags.gl);
+    const Option debug = options.flag("--debug", flags.debug, "Show points, springs coloured by strain, and contacts");
+    options.flag("--overlay", flags.overlay,
+                 "Show time, step and limit, largest strain, contacts between bodies, and the energies as a graph");
+    options.flag("--no-pictures", flags.noPictures, "Simulate and draw nothing");
+    addLayerFlags(options, flags.layers, debug);
+}
+
+}  // namespace
+
+void addRenderFlags(Options& options, RenderFlags& flags) {
+    options.value("SCENE", flags.scene, "A scene file, or the name of a shipped scene").required();
+    addOutputFlags(options, flags);
+    addPictureFlags(options, flags);
+    addContinuationFlags(options, flags.continuation);
+    options.value("--threads", flags.threads, "Threads to use; all of the machine when not given").within(1, 1024);
+    options
+        .value("--draw-threads", flags.drawThreads,
+               "Pictures drawn at the same time, the same whatever it is; as many as pay here when not given")
+        .within(1, 64);
+    addInstructionSetFlag(options, flags.isa);
+    options.value("--set", flags.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
+        .typeName("KEY=VALUE")
+        .oneValue();
+    addConfinedFlag(options, flags.isConfined);
+    options.footer(
+        "Examples:\n"
+        "  taut render flag -o flag.mp4\n"
+        "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
+        "  taut render drape -o drape.webm --alpha\n"
+        "  taut render show -o out/show --depth --mask\n"
+        "  taut render show -o out/show --checkpoint-every 60 --resume\n"
+        "  taut render flag -o out/flag --metrics-of \"position(cloth.flag@bottom-right).y,max_strain\"\n"
+        "  taut render show -o out/show --shard 2/8 --checkpoints states --resume\n"
+        "  taut render drape -o late.mp4 --frames 120-179 --set material.linen.bend_N_per_m=4");
+}
+
+}  // namespace taut::game

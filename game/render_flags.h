@@ -1,0 +1,35 @@
+// What the command line of `taut render` says, as plain values. It renders nothing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "game/command_line.h"
+#include "game/continuation.h"
+#include "game/layer_flags.h"
+
+namespace taut::game {
+
+struct RenderFlags {
+    std::string scene;
+    std::string output, video;
+    std::string frames, shard, size, camera, gl, isa, hashEvery = "frame", metricsOf;
+    double fps = 0.0, seconds = 0.0;
+    int threads = 0, samples = 0, drawThreads = 0, jobs = 0;
+    std::vector<std::string> overrides;
+    ContinuationFlags continuation;
+    LayerFlags layers;
+    bool yes = false, no = false, debug = false, metrics = false, quiet = false, hash = false, noPictures = false;
+    bool overlay = false, isConfined = false;
+    bool writesMetrics() const { return metrics || !metricsOf.empty(); }
+};
+
+void addRenderFlags(Options& options, RenderFlags& flags);
+
+// Throws core::Error(usage) for what does not go together.
+void checkFlags(const RenderFlags& flags);
+
+// What --fps, --seconds, --size and --camera ask for, in the words of the scene format.
+std::vector<std::string> allOverrides(const RenderFlags& flags);
+
+}  // namespace taut::game

@@ -1,0 +1,81 @@
+#include "game/render_outputs.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <string_view>
+
+#include "game/layer_flags.h"
+#include "game/outputs.h"
+#include "taut/core/error.h"
+#include "taut/core/whole_file.h"
+#include "taut/image/frame_sequence.h"
+#include "taut/image/several_sinks.h"
+#include "taut/image/video_writer.h"
+
+namespace taut::game {
+namespace {
+
+// What accompanies an output of that name, as image::FrameSink::companion has it.
+std::filesystem::path companionOf(const std::filesystem::path& output, const std::string& name) {
+    if (image::isVideoPath(output)) return output.parent_path() / fmt::format("{}.{}", output.stem().string(), name);
+    return image::FramePattern(output).folder() / name;
+}
+
+// The records belong to the run: asked for or not, they are not replaced.
+void expectNoRecord(const RenderFlags& flags, const RunPart& part) {
+    for (const auto& [stem, extension] : {std::pair("run", ".json"), std::pair("metrics", ".csv")}) {
+        const std::filesystem::path path = recordPath(flags, part, stem, extension);
+        if (std::filesystem::exists(path) && (flags.writesMetrics() || stem == std::string("run")))
+            throw core::Error(core::ErrorKind::inputOutput, fmt::format("{} exists already", path.string()));
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const RunPart& part, double fps) {
+    const Overwrite overwrite = flags.yes || flags.continuation.resume ? Overwrite::yes
+                                : flags.no                             ? Overwrite::no
+                                                                       : Overwrite::ask;
+    std::vector<std::unique_ptr<image::FrameSink>> sinks;
+    for (const std::string& output : {flags.output, flags.video}) {
+        if (output.empty()) continue;
+        if (!flags.noPictures)
+            permitOverwriting(output, part.frames.first, part.frames.last, overwrite,
+                              image::isVideoPath(output) ? std::vector<std::string>() : filesBeside(flags.layers));
+        if (flags.jobs == 0 || image::isVideoPath(output)) sinks.push_back(makeSink(output, fps, flags.layers.alpha));
+    }
+    if (overwrite == Overwrite::no && !flags.output.empty()) expectNoRecord(flags, part);
+    if (sinks.empty()) return nullptr;
+    if (flags.jobs == 0 && !filesBeside(flags.layers).empty())
+        sinks.push_back(
+            std::make_unique<image::LayerSequence>(image::FramePattern(flags.output), depthComment(flags.layers)));
+    return std::make_unique<image::SeveralSinks>(std::move(sinks));
+}
+
+std::filesystem::path recordPath(const RenderFlags& flags, const RunPart& part, const std::string& stem,
+                                 const std::string& extension) {
+    return companionOf(flags.output, part.companion(stem, extension));
+}
+
+std::filesystem::path checkpointFolder(const RenderFlags& flags) {
+    if (!flags.continuation.folder.empty()) return flags.continuation.folder;
+    return flags.output.empty() ? std::filesystem::path() : companionOf(flags.output, "checkpoints");
+}
+
+void writeWith(const std::filesystem::path& path, const std::function<void(const pipeline::Write&)>& writeAll) {
+    core::WholeFile file(path, std::chrono::seconds(10));  // parts of one run may end at the same time
+    writeAll([&](std::string_view text) { file.write(text); });
+    file.commit();
+}
+
+void writeRecords(const RenderFlags& flags, const RunPart& part,
+                  const std::function<void(const pipeline::Write&)>& writeJson, const pipeline::RunResult& result,
+                  const std::vector<std::string>& figures) {
+    if (flags.writesMetrics())
+        writeWith(recordPath(flags, part, "metrics", ".csv"),
+                  [&](const pipeline::Write& write) { pipeline::writeMetricsCsv(write, result, figures); });
+    writeWith(recordPath(flags, part, "run", ".json"), writeJson);  // last: it says that all is there
+}
+
+}  // namespace taut::game

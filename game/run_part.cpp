@@ -1,0 +1,152 @@
+#include "game/run_part.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "game/flags.h"
+#include "game/messages.h"
+#include "taut/core/error.h"
+#include "taut/core/whole_file.h"
+#include "taut/image/video_writer.h"
+#include "taut/pipeline/run.h"
+
+namespace taut::game {
+namespace {
+
+bool overlap(const pipeline::PartRecord& record, const pipeline::FrameSpan& frames) {
+    return record.first <= frames.last && record.last >= frames.first;
+}
+
+std::string hexadecimal(std::uint64_t key) {
+    return fmt::format("{:016x}", key);
+}
+
+std::vector<image::FramePattern> patternsOf(const PartPlace& place) {
+    std::vector<image::FramePattern> patterns{place.pattern};
+    for (const std::string& kind : place.besides) patterns.push_back(place.pattern.beside(kind));
+    return patterns;
+}
+
+void removeFile(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error)
+        throw core::Error(core::ErrorKind::inputOutput,
+                          fmt::format("{}: cannot be taken away: {}", path.string(), error.message()));
+}
+
+void removeFrames(const PartPlace& place, const pipeline::FrameSpan& frames) {
+    for (const image::FramePattern& pattern : patternsOf(place))
+        for (const std::int64_t frame : pattern.framesThere())
+            if (frame >= frames.first && frame <= frames.last) removeFile(pattern.pathOf(frame));
+}
+
+std::vector<std::int64_t> framesThere(const PartPlace& place, const pipeline::FrameSpan& frames) {
+    std::vector<std::int64_t> there = place.pattern.framesThere();
+    std::erase_if(there, [&](std::int64_t frame) { return frame < frames.first || frame > frames.last; });
+    return there;
+}
+
+bool isWhole(const RunPart& part, const PartPlace& place) {
+    const std::vector<image::FramePattern> patterns = patternsOf(place);
+    return std::all_of(patterns.begin(), patterns.end(), [&](const image::FramePattern& pattern) {
+        return pipeline::framesMissing(pattern.framesThere(), part.frames).empty();
+    });
+}
+
+// A run that has the folder for itself: what others have said of the frames that it replaces is no longer so.
+void takeAwayRecords(const RunPart& part, const std::vector<pipeline::PartRecord>& records) {
+    for (const pipeline::PartRecord& record : records)
+        if (overlap(record, part.frames)) removeFile(record.path);
+}
+
+void refuseOtherRuns(const PartPlace& place, const std::vector<pipeline::PartRecord>& records) {
+    for (const pipeline::PartRecord& record : records) {
+        if (record.key == hexadecimal(place.key)) continue;
+        if (!place.mayOverwrite)
+            throw core::Error(
+                core::ErrorKind::inputOutput,
+                fmt::format("{} is of another run: give this one a folder of its own; -y draws over what is "
+                            "there",
+                            record.path.string()));
+        removeFile(record.path);
+    }
+}
+
+}  // namespace
+
+std::string RunPart::companion(const std::string& stem, const std::string& extension) const {
+    return isShared ? pipeline::partName(frames.first, frames.last, stem, extension) : stem + extension;
+}
+
+RunPart partOf(const RenderFlags& flags, const world::RunSpec& run) {
+    RunPart part;
+    part.count = pipeline::frameCount(run);
+    FrameRange range = flags.frames.empty() ? FrameRange{} : frameRange(flags.frames);
+    if (flags.continuation.from) range.first = *flags.continuation.from;
+    part.frames = {range.first, range.last.value_or(part.count - 1)};
+    if (part.frames.first >= part.count || part.frames.last >= part.count)
+        throw core::Error(
+            core::ErrorKind::usage,
+            fmt::format("{}: the scene has frames 0-{}; --seconds makes it longer",
+                        flags.frames.empty() ? fmt::format("--from {}", range.first) : "--frames " + flags.frames,
+                        part.count - 1));
+    if (!flags.frames.empty()) part.title = "--frames " + flags.frames;
+    if (!flags.shard.empty()) {
+        const Shard piece = shard(flags.shard);
+        const std::int64_t first = part.frames.first, frames = part.frames.last - first + 1;
+        if (piece.count > frames)
+            throw core::Error(core::ErrorKind::usage,
+                              fmt::format("--shard {}: {} frame{} cannot be shared out to {}", flags.shard, frames,
+                                          frames == 1 ? "" : "s", piece.count));
+        part.frames = {first + piece.begin(frames), first + piece.end(frames) - 1};
+        part.title = "--shard " + flags.shard;
+    }
+    part.isShared =
+        !part.title.empty() && !flags.noPictures && !flags.output.empty() && !image::isVideoPath(flags.output);
+    return part;
+}
+
+std::vector<pipeline::RunLock> lockPart(const RunPart& part, const PartPlace& place, const std::string& name) {
+    std::vector<pipeline::RunLock> locks;
+    const std::filesystem::path& folder = place.pattern.folder();
+    locks.emplace_back(folder, pipeline::RunParty{place.key, name});
+    if (part.isShared)
+        locks.emplace_back(folder, pipeline::RunParty{std::nullopt, name},
+                           fmt::format("{}-{}", part.frames.first, part.frames.last));
+    return locks;
+}
+
+PartState claimPart(const RunPart& part, const PartPlace& place, const std::string& renderer) {
+    const std::vector<pipeline::PartRecord> records = pipeline::partRecords(place.pattern.folder());
+    if (!part.isShared) {
+        if (!place.resumes) takeAwayRecords(part, records);
+        return PartState::fresh;
+    }
+    refuseOtherRuns(place, records);
+    const std::string name = part.companion("run", ".json");
+    const auto own = std::find_if(records.begin(), records.end(), [&](const pipeline::PartRecord& record) {
+        return record.path.filename() == name && record.key == hexadecimal(place.key);
+    });
+    const bool goesOn = own != records.end() && place.resumes;
+    if (goesOn && own->ended == "complete" && isWhole(part, place)) return PartState::complete;
+    const std::vector<std::int64_t> there = framesThere(place, part.frames);
+    if (own == records.end() && place.resumes && !place.mayOverwrite && !there.empty())
+        throw core::Error(core::ErrorKind::inputOutput,
+                          fmt::format("{} is there, and no {} says of which run; -y draws it again",
+                                      place.pattern.pathOf(there.front()).string(), name));
+    for (const pipeline::PartRecord& record : records)
+        if (overlap(record, part.frames) && record.renderer != renderer && core::isThere(record.path))
+            removeFile(record.path);
+    if (goesOn && own->renderer == renderer) return PartState::begun;
+    if (goesOn)
+        printNote("note: frames {}-{} were begun by {}: all of them are drawn again by {}\n", part.frames.first,
+                  part.frames.last, own->renderer, renderer);
+    if (own != records.end()) removeFile(own->path);
+    removeFrames(place, part.frames);
+    return PartState::begun;
+}
+
+}  // namespace taut::game

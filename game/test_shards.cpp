@@ -1,0 +1,215 @@
+#include "game/test_shards.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "taut/core/bytes.h"
+#include "taut/core/error.h"
+#include "taut/core/hash.h"
+#include "taut/core/whole_file.h"
+#include "taut/pipeline/sealed_file.h"
+#include "taut/report/saved_report.h"
+#include "taut/scene/body_size.h"
+#include "taut/scene/used_files.h"
+#include "taut/world/result_bits.h"
+
+namespace taut::game {
+namespace {
+
+const pipeline::SealedKind kind{.mark = "tauttest", .version = 1, .title = "shard of a test"};
+
+// The scenarios by their files, the goldens by their manifest.
+std::uint64_t keyOf(const TestFlags& flags, const TestRun& run) {
+    core::Hash hash;
+    hash.add(static_cast<std::uint64_t>(world::resultBits));
+    hash.add(std::uint64_t{flags.requireGoldens});
+    for (const std::string& name : run.names) hash.add(name);
+    for (const regression::Scenario& scenario : run.read.scenarios)
+        for (const scene::UsedFile& file : scene::usedFiles(scenario.spec)) hash.add(file.content);
+    for (const regression::UnreadScenario& scenario : run.read.unread) hash.add(scenario.fault);
+    const std::filesystem::path manifest = run.suite.goldens.manifest();
+    if (core::isThere(manifest)) hash.add(core::fileContent(manifest));
+    return hash.value();
+}
+
+// Which of so many have this turn, by `costs` from the dearest on.
+std::set<std::size_t> turns(const std::vector<double>& costs, const Shard& piece) {
+    std::vector<std::size_t> order(costs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+    std::set<std::size_t> mine;
+    for (auto i = static_cast<std::size_t>(piece.index); i < order.size(); i += static_cast<std::size_t>(piece.count))
+        mine.insert(order[i]);
+    return mine;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& folder, const std::string& why) {
+    throw core::Error(core::ErrorKind::inputOutput, fmt::format("{}: {}", folder.string(), why));
+}
+
+TestShard readShard(const std::filesystem::path& path) {
+    const std::vector<std::byte> content = pipeline::readSealed(path, kind);
+    core::ByteReader reader(content);
+    TestShard shard;
+    try {
+        shard.piece = {reader.number<std::int64_t>(), reader.number<std::int64_t>()};
+        shard.key = reader.number<std::uint64_t>();
+        shard.accepts = reader.text();
+        shard.hasUnread = reader.number<bool>();
+        for (auto left = reader.number<std::uint64_t>(); left > 0; --left) shard.names.push_back(reader.text());
+        shard.report = report::reportIn(reader.list<std::byte>());
+        if (!reader.isAtEnd() || shard.piece.index < 0 || shard.piece.index >= shard.piece.count)
+            core::ByteReader::fail();
+    } catch (const core::Error& error) {
+        throw core::Error(core::ErrorKind::badContent, fmt::format("{}: {}", path.string(), error.what()));
+    }
+    return shard;
+}
+
+std::vector<std::filesystem::path> shardFiles(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("shard_") && name.ends_with(".taut") && name.find("-of-") != std::string::npos)
+            files.push_back(folder / name);
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+// Adds what the text does not say yet.
+void addOnce(std::string& text, const std::string& more) {
+    if (more.empty() || text.find(more) != std::string::npos) return;
+    text += (text.empty() ? "" : "; ") + more;
+}
+
+void addReport(report::TestReport& all, const report::TestReport& part) {
+    addOnce(all.machine, part.machine);
+    addOnce(all.renderer, part.renderer);
+    addOnce(all.compiler, part.compiler);
+    for (const std::string& note : part.notes)
+        if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end()) all.notes.push_back(note);
+    all.scenarios.insert(all.scenarios.end(), part.scenarios.begin(), part.scenarios.end());
+    all.seconds = std::max(all.seconds, part.seconds);  // side by side
+}
+
+void expectOneRun(const std::filesystem::path& folder, const std::map<std::int64_t, TestShard>& shards,
+                  const std::vector<std::filesystem::path>& files) {
+    const TestShard& first = shards.begin()->second;
+    const auto nameOf = [&](const TestShard& shard) { return shardPath(folder, shard.piece).filename().string(); };
+    for (const auto& [index, shard] : shards)
+        if (shard.piece.count != first.piece.count || shard.key != first.key)
+            refuse(folder, fmt::format("{} and {} are not shards of one run: other scenarios, goldens or number of "
+                                       "shards; take away which is not meant",
+                                       nameOf(first), nameOf(shard)));
+    if (files.size() != shards.size())
+        refuse(folder, "there are shards of two runs, cut into different numbers; take away those of one");
+    std::vector<std::string> missing;
+    for (std::int64_t i = 0; i < first.piece.count; ++i)
+        if (!shards.contains(i)) missing.push_back(Shard{i, first.piece.count}.text());
+    if (!missing.empty())
+        refuse(folder, fmt::format("shard{} {} {} missing: taut test … --shard {} plays the first of them",
+                                   missing.size() == 1 ? "" : "s", fmt::join(missing, ", "),
+                                   missing.size() == 1 ? "is" : "are", missing.front()));
+}
+
+}  // namespace
+
+void deal(const TestFlags& flags, TestRun& run) {
+    run.names = namesOf(run.read);
+    if (flags.shard.empty()) return;
+    const Shard piece = shard(flags.shard);
+    run.key = keyOf(flags, run);
+    const auto count = static_cast<std::int64_t>(run.names.size());
+    if (piece.count > count)
+        throw core::Error(core::ErrorKind::usage, fmt::format("--shard {}: {} scenario{} cannot be shared out to {}",
+                                                              flags.shard, count, count == 1 ? "" : "s", piece.count));
+    std::vector<double> costs;
+    for (const regression::Scenario& scenario : run.read.scenarios)
+        costs.push_back(scene::sizeOf(scenario.spec).bytes() * scenario.spec.run.seconds);
+    costs.resize(run.names.size(), 0.0);  // what cannot be read costs nothing
+    const std::set<std::size_t> mine = turns(costs, piece);
+    std::size_t at = 0;
+    const auto isForeign = [&](const auto&) { return !mine.contains(at++); };
+    std::vector<regression::Scenario> scenarios;
+    for (regression::Scenario& scenario : run.read.scenarios)
+        if (!isForeign(scenario)) scenarios.push_back(std::move(scenario));
+    std::vector<regression::UnreadScenario> unread;
+    for (regression::UnreadScenario& scenario : run.read.unread)
+        if (!isForeign(scenario)) unread.push_back(std::move(scenario));
+    run.read = {std::move(scenarios), std::move(unread)};
+}
+
+std::filesystem::path shardPath(const std::filesystem::path& folder, const Shard& piece) {
+    return folder / fmt::format("shard_{}-of-{}.taut", piece.index, piece.count);
+}
+
+std::vector<pipeline::RunLock> lockShard(const std::filesystem::path& folder, const TestRun& run, const Shard& piece) {
+    char host[256] = "";
+    ::gethostname(host, sizeof host - 1);
+    const std::string name = fmt::format("taut test --shard {}, process {} on {}", piece.text(), ::getpid(), host);
+    std::vector<pipeline::RunLock> locks;
+    locks.emplace_back(folder, pipeline::RunParty{run.key, name});
+    locks.emplace_back(folder, pipeline::RunParty{std::nullopt, name},
+                       fmt::format("shard_{}-of-{}", piece.index, piece.count));
+    return locks;
+}
+
+bool isShardThere(const std::filesystem::path& folder, const TestRun& run, const Shard& piece) {
+    const std::filesystem::path path = shardPath(folder, piece);
+    if (!core::isThere(path)) return false;
+    try {
+        return readShard(path).key == run.key;
+    } catch (const core::Error&) {
+        return false;
+    }
+}
+
+void writeShard(const std::filesystem::path& folder, const TestShard& shard) {
+    core::ByteWriter writer;
+    writer.add(shard.piece.index);
+    writer.add(shard.piece.count);
+    writer.add(shard.key);
+    writer.add(std::string_view(shard.accepts));
+    writer.add(static_cast<std::uint8_t>(shard.hasUnread ? 1 : 0));
+    writer.add(static_cast<std::uint64_t>(shard.names.size()));
+    for (const std::string& name : shard.names) writer.add(std::string_view(name));
+    const std::vector<std::byte> report = report::bytesOf(shard.report);
+    writer.addList(std::span<const std::byte>(report));
+    pipeline::writeSealed(shardPath(folder, shard.piece), kind, writer.take());
+}
+
+bool hasTestShards(const std::filesystem::path& folder) {
+    return !shardFiles(folder).empty();
+}
+
+TestShard joinedShards(const std::filesystem::path& folder) {
+    const std::vector<std::filesystem::path> files = shardFiles(folder);
+    TAUT_EXPECTS(!files.empty());
+    std::map<std::int64_t, TestShard> shards;
+    for (const std::filesystem::path& file : files) {
+        TestShard shard = readShard(file);
+        shards.emplace(shard.piece.index, std::move(shard));
+    }
+    expectOneRun(folder, shards, files);
+    TestShard all = shards.begin()->second;
+    all.report.scenarios.clear();
+    for (const auto& [index, shard] : shards) {
+        addReport(all.report, shard.report);
+        all.hasUnread = all.hasUnread || shard.hasUnread;
+    }
+    const auto place = [&](const report::TestScenario& scenario) {
+        return std::find(all.names.begin(), all.names.end(), scenario.name);
+    };
+    std::stable_sort(all.report.scenarios.begin(), all.report.scenarios.end(),
+                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    return all;
+}
+
+}  // namespace taut::game

@@ -40,6 +40,18 @@ World UndoingWorld::made(const Added& added) const {
     return fresh;
 }
 
+// A world begins with an evaluation of its forces, of which the state that it goes to leaves nothing.
+World UndoingWorld::made(const Added& added, std::span<const std::byte> state) const {
+    struct GoingBack {
+        bool& is;
+        explicit GoingBack(bool& flag) : is(flag) { is = true; }
+        ~GoingBack() { is = false; }
+    } goingBack(*isGoingBack_);
+    World fresh = made(added);
+    fresh.restore(state, added.ramps);
+    return fresh;
+}
+
 bool UndoingWorld::mayThrow() const {
     if (!world_.callbacks().empty()) return true;
     const Ticks ticks(spec_.run);
@@ -57,9 +69,7 @@ auto UndoingWorld::orUndo(Doing&& doing) {
         return doing();
     } catch (...) {
         added_ = added;
-        World fresh = made(added);
-        fresh.restore(before, added.ramps);
-        world_ = std::move(fresh);
+        world_ = made(added, before);
         throw;
     }
 }
@@ -108,16 +118,28 @@ collision::Pose UndoingWorld::poseOf(const std::string& collider) const {
     return leadOf(const_cast<World&>(world_), collider).placement->to;
 }
 
-void UndoingWorld::addForce(const std::shared_ptr<const Force>& force) {
-    if (!isUntouched_) {
-        world_.addForce(force);
-        added_.lateForces.push_back(force);
-        return;
-    }
+void UndoingWorld::addForce(CallbackSpec spec) {
+    const auto unlessGoingBack = [this](auto function) {
+        return [function, isGoingBack = isGoingBack_](const CallbackPoints& points, auto into) {
+            if (!*isGoingBack) function(points, into);
+        };
+    };
+    spec.force = unlessGoingBack(spec.force);
+    if (spec.energy) spec.energy = unlessGoingBack(spec.energy);
+    const std::shared_ptr<const Force> force = callbackForce(std::move(spec));
     Added added = added_;
-    added.options.forces.push_back(force);
-    World(spec_, added_.options).addForce(force);  // refuses what it has to
-    world_ = made(added);
+    if (!isUntouched_) {
+        added.lateForces.push_back(force);
+        const auto add = [&] { world_.addForce(force); };
+        if (isTicking_)
+            add();
+        else
+            orUndo(add);
+    } else {
+        World(spec_, added.options).addForce(force);  // refuses what it has to
+        added.options.forces.push_back(force);
+        world_ = made(added);
+    }
     added_ = std::move(added);
 }
 
@@ -130,9 +152,7 @@ void UndoingWorld::restore(std::span<const std::byte> bytes, std::vector<RampAct
     TAUT_EXPECTS(!isTicking_);
     Added added = added_;
     added.ramps = std::move(applied);
-    World fresh = made(added);
-    fresh.restore(bytes, added.ramps);
-    world_ = std::move(fresh);
+    world_ = made(added, bytes);
     added_ = std::move(added);
     isUntouched_ = false;
 }

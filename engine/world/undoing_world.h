@@ -2,6 +2,7 @@
 // not happened. It knows no language.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/world/actions.h"
+#include "taut/world/forces/callback.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -36,8 +38,9 @@ class UndoingWorld {
     void place(const std::string& collider, const collision::Pose& pose);
     collision::Pose poseOf(const std::string& collider) const;  // throws the same
 
-    // As World's. Before the first tick steps are chosen anew, with the force in mind.
-    void addForce(const std::shared_ptr<const Force>& force);
+    // As World::addForce() does. Before the first tick steps are chosen anew, with the force in mind. While a world is
+    // made that goes back to a state, its functions are not asked.
+    void addForce(CallbackSpec force);
     void addSystem(World::System system, const std::string& callback);
 
     // The state of any tick, of a world with the same scene, forces and systems; what does not fit throws and changes
@@ -56,6 +59,7 @@ class UndoingWorld {
     };
     World made(const Added& added) const;
     bool mayThrow() const;
+    World made(const Added& added, std::span<const std::byte> state) const;
     template <class Doing>
     auto orUndo(Doing&& doing);
 
@@ -63,6 +67,7 @@ class UndoingWorld {
     Added added_;
     bool isUntouched_ = true;  // neither a tick nor an action
     bool isTicking_ = false;
+    std::shared_ptr<bool> isGoingBack_ = std::make_shared<bool>(false);  // forces ask nobody meanwhile
     World world_;
 };
 

@@ -34,7 +34,7 @@ Held held(py::object object) {
             }};
 }
 
-std::shared_ptr<const world::Force> pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy) {
+world::CallbackSpec pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy) {
     world::CallbackSpec spec;
     spec.name = wishes.name;
     spec.targets = wishes.targets;
@@ -47,7 +47,7 @@ std::shared_ptr<const world::Force> pythonForce(const ForceWishes& wishes, const
         spec.energy = [energy, name = wishes.name](const world::CallbackPoints& points, std::span<double> e) {
             ask(energy, "the energy of " + name, points, e);
         };
-    return world::callbackForce(std::move(spec));
+    return spec;
 }
 
 void addNote(py::error_already_set& error, const std::string& text) {

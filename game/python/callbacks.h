@@ -25,7 +25,7 @@ struct ForceWishes {
 
 // force(t, x, v, mass) -> (n, 3), energy(t, x, v, mass) -> (n,) or null. What they raise passes through the engine,
 // with a note of where it was.
-std::shared_ptr<const world::Force> pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy);
+world::CallbackSpec pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy);
 
 // Adds a line to what an exception of Python prints.
 void addNote(pybind11::error_already_set& error, const std::string& text);

@@ -10,6 +10,9 @@ namespace taut::core {
 // a task throws; then some may not have run.
 void parallelFor(int count, const std::function<void(int)>& task);
 
+// The same, but that tasks which are `inTurn` run one after another, ascending, whatever the others do meanwhile.
+void parallelFor(int count, const std::function<bool(int)>& inTurn, const std::function<void(int)>& task);
+
 // How many threads parallelFor uses: at most that many in the whole process while a limit lives, and that many, even
 // if the machine has fewer processors, within its run(). 0 leaves it to the machine.
 class ThreadLimit {

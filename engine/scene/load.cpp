@@ -175,7 +175,8 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     scene.spec.actionKinds = std::make_shared<const world::KindTable<world::ActionSpec>>(kinds.actions);
     scene.spec.shapes = std::make_shared<const collision::ShapeKinds>(kinds.shapes);
     StateKeys keys(root, scene.spec);
-    return {std::move(scene.spec), problems.warnings(), std::move(keys)};
+    return {std::move(scene.spec), problems.warnings(), std::move(keys),
+            std::make_shared<const ActionReader>(std::move(root), kinds)};
 }
 
 std::string targetFault(const world::SceneSpec& scene, const std::string& target, bool mayHavePoints,

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "taut/scene/action_reader.h"
 #include "taut/scene/state_keys.h"
 #include "taut/world/kinds.h"
 #include "taut/world/spec.h"
@@ -29,8 +30,9 @@ struct LoadOptions {
 
 struct Loaded {
     world::SceneSpec spec;
-    std::vector<std::string> warnings;  // file:line:col: warning: …, with the line and a caret
-    StateKeys keys;                     // of stored states
+    std::vector<std::string> warnings;            // file:line:col: warning: …, with the line and a caret
+    StateKeys keys;                               // of stored states
+    std::shared_ptr<const ActionReader> actions;  // reads more of them, for World::apply()
 };
 
 // A scene that world::World takes as it is. Throws core::Error: inputOutput if the file cannot be read; usage for an

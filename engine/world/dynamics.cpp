@@ -84,6 +84,10 @@ class DynamicsOf final : public Dynamics {
         firstGrip_ = system_.generators().size();
         addGrips();
     }
+    bool callsBack(const ForceList& forces) const override {
+        return std::any_of(acting_.begin(), acting_.end(),
+                           [&](const auto& acting) { return forces[acting.first]->isCallback(); });
+    }
     void steer(const ForceList& forces) override {
         for (const auto& [number, generator] : acting_) forces[number]->steer(*generator);
     }

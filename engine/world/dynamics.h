@@ -65,6 +65,8 @@ class Dynamics {
     virtual void findBeyond(std::vector<int>& springs) const = 0;
     // Makes the generators of all forces anew.
     virtual void setForces(const ForceList& forces) = 0;
+    // Whether any of them that acts here is a callback.
+    virtual bool callsBack(const ForceList& forces) const = 0;
     // Where all of them go on from those before.
     virtual void steer(const ForceList& forces) = 0;
     // The path of a grip is another.

@@ -47,6 +47,7 @@ struct World::Impl {
     bool keepsSteps = false;
     ecs::Registry registry;
     std::vector<System> systems;
+    std::vector<std::string> callbackSystems;  // the names of those that are
     ForceList added;  // by addForce()
     std::vector<std::unique_ptr<Island>> islands;
     std::unique_ptr<Touching> touching;  // of those that touch; null when it has to be made anew
@@ -131,7 +132,8 @@ struct World::Impl {
     bool touchesAny() const;
     std::vector<BodyCrossing> crossings();
 
-    void visit(StateBytes& bytes);
+    // Reading, `applied` are ramps that it may have besides those of the scene.
+    void visit(StateBytes& bytes, std::span<const RampAction> applied = {});
 };
 
 // The way of actions into a world.

@@ -125,6 +125,9 @@ class Island {
     // Opens where a force jumps; not if flows and gravity only go on changing.
     void setForces(const TickTime& time, const ForceList& forces);
 
+    // Whether a force that acts here is a callback: such islands go one after another.
+    bool callsBack() const { return dynamics_->callsBack(forces_); }
+
     const IslandPlan& plan() const { return plan_; }
     double step() const { return choice_.step; }  // [s]
     dvec3 position(int point) const { return dynamics_->position(point); }

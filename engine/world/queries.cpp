@@ -91,6 +91,16 @@ PointsNow World::points(const Selection& selection) const {
     return points;
 }
 
+std::vector<glm::dvec3> World::positions(const Selection& selection) const {
+    TAUT_EXPECTS(isCurrent(selection));
+    std::vector<glm::dvec3> positions;
+    for (const auto& [body, numbers] : selection.parts) {
+        const Island& island = impl_->islandOf(*body);
+        for (int i : numbers) positions.push_back(island.position(body->pointOf[static_cast<std::size_t>(i)]));
+    }
+    return positions;
+}
+
 ContactInfo World::contact() const {
     impl_->findTouching();
     return impl_->touching->info();
@@ -107,6 +117,8 @@ std::vector<std::string> World::warnings() const {
     for (const auto& island : impl_->islands)
         for (const std::string& warning : island->warnings()) all.push_back(warning);
     for (const std::string& warning : impl_->touchWatch.warnings()) all.push_back(warning);
+    for (const std::string& name : callbacks())
+        all.push_back(name + " is a callback: from here on nobody promises that bits are the same on every machine");
     return all;
 }
 

@@ -45,13 +45,16 @@ void visitValue(StateBytes& bytes, std::vector<double>& value, std::size_t size)
 }
 
 // Its field is that of any action of the scene with the same key. Reading writes the value as it was into the scene.
-void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, SceneSpec& spec) {
+void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, std::span<const RampAction> applied,
+               SceneSpec& spec) {
     std::string key = ramp.action.key;
     bytes(key);
     if (bytes.isReading()) {
         foreseen<RampAction>(start.actions, [&](const RampAction& like) {
             if (like.key == key) ramp.action = like;
         });
+        for (const RampAction& like : applied)
+            if (like.key == key) ramp.action = like;
         if (ramp.action.field == nullptr) misfit("it has no ramp of \"" + key + "\"");
     }
     std::vector<double> now = ramp.action.field->read(spec);
@@ -134,7 +137,7 @@ void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const st
 
 }  // namespace
 
-void World::Impl::visit(StateBytes& bytes) {
+void World::Impl::visit(StateBytes& bytes, std::span<const RampAction> applied) {
     visitBits(bytes);
     visitKinds(bytes, ownKinds(spec, added, islands, tick), ownActions(spec, longestWay));
     double rate = ticksPerSecond;
@@ -142,7 +145,7 @@ void World::Impl::visit(StateBytes& bytes) {
     if (rate != ticksPerSecond) misfit("its frame rate is another");
     bytes.atLeast(tick, 0, longestWay);
     bytes(hash);
-    bytes.each(ramps, [&](Ramp& ramp) { visitPart(bytes, ramp, *start, spec); });
+    bytes.each(ramps, [&](Ramp& ramp) { visitPart(bytes, ramp, *start, applied, spec); });
     if (bytes.isReading()) takeRampedParts();
     std::vector<std::string> targets = spawned;
     bytes.each(targets, [&](std::string& target) { bytes(target); });
@@ -185,11 +188,11 @@ std::vector<std::byte> World::save() const {
     return writer.take();
 }
 
-void World::restore(std::span<const std::byte> content) {
+void World::restore(std::span<const std::byte> content, std::span<const RampAction> applied) {
     TAUT_EXPECTS(impl_->tick == 0);
     core::ByteReader reader(content);
     StateBytes bytes(reader);
-    impl_->visit(bytes);
+    impl_->visit(bytes, applied);
     if (!reader.isAtEnd()) misfit("there is more in them than it has");
     impl_->rebuildColliders();
     impl_->redrawDamage();

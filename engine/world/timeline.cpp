@@ -93,8 +93,9 @@ bool World::Impl::spawnWaiting(const std::string& names) {
 void World::Impl::closeIslands() {
     if (std::none_of(islands.begin(), islands.end(), [](const auto& island) { return island->isOpen(); })) return;
     threads.run([&] {
-        core::parallelFor(static_cast<int>(islands.size()),
-                          [&](int i) { islands[static_cast<std::size_t>(i)]->close(now()); });
+        core::parallelFor(
+            static_cast<int>(islands.size()), [&](int i) { return islands[static_cast<std::size_t>(i)]->callsBack(); },
+            [&](int i) { islands[static_cast<std::size_t>(i)]->close(now()); });
     });
 }
 

@@ -272,6 +272,7 @@ bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> mov
         std::swap(x0_, x1_);
         core::parallelFor(
             static_cast<int>(islands_.size()),
+            [&](int k) { return islands_[static_cast<std::size_t>(k)]->callsBack(); },
             [&](int k) {
                 const auto own = static_cast<std::size_t>(k);
                 faults[own] = islands_[own]->advance(time, moving, c, instants);

@@ -219,10 +219,12 @@ std::optional<Divergence> World::Impl::tickIslands(const std::vector<ColliderMot
     std::vector<std::optional<Fault>> faults(alone.size());
     std::optional<Touching::Outcome> outcome;
     threads.run([&] {
-        core::parallelFor(static_cast<int>(alone.size()), [&](int i) {
-            const auto k = static_cast<std::size_t>(i);
-            faults[k] = alone[k]->tick(time, moving);
-        });
+        core::parallelFor(
+            static_cast<int>(alone.size()), [&](int i) { return alone[static_cast<std::size_t>(i)]->callsBack(); },
+            [&](int i) {
+                const auto k = static_cast<std::size_t>(i);
+                faults[k] = alone[k]->tick(time, moving);
+            });
         if (!touching->isEmpty()) outcome = touching->tick(time, moving);
     });
     const auto diagnose = [&](Island& island, const Fault& fault) {
@@ -354,8 +356,16 @@ void World::addForce(std::shared_ptr<const Force> force) {
         island->change(w.now(), Change::points);  // so that its step is held against the limit as it is now
     }
 }
-void World::addSystem(System system) {
+void World::addSystem(System system, const std::string& callback) {
     impl_->systems.push_back(std::move(system));
+    if (!callback.empty()) impl_->callbackSystems.push_back(callback);
+}
+
+std::vector<std::string> World::callbacks() const {
+    std::vector<std::string> names = impl_->callbackSystems;
+    for (const auto& force : impl_->added)
+        if (force->isCallback()) names.push_back(force->name());
+    return names;
 }
 
 ecs::Entity World::spawn(const ColliderSpec& spec) {

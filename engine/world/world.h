@@ -21,6 +21,7 @@ namespace taut::world {
 
 struct Body;
 class Force;
+struct RampAction;
 
 // Why a run cannot go on: everything a person needs to mend the scene.
 struct Divergence {
@@ -207,13 +208,15 @@ class World {
     bool isCurrent(const Selection& selection) const;
     Metrics metrics(const Selection& selection, Measures what = Measures::all) const;
     PointsNow points(const Selection& selection) const;
+    std::vector<glm::dvec3> positions(const Selection& selection) const;  // as points() has them [m], at less cost
 
     // Everything that the ticks so far have changed, as bytes, and back into a world that was built from the same scene
     // up to that tick, with the same forces, and has not ticked yet; what a scene says of later ticks may differ as
     // long as it leads to the same steps. restore() throws core::Error(badContent) for bytes that do not fit this
     // world or were saved by other bits (result_bits.h), and leaves it unusable then.
     std::vector<std::byte> save() const;
-    void restore(std::span<const std::byte> bytes);
+    // `applied` are ramps that apply() began and no action of the scene would.
+    void restore(std::span<const std::byte> bytes, std::span<const RampAction> applied = {});
 
     std::vector<IslandInfo> islands() const;
     ContactInfo contact() const;                // of bodies that touch
@@ -230,7 +233,12 @@ class World {
     // Called at the start of every tick with the time at its end and its length [s], after keyframed placements are
     // set and before forces act; in the order of adding.
     using System = std::function<void(World& world, double t, double dt)>;
-    void addSystem(System system);
+    // `callback` names a system that is written in another language, or computes with what differs from machine to
+    // machine, so that nobody promises that bits are the same everywhere.
+    void addSystem(System system, const std::string& callback = {});
+
+    // Names of such systems, and of forces that are callbacks. Equal bits are promised while there are none.
+    std::vector<std::string> callbacks() const;
 
     // A force acts from now on, on the bodies that are there and on those that come; its energy counts among the
     // elastic ones, or among the gravitational where it is uniform. Steps are not chosen anew: where it is too stiff

@@ -1,5 +1,6 @@
 list(APPEND TAUT_UNIT_TESTS
   scene_action_errors_test.cpp
+  scene_action_reader_test.cpp
   scene_check_errors_test.cpp
   scene_contradiction_errors_test.cpp
   scene_field_table_test.cpp

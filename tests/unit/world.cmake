@@ -2,6 +2,7 @@ list(APPEND TAUT_UNIT_TESTS
   contact_faces_test.cpp
   world_actions_test.cpp
   world_bodies_test.cpp
+  world_callbacks_test.cpp
   world_components_test.cpp
   world_cutting_test.cpp
   world_divergence_test.cpp

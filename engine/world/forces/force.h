@@ -37,6 +37,10 @@ class Force {
     virtual void steer(mechanics::ForceGenerator<float>& generator) const = 0;
     virtual void steer(mechanics::ForceGenerator<double>& generator) const = 0;
 
+    // Whether it asks a function of the program that runs this. The islands on which it acts go one after another then,
+    // in their order, and nobody promises that its bits are the same on every machine.
+    virtual bool isCallback() const { return false; }
+
     // All that may differ from the force that the scene begins with, read or written. A copy to read into.
     virtual void visit(StateBytes& bytes) = 0;
     virtual std::shared_ptr<Force> copy() const = 0;

@@ -1,0 +1,33 @@
+// Functions of Python as forces and systems of a world. Each takes the interpreter's lock when it is called.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "taut/world/forces/callback.h"
+
+namespace taut::python {
+
+// An object of Python that threads without the interpreter's lock may hold.
+using Held = std::shared_ptr<pybind11::object>;
+Held held(pybind11::object object);
+
+struct ForceWishes {
+    std::string name;  // "force.pull"
+    std::vector<std::string> targets;
+    double stiffness = 0;    // [N/m]
+    double dampingRate = 0;  // [1/s]
+};
+
+// force(t, x, v, mass) -> (n, 3), energy(t, x, v, mass) -> (n,) or null. What they raise passes through the engine,
+// with a note of where it was.
+world::CallbackSpec pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy);
+
+// Adds a line to what an exception of Python prints.
+void addNote(pybind11::error_already_set& error, const std::string& text);
+
+}  // namespace taut::python

@@ -1,0 +1,74 @@
+#include "game/python/errors.h"
+
+namespace py = pybind11;
+
+namespace taut::python {
+namespace {
+
+constexpr const char* errorHelp =
+    "What taut cannot do, and what to do about it, in its own words.\n\n"
+    "kind: \"usage\", \"content\" (of a scene or of bytes), \"diverged\", \"file\", \"renderer\" or \"interrupted\".";
+constexpr const char* divergedHelp =
+    "The motion has left all bounds; the world keeps the last good state, to be looked at.\n\n"
+    "tick: that failed; time: [s]; body: \"cloth.flag\"; point: its number in the order of authoring;\n"
+    "spring: the stiffest there; safe_step: largest step that would hold [s].";
+
+const char* nameOf(core::ErrorKind kind) {
+    switch (kind) {
+        case core::ErrorKind::usage: return "usage";
+        case core::ErrorKind::badContent: return "content";
+        case core::ErrorKind::diverged: return "diverged";
+        case core::ErrorKind::inputOutput: return "file";
+        case core::ErrorKind::noRenderer: return "renderer";
+        case core::ErrorKind::interrupted: return "interrupted";
+    }
+    return "";
+}
+
+// Exceptions live as long as the process.
+struct Types {
+    py::object error, diverged;
+};
+const Types& types() {
+    static const Types* const all = [] {
+        auto* made = new Types;
+        made->error = py::reinterpret_steal<py::object>(
+            PyErr_NewExceptionWithDoc("taut.Error", errorHelp, PyExc_Exception, nullptr));
+        made->diverged = py::reinterpret_steal<py::object>(
+            PyErr_NewExceptionWithDoc("taut.Diverged", divergedHelp, made->error.ptr(), nullptr));
+        return made;
+    }();
+    return *all;
+}
+
+void raise(const py::object& type, const core::Error& error, const world::Divergence* divergence) {
+    const py::object value = type(py::str(error.what()));
+    value.attr("kind") = nameOf(error.kind());
+    if (divergence != nullptr) {
+        value.attr("tick") = divergence->tick;
+        value.attr("time") = divergence->time;
+        value.attr("body") = divergence->body;
+        value.attr("point") = divergence->point;
+        value.attr("spring") = divergence->spring;
+        value.attr("safe_step") = divergence->safeStep;
+    }
+    PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+}  // namespace
+
+void addErrors(py::module_& module) {
+    module.attr("Error") = types().error;
+    module.attr("Diverged") = types().diverged;
+    py::register_exception_translator([](std::exception_ptr pointer) {
+        try {
+            if (pointer) std::rethrow_exception(pointer);
+        } catch (const DivergedError& error) {
+            raise(types().diverged, error, &error.divergence);
+        } catch (const core::Error& error) {
+            raise(types().error, error, nullptr);
+        }
+    });
+}
+
+}  // namespace taut::python

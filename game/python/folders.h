@@ -1,0 +1,17 @@
+// Where the module finds what it reads: installed beside it, or in the checkout that it was built from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace taut::python {
+
+// As the program: $TAUT_ASSETS ($TAUT_SHADERS), share/taut of the prefix that the module is installed in, the checkout.
+// Empty where there is none.
+std::filesystem::path assetFolder();
+std::filesystem::path shaderFolder();
+
+// A file as named or, for a bare name such as "flag", the shipped scene or scenario. Throws core::Error(inputOutput).
+std::filesystem::path sceneFile(const std::string& name);
+
+}  // namespace taut::python

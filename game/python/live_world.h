@@ -1,0 +1,69 @@
+// A world as Python has it: made from a scene, ticked without the interpreter's lock, asked between ticks.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "game/python/callbacks.h"
+#include "game/python/painter.h"
+#include "game/python/state_bytes.h"
+#include "taut/scene/load.h"
+#include "taut/world/undoing_world.h"
+
+namespace taut::python {
+
+// Its functions expect the interpreter's lock and throw core::Error; those that take long let it go meanwhile.
+class LiveWorld {
+  public:
+    LiveWorld(SceneSource source, int threads);
+    // From what save() gave, with the scene read again.
+    static std::shared_ptr<LiveWorld> from(const std::string& bytes);
+
+    // To be asked, between two ticks or by a system. Refuses a force, and other threads meanwhile.
+    const world::World& asked() const;
+    const world::SceneSpec& spec() const { return world_.spec(); }
+    const std::vector<std::string>& warnings() const { return warnings_; }  // of the scene
+    // What a target names. Refuses one that names nothing.
+    world::Selection select(const std::string& target) const;
+    void requireBodies(const std::string& target) const;  // KIND.NAME
+
+    void step(std::int64_t ticks);
+    void apply(const std::string& table);  // TOML
+    void place(const std::string& collider, std::optional<glm::dvec3> position, std::optional<glm::dvec3> angles);
+    collision::Pose poseOf(const std::string& collider) const;
+    // Gives the force's name.
+    std::string addForce(const pybind11::function& force, const std::vector<std::string>& targets,
+                         const pybind11::object& energy, ForceWishes wishes);
+    void addSystem(const pybind11::function& system);
+
+    std::string save() const;
+    void restore(const std::string& bytes);
+    std::string pickled() const;
+
+    image::Image draw(world::PictureSpec picture, bool debug);
+
+    // What Python's collector has to know, and lets go of.
+    const std::vector<Held>& functions() const { return functions_; }
+
+  private:
+    void requireStill(const char* what) const;
+    LiveWorld(SceneSource source, scene::Loaded loaded, int threads);
+
+    enum class Phase { still, inSystem, inTick };
+    SceneSource source_;
+    std::shared_ptr<const scene::ActionReader> actions_;
+    scene::StateKeys keys_;
+    std::vector<std::string> warnings_;
+    world::UndoingWorld world_;
+    Painter painter_;
+    std::vector<Held> functions_;
+    std::optional<world::Divergence> divergence_;
+    Phase phase_ = Phase::still;
+    std::thread::id ticker_;  // the thread that ticks it
+};
+
+}  // namespace taut::python

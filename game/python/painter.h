@@ -1,0 +1,27 @@
+// Draws a world into arrays: a renderer that is made when first asked for, and made anew where the picture is another.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "taut/image/image.h"
+#include "taut/render/renderer.h"
+#include "taut/view/frame_view.h"
+#include "taut/world/picture_spec.h"
+
+namespace taut::python {
+
+class Painter {
+  public:
+    // Expects sizes that the caller has looked at. May be called without the interpreter's lock, by several threads.
+    // Throws core::Error.
+    image::Image draw(const view::FrameView& view, const world::PictureSpec& picture);
+
+  private:
+    std::mutex mutex_;
+    std::unique_ptr<render::Renderer> renderer_;
+    world::PictureSpec picture_;  // that it draws
+};
+
+}  // namespace taut::python

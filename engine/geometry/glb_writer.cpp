@@ -80,7 +80,6 @@ struct GlbWriter::Impl {
     std::vector<float> times;                    // (keys) [s]
     double start = 0.0;                          // [s]
     std::vector<glm::mat4> cameras;              // (keys)
-    view::Camera camera;
     std::vector<FarLight> lights;
     std::vector<glm::vec3> cameraTargets;  // (keys) [m]
     std::vector<float> fieldsOfView;       // (keys) [rad]
@@ -265,12 +264,12 @@ std::string GlbWriter::Impl::json() {
     for (const Track& track : tracks) addNode(track);
     nodes.add(fmt::format(R"({{"name":"camera","camera":0,{}}})", pose(cameras, nodes.count())));
     JsonItems shining;
-    for (const FarLight& light : lights) {
+    for (const FarLight& one : lights) {
         const std::size_t number = shining.add(
-            fmt::format(R"({{"type":"directional","name":{},"color":[{},{},{}],"intensity":{}}})", jsonText(light.name),
-                        light.colour.x, light.colour.y, light.colour.z, light.brightness));
+            fmt::format(R"({{"type":"directional","name":{},"color":[{},{},{}],"intensity":{}}})", jsonText(one.name),
+                        one.colour.x, one.colour.y, one.colour.z, one.brightness));
         nodes.add(fmt::format(R"({{"name":{},"extensions":{{"KHR_lights_punctual":{{"light":{}}}}},{}}})",
-                              jsonText(light.name), number, pose({light.pose}, nodes.count())));
+                              jsonText(one.name), number, pose({one.pose}, nodes.count())));
     }
     std::string text = fmt::format(
         R"({{"asset":{{"version":"2.0","generator":{}}},"extensionsUsed":["KHR_lights_punctual"],"extensions":{{"KHR_lights_punctual":{{"lights":[{}]}}}},"scene":0,"scenes":[{{"nodes":[{}],"extras":{}}}],"nodes":[{}])",

@@ -1,7 +1,8 @@
 // How it looks: taut's own light, cloth, ground and sky, drawn by three.js.
 'use strict';
 
-const shadowTexels = 2048;
+const shadowTexels = 2048, skyTexels = 128;
+const skyMargin = 0.8;  // [m] how far things darken the ground around them
 
 const common = `#version 300 es
 precision highp float;
@@ -32,8 +33,12 @@ vec4 shown(vec3 light) {
 vec3 hemisphere(vec3 normal) { return mix(groundLight, skyLight, 0.5 + 0.5 * normal.y); }
 `;
 
+const packed = `
+float depthIn(vec3 bytes) { return dot(bytes, vec3(1.0, 1.0 / 255.0, 1.0 / 65025.0)); }
+`;
+
 // Penumbras as wide as the distance to what throws the shadow makes them (percentage-closer soft shadows, Fernando 2005).
-const shadow = `
+const shadow = packed + `
 uniform sampler2D shadowMap;  // depth in three bytes
 uniform mat4 toMap;           // world to map, 0 … 1
 uniform mat3 toLight;         // world directions to (right, up, towards the light)
@@ -42,7 +47,6 @@ uniform float softness;       // [rad] apparent size of the light
 
 const mat2 goldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
-float depthIn(vec3 bytes) { return dot(bytes, vec3(1.0, 1.0 / 255.0, 1.0 / 65025.0)); }
 float depthAt(vec2 at) { return depthIn(texture(shadowMap, at).rgb); }
 
 // How much of the four texels around lies behind a depth.
@@ -203,6 +207,8 @@ const groundFragment = common + tone + shadow + `
 in vec3 place;
 uniform vec3 groundColour, horizon;
 uniform float gridSpacing;  // [m]
+uniform sampler2D hidden;   // part of the sky
+uniform vec4 hiddenArea;    // [m] corner of that map; 1 / its extent
 uniform vec4 fade;          // place [m] around which it fades into the horizon; distances [m] where that begins and ends
 
 // How much of a pixel lines of a width cover that run at every whole number of x.
@@ -220,12 +226,48 @@ void main() {
   }
   float size = sqrt(length(cross(dFdx(place), dFdy(place))));
   float direct = max(lightWay.y, 0.0) * sunlight(place, vec3(0.0, 1.0, 0.0), size);
-  vec3 seen = filmic(albedo * (lightColour * direct + skyLight));
+  vec2 at = (place.xz - hiddenArea.xy) * hiddenArea.zw;
+  float covered = 0.0;
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j) covered += texture(hidden, at + 1.2 * vec2(i, j) / ${skyTexels}.0).r / 9.0;
+  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) covered = 0.0;
+  vec3 seen = filmic(albedo * (lightColour * direct + skyLight * (1.0 - 0.9 * covered)));
   // Even over the rows of the picture, which go with one over the distance.
   float far = max(length(place.xz - fade.xy), fade.z);
   float away = smoothstep(0.0, 1.0, (1.0 - fade.z / far) / max(1.0 - fade.z / fade.w, 1e-3));
   colour = shown(mix(seen, horizon, away));
 }`;
+
+// Which part of the sky the columns around a place of the ground hide, weighted by the cosine: what lies between the
+// elevations a and b hides (sin² b - sin² a) of its direction.
+const hiddenFragment = common + packed + `
+in vec2 at;
+out vec4 hidden;
+uniform sampler2D lowest, highest;  // 0 … 1 of the height that is looked at
+uniform vec3 extent;                // [m] x, height, z
+uniform float reach;                // [m]
+void main() {
+  float sum = 0.0;
+  for (int way = 0; way < 16; ++way) {
+    float angle = 0.3926991 * (float(way) + 0.5), low = 1.0, high = 0.0;  // sin²
+    for (int i = 0; i < 12; ++i) {
+      float part = (float(i) + 0.5) / 12.0, r = reach * part * part;
+      vec2 there = at + vec2(cos(angle), sin(angle)) * r / extent.xz;
+      float under = depthIn(texture(lowest, there).rgb);
+      if (under > 0.999 || any(lessThan(there, vec2(0.0))) || any(greaterThan(there, vec2(1.0)))) continue;
+      vec2 heights = extent.y * vec2(under, 1.0 - depthIn(texture(highest, there).rgb)), squares = heights * heights;
+      vec2 elevations = squares / (squares + r * r + 1e-6);
+      low = min(low, elevations.x);
+      high = max(high, elevations.y);
+    }
+    sum += max(high - low, 0.0) / 16.0;
+  }
+  hidden = vec4(sum);
+}`;
+const wholeVertex = common + `
+in vec3 position;
+out vec2 at;
+void main() { at = 0.5 + 0.5 * position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 
 const skyVertex = common + `
 in vec3 position;
@@ -274,6 +316,7 @@ class Picture {
       skyLight: vector(light.sky), groundLight: vector(light.ground), ...this.shadowFrom(light),
     };
     this.around = [];
+    this.views = [];
     this.addSky(background);
     if (ground) this.addGround(ground, background);
     for (const {mesh} of film.shapes) mesh.material = this.materialOf(mesh.material);
@@ -302,6 +345,7 @@ class Picture {
     this.depth = shader(depthVertex, depthFragment, {}, {side: THREE.DoubleSide});
     const toMap = new THREE.Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
     toMap.multiply(sun.projectionMatrix).multiply(toSun);
+    this.box = box;
     return {shadowMap: this.map.texture, toMap, toLight: new THREE.Matrix3().setFromMatrix4(toSun), mapSize: seen.getSize(new THREE.Vector3()), softness: light.softness};
   }
 
@@ -322,11 +366,30 @@ class Picture {
     this.addAround(new THREE.PlaneBufferGeometry(2, 2), material).renderOrder = -1;
   }
 
+  // Maps of what stands over the ground, seen from below and from above, and of what that hides of the sky.
+  hiddenOver(ground) {
+    const {min, max} = this.box, low = [min.x - skyMargin, min.z - skyMargin], size = [max.x - min.x + 2 * skyMargin, max.z - min.z + 2 * skyMargin];
+    const height = Math.max(...size), map = (filter) => new THREE.WebGLRenderTarget(skyTexels, skyTexels, {minFilter: filter, magFilter: filter});
+    this.views = [1, -1].map((way) => {
+      const camera = new THREE.Camera();  // x and z of the world to the right and up, its y ahead or towards the eye
+      camera.projectionMatrix.set(2 / size[0], 0, 0, -1 - 2 * low[0] / size[0], 0, 0, 2 / size[1], -1 - 2 * low[1] / size[1],
+        0, way * 2 / height, 0, -way * (1 + 2 * ground.height / height), 0, 0, 0, 1);
+      return {camera, map: map(THREE.NearestFilter)};
+    });
+    this.hidden = map(THREE.LinearFilter);
+    const material = shader(wholeVertex, hiddenFragment, {
+      lowest: this.views[0].map.texture, highest: this.views[1].map.texture, extent: new THREE.Vector3(size[0], height, size[1]), reach: skyMargin,
+    }, {depthTest: false});
+    this.gathering = new THREE.Scene();
+    this.gathering.add(new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2), material));
+    return {hidden: this.hidden.texture, hiddenArea: new THREE.Vector4(low[0], low[1], 1 / size[0], 1 / size[1])};
+  }
+
   addGround(ground, background) {
     const {target} = this.film, reach = 2.5 * this.film.camera.getWorldPosition(new THREE.Vector3()).distanceTo(target) - 30;
     const scale = background.fadesWithCamera ? Math.max(reach / background.fadeEnd, 1) : 1, end = scale * background.fadeEnd;
     const material = shader(groundVertex, groundFragment, {
-      ...this.light, groundColour: vector(ground.colour), horizon: vector(background.horizon), gridSpacing: ground.gridSpacing,
+      ...this.light, ...this.hiddenOver(ground), groundColour: vector(ground.colour), horizon: vector(background.horizon), gridSpacing: ground.gridSpacing,
       fade: new THREE.Vector4(target.x, target.z, scale * background.fadeStart, end),
     });
     const plane = this.addAround(new THREE.PlaneBufferGeometry(2.2 * end, 2.2 * end), material);
@@ -360,10 +423,16 @@ class Picture {
     for (const mesh of this.around) mesh.visible = false;
     this.scene.overrideMaterial = this.depth;
     this.renderer.setClearColor(0xffffff, 1);
-    this.renderer.setRenderTarget(this.map);
-    this.renderer.render(this.scene, this.sun);
-    this.renderer.setRenderTarget(null);
+    for (const {camera, map} of [{camera: this.sun, map: this.map}, ...this.views]) {
+      this.renderer.setRenderTarget(map);
+      this.renderer.render(this.scene, camera);
+    }
     this.scene.overrideMaterial = null;
+    if (this.gathering) {
+      this.renderer.setRenderTarget(this.hidden);
+      this.renderer.render(this.gathering, this.views[0].camera);
+    }
+    this.renderer.setRenderTarget(null);
     for (const mesh of this.around) mesh.visible = true;
     this.renderer.render(this.scene, this.camera);
   }

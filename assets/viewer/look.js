@@ -301,6 +301,13 @@ function shader(vertexShader, fragmentShader, uniforms, more = {}) {
   for (const name of Object.keys(uniforms)) uniforms[name] = {value: uniforms[name]};
   return new THREE.RawShaderMaterial({vertexShader, fragmentShader, uniforms, ...more});
 }
+// Upright, seen from +z.
+function square(half) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array([-half, -half, 0, half, -half, 0, -half, half, 0, half, half, 0]), 3));
+  geometry.setIndex([0, 1, 3, 0, 3, 2]);
+  return geometry;
+}
 const vector = (numbers) => new THREE.Vector3(...numbers);
 
 class Picture {
@@ -363,7 +370,7 @@ class Picture {
   addSky(background) {
     const material = shader(skyVertex, skyFragment, {...this.light, top: vector(background.top), horizon: vector(background.horizon)},
       {depthWrite: false, depthTest: false});
-    this.addAround(new THREE.PlaneBufferGeometry(2, 2), material).renderOrder = -1;
+    this.addAround(square(1), material).renderOrder = -1;
   }
 
   // Maps of what stands over the ground, seen from below and from above, and of what that hides of the sky.
@@ -381,7 +388,7 @@ class Picture {
       lowest: this.views[0].map.texture, highest: this.views[1].map.texture, extent: new THREE.Vector3(size[0], height, size[1]), reach: skyMargin,
     }, {depthTest: false});
     this.gathering = new THREE.Scene();
-    this.gathering.add(new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2), material));
+    this.gathering.add(new THREE.Mesh(square(1), material));
     return {hidden: this.hidden.texture, hiddenArea: new THREE.Vector4(low[0], low[1], 1 / size[0], 1 / size[1])};
   }
 
@@ -392,7 +399,7 @@ class Picture {
       ...this.light, ...this.hiddenOver(ground), groundColour: vector(ground.colour), horizon: vector(background.horizon), gridSpacing: ground.gridSpacing,
       fade: new THREE.Vector4(target.x, target.z, scale * background.fadeStart, end),
     });
-    const plane = this.addAround(new THREE.PlaneBufferGeometry(2.2 * end, 2.2 * end), material);
+    const plane = this.addAround(square(1.1 * end), material);
     plane.rotation.x = -Math.PI / 2;
     plane.position.set(target.x, ground.height, target.z);
   }

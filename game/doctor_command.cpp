@@ -86,6 +86,15 @@ void printFont(Packages& packages) {
     }
 }
 
+void printViewer(Packages& packages) {
+    try {
+        printTool("three.js", viewerLibrary().string(), "no pages by taut export --web", "libjs-three", packages);
+    } catch (const core::Error& error) {
+        printFact("three.js", fmt::format("MISSING: no pages by taut export --web: {}", error.what()));
+        packages.add("libjs-three");
+    }
+}
+
 void printWindow() {
     try {
         printFact("window", fmt::format("ok: {}", windowDriver()));
@@ -174,7 +183,7 @@ int doctor(const std::string& folder) {
     printTool("ffmpeg", image::ffmpegVersion(), "no videos; picture files need none", "ffmpeg", packages);
     printTool("gnuplot", report::gnuplotVersion(), "no charts and maps; their CSV and JSON need none", "gnuplot-nox",
               packages);
-    printTool("three.js", viewerLibrary().string(), "no pages by taut export --web", "libjs-three", packages);
+    printViewer(packages);
     bool files = printFolder("shaders", shaderFolder(), "no pictures", "TAUT_SHADERS");
     files = printFolder("assets", assetFolder(), "no scene by its name", "TAUT_ASSETS") && files;
     printFont(packages);

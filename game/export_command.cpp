@@ -107,17 +107,33 @@ std::vector<std::string> allOverrides(const ExportFlags& flags) {
     return overrides;
 }
 
-// Why --only names nothing in the scene; empty if it does.
+bool namesACopy(const std::string& target, const world::BodySpec& body) {
+    const int copies = body.array.count.x * body.array.count.y * body.array.count.z;
+    for (int i = 0; i < copies; ++i)
+        if (core::matches(target, fmt::format("{}.{}", body.fullName(), i))) return true;
+    return false;
+}
+
+// Why --only names nothing in the scene, with what there is; empty if it does.
 std::string onlyFault(const world::SceneSpec& spec, const std::string& target) {
-    if (target == "ground") return "";
-    if (!target.starts_with("collider.")) return scene::targetFault(spec, target, false);
-    std::string there;
-    for (const world::ColliderSpec& collider : spec.colliders) {
-        if (core::matches(target, "collider." + collider.name)) return "";
-        there += (there.empty() ? "" : ", ") + ("collider." + collider.name);
+    constexpr std::size_t mostNames = 12;
+    std::vector<std::string> names;
+    for (const world::BodySpec& body : spec.bodies) {
+        const bool isSingle = body.array.count == world::ArraySpec{}.count;
+        if (!isSingle && namesACopy(target, body)) return "";
+        names.push_back(body.fullName() + (isSingle ? "" : ".*"));
     }
-    return fmt::format("there is no {}{}", target,
-                       there.empty() ? "; the scene has no colliders" : "; there are " + there);
+    for (const world::ColliderSpec& collider : spec.colliders) names.push_back("collider." + collider.name);
+    names.emplace_back("ground");
+    if (std::any_of(names.begin(), names.end(), [&](const auto& name) { return core::matches(target, name); }))
+        return "";
+    const bool isOfBodies = target.find('.') != std::string::npos && !target.starts_with("collider.");
+    std::string fault = isOfBodies ? scene::targetFault(spec, target, false) : "";
+    if (fault.empty()) fault = "there is no " + target;
+    const std::size_t told = std::min(names.size(), mostNames), rest = names.size() - told;
+    names.resize(told);
+    fault += fmt::format("{} there are {}", fault.ends_with('?') ? "" : ";", fmt::join(names, ", "));
+    return rest == 0 ? fault : fmt::format("{}, and {} more", fault, rest);
 }
 
 pipeline::GeometryRun runOf(const ExportFlags& flags, const world::SceneSpec& spec) {
@@ -194,7 +210,7 @@ int exportScene(const ExportFlags& flags) {
     geometry::WebPage page;
     if (!flags.web.empty()) {
         const std::string name = std::filesystem::path(flags.scene).stem().string();
-        page = webPage(spec.title.empty() ? name : spec.title, name, flags.viewer);
+        page = spec.title.empty() ? webPage(name, "", flags.viewer) : webPage(spec.title, name, flags.viewer);
     }
     const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
     for (const std::string& file : flags.files()) {
@@ -260,14 +276,18 @@ Action declareExport(Options& options) {
         .value("--web", flags->web,
                "A page that plays it in any browser, offline, to be looked at from all sides: out.html")
         .typeName("FILE");
-    options.value("--viewer", flags->viewer, "The three.js that draws in the page; Debian's libjs-three when not given")
+    options
+        .value("--viewer", flags->viewer,
+               "The three.js that draws in the page; $TAUT_THREE, else Debian's libjs-three, when not given")
         .typeName("FOLDER");
     options.value("--points", flags->points, "Positions and velocities of points: out.npz for numpy.load, or out.csv")
         .typeName("FILE");
     options.value("--of", flags->of, "Whose points, such as cloth.flag@left; all bodies when not given")
         .typeName("TARGET,…")
         .oneValue();
-    options.value("--only", flags->only, "Only these in the geometry, such as cloth.* or collider.ball")
+    options
+        .value("--only", flags->only,
+               "Only these in the geometry, such as cloth.*, collider.ball or ground; * stands for any letters")
         .typeName("TARGET,…")
         .oneValue();
     const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
@@ -288,11 +308,13 @@ Action declareExport(Options& options) {
         .oneValue();
     addConfinedFlag(options, flags->isConfined);
     options.footer(
-        "Lengths are metres, y is up. In .usda time codes are numbers of frames; in .glb time begins at the first "
-        "frame,\n"
-        "and nothing may tear. Patterns but pictures become their first colour. Vertices have an order of their own; "
-        "--points\n"
-        "has that of the scene.\n"
+        "Lengths are metres, y is up. In .usda time codes are numbers of frames; in .glb and pages time begins at the "
+        "first\n"
+        "frame, and nothing may tear. In .usda and .glb patterns but pictures become their first colour. Vertices have "
+        "an\n"
+        "order of their own; --points has that of the scene. A page holds its film and all that shows it: it needs "
+        "neither\n"
+        "server nor network, and half the bytes with --every 2.\n"
         "Examples:\n"
         "  taut export torn-banner -o banner.usda\n"
         "  taut export flag -o flag.glb --every 2 --only cloth.flag\n"

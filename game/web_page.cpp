@@ -72,7 +72,7 @@ geometry::WebPage webPage(const std::string& title, const std::string& scene, co
         throw core::Error(core::ErrorKind::badContent, (own / "page.html").string() + ": there is no " + mark);
     std::string scriptElements;
     for (const char* script : scripts) scriptElements += scriptElement(library / script);
-    for (const char* script : {"film.js", "look.js", "page.js"}) scriptElements += scriptElement(own / script);
+    for (const char* script : {"film.js", "shaders.js", "look.js", "page.js"}) scriptElements += scriptElement(own / script);
     std::string before = whole.substr(0, at);
     replace(before, "@GENERATOR@", fmt::format("taut {}", TAUT_VERSION));
     replace(before, "@STYLE@", core::fileContent(own / "page.css"));

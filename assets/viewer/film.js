@@ -122,12 +122,13 @@ class Film {
       this.mixer.update(0);
     }
     this.scene.updateMatrixWorld(true);
-    const {target, fieldOfView} = this.around.camera, a = Math.min(key, target.length - 1), b = Math.min(a + 1, target.length - 1);
+    const {target, fieldOfView} = this.around.camera, last = target.length - 1;
+    const a = Math.min(key, last), b = Math.min(a + 1, last);
     this.target.set(...target[a]).lerp(new THREE.Vector3(...target[b]), share);
     this.camera.fov = (fieldOfView[a] + share * (fieldOfView[b] - fieldOfView[a])) * 180 / Math.PI;
   }
 
-  // All that what is visible reaches from the first key to the last [m].
+  // All that is ever reached by what is visible [m].
   bounds() {
     const box = new THREE.Box3();
     for (const shape of this.shapes) if (shape.mesh.visible) shape.addTo(box);

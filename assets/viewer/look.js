@@ -1,264 +1,27 @@
-// How it looks: taut's own light, cloth, ground and sky, drawn by three.js.
+// How it looks: cloth, ground and sky in taut's own light, drawn by three.js.
 'use strict';
 
-const shadowTexels = 2048;
-
-const common = `#version 300 es
-precision highp float;
-precision highp int;
-uniform mat4 modelMatrix, viewMatrix, projectionMatrix;
-uniform vec3 cameraPosition;
-`;
-
-const tone = `
-out vec4 colour;
-uniform vec3 lightWay, lightColour, skyLight, groundLight;
-
-// Between 0 and 1, different from pixel to pixel: interleaved gradient noise (Jimenez 2014).
-float pixelNoise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
-
-// Scene light to what a display shows: Narkowicz's fit of the ACES curve (2015).
-vec3 filmic(vec3 light) {
-  vec3 x = 0.75 * light;
-  return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-}
-
-// The sRGB curve (IEC 61966-2-1), and noise that hides the steps of eight bits.
-vec4 shown(vec3 light) {
-  vec3 bytes = mix(1.055 * pow(max(light, 1e-6), vec3(1.0 / 2.4)) - 0.055, 12.92 * light, lessThan(light, vec3(0.0031308)));
-  return vec4(bytes + (pixelNoise() - 0.5) / 255.0, 1.0);
-}
-
-vec3 hemisphere(vec3 normal) { return mix(groundLight, skyLight, 0.5 + 0.5 * normal.y); }
-`;
-
-// Penumbras as wide as the distance to what throws the shadow makes them (percentage-closer soft shadows, Fernando 2005).
-const shadow = `
-uniform sampler2D shadowMap;  // depth in three bytes
-uniform mat4 toMap;           // world to map, 0 … 1
-uniform mat3 toLight;         // world directions to (right, up, towards the light)
-uniform vec3 mapSize;         // [m]
-uniform float softness;       // [rad] apparent size of the light
-
-const mat2 goldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
-
-float depthIn(vec3 bytes) { return dot(bytes, vec3(1.0, 1.0 / 255.0, 1.0 / 65025.0)); }
-float depthAt(vec2 at) { return depthIn(texture(shadowMap, at).rgb); }
-
-// How much of the four texels around lies behind a depth.
-float reachedAt(vec2 at, float depth) {
-  vec2 texel = at * ${shadowTexels}.0 - 0.5, part = fract(texel);
-  ivec2 low = clamp(ivec2(floor(texel)), ivec2(0), ivec2(${shadowTexels - 2}));
-  vec4 lies = vec4(depthIn(texelFetch(shadowMap, low, 0).rgb), depthIn(texelFetch(shadowMap, low + ivec2(1, 0), 0).rgb),
-                   depthIn(texelFetch(shadowMap, low + ivec2(0, 1), 0).rgb), depthIn(texelFetch(shadowMap, low + ivec2(1, 1), 0).rgb));
-  vec4 lit = step(vec4(depth), lies);
-  return mix(mix(lit.x, lit.y, part.x), mix(lit.z, lit.w, part.x), part.y);
-}
-
-// How much of the light reaches a place, 0 … 1. \`facing\`: its normal on the side of the light. \`pixel\`: its size [m].
-float sunlight(vec3 place, vec3 facing, float pixel) {
-  float texel = max(mapSize.x, mapSize.y) / ${shadowTexels}.0;
-  float grain = max(1.5 * texel, 0.7 * pixel);
-  vec3 at = (toMap * vec4(place + facing * grain, 1.0)).xyz;
-  if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 1.0;
-  vec3 n = toLight * facing;
-  vec2 rising = n.xy / max(n.z, 0.15) / mapSize.z;  // depth along the surface's own plane
-  float ref = at.z - 0.5 * grain / mapSize.z;
-  float angle = 6.2831853 * pixelNoise();
-  vec2 way = vec2(cos(angle), sin(angle));
-  float least = max(1.2 * texel, 0.7 * pixel), widest = 0.02 * min(mapSize.x, mapSize.y);
-  widest = max(widest, least);
-
-  float search = clamp(0.5 * softness * at.z * mapSize.z, least, widest);
-  vec2 found = vec2(0.0);  // sum of distances, number
-  for (int i = 0; i < 12; ++i) {
-    vec2 off = way * (search * sqrt((float(i) + 0.5) / 12.0));
-    float between = ref + dot(rising, off) - depthAt(at.xy + off / mapSize.xy);
-    if (between > 0.0) found += vec2(between, 1.0);
-    way = goldenTurn * way;
-  }
-  if (found.y == 0.0) return 1.0;
-  float radius = clamp(0.5 * softness * found.x / found.y * mapSize.z, least, widest);
-  float reached = 0.0;
-  for (int i = 0; i < 20; ++i) {
-    vec2 off = way * (radius * sqrt((float(i) + 0.5) / 20.0));
-    reached += reachedAt(at.xy + off / mapSize.xy, min(ref + dot(rising, off), 1.0));
-    way = goldenTurn * way;
-  }
-  return reached / 20.0;
-}
-`;
-
-const surfaceVertex = common + `
-in vec3 position, normal;
-in vec2 uv;
-out vec3 place, upright;
-out vec2 along;  // [m] along the material
-uniform float repeat;
-void main() {
-  vec4 there = modelMatrix * vec4(position, 1.0);
-  place = there.xyz;
-  upright = mat3(modelMatrix) * normal;
-  along = vec2(uv.x, -uv.y) * repeat;
-  gl_Position = projectionMatrix * viewMatrix * there;
-}`;
-
-const surfaceFragment = common + tone + shadow + `
-in vec3 place, upright;
-in vec2 along;
-uniform int pattern;  // 0 plain, 1 checker, 2 stripes, 3 tartan, 4 picture
-uniform bool isTwoSided;
-uniform vec3 front, back, accent;
-uniform float repeat, weave, thread, sheen, roughness;
-uniform sampler2D picture;
-
-// The part of an interval of width w around x in which the fraction of x lies between a and b.
-float band(float x, float w, float a, float b) {
-  vec2 ends = vec2(x - 0.5 * w, x + 0.5 * w);
-  vec2 sum = floor(ends) * (b - a) + clamp(fract(ends) - a, 0.0, b - a);
-  return (sum.y - sum.x) / w;
-}
-vec2 bands(vec2 x, vec2 w, float a, float b) { return vec2(band(x.x, w.x, a, b), band(x.y, w.y, a, b)); }
-
-// The mean over the pixel, so that nothing flickers from afar.
-vec3 patternColour(vec2 uv, vec2 pixel) {
-  vec2 x = uv / repeat, w = max(pixel / repeat, 1e-4);
-  if (pattern == 1) {
-    vec2 other = bands(x, w, 0.0, 0.5);
-    return mix(front, accent, other.x + other.y - 2.0 * other.x * other.y);
-  }
-  if (pattern == 2) return mix(front, accent, band(x.x, w.x, 0.5, 1.0));
-  if (pattern == 3) {
-    vec2 broad = bands(x, w, 0.24, 0.76), gold = bands(x, w, 0.475, 0.525);
-    vec2 white = bands(x, w, 0.145, 0.18) + bands(x, w, 0.82, 0.855);
-    vec3 cloth = mix(accent, front, 0.5 * (broad.x + broad.y));
-    cloth = mix(cloth, vec3(0.80, 0.50, 0.10), max(gold.x, gold.y));
-    return mix(cloth, vec3(0.78, 0.76, 0.74), max(white.x, white.y));
-  }
-  if (pattern == 4) {
-    vec3 bytes = texture(picture, vec2(uv.x, -uv.y) / repeat).rgb;
-    return mix(pow((bytes + 0.055) / 1.055, vec3(2.4)), bytes / 12.92, lessThan(bytes, vec3(0.04045)));
-  }
-  return front;
-}
-
-// Over and under: each cell of the weave is a pillow, stretched along the thread that lies on top. Tilts the normal and
-// returns how open the place is, 0 … 1. Fades where threads become smaller than pixels.
-float weaveRelief(vec2 uv, vec2 pixel, inout vec3 normal) {
-  vec2 cell = uv / thread, middle = fract(cell) - 0.5, index = floor(cell), fine = pixel / thread;
-  float warp = mod(index.x + index.y, 2.0);
-  vec2 tilt = weave * clamp(1.5 - 3.1 * fine, 0.0, 1.0) * middle * mix(vec2(0.8, 2.0), vec2(2.0, 0.8), warp);
-  vec2 square = 4.0 * middle * middle;
-  vec2 gap = mix(vec2(0.25), square * square, clamp(1.3 - 3.0 * fine, 0.0, 1.0));
-  vec3 placeX = dFdx(place), placeY = dFdy(place);
-  vec2 uvX = dFdx(uv), uvY = dFdy(uv);
-  vec3 down = placeX * uvY.y - placeY * uvX.y, across = placeY * uvX.x - placeX * uvY.x;
-  down *= inversesqrt(max(dot(down, down), 1e-20));
-  across *= inversesqrt(max(dot(across, across), 1e-20));
-  float turned = uvX.x * uvY.y - uvX.y * uvY.x < 0.0 ? -1.0 : 1.0;
-  normal = normalize(normal + turned * (tilt.x * down + tilt.y * across));
-  return 1.0 - 0.55 * weave * max(gap.x, gap.y);
-}
-
-void main() {
-  bool isBack = isTwoSided && !gl_FrontFacing;
-  vec3 smoothNormal = normalize(upright) * (isBack ? -1.0 : 1.0), normal = smoothNormal;
-  vec2 pixel = fwidth(along);
-  vec3 cloth = patternColour(along, pixel);
-  float open = weave > 0.0 ? weaveRelief(along, pixel, normal) : 1.0;
-  vec3 albedo = isBack ? mix(back, cloth, 0.12) : cloth, through = isBack ? cloth : back;
-  vec3 toEye = normalize(cameraPosition - place);
-
-  float lightSide = dot(smoothNormal, lightWay);
-  float size = sqrt(length(cross(dFdx(place), dFdy(place))));
-  float sun = sunlight(place, lightSide < 0.0 ? -smoothNormal : smoothNormal, size);
-  float direct = max(dot(normal, lightWay), 0.0) * sun;
-  if (weave > 0.0) direct *= smoothstep(-0.02, 0.12, lightSide);  // threads on the far side stay dark
-  vec3 diffuse = lightColour * direct + hemisphere(normal) * open;
-  vec3 light = albedo * open * diffuse;
-  if (isTwoSided) light += 0.18 * albedo * through * lightColour * (max(-lightSide, 0.0) * sun);
-
-  // Gloss of a dielectric, and the bright rim of fibres.
-  vec3 halfWay = normalize(lightWay + toEye);
-  float alpha = mix(0.04, 1.0, roughness * roughness), exponent = 2.0 / (alpha * alpha);
-  float rim = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0), rim2 = rim * rim;
-  float gloss = pow(max(dot(normal, halfWay), 0.0), exponent) * (exponent + 8.0) * 0.125;
-  float fresnel = 0.04 + 0.96 * rim2 * rim2 * rim;
-  light += lightColour * (0.04 * gloss * direct * open);
-  light += hemisphere(reflect(-toEye, normal)) * (fresnel * (1.0 - roughness) * 0.6 * open);
-  light += sheen * rim2 * rim * mix(albedo, vec3(0.5), 0.3) * (diffuse + 0.3 * skyLight);
-  colour = shown(filmic(light));
-}`;
-
-const groundVertex = common + `
-in vec3 position;
-out vec3 place;
-void main() {
-  vec4 there = modelMatrix * vec4(position, 1.0);
-  place = there.xyz;
-  gl_Position = projectionMatrix * viewMatrix * there;
-}`;
-
-const groundFragment = common + tone + shadow + `
-in vec3 place;
-uniform vec3 groundColour, horizon;
-uniform float gridSpacing;  // [m]
-uniform vec4 fade;          // place [m] around which it fades into the horizon; distances [m] where that begins and ends
-
-// How much of a pixel lines of a width cover that run at every whole number of x.
-float lines(float x, float width) {
-  float pixel = max(fwidth(x), 1e-5), drawn = max(width, pixel), off = abs(fract(x + 0.5) - 0.5);
-  float cover = clamp((0.5 * drawn - off) / pixel + 0.5, 0.0, 1.0) * width / drawn;
-  return mix(cover, width, clamp(2.0 * pixel - 0.5, 0.0, 1.0));
-}
-
-void main() {
-  vec3 albedo = groundColour;
-  if (gridSpacing > 0.0) {
-    vec2 cell = place.xz / gridSpacing;
-    albedo *= 1.0 - 0.3 * max(lines(cell.x, 0.012), lines(cell.y, 0.012));
-  }
-  float size = sqrt(length(cross(dFdx(place), dFdy(place))));
-  float direct = max(lightWay.y, 0.0) * sunlight(place, vec3(0.0, 1.0, 0.0), size);
-  vec3 seen = filmic(albedo * (lightColour * direct + skyLight));
-  // Even over the rows of the picture, which go with one over the distance.
-  float far = max(length(place.xz - fade.xy), fade.z);
-  float away = smoothstep(0.0, 1.0, (1.0 - fade.z / far) / max(1.0 - fade.z / fade.w, 1e-3));
-  colour = shown(mix(seen, horizon, away));
-}`;
-
-const skyVertex = common + `
-in vec3 position;
-out vec3 way;
-void main() {
-  vec4 far = inverse(projectionMatrix * viewMatrix) * vec4(position.xy, 1.0, 1.0);
-  way = far.xyz / far.w - cameraPosition;
-  gl_Position = vec4(position.xy, 1.0, 1.0);
-}`;
-
-const skyFragment = common + tone + `
-in vec3 way;
-uniform vec3 top, horizon;
-void main() {
-  float up = max(way.y, 0.0) * inversesqrt(dot(way, way));
-  colour = shown(mix(horizon, top, up * up / (up * up + 0.0064)));  // half way at five degrees
-}`;
-
-const depthVertex = common + `
-in vec3 position;
-void main() { gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0); }`;
-
-const depthFragment = common + `
-out vec4 bytes;
-void main() {
-  vec3 parts = fract(min(gl_FragCoord.z, 0.999999) * vec3(1.0, 255.0, 65025.0));
-  bytes = vec4(parts.x - parts.y / 255.0, parts.y - parts.z / 255.0, parts.z, 1.0);
-}`;
+const skyMargin = 0.8;  // [m] how far things darken the ground around them
 
 function shader(vertexShader, fragmentShader, uniforms, more = {}) {
   for (const name of Object.keys(uniforms)) uniforms[name] = {value: uniforms[name]};
   return new THREE.RawShaderMaterial({vertexShader, fragmentShader, uniforms, ...more});
 }
+
+// Upright, seen from +z.
+function square(half) {
+  const geometry = new THREE.BufferGeometry();
+  const corners = [-half, -half, 0, half, -half, 0, -half, half, 0, half, half, 0];
+  geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(corners), 3));
+  geometry.setIndex([0, 1, 3, 0, 3, 2]);
+  return geometry;
+}
+
+// To draw into and to read from; `filter` is what lies between its texels.
+function drawnMap(texels, filter) {
+  return new THREE.WebGLRenderTarget(texels, texels, {minFilter: filter, magFilter: filter});
+}
+
 const vector = (numbers) => new THREE.Vector3(...numbers);
 
 class Picture {
@@ -274,6 +37,7 @@ class Picture {
       skyLight: vector(light.sky), groundLight: vector(light.ground), ...this.shadowFrom(light),
     };
     this.around = [];
+    this.views = [];
     this.addSky(background);
     if (ground) this.addGround(ground, background);
     for (const {mesh} of film.shapes) mesh.material = this.materialOf(mesh.material);
@@ -290,24 +54,30 @@ class Picture {
     if (sun.up.y === 0) sun.up.x = 1;
     sun.lookAt(vector(light.direction));
     sun.updateMatrixWorld(true);
+    const ends = [box.min, box.max];
     const toSun = new THREE.Matrix4().copy(sun.matrixWorld).transpose();  // a rotation alone
     for (let i = 0; i < 8; ++i)
-      seen.expandByPoint(corner.set(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z).applyMatrix4(toSun));
+      seen.expandByPoint(corner.set(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z).applyMatrix4(toSun));
     seen.expandByScalar(0.02 * seen.getSize(corner).length() + 0.01);
     Object.assign(sun, {left: seen.min.x, right: seen.max.x, bottom: seen.min.y, top: seen.max.y, near: -seen.max.z});
     sun.far = -seen.min.z;
     sun.updateProjectionMatrix();
     this.sun = sun;
-    this.map = new THREE.WebGLRenderTarget(shadowTexels, shadowTexels, {minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter});
+    this.map = drawnMap(shadowTexels, THREE.NearestFilter);
     this.depth = shader(depthVertex, depthFragment, {}, {side: THREE.DoubleSide});
     const toMap = new THREE.Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
     toMap.multiply(sun.projectionMatrix).multiply(toSun);
-    return {shadowMap: this.map.texture, toMap, toLight: new THREE.Matrix3().setFromMatrix4(toSun), mapSize: seen.getSize(new THREE.Vector3()), softness: light.softness};
+    this.box = box;
+    return {
+      shadowMap: this.map.texture, toMap, toLight: new THREE.Matrix3().setFromMatrix4(toSun),
+      mapSize: seen.getSize(new THREE.Vector3()), softness: light.softness,
+    };
   }
 
   materialOf(loaded) {
     const finish = loaded.userData.taut, picture = loaded.map || null;
-    if (picture) Object.assign(picture, {encoding: 3000, colorSpace: '', anisotropy: 8, needsUpdate: true});  // decoded by the shader
+    // The shader decodes it, in whatever words a release has for that.
+    if (picture) Object.assign(picture, {encoding: 3000, colorSpace: '', anisotropy: 8, needsUpdate: true});
     return shader(surfaceVertex, surfaceFragment, {
       ...this.light, front: vector(loaded.color.toArray()), back: vector(finish.back), accent: vector(finish.accent),
       pattern: picture ? 4 : ['plain', 'checker', 'stripes', 'tartan'].indexOf(finish.pattern) % 4,
@@ -317,19 +87,46 @@ class Picture {
   }
 
   addSky(background) {
-    const material = shader(skyVertex, skyFragment, {...this.light, top: vector(background.top), horizon: vector(background.horizon)},
-      {depthWrite: false, depthTest: false});
-    this.addAround(new THREE.PlaneBufferGeometry(2, 2), material).renderOrder = -1;
+    const material = shader(skyVertex, skyFragment, {
+      ...this.light, top: vector(background.top), horizon: vector(background.horizon),
+    }, {depthWrite: false, depthTest: false});
+    this.addAround(square(1), material).renderOrder = -1;
+  }
+
+  // Maps of what stands over the ground, seen from below and from above, and of what that hides of the sky.
+  hiddenOver(ground) {
+    const {min, max} = this.box, low = [min.x - skyMargin, min.z - skyMargin];
+    const size = [max.x + skyMargin - low[0], max.z + skyMargin - low[1]], height = Math.max(...size);
+    this.views = [1, -1].map((way) => {
+      const camera = new THREE.Camera();  // x and z of the world to the right and up, its y ahead or towards the eye
+      camera.projectionMatrix.set(
+        2 / size[0], 0, 0, -1 - 2 * low[0] / size[0],
+        0, 0, 2 / size[1], -1 - 2 * low[1] / size[1],
+        0, way * 2 / height, 0, -way * (1 + 2 * ground.height / height),
+        0, 0, 0, 1);
+      return {camera, map: drawnMap(skyTexels, THREE.NearestFilter)};
+    });
+    this.hidden = drawnMap(skyTexels, THREE.LinearFilter);
+    const material = shader(wholeVertex, hiddenFragment, {
+      lowest: this.views[0].map.texture, highest: this.views[1].map.texture, reach: skyMargin,
+      extent: new THREE.Vector3(size[0], height, size[1]),
+    }, {depthTest: false});
+    this.gathering = new THREE.Scene();
+    this.gathering.add(new THREE.Mesh(square(1), material));
+    return {hidden: this.hidden.texture, hiddenArea: new THREE.Vector4(low[0], low[1], 1 / size[0], 1 / size[1])};
   }
 
   addGround(ground, background) {
-    const {target} = this.film, reach = 2.5 * this.film.camera.getWorldPosition(new THREE.Vector3()).distanceTo(target) - 30;
-    const scale = background.fadesWithCamera ? Math.max(reach / background.fadeEnd, 1) : 1, end = scale * background.fadeEnd;
+    const {target, camera} = this.film;
+    const reach = 2.5 * camera.getWorldPosition(new THREE.Vector3()).distanceTo(target) - 30;  // as fadeOf() has it
+    const scale = background.fadesWithCamera ? Math.max(reach / background.fadeEnd, 1) : 1;
+    const end = scale * background.fadeEnd;
     const material = shader(groundVertex, groundFragment, {
-      ...this.light, groundColour: vector(ground.colour), horizon: vector(background.horizon), gridSpacing: ground.gridSpacing,
+      ...this.light, ...this.hiddenOver(ground), groundColour: vector(ground.colour),
+      horizon: vector(background.horizon), gridSpacing: ground.gridSpacing,
       fade: new THREE.Vector4(target.x, target.z, scale * background.fadeStart, end),
     });
-    const plane = this.addAround(new THREE.PlaneBufferGeometry(2.2 * end, 2.2 * end), material);
+    const plane = this.addAround(square(1.1 * end), material);
     plane.rotation.x = -Math.PI / 2;
     plane.position.set(target.x, ground.height, target.z);
   }
@@ -350,7 +147,8 @@ class Picture {
 
   // At least as much is seen as the scene's camera sees, up and across.
   fit() {
-    const {camera} = this.film, canvas = this.renderer.domElement, aspect = canvas.clientWidth / Math.max(canvas.clientHeight, 1);
+    const {camera} = this.film, canvas = this.renderer.domElement;
+    const aspect = canvas.clientWidth / Math.max(canvas.clientHeight, 1);
     const half = Math.tan(camera.fov * Math.PI / 360) * Math.max(1, camera.aspect / aspect);
     Object.assign(this.camera, {fov: Math.atan(half) * 360 / Math.PI, aspect});
     this.camera.updateProjectionMatrix();
@@ -360,10 +158,16 @@ class Picture {
     for (const mesh of this.around) mesh.visible = false;
     this.scene.overrideMaterial = this.depth;
     this.renderer.setClearColor(0xffffff, 1);
-    this.renderer.setRenderTarget(this.map);
-    this.renderer.render(this.scene, this.sun);
-    this.renderer.setRenderTarget(null);
+    for (const {camera, map} of [{camera: this.sun, map: this.map}, ...this.views]) {
+      this.renderer.setRenderTarget(map);
+      this.renderer.render(this.scene, camera);
+    }
     this.scene.overrideMaterial = null;
+    if (this.gathering) {
+      this.renderer.setRenderTarget(this.hidden);
+      this.renderer.render(this.gathering, this.views[0].camera);
+    }
+    this.renderer.setRenderTarget(null);
     for (const mesh of this.around) mesh.visible = true;
     this.renderer.render(this.scene, this.camera);
   }

@@ -40,7 +40,8 @@ class Player {
   key(event) {
     if (event.ctrlKey || event.altKey || event.metaKey || event.target.tagName === 'SELECT') return;
     const last = this.film.times.length - 1, key = this.film.keyAt(this.time);
-    const steps = {ArrowLeft: this.time > this.film.times[key] ? key : key - 1, ArrowRight: key + 1, Home: 0, End: last};
+    const back = this.time > this.film.times[key] ? key : key - 1;
+    const steps = {ArrowLeft: back, ArrowRight: key + 1, Home: 0, End: last};
     if (event.key in steps) {
       this.play(false);
       this.seek(this.film.times[Math.min(Math.max(steps[event.key], 0), last)]);

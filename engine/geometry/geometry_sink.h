@@ -27,7 +27,7 @@ class TopologyChanged : public core::Error {
     TopologyChanged(const std::string& file, std::string name, std::int64_t frame)
         : Error(core::ErrorKind::badContent, file + ": " + name + " tears or is cut before frame " +
                                                  std::to_string(frame) +
-                                                 ", and GLB keeps the triangles of the first frame"),
+                                                 ", and such a file keeps the triangles of the first frame"),
           name_(std::move(name)),
           frame_(frame) {}
     const std::string& name() const { return name_; }  // "cloth.flag"

@@ -210,6 +210,7 @@ def main():
     refused(2, [".usda", ".glb"], "small.toml", "-o", "small.obj")
     refused(2, [".npz", ".csv"], "small.toml", "--points", "small.txt")
     refused(2, ["cloth.flga"], "small.toml", "-o", "new.glb", "--only", "cloth.flga")
+    refused(2, ["cloth.flag, rope.line, collider.ball, ground"], "small.toml", "-o", "new.glb", "--only", "*.x")
     refused(2, ["collider.ball"], "small.toml", "-o", "new.glb", "--only", "collider.bell")
     refused(2, ["cloth.flga"], "small.toml", "--points", "new.npz", "--of", "cloth.flga@left")
     refused(2, ["0-29"], "small.toml", "-o", "new.glb", "--frames", "0-99")

@@ -136,7 +136,9 @@ FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<F
     std::error_code ignored;
     if (!std::filesystem::is_directory(pattern.folder().empty() ? "." : pattern.folder(), ignored))
         refuse(pattern, "there is no such folder");
-    FrameJoin join{pattern, pipeline::partRecords(pattern.folder()), {}};
+    FrameJoin join{pattern, pipeline::partRecords(pattern), {}};
+    for (const PartRecord& record : join.records)
+        if (!record.fault.empty()) throw core::Error(core::ErrorKind::badContent, record.fault);
     if (join.records.empty())
         refuse(pattern, "there is no record of pictures, run.json or run_0-119.json: nothing was drawn here");
     expectOneRun(pattern, join.records, takesAnyRenderer);

@@ -94,7 +94,7 @@ int joinTests(const JoinFlags& flags) {
 
 int join(const JoinFlags& flags) {
     const bool hasTests = hasTestShards(flags.place);
-    if (hasTests && !pipeline::partRecords(flags.place).empty())
+    if (hasTests && !pipeline::partRecords(image::FramePattern(flags.place)).empty())
         failUsage(fmt::format("{}: there are shards of taut test and of taut render: which? Move either elsewhere",
                               flags.place));
     if (!hasTests && !flags.junit.empty()) failUsage("--junit goes with shards of taut test");

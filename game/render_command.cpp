@@ -81,6 +81,16 @@ pipeline::FigureColumns columnsOf(const std::vector<std::string>& names) {
     return {names.size(), key.value()};
 }
 
+// The names of what is measured besides.
+std::vector<std::string> addFigures(const std::string& text, const world::SceneSpec& spec,
+                                    pipeline::RunOptions& options) {
+    const std::shared_ptr<check::Figures> figures = figuresOf(text, spec);
+    if (!figures) return {};
+    options.figures = [figures](const world::World& world) { return figures->of(world); };
+    options.figureColumns = columnsOf(figures->names());
+    return figures->names();
+}
+
 // Parts of one run may draw into one folder at the same time; states and their records are one run's alone.
 std::vector<pipeline::RunLock> locksOf(const RenderFlags& flags, const RunPart& part,
                                        const std::optional<PartPlace>& place, const std::filesystem::path& states) {
@@ -190,6 +200,21 @@ void addOverlay(const world::World& world, const pipeline::RecordLog& before, pi
     };
 }
 
+// What is said before anything is done.
+void noteWhatIsAhead(const RenderFlags& flags, const RunPart& part, const world::SceneSpec& spec) {
+    if (flags.quiet) return;
+    const std::string large =
+        largeRunText(part.frames.last - part.frames.first + 1, spec.picture.size.x, spec.picture.size.y);
+    if (!large.empty() && !flags.noPictures) printNote("note: {}\n", large);
+    notePreparation(spec);
+}
+
+// What came up on the way, such as a block squashed flat.
+void warnOfNew(const std::vector<std::string>& foreseen, std::vector<std::string> met) {
+    std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
+    printWarnings(met);
+}
+
 int render(const RenderFlags& flags) {
     endWithStarter();
     checkFlags(flags);
@@ -197,17 +222,10 @@ int render(const RenderFlags& flags) {
     const world::SceneSpec& spec = scene.spec;
     const RunPart part = partOf(flags, spec.run);
     pipeline::RunOptions options = runOptions(flags, part);
-    const std::shared_ptr<check::Figures> figures = figuresOf(flags.metricsOf, spec);
-    if (figures) {
-        options.figures = [figures](const world::World& world) { return figures->of(world); };
-        options.figureColumns = columnsOf(figures->names());
-    }
+    const std::vector<std::string> figures = addFigures(flags.metricsOf, spec, options);
     const std::unique_ptr<image::FrameSink> sink = makeOutputs(flags, part, spec.run.fps);
     const Interruption interruption;  // from here on: a question is ended by Ctrl-C as ever
-    const std::string large =
-        largeRunText(options.lastFrame - options.firstFrame + 1, spec.picture.size.x, spec.picture.size.y);
-    if (!large.empty() && !flags.noPictures && !flags.quiet) printNote("note: {}\n", large);
-    if (!flags.quiet) notePreparation(spec);
+    noteWhatIsAhead(flags, part, spec);
     const core::ThreadLimit threads(flags.threads);
     world::World world(spec, {.threads = flags.threads});
     const std::vector<std::string> foreseen = world.warnings();
@@ -270,11 +288,9 @@ int render(const RenderFlags& flags) {
     if (!flags.output.empty() && (!jobs || drawing.info)) {
         request.options = options;
         request.isBegun = false;
-        writeRecords(flags, part, writeJson(result), result, figures ? figures->names() : std::vector<std::string>{});
+        writeRecords(flags, part, writeJson(result), result, figures);
     }
-    std::vector<std::string> met = world.warnings();  // such as a block squashed flat on the way
-    std::erase_if(met, [&](const auto& warning) { return std::ranges::find(foreseen, warning) != foreseen.end(); });
-    printWarnings(met);
+    warnOfNew(foreseen, world.warnings());
     if (!flags.quiet) printSummary(flags, result, before);
     if (result.divergence) throw core::Error(core::ErrorKind::diverged, result.divergence->message);
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));

@@ -59,7 +59,7 @@ bool isWhole(const RunPart& part, const PartPlace& place) {
 // A run that has the folder for itself: what others have said of the frames that it replaces is no longer so.
 void takeAwayRecords(const RunPart& part, const std::vector<pipeline::PartRecord>& records) {
     for (const pipeline::PartRecord& record : records)
-        if (overlap(record, part.frames)) removeFile(record.path);
+        if (record.fault.empty() && overlap(record, part.frames)) removeFile(record.path);
 }
 
 void refuseOtherRuns(const PartPlace& place, const std::vector<pipeline::PartRecord>& records) {
@@ -68,9 +68,9 @@ void refuseOtherRuns(const PartPlace& place, const std::vector<pipeline::PartRec
         if (!place.mayOverwrite)
             throw core::Error(
                 core::ErrorKind::inputOutput,
-                fmt::format("{} is of another run: give this one a folder of its own; -y draws over what is "
+                fmt::format("{} is of another run{}: give this one a folder of its own; -y draws over what is "
                             "there",
-                            record.path.string()));
+                            record.path.string(), record.fault.empty() ? "" : ", or of none"));
         removeFile(record.path);
     }
 }
@@ -120,7 +120,7 @@ std::vector<pipeline::RunLock> lockPart(const RunPart& part, const PartPlace& pl
 }
 
 PartState claimPart(const RunPart& part, const PartPlace& place, const std::string& renderer) {
-    const std::vector<pipeline::PartRecord> records = pipeline::partRecords(place.pattern.folder());
+    const std::vector<pipeline::PartRecord> records = pipeline::partRecords(place.pattern);
     if (!part.isShared) {
         if (!place.resumes) takeAwayRecords(part, records);
         return PartState::fresh;

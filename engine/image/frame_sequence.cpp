@@ -49,6 +49,10 @@ std::filesystem::path FramePattern::pathOf(std::int64_t frame) const {
     return folder_ / fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
 }
 
+std::string FramePattern::name() const {
+    return before_ + std::string(digits_, '#') + after_;
+}
+
 std::vector<std::int64_t> FramePattern::framesThere() const {
     std::vector<std::int64_t> frames;
     std::error_code ignored;

@@ -19,6 +19,7 @@ class FramePattern {
 
     std::filesystem::path pathOf(std::int64_t frame) const;  // expects frame >= 0
     const std::filesystem::path& folder() const { return folder_; }
+    std::string name() const;  // of the files: "frame_######.png"
 
     // Files of another kind beside these: "out/frame_######.depth.png".
     FramePattern beside(const std::string& kind) const;

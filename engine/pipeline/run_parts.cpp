@@ -48,6 +48,8 @@ PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& pat
     for (const char* kind : {"depth", "mask"})
         if (json.at("layers").contains(kind) && !json.at("layers").at(kind).is_null())
             record.besides.emplace_back(kind);
+    const std::filesystem::path output = json.at("output").get<std::string>();
+    record.files = output.extension() == ".png" ? output.filename().string() : image::FramePattern("folder").name();
     const nlohmann::json& frames = json.at("frames");
     record.first = frames.at("first").get<std::int64_t>();
     record.last = frames.at("last").get<std::int64_t>();
@@ -97,16 +99,21 @@ PartRecord readPartRecord(const std::filesystem::path& path) {
     }
 }
 
-std::vector<PartRecord> partRecords(const std::filesystem::path& folder) {
+std::vector<PartRecord> partRecords(const image::FramePattern& pattern) {
     std::vector<PartRecord> records;
+    const std::filesystem::path& folder = pattern.folder();
     std::error_code ignored;  // a missing folder has none
     for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, ignored)) {
         if (!isRecordName(entry.path().filename().string())) continue;
+        const std::filesystem::path path = folder / entry.path().filename();
         try {
-            PartRecord record = readPartRecord(folder / entry.path().filename());
-            if (!record.renderer.empty()) records.push_back(std::move(record));
-        } catch (const core::Error&) {
-            if (core::isThere(entry.path())) throw;  // else a part that begins anew has taken it away
+            PartRecord record = readPartRecord(path);
+            if (!record.renderer.empty() && record.files == pattern.name()) records.push_back(std::move(record));
+        } catch (const core::Error& error) {
+            if (!core::isThere(path)) continue;  // a part that begins anew has taken it away
+            records.emplace_back();
+            records.back().path = path;
+            records.back().fault = error.what();
         }
     }
     std::sort(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {

@@ -10,12 +10,15 @@
 #include <string_view>
 #include <vector>
 
+#include "taut/image/frame_sequence.h"
 #include "taut/render/renderer.h"
 
 namespace taut::pipeline {
 
 struct PartRecord {
     std::filesystem::path path;  // "out/run_120-239.json"
+    std::string fault;           // why it is no record; empty: it is one
+    std::string files;           // image::FramePattern::name() of what it drew
     std::string key;             // of the whole run; empty in records that have none
     std::string ended;           // "complete", "interrupted", "diverged"; "begun" while it is at work
     std::string program, size;   // "640 x 360"
@@ -43,9 +46,9 @@ std::string partName(std::int64_t first, std::int64_t last, const std::string& s
 // Throws core::Error: inputOutput, or badContent for what is no record of a run.
 PartRecord readPartRecord(const std::filesystem::path& path);
 
-// Of run.json and of parts in a folder, by their first frame; those that drew no pictures are left out. Throws as
-// readPartRecord does.
-std::vector<PartRecord> partRecords(const std::filesystem::path& folder);
+// run.json and those of parts in the folder of frames, by their first frame; those that drew none, or files of other
+// names, are left out. Of one that cannot be read, path and fault are set.
+std::vector<PartRecord> partRecords(const image::FramePattern& pattern);
 
 // In what two records show that they are not of one run: "other settings of scene, timeline or look", "64 x 48 and 32 x
 // 24 pixels", "other states from frame 12 on"; empty where they may be. Renderers are compared if asked for.

@@ -23,9 +23,9 @@ case "\$host \$*" in
         if [ -e '$D/killed' ]; then exit 255; fi
         setsid sh -c "\$*" &
         process=\$!
-        while [ "\$(ls '$D/farm/out/show' 2>/dev/null | grep -c png)" -lt 20 ] && kill -0 \$process; do sleep 0.1; done
+        while [ "\$(find '$D/farm/out/show' -name '*.png' | wc -l)" -lt 20 ] && kill -0 \$process; do sleep 0.1; done
         kill -9 -- -\$process
-        echo "with \$(ls '$D/farm/out/show' | grep -c png) frames" >'$D/killed'
+        echo "with \$(find '$D/farm/out/show' -name '*.png' | wc -l) frames" >'$D/killed'
         exit 255 ;;
 esac
 exec sh -c "\$*"

@@ -1,4 +1,5 @@
 # Sourced by the tests beside it: what they share. Expects `taut`, the program, and `root`, the checkout.
+# shellcheck shell=sh disable=SC2154
 
 # readme_block N: the N-th block of commands in the README's section on many machines, as a reader would copy it.
 readme_block() {
@@ -9,6 +10,11 @@ readme_block() {
         { block = 0 }' "$root/README.md"
 }
 
+# frames_in FOLDER: how many are there.
+frames_in() {
+    find "$1" -name 'frame_*.png' 2>/dev/null | wc -l
+}
+
 # serial FOLDER: what one machine makes of the README's scene: frames in FOLDER/out/show and FOLDER/show.mp4.
 serial() {
     (cd "$1" && "$taut" render show -o out/show --video show.mp4 --quiet)
@@ -16,8 +22,11 @@ serial() {
 
 # same A B: frames and video of two folders are the same bytes.
 same() {
-    count=$(ls "$1"/out/show/*.png | wc -l)
-    [ "$count" -gt 100 ] && [ "$(ls "$2"/out/show/*.png | wc -l)" -eq "$count" ] || { echo "not $count frames"; return 1; }
+    count=$(frames_in "$1/out/show")
+    if [ "$count" -le 100 ] || [ "$(frames_in "$2/out/show")" -ne "$count" ]; then
+        echo "not $count frames"
+        return 1
+    fi
     for frame in "$1"/out/show/*.png; do
         cmp "$frame" "$2/out/show/$(basename "$frame")" || return 1
     done

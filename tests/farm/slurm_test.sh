@@ -14,7 +14,7 @@ D=$(mktemp -d)
 chmod 755 "$D"
 started=
 stop() {
-    # shellcheck disable=SC2086  # one word a process
+    # shellcheck disable=SC2086,SC2046  # one word a process
     kill -9 $started $(on_node n1) $(on_node n2) 2>/dev/null || true
     rm -rf "$D"
 }
@@ -25,7 +25,8 @@ trap 'exit 1' INT TERM
 on_node() {
     for process in /proc/[0-9]*; do
         { tr '\0' '\n' <"$process/environ"; } >"$D/environ" 2>/dev/null || continue
-        grep -qx "SLURMD_NODENAME=$1" "$D/environ" && grep -qx "SLURM_CONF=$D/slurm.conf" "$D/environ" || continue
+        grep -qx "SLURMD_NODENAME=$1" "$D/environ" || continue
+        grep -qx "SLURM_CONF=$D/slurm.conf" "$D/environ" || continue
         echo "${process#/proc/}"
         parent=$(awk '/^PPid:/ { print $2 }' "$process/status" 2>/dev/null) || continue
         if grep -qs slurmstepd "/proc/$parent/comm"; then echo "$parent"; fi
@@ -107,11 +108,11 @@ export PATH
 (cd "$D/farm" && sh -eu "$D/lines")
 
 # In the middle of the array, with a part of its frames drawn, n2 dies.
-is_at_work() { [ "$(ls "$D/farm/out/show" 2>/dev/null | grep -c png)" -ge 20 ] && [ "$(on_node n2)" ]; }
+is_at_work() { [ "$(frames_in "$D/farm/out/show")" -ge 20 ] && [ "$(on_node n2)" ]; }
 until_true 120 is_at_work
 # shellcheck disable=SC2046  # one word a process
 kill -9 "$n2" $(on_node n2)
-echo "n2 was killed when $(ls "$D/farm/out/show" | grep -c png) frames were there"
+echo "n2 was killed when $(frames_in "$D/farm/out/show") frames were there"
 
 serial "$D/serial"
 is_done() { [ -z "$(squeue -h -o %i)" ]; }

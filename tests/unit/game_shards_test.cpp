@@ -113,6 +113,7 @@ TEST_F(Shards, WhatIsMissingIsNamed) {
         EXPECT_TRUE(has(outcome.err, part)) << part << " in " << outcome.err;
     EXPECT_EQ(folder_.entryCount(), 2) << "nothing was begun";
     EXPECT_EQ(run({"join", path("nowhere")}).code, 6);
+    EXPECT_EQ(run({"join", path("shards/f_###.png")}).code, 6) << "files of other names";
     // Started again, each does what it lacks, and the one that is whole nothing.
     const auto drawn = std::filesystem::last_write_time(folder_ / "shards/frame_000003.png");
     EXPECT_EQ(render({"-o", path("shards"), "--shard", "0/3", "--resume"}).code, 6) << "of which run are its frames?";

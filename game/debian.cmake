@@ -1,6 +1,5 @@
 # The Debian packages that `cpack` makes of what is built, one of each component of the installation: `taut` of program,
-# `libtaut-dev` of engine. Another, such as `python3-taut` of a component python, is one more taut_deb(); what both need
-# is in `taut`, on which the others depend.
+# `libtaut-dev` of engine, `python3-taut` of python. What all need is in `taut`, on which the others depend.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/changelog signature REGEX "^ -- " LIMIT_COUNT 1)
@@ -50,4 +49,16 @@ taut_deb(engine NAME libtaut-dev SECTION libdevel
   DEPENDS "taut (= ${PROJECT_VERSION})" libbullet-dev libdeflate-dev libegl-dev libfmt-dev libglm-dev libosmesa6-dev
     libtbb-dev
   SUGGESTS cmake g++ pkg-config)
+if(TAUT_PYTHON)
+  string(REGEX MATCH "[0-9]+\\.[0-9]+" python "${TAUT_PYTHON_FOLDER}")
+  string(REGEX MATCH "[0-9]+$" minor "${python}")
+  math(EXPR next "${minor} + 1")
+  taut_deb(python NAME python3-taut SECTION python
+    SUMMARY "mass-spring engine, for Python"
+    TEXT "The module taut: scenes of ropes, cloth and soft bodies, loaded, stepped and"
+      "asked for positions, energies and pictures as NumPy arrays, with forces and"
+      "controllers written in Python."
+    DEPENDS "taut (= ${PROJECT_VERSION})" "python3 (>= 3.${minor})" "python3 (<< 3.${next})" python3-numpy
+    SUGGESTS mypy python3-matplotlib)
+endif()
 include(CPack)

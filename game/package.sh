@@ -1,11 +1,11 @@
 #!/bin/sh
-# Builds the Debian packages taut and libtaut-dev: out/packages/*.deb.
+# Builds the Debian packages taut, libtaut-dev and python3-taut: out/packages/*.deb.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/game/build.sh"
 . "$root/game/install.sh"
 taut_install package
-taut_build
+taut_build -DTAUT_PYTHON=ON
 
 mkdir -p "$root/out/packages"
 cd "$build"

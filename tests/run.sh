@@ -28,10 +28,11 @@ build() {
 mkdir -p "$root/out"
 jobs=$(nproc 2>/dev/null || echo 2)
 
-build gcc "$root" all -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release -DTAUT_BENCH=ON
+build gcc "$root" all -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release -DTAUT_BENCH=ON -DTAUT_PYTHON=ON
 build clang "$root/tests/consumer" "taut_determinism consumer_all" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
     -DCMAKE_BUILD_TYPE=Release -DTAUT_PROGRAM=ON -DTAUT_TESTS=ON -DTAUT_WERROR=ON
-build asan "$root" "taut taut_$(echo "$sanitized" | sed 's/|/ taut_/')" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan
+build asan "$root" "taut taut_$(echo "$sanitized" | sed 's/|/ taut_/')" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Asan \
+    -DTAUT_PYTHON=OFF
 if [ "$fuzzed" ]; then
     build fuzz "$root" taut_fuzz -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Asan \
         -DTAUT_FUZZ=ON -DTAUT_PROGRAM=OFF -DTAUT_TESTS=OFF

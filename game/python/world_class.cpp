@@ -291,7 +291,7 @@ void addDoing(Class& type) {
 void addWorld(py::module_& module) {
     auto surface = py::class_<Surface>(module, "Surface", "A surface as it is drawn.");
     surface.attr("__module__") = "taut";
-    surface.def_readonly("name", &Surface::name, "\"cloth.flag\"");
+    surface.def_readonly("name", &Surface::name, "\"cloth.flag\", of a collider \"ball\"");
     surface.def_readonly("positions", &Surface::positions, "(n, 3) of float32 [m]");
     surface.def_readonly("normals", &Surface::normals, "(n, 3) of float32, unit");
     surface.def_readonly("triangles", &Surface::triangles, "(m, 3) of uint32, counter-clockwise seen from the front");

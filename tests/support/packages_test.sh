@@ -1,6 +1,6 @@
 #!/bin/sh
 # sh packages_test.sh BUILD CHECKOUT: the Debian packages, unpacked into a folder of their own, hold a program that works
-# there and an engine that others build on, and ask for what both need.
+# there, an engine that others build on and a module for Python, and ask for what they need.
 set -eu
 build=$1
 root=$2
@@ -12,14 +12,14 @@ fail() { echo "$1"; exit 1; }
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 quietly cpack --config "$build/CPackConfig.cmake" -B "$folder/packages"
 version=$(dpkg-parsechangelog -l "$root/game/changelog" -S Version)
-for package in taut libtaut-dev; do
+for package in taut libtaut-dev python3-taut; do
     deb=$(ls packages/${package}_"${version}"_*.deb)
     dpkg-deb -x "$deb" installed
     dpkg-deb -c "$deb" | awk '$1 !~ /^d/ { print $6 }' >"$package.files"
     dpkg-deb -f "$deb" Depends | tr ',' '\n' | awk '{ print $1 }' >"$package.depends"
 done
-sort taut.files libtaut-dev.files | uniq -d >twice
-test ! -s twice || fail "in both packages: $(cat twice)"
+sort ./*.files | uniq -d >twice
+test ! -s twice || fail "in two packages: $(cat twice)"
 
 # The program, with its own assets and shaders, page and completion; the packages of what it loads.
 taut=$folder/installed/usr/bin/taut
@@ -68,6 +68,19 @@ for module in $(pkg-config --print-requires taut taut-render); do
     file=$(pkg-config --variable=pcfiledir "$module")/$module.pc
     package=$(dpkg -S "$(realpath "$file")" | sed 's/:.*//')
     grep -qx "$package" libtaut-dev.depends || fail "libtaut-dev does not depend on $package, which has $module.pc"
+done
+
+# The module for Python, with its stubs, and of the program its shaders and assets.
+PYTHONPATH=$folder/installed/usr/lib/python3/dist-packages /usr/bin/python3 -B -c '
+import taut
+world = taut.load("flag")
+world.step()
+assert world.render((160, 90), samples=1).std() > 5
+print(taut.__file__, taut.__version__)' >said
+grep -qx "$folder/installed/usr/lib/python3/dist-packages/taut/__init__.py $version" said || fail "$(cat said)"
+for file in __init__.pyi py.typed; do test -e "installed/usr/lib/python3/dist-packages/taut/$file" || fail "no $file"; done
+for package in taut python3 python3-numpy libosmesa6 libtbb12; do
+    grep -qx "$package" python3-taut.depends || fail "python3-taut does not depend on $package"
 done
 
 # What lintian has to say where it is installed; a licence is not there yet.

@@ -70,7 +70,11 @@ float reaching(vec3 place, vec3 facing, float pixel, bool casts, mat4 toMap, mat
     const float searchShare = 1.0 / float(mostSearches);
     for (int i = 0; i < searches; ++i) {
         vec2 off = way * (radius * sqrt((float(i) + 0.5) * searchShare));
-        float between = ref + dot(rising, off) - textureLod(depths, at.xy + off * toUv, 0.0).r;
+        float met = textureLod(depths, at.xy + off * toUv, 0.0).r;
+        float between = ref + dot(rising, off) - met;
+#ifdef WIDE
+        between = met < 1.0 ? between : 0.0;  // 1 is nothing; a narrow light makes little of it
+#endif
         found += between > 0.0 ? vec2(between, 1.0) : vec2(0.0);
         way = goldenTurn * way;
     }

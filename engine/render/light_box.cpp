@@ -55,7 +55,7 @@ Bounds Bounds::transformed(const glm::mat4& transform) const {
 }
 
 LightBox lightBox(const view::FrameView& view, glm::vec3 direction, std::span<const Bounds> casters, float aspect,
-                  int texels) {
+                  int texels, float margin) {
     TAUT_EXPECTS(glm::length(direction) > 0.0F);
     const glm::vec3 towards = -glm::normalize(direction);
     const glm::vec3 helper = std::abs(towards.y) < 0.99F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(0.0F, 0.0F, 1.0F);
@@ -76,6 +76,8 @@ LightBox lightBox(const view::FrameView& view, glm::vec3 direction, std::span<co
     for (int axis = 0; axis < 2; ++axis) {
         low[axis] = std::min(std::max(low[axis], seen.low[axis]), high[axis]);
         high[axis] = std::max(std::min(high[axis], seen.high[axis]), low[axis]);
+        low[axis] -= margin;
+        high[axis] += margin;
     }
 
     // Sizes in steps, the middle on a raster of whole texels within the 6 % to spare: the box stays where it is while

@@ -32,8 +32,8 @@ inline glm::vec3 towardsLight(const LightBox& box) {
 }
 
 // Fits the box of a light that travels in a direction to the casters as far as the camera needs them, in steps so that
-// the map does not crawl from frame to frame. `texels` is the edge of the map.
+// the map does not crawl from frame to frame, with a margin [m] to each side. `texels` is the edge of the map.
 LightBox lightBox(const view::FrameView& view, glm::vec3 direction, std::span<const Bounds> casters, float aspect,
-                  int texels);
+                  int texels, float margin = 0.0F);
 
 }  // namespace taut::render

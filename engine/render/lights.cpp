@@ -21,12 +21,17 @@ float longestWay(const view::FrameView& view, const LightBox& box, std::span<con
     return way;
 }
 
-// So many blocks that the widest penumbra is within them.
-int blocksFor(const LightBox& box, float softness, float way) {
-    if (softness <= widestNarrow) return Shadower{}.blocks;
-    const float radius = std::tan(0.5F * softness) * way;
-    const float blocks = radius * static_cast<float>(boundsEdge) / std::min(box.size.x, box.size.y);
-    return std::clamp(static_cast<int>(std::ceil(std::min(blocks, 1e3F) + 0.5F)), Shadower{}.blocks, mostBlocks);
+// [m] To each side of an edge.
+float widestPenumbra(const view::FrameView& view, const LightBox& box, std::span<const Bounds> casters,
+                     float softness) {
+    const float largest = std::max(box.size.x, box.size.y);
+    return std::min(std::tan(0.5F * softness) * longestWay(view, box, casters), largest);
+}
+
+// So many blocks that a penumbra is within them.
+int blocksFor(const LightBox& box, float penumbra) {
+    const float blocks = penumbra * static_cast<float>(boundsEdge) / std::min(box.size.x, box.size.y);
+    return std::clamp(static_cast<int>(std::ceil(blocks + 0.5F)), Shadower{}.blocks, mostBlocks);
 }
 
 }  // namespace
@@ -45,8 +50,12 @@ LightSet lightsOf(const view::FrameView& view, std::span<const Bounds> casters, 
     lights.kind.isAround = view.environment.has_value();
     const auto shadower = [&](glm::vec3 direction, float softness) {
         const LightBox box = lightBox(view, direction, casters, aspect, texels);
-        lights.kind.isWide |= softness > widestNarrow;
-        return Shadower{box, softness, blocksFor(box, softness, longestWay(view, box, casters))};
+        if (softness <= widestNarrow) return Shadower{box, softness};
+        // What is not above the map is lit: it reaches as far as penumbrae do.
+        lights.kind.isWide = true;
+        const float penumbra = widestPenumbra(view, box, casters, softness);
+        const LightBox wide = lightBox(view, direction, casters, aspect, texels, penumbra);
+        return Shadower{wide, softness, blocksFor(wide, penumbra)};
     };
     lights.sun = shadower(view.light.direction, view.light.softness);
     lights.lamps = view.lamps;

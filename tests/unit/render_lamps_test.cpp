@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "render_support.h"
@@ -113,9 +114,11 @@ float penumbraOf(float softness) {
         for (float z = -0.1F; z < 0.1F; z += 0.004F)
             light.back() += lightOf(pixelOf(picture, view.camera, {x, 0.0F, z})[1]);
     }
+    const auto meanOf = [](auto begin) { return std::accumulate(begin, begin + 50, 0.0F) / 50.0F; };
+    const float dark = meanOf(light.begin()), open = meanOf(light.end() - 50);
     float sum = 0.0F;
     for (const float here : light) {
-        const float f = (here - light.front()) / (light.back() - light.front());
+        const float f = (here - dark) / (open - dark);
         sum += step * f * (1.0F - f);
     }
     return 2.0F * sum * 45.0F * std::numbers::pi_v<float> * std::numbers::pi_v<float> / 128.0F;

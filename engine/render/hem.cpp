@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace taut::render {
@@ -41,71 +42,82 @@ glm::vec2 outwards(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
     return -unitOrZero(c - a - along * glm::dot(c - a, along));
 }
 
-// What of the thickness is shown where it is seen so many pixels wide.
-float shown(float pixels) {
-    return std::clamp(2.0F * (pixels - 1.0F), 0.0F, 1.0F);
-}
+// Of a triangle, which lies to its left.
+struct Side {
+    std::uint32_t from, to, third;
+};
 
-}  // namespace
-
-Hems::Plan Hems::planOf(const view::Surface& surface) {
-    const std::vector<std::uint32_t>& triangles = surface.topology->triangles;
-    const std::vector<glm::vec2>& uv = surface.topology->uv;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> opposite;  // of directed edges: the third corner
+// Those that no other triangle has the other way round.
+std::vector<Side> freeSides(const std::vector<std::uint32_t>& triangles) {
+    std::vector<Side> sides, free;
     for (std::size_t t = 0; t < triangles.size(); t += 3)
         for (std::size_t i = 0; i < 3; ++i)
-            opposite[{triangles[t + i], triangles[t + (i + 1) % 3]}] = triangles[t + (i + 2) % 3];
+            sides.push_back({triangles[t + i], triangles[t + (i + 1) % 3], triangles[t + (i + 2) % 3]});
+    const auto before = [](const Side& a, const Side& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); };
+    std::sort(sides.begin(), sides.end(), before);
+    for (const Side& side : sides)
+        if (!std::binary_search(sides.begin(), sides.end(), Side{side.to, side.from, 0}, before)) free.push_back(side);
+    return free;
+}
 
-    Plan plan;
-    plan.owner = surface.topology;
-    plan.hem = surface.hem;
-    constexpr std::uint32_t inside = ~0U;
-    std::vector<std::uint32_t> numberOf(uv.size(), inside);  // in the border
-    std::vector<glm::vec2> out;                              // (border) along the material
-    for (const auto& [edge, third] : opposite) {
-        if (opposite.contains({edge.second, edge.first})) continue;
-        const glm::vec2 away = outwards(uv[edge.first], uv[edge.second], uv[third]);
-        std::array<std::uint32_t, 2> ends{};
-        for (std::size_t end = 0; end < 2; ++end) {
-            const std::uint32_t vertex = end == 0 ? edge.first : edge.second;
-            if (numberOf[vertex] == inside) {
-                numberOf[vertex] = static_cast<std::uint32_t>(plan.border.size());
-                plan.border.push_back(vertex);
-                out.emplace_back(0.0F);
+constexpr std::uint32_t inside = ~0U;  // of a vertex: on no free side
+
+struct Border {
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> numberOf;              // (vertices of the surface) in the border, or `inside`
+    std::vector<glm::vec2> out;                       // (border) unit, along the material
+    std::vector<std::array<std::uint32_t, 2>> edges;  // numbers in the border
+};
+
+Border borderOf(const view::Topology& topology) {
+    Border border;
+    border.numberOf.assign(topology.uv.size(), inside);
+    for (const Side& side : freeSides(topology.triangles)) {
+        const glm::vec2 away = outwards(topology.uv[side.from], topology.uv[side.to], topology.uv[side.third]);
+        std::array<std::uint32_t, 2> ends{side.from, side.to};
+        for (std::uint32_t& end : ends) {
+            std::uint32_t& number = border.numberOf[end];
+            if (number == inside) {
+                number = static_cast<std::uint32_t>(border.vertices.size());
+                border.vertices.push_back(end);
+                border.out.emplace_back(0.0F);
             }
-            ends[end] = numberOf[vertex];
-            out[ends[end]] += away;
+            border.out[number] += away;
+            end = number;
         }
-        plan.edges.push_back(ends);
+        border.edges.push_back(ends);
     }
-    if (plan.border.empty()) return plan;
+    for (glm::vec2& out : border.out) out = unitOrZero(out);
+    return border;
+}
 
-    auto topology = std::make_shared<view::Topology>(*surface.topology);
-    const Rows rows{static_cast<std::uint32_t>(uv.size()), static_cast<std::uint32_t>(plan.border.size())};
+// Of the surface with its rim and, along the border, its back.
+view::Topology rimmed(const view::Topology& plain, const Border& border, float hem) {
+    view::Topology topology = plain;
+    const Rows rows{static_cast<std::uint32_t>(plain.uv.size()), static_cast<std::uint32_t>(border.vertices.size())};
     const auto addRow = [&](float arc) {
-        for (std::uint32_t i = 0; i < rows.count; ++i)
-            topology->uv.push_back(uv[plan.border[i]] + arc * 0.5F * surface.hem * unitOrZero(out[i]));
+        for (std::size_t i = 0; i < border.vertices.size(); ++i)
+            topology.uv.push_back(plain.uv[border.vertices[i]] + arc * 0.5F * hem * border.out[i]);
     };
     for (std::uint32_t row = 1; row <= halfRows; ++row) addRow(angleOf(row));
     for (std::uint32_t row = halfRows; row <= lastRow; ++row) addRow(angleOf(lastRow - row));
     const auto addTriangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        topology->triangles.insert(topology->triangles.end(), {a, b, c});
+        topology.triangles.insert(topology.triangles.end(), {a, b, c});
     };
-    // The back of what lies along the border.
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-        std::array<std::uint32_t, 3> corners{triangles[t], triangles[t + 1], triangles[t + 2]};
+    for (std::size_t t = 0; t < plain.triangles.size(); t += 3) {
+        std::array<std::uint32_t, 3> corners{plain.triangles[t], plain.triangles[t + 1], plain.triangles[t + 2]};
         bool isBeside = false;
         for (std::uint32_t& corner : corners) {
-            if (numberOf[corner] == inside) continue;
-            corner = rows.back(lastRow, numberOf[corner]);
+            if (border.numberOf[corner] == inside) continue;
+            corner = rows.back(lastRow, border.numberOf[corner]);
             isBeside = true;
         }
         if (isBeside) addTriangle(corners[0], corners[1], corners[2]);
     }
-    for (const auto& [a, b] : plan.edges) {
+    for (const auto& [a, b] : border.edges) {
         for (std::uint32_t row = 0; row < halfRows; ++row) {
-            const std::uint32_t first = row == 0 ? plan.border[a] : rows.front(row, a);
-            const std::uint32_t second = row == 0 ? plan.border[b] : rows.front(row, b);
+            const std::uint32_t first = row == 0 ? border.vertices[a] : rows.front(row, a);
+            const std::uint32_t second = row == 0 ? border.vertices[b] : rows.front(row, b);
             addTriangle(first, rows.front(row + 1, a), rows.front(row + 1, b));
             addTriangle(first, rows.front(row + 1, b), second);
         }
@@ -114,15 +126,53 @@ Hems::Plan Hems::planOf(const view::Surface& surface) {
             addTriangle(rows.back(row, a), rows.back(row, b), rows.back(row + 1, b));
         }
     }
-    plan.topology = topology;
-    return plan;
+    return topology;
 }
+
+// What of the thickness is shown where it is seen so many pixels wide.
+float shown(float pixels) {
+    return std::clamp(2.0F * (pixels - 1.0F), 0.0F, 1.0F);
+}
+
+}  // namespace
 
 const Hems::Plan& Hems::plan(const view::Surface& surface) {
     std::erase_if(plans_, [](const auto& entry) { return entry.second.owner.expired(); });
     const auto known = plans_.find(surface.topology.get());
     if (known != plans_.end() && known->second.hem == surface.hem) return known->second;
-    return plans_[surface.topology.get()] = planOf(surface);
+    Border border = borderOf(*surface.topology);
+    auto topology = std::make_shared<const view::Topology>(rimmed(*surface.topology, border, surface.hem));
+    return plans_[surface.topology.get()] = {surface.topology, surface.hem, std::move(border.edges),
+                                             std::move(border.vertices), std::move(topology)};
+}
+
+// `radius` [m] of the rim at each vertex of the border.
+std::shared_ptr<const view::Geometry> Hems::shapeOf(const view::Geometry& plain, const Plan& own,
+                                                    const std::vector<float>& radius) {
+    auto geometry = std::make_shared<view::Geometry>(plain);
+    const std::vector<glm::vec3>& positions = plain.positions;
+    const std::vector<glm::vec3>& normals = plain.normals;
+    std::vector<glm::vec3> out(own.border.size(), glm::vec3(0.0F));
+    for (const auto& [a, b] : own.edges) {
+        const glm::vec3 along = positions[own.border[b]] - positions[own.border[a]];
+        for (const std::uint32_t end : {a, b}) out[end] += unitOrZero(glm::cross(along, normals[own.border[end]]));
+    }
+    // Mitred: as far out at a corner as beside it.
+    for (glm::vec3& way : out)
+        way *= 2.0F / std::max(glm::dot(way, way), std::numbers::sqrt2_v<float> * glm::length(way) + 1e-6F);
+    const auto addRow = [&](std::uint32_t row, float side) {
+        const float c = std::cos(angleOf(row)), s = std::sin(angleOf(row));
+        for (std::size_t i = 0; i < own.border.size(); ++i) {
+            const glm::vec3 n = c * normals[own.border[i]];
+            geometry->positions.push_back(positions[own.border[i]] + radius[i] * (n + s * out[i]));
+            geometry->normals.push_back(side * unitOrZero(n + s * unitOrZero(out[i])));
+        }
+    };
+    for (std::uint32_t row = 1; row <= halfRows; ++row) addRow(row, 1.0F);
+    for (std::uint32_t row = halfRows; row <= lastRow; ++row) addRow(row, -1.0F);
+    for (std::size_t i = 0; i < own.border.size(); ++i)
+        geometry->positions[own.border[i]] += radius[i] * normals[own.border[i]];
+    return geometry;
 }
 
 std::vector<view::Surface> Hems::addTo(std::vector<DrawItem>& items, const PixelScale& scale, MeshCache& meshes) {
@@ -155,32 +205,9 @@ std::optional<view::Surface> Hems::hemmed(const view::Surface& surface, const Bo
     }
     if (!isShown) return std::nullopt;
 
-    auto geometry = std::make_shared<view::Geometry>(*surface.geometry);
-    const std::vector<glm::vec3>& positions = surface.geometry->positions;
-    const std::vector<glm::vec3>& normals = surface.geometry->normals;
-    std::vector<glm::vec3> out(own.border.size(), glm::vec3(0.0F));
-    for (const auto& [a, b] : own.edges) {
-        const glm::vec3 along = positions[own.border[b]] - positions[own.border[a]];
-        for (const std::uint32_t end : {a, b}) out[end] += unitOrZero(glm::cross(along, normals[own.border[end]]));
-    }
-    // Mitred: as far out at a corner as beside it.
-    for (glm::vec3& way : out)
-        way *= 2.0F / std::max(glm::dot(way, way), std::numbers::sqrt2_v<float> * glm::length(way) + 1e-6F);
-    const auto addRow = [&](std::uint32_t row, float side) {
-        const float c = std::cos(angleOf(row)), s = std::sin(angleOf(row));
-        for (std::size_t i = 0; i < own.border.size(); ++i) {
-            const glm::vec3 n = c * normals[own.border[i]];
-            geometry->positions.push_back(positions[own.border[i]] + radius[i] * (n + s * out[i]));
-            geometry->normals.push_back(side * unitOrZero(n + s * unitOrZero(out[i])));
-        }
-    };
-    for (std::uint32_t row = 1; row <= halfRows; ++row) addRow(row, 1.0F);
-    for (std::uint32_t row = halfRows; row <= lastRow; ++row) addRow(row, -1.0F);
-    for (std::size_t i = 0; i < own.border.size(); ++i)
-        geometry->positions[own.border[i]] += radius[i] * normals[own.border[i]];
     view::Surface result = surface;
     result.topology = own.topology;
-    result.geometry = std::move(geometry);
+    result.geometry = shapeOf(*surface.geometry, own, radius);
     return result;
 }
 

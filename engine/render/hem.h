@@ -35,7 +35,8 @@ class Hems {
         std::shared_ptr<const view::Topology> topology;   // of the surface with its rim
     };
 
-    static Plan planOf(const view::Surface& surface);
+    static std::shared_ptr<const view::Geometry> shapeOf(const view::Geometry& plain, const Plan& own,
+                                                         const std::vector<float>& radius);
     const Plan& plan(const view::Surface& surface);
 
     std::map<const view::Topology*, Plan> plans_;

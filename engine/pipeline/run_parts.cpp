@@ -45,6 +45,7 @@ PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& pat
     PartRecord record;
     record.path = path;
     record.ended = json.at("ended").get<std::string>();
+    record.scene = json.at("scene").get<std::string>();
     record.program = json.at("program").get<std::string>();
     record.bits = json.value("bits", 1);
     if (!json.at("gl").is_null()) {
@@ -136,7 +137,9 @@ std::string differenceOf(const PartRecord& a, const PartRecord& b, bool compares
     if (a.size != b.size) return fmt::format("{} and {} pixels", a.size, b.size);
     if (a.fps != b.fps) return fmt::format("{} and {} pictures a second", a.fps, b.fps);
     if (a.count != b.count) return fmt::format("runs of {} and {} frames", a.count, b.count);
-    if (a.key.empty() || a.key != b.key) return "other settings of scene, timeline or look";
+    if (a.key.empty() || a.key != b.key)
+        return a.scene == b.scene ? "other settings of scene, timeline or look"
+                                  : fmt::format("scenes {} and {}", a.scene, b.scene);
     if (comparesRenderers && a.renderer != b.renderer)
         return fmt::format("drawn by {} and by {}", a.renderer, b.renderer);
     const auto [x, y] = std::mismatch(

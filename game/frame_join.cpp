@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <limits>
 #include <mutex>
+#include <sstream>
 #include <thread>
 
 #include "game/live_line.h"
 #include "taut/core/error.h"
+#include "taut/core/whole_file.h"
 #include "taut/image/read.h"
 #include "taut/pipeline/ordered_handover.h"
 
@@ -149,6 +153,31 @@ FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<F
         throw core::Error(core::ErrorKind::usage, fmt::format("--frames: the run has frames 0-{}", count - 1));
     expectAll(join);
     return join;
+}
+
+std::string joinedMetrics(const FrameJoin& join) {
+    constexpr std::uint64_t mostBytes = std::uint64_t{1} << 32U;
+    std::string all, heading;
+    std::int64_t next = 0;
+    for (const PartRecord& record : join.records) {
+        // run_0-119.json: metrics_0-119.csv
+        const std::string name = "metrics" + record.path.stem().string().substr(3) + ".csv";
+        const std::filesystem::path path = record.path.parent_path() / name;
+        if (record.last < next) continue;
+        if (!core::isThere(path)) return "";
+        std::istringstream lines(core::fileContent(path, mostBytes));
+        std::string line;
+        std::getline(lines, line);
+        if (heading.empty()) all = heading = line;
+        if (line != heading) return "";
+        const std::int64_t last = std::min(record.lastDrawn(), join.frames.last);
+        while (std::getline(lines, line)) {
+            const std::int64_t frame = std::strtoll(line.c_str(), nullptr, 10);
+            if (frame >= next && frame <= last) all += "\n" + line;
+        }
+        next = last + 1;
+    }
+    return all + "\n";
 }
 
 bool encodeFrames(const FrameJoin& join, image::FrameSink& sink, bool quiet, const std::atomic<bool>& stop) {

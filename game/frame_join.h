@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "game/flags.h"
@@ -26,6 +27,10 @@ struct FrameJoin {
 // that is.
 FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
                        bool takesAnyRenderer);
+
+// metrics.csv of all parts: of each the lines of its own frames, and before the first what that one has. Empty where
+// not all have written the same columns.
+std::string joinedMetrics(const FrameJoin& join);
 
 // Into the sink, which is not finished where `stop` became true: false then. Throws core::Error: badContent for a
 // picture that is damaged or of another size, what the sink throws.

@@ -33,17 +33,12 @@ using Clock = std::chrono::steady_clock;
     throw core::Error(core::ErrorKind::usage, message);
 }
 
-// The record of the whole run, and its metrics where a part knows all of them.
+// The record of the whole run, and its metrics where all parts have theirs.
 void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
     writeWith(sink.companion("run.json"),
               [&](const pipeline::Write& write) { pipeline::writeJoinedJson(write, join.records, join.frames); });
-    for (const pipeline::PartRecord& record : join.records) {
-        // run_0-119.json: metrics_0-119.csv
-        const std::string name = "metrics" + record.path.stem().string().substr(3) + ".csv";
-        const std::filesystem::path metrics = record.path.parent_path() / name;
-        if (record.last != join.frames.last || !core::isThere(metrics)) continue;
-        core::writeWholeFile(sink.companion("metrics.csv"), core::fileContent(metrics, std::uint64_t{1} << 32U));
-    }
+    const std::string metrics = joinedMetrics(join);
+    if (!metrics.empty()) core::writeWholeFile(sink.companion("metrics.csv"), metrics);
 }
 
 int joinFrames(const JoinFlags& flags) {

@@ -2,10 +2,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -200,6 +202,18 @@ void addOverlay(const world::World& world, const pipeline::RecordLog& before, pi
     };
 }
 
+// Shows progress meanwhile; `prepare` may add to what listens.
+pipeline::RunResult playRun(const RenderFlags& flags, const pipeline::RunOptions& options, const Drawing& drawing,
+                            image::FrameSink* sink, pipeline::RecordLog records, world::World& world, double fps,
+                            const std::function<void(pipeline::RunListener&)>& prepare, const std::atomic<bool>& stop) {
+    Progress progress(progressFacts(world, options, fps, records), flags.quiet);
+    pipeline::RunListener listener =
+        listenerFor(flags, options, progress, drawing.overlay.get(), world.ticksPerFrame());
+    prepare(listener);
+    return pipeline::play(world, options, drawing.draw, drawing.draw ? sink : nullptr, listener, stop,
+                          std::move(records));
+}
+
 // What is said before anything is done.
 void noteWhatIsAhead(const RenderFlags& flags, const RunPart& part, const world::SceneSpec& spec) {
     if (flags.quiet) return;
@@ -251,34 +265,28 @@ int render(const RenderFlags& flags) {
             pipeline::writeRunJson(write, spec, world, request, pipeline::machine(), drawing.info, result);
         };
     };
-    PicturesThere pictures{flags.noPictures ? "" : flags.output, filesBeside(flags.layers)};
-    if (place) {
-        const PartState state = claimPart(part, *place, pipeline::rendererText(drawing.info));
-        if (state == PartState::complete) {
-            printNote("{}: frames {}-{} are there already, in {}\n", part.title, part.frames.first, part.frames.last,
-                      flags.output);
-            return static_cast<int>(ExitCode::ok);
-        }
-        pictures.areOurs = state == PartState::begun;
-        if (part.isShared && !jobs) writeWith(recordPath(flags, part, "run", ".json"), writeJson({}));
+    const PartState state = place ? claimPart(part, *place, pipeline::rendererText(drawing.info)) : PartState::fresh;
+    if (state == PartState::complete) {
+        printNote("{}: frames {}-{} are there already, in {}\n", part.title, part.frames.first, part.frames.last,
+                  flags.output);
+        return static_cast<int>(ExitCode::ok);
     }
+    if (part.isShared && !jobs) writeWith(recordPath(flags, part, "run", ".json"), writeJson({}));
+    const PicturesThere pictures{flags.noPictures ? "" : flags.output, filesBeside(flags.layers),
+                                 state == PartState::begun};
     ContinuationFlags continuation = flags.continuation;
     continuation.mayOverwrite = flags.yes;
     continuation.every = options.checkpointEvery;
     continuation.startsLate = !part.title.empty();
     pipeline::RecordLog records = goOn(continuation, states, keys, pictures, options, world);
     const std::size_t before = records.size();
+    const auto keepingStates = [&](pipeline::RunListener& listener) {
+        if (options.checkpointEvery > 0) keepCheckpoints(states, keys, world, listener);
+    };
     if (flags.overlay && drawing.draw) addOverlay(world, records, options, drawing);
 
-    pipeline::RunResult result;
-    {
-        Progress progress(progressFacts(world, options, spec.run.fps, records), flags.quiet);
-        pipeline::RunListener listener =
-            listenerFor(flags, options, progress, drawing.overlay.get(), world.ticksPerFrame());
-        if (options.checkpointEvery > 0) keepCheckpoints(states, keys, world, listener);
-        result = pipeline::play(world, options, drawing.draw, drawing.draw ? sink.get() : nullptr, listener,
-                                interruption.flag(), std::move(records));
-    }
+    pipeline::RunResult result = playRun(flags, options, drawing, sink.get(), std::move(records), world, spec.run.fps,
+                                         keepingStates, interruption.flag());
     if (jobs && !result.divergence && !result.interrupted) {
         const auto start = std::chrono::steady_clock::now();
         drawing.info = drawByJobs(flags, part, key, result.frames, *jobs, sink.get(), interruption.flag());

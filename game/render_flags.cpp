@@ -87,7 +87,8 @@ void addOutputFlags(Options& options, RenderFlags& flags) {
     options.value("--video", flags.video, "A video besides the frames of -o").typeName("FILE");
     const Option yes = options.flag("-y,--yes", flags.yes, "Overwrite what exists");
     options.flag("-n,--no", flags.no, "Never overwrite").excludes(yes);
-    options.flag("--metrics", flags.metrics, "Write metrics.csv: energy, momentum, strain, contacts of each frame");
+    options.flag("--metrics", flags.metrics,
+                 "Write metrics.csv, or metrics_A-B.csv of a part: energy, momentum, strain, contacts of each frame");
     options.value("--metrics-of", flags.metricsOf, "Besides: what these expressions of checks give, to 17 digits")
         .typeName("EXPR,…");
     options.flag("--hash", flags.hash, "Print the state hash of each frame");
@@ -98,7 +99,10 @@ void addOutputFlags(Options& options, RenderFlags& flags) {
 }
 
 void addPictureFlags(Options& options, RenderFlags& flags) {
-    options.value("--frames", flags.frames, "Draw these frames only: 0-119, 60, or 60-").typeName("A-B");
+    options
+        .value("--frames", flags.frames,
+               "Draw these frames only: 0-119, 60, or 60-; from the last state before in --checkpoints")
+        .typeName("A-B");
     options
         .value("--shard", flags.shard,
                "Draw this of N pieces of the frames, 0/N to N-1/N, into a folder that they share; then taut join")

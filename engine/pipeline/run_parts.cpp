@@ -19,6 +19,15 @@ constexpr std::uint64_t mostBytes = std::uint64_t{1} << 30U;  // of a record
     throw core::Error(core::ErrorKind::badContent, fmt::format("{}: no record of a run: {}", path.string(), why));
 }
 
+constexpr std::int64_t mostFrames = std::int64_t{1} << 40U;
+
+std::int64_t frameIn(const nlohmann::json& json, const std::filesystem::path& path) {
+    if (!json.is_number_integer()) refuse(path, "a number of a frame is none");
+    const auto frame = json.get<std::int64_t>();
+    if (frame < 0 || frame > mostFrames) refuse(path, "a number of a frame is none");
+    return frame;
+}
+
 std::uint64_t hashIn(const std::string& text, const std::filesystem::path& path) {
     std::uint64_t hash = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
@@ -36,6 +45,7 @@ PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& pat
     PartRecord record;
     record.path = path;
     record.ended = json.at("ended").get<std::string>();
+    record.scene = json.at("scene").get<std::string>();
     record.program = json.at("program").get<std::string>();
     record.bits = json.value("bits", 1);
     if (!json.at("gl").is_null()) {
@@ -51,13 +61,13 @@ PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& pat
     const std::filesystem::path output = json.at("output").get<std::string>();
     record.files = output.extension() == ".png" ? output.filename().string() : image::FramePattern("folder").name();
     const nlohmann::json& frames = json.at("frames");
-    record.first = frames.at("first").get<std::int64_t>();
-    record.last = frames.at("last").get<std::int64_t>();
-    record.count = frames.value("of", record.last + 1);
+    record.first = frameIn(frames.at("first"), path);
+    record.last = frameIn(frames.at("last"), path);
+    record.count = frames.contains("of") ? frameIn(frames.at("of"), path) : record.last + 1;
     record.key = json.value("run", "");
     for (const nlohmann::json& hash : json.at("state_hash"))
         record.hashes.push_back(hashIn(hash.get<std::string>(), path));
-    if (record.first < 0 || record.last < record.first || record.count <= record.last || !(record.fps > 0.0))
+    if (record.last < record.first || record.count <= record.last || !(record.fps > 0.0))
         refuse(path, "its frames are none");
     return record;
 }
@@ -127,7 +137,9 @@ std::string differenceOf(const PartRecord& a, const PartRecord& b, bool compares
     if (a.size != b.size) return fmt::format("{} and {} pixels", a.size, b.size);
     if (a.fps != b.fps) return fmt::format("{} and {} pictures a second", a.fps, b.fps);
     if (a.count != b.count) return fmt::format("runs of {} and {} frames", a.count, b.count);
-    if (a.key.empty() || a.key != b.key) return "other settings of scene, timeline or look";
+    if (a.key.empty() || a.key != b.key)
+        return a.scene == b.scene ? "other settings of scene, timeline or look"
+                                  : fmt::format("scenes {} and {}", a.scene, b.scene);
     if (comparesRenderers && a.renderer != b.renderer)
         return fmt::format("drawn by {} and by {}", a.renderer, b.renderer);
     const auto [x, y] = std::mismatch(

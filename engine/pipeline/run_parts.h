@@ -21,7 +21,8 @@ struct PartRecord {
     std::string files;           // image::FramePattern::name() of what it drew
     std::string key;             // of the whole run; empty in records that have none
     std::string ended;           // "complete", "interrupted", "diverged"; "begun" while it is at work
-    std::string program, size;   // "640 x 360"
+    std::string scene, program;  // file, and version
+    std::string size;            // "640 x 360"
     std::string renderer;        // rendererText(gl)
     render::RendererInfo gl;
     double fps = 60.0;
@@ -50,7 +51,7 @@ PartRecord readPartRecord(const std::filesystem::path& path);
 // names, are left out. Of one that cannot be read, path and fault are set.
 std::vector<PartRecord> partRecords(const image::FramePattern& pattern);
 
-// In what two records show that they are not of one run: "other settings of scene, timeline or look", "64 x 48 and 32 x
+// In what two records show that they are not of one run: "scenes flag.toml and drape.toml", "64 x 48 and 32 x
 // 24 pixels", "other states from frame 12 on"; empty where they may be. Renderers are compared if asked for.
 std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesRenderers = true);
 

@@ -65,9 +65,11 @@ springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 100.0 } ]
 };
 
 TEST_F(Shards, JoinedAreTheBytesOfOneRun) {
-    draw({"-o", path("one"), "--video", path("one.mp4"), "--metrics", "--overlay"});
+    // Figures that the states know nothing of.
+    draw({"-o", path("one"), "--video", path("one.mp4"), "--metrics-of", "speed(net.spring@bob)", "--overlay"});
     draw({"--no-pictures", "--checkpoint-every", "2", "--checkpoints", path("states")});
-    const std::vector<std::string> flags = {"--checkpoints", path("states"), "--resume", "--metrics", "--overlay"};
+    const std::vector<std::string> flags = {"--checkpoints", path("states"),          "--resume",
+                                            "--metrics-of",  "speed(net.spring@bob)", "--overlay"};
     drawShards(3, flags);
     for (int i = 0; i < 10; ++i) EXPECT_EQ(frame("shards", i), frame("one", i)) << i;
     const Outcome joined = run({"join", path("shards"), "-o", path("joined.mp4"), "--quiet"});

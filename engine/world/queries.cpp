@@ -101,6 +101,15 @@ std::vector<glm::dvec3> World::positions(const Selection& selection) const {
     return positions;
 }
 
+std::vector<glm::dvec3> World::positions(ecs::Entity entity) const {
+    const BodyPart* part = impl_->registry.find<BodyPart>(entity);
+    TAUT_EXPECTS(part != nullptr);
+    const Island& island = impl_->islandOf(*part->body);
+    std::vector<glm::dvec3> positions;
+    for (int i : part->body->pointOf) positions.push_back(island.position(i));
+    return positions;
+}
+
 ContactInfo World::contact() const {
     impl_->findTouching();
     return impl_->touching->info();
@@ -120,6 +129,13 @@ std::vector<std::string> World::warnings() const {
     for (const std::string& name : callbacks())
         all.push_back(name + " is a callback: from here on nobody promises that bits are the same on every machine");
     return all;
+}
+
+std::vector<std::string> World::callbacks() const {
+    std::vector<std::string> names = impl_->callbackSystems;
+    for (const auto& force : impl_->added)
+        if (force->isCallback()) names.push_back(force->name());
+    return names;
 }
 
 std::vector<BodyHash> World::bodyHashes() const {

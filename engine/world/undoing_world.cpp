@@ -95,7 +95,10 @@ void UndoingWorld::apply(const ActionSpec& action) {
     isUntouched_ = false;
     const auto perform = [&] {
         action.foresee([&](const ActionSpec& part) {
-            if (const auto* ramp = dynamic_cast<const RampAction*>(&part)) added_.ramps.push_back(*ramp);
+            const auto* ramp = dynamic_cast<const RampAction*>(&part);
+            if (ramp == nullptr) return;
+            std::erase_if(added_.ramps, [&](const RampAction& other) { return other.key == ramp->key; });
+            added_.ramps.push_back(*ramp);
         });
         world_.apply(action);
     };

@@ -46,7 +46,7 @@ class UndoingWorld {
     // The state of any tick, of a world with the same scene, forces and systems; what does not fit throws and changes
     // nothing. Expects that it is not ticking.
     void restore(std::span<const std::byte> bytes, std::vector<RampAction> applied = {});
-    // Ramps that apply() began, which restore() has to be told.
+    // Ramps that apply() began, of each key the last, which restore() has to be told.
     const std::vector<RampAction>& applied() const { return added_.ramps; }
 
   private:

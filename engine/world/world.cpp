@@ -361,13 +361,6 @@ void World::addSystem(System system, const std::string& callback) {
     if (!callback.empty()) impl_->callbackSystems.push_back(callback);
 }
 
-std::vector<std::string> World::callbacks() const {
-    std::vector<std::string> names = impl_->callbackSystems;
-    for (const auto& force : impl_->added)
-        if (force->isCallback()) names.push_back(force->name());
-    return names;
-}
-
 ecs::Entity World::spawn(const ColliderSpec& spec) {
     const ecs::Entity entity = impl_->addCollider(spec);
     impl_->rebuildColliders();
@@ -394,15 +387,6 @@ void World::destroy(ecs::Entity entity) {
     if (wasCollider) w.letGo(w.registry.find<Identity>(entity)->fullName());
     w.registry.destroy(entity);
     if (wasCollider) w.rebuildColliders();
-}
-
-std::vector<glm::dvec3> World::positions(ecs::Entity entity) const {
-    const BodyPart* part = impl_->registry.find<BodyPart>(entity);
-    TAUT_EXPECTS(part != nullptr);
-    const Island& island = impl_->islandOf(*part->body);
-    std::vector<glm::dvec3> positions;
-    for (int i : part->body->pointOf) positions.push_back(island.position(i));
-    return positions;
 }
 
 }  // namespace taut::world

@@ -179,7 +179,8 @@ class World {
     // One tick: forces, integration, collision, substeps times for every island, side by side. On divergence the
     // state of the tick before is kept and the diagnosis returned; nothing else may be called then but the views.
     // Where the scene asks for freezing, an island that diverges keeps its last good state from then on, the others go
-    // on, and nothing is returned.
+    // on, and nothing is returned. Throws what an action, a system or a force throws; nothing may be called then, for
+    // the tick is half done: undoing_world.h goes back.
     std::optional<Divergence> advance();
 
     // Does it now, between two ticks; advance() does so with the actions of the scene when their tick begins. Bodies

@@ -16,6 +16,7 @@ namespace taut::python {
 namespace {
 
 scene::Loaded read(const SceneSource& source) {
+    const py::gil_scoped_release free;
     scene::LoadOptions options;
     options.overrides = source.overrides;
     options.isConfined = source.isConfined;

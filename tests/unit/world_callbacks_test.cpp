@@ -174,6 +174,17 @@ TEST(UndoingWorld, RefusesAnActionWithoutATraceAndRestoresARampThatNoSceneForesa
     EXPECT_EQ(again.world().stateHash(), world.world().stateHash());
 }
 
+// Of two actions that are due the first is done and the second finds no hand.
+TEST(UndoingWorld, GoesBackFromATickWhoseActionCannotBeDone) {
+    SceneSpec scene = freeMasses(1, Precision::double_);
+    scene.actions = {support::push(0.1, "net.ball0@m", {1, 0, 0}), support::release(0.1)};
+    UndoingWorld world(scene);
+    for (int i = 0; i < 6; ++i) ASSERT_FALSE(world.advance());
+    EXPECT_THROW((void)world.advance(), core::Error);
+    EXPECT_EQ(world.world().tick(), 6);
+    EXPECT_EQ(world.world().metrics().momentum.x, 0.0);
+}
+
 // 0.1 m in a tick, through a mass that is 0.05 m before the ball's face: at its end it stands on the face.
 TEST(UndoingWorld, LeadsAColliderThatPushesWhatIsInItsWay) {
     SceneSpec scene = freeMasses(1, Precision::double_);

@@ -29,7 +29,7 @@ struct JoinFlags {
 
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void failUsage(const std::string& message) {
+[[noreturn]] void failJoin(const std::string& message) {
     throw core::Error(core::ErrorKind::usage, message);
 }
 
@@ -44,7 +44,7 @@ void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
 int joinFrames(const JoinFlags& flags) {
     const auto start = Clock::now();
     if (!flags.output.empty() && !image::isVideoPath(flags.output))
-        failUsage(fmt::format("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output));
+        failJoin(fmt::format("-o {}: frames are joined to a video: .mp4 .mov .mkv .webm .gif", flags.output));
     const std::optional<FrameRange> wanted =
         flags.frames.empty() ? std::nullopt : std::optional(frameRange(flags.frames));
     const FrameJoin join = provedFrames(image::FramePattern(flags.place), wanted, flags.anyRenderer);
@@ -55,7 +55,7 @@ int joinFrames(const JoinFlags& flags) {
         return static_cast<int>(ExitCode::ok);
     }
     if (join.hasAlpha() && !image::mayHaveAlpha(flags.output))
-        failUsage(fmt::format("{}: these frames are transparent, which .webm and .mov can be", flags.output));
+        failJoin(fmt::format("{}: these frames are transparent, which .webm and .mov can be", flags.output));
     permitOverwriting(flags.output, join.frames.first, join.frames.last,
                       flags.yes  ? Overwrite::yes
                       : flags.no ? Overwrite::no
@@ -73,11 +73,11 @@ int joinFrames(const JoinFlags& flags) {
 // The report of all shards, with the exit code that taut test has for it.
 int joinTests(const JoinFlags& flags) {
     if (!flags.frames.empty() || flags.anyRenderer)
-        failUsage("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
+        failJoin("--frames and --any-renderer are of frames; there are shards of taut test in this folder");
     const std::filesystem::path folder = flags.output.empty() ? flags.place : flags.output;
     if (image::isVideoPath(folder))
-        failUsage(fmt::format("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are",
-                              flags.output));
+        failJoin(fmt::format("-o {}: shards of taut test become a report: -o FOLDER, or without -o where they are",
+                             flags.output));
     TestShard all = joinedShards(flags.place);
     core::prepareFolderOf(pageIn(folder));
     if (!flags.junit.empty()) core::prepareFolderOf(flags.junit);
@@ -90,9 +90,9 @@ int joinTests(const JoinFlags& flags) {
 int join(const JoinFlags& flags) {
     const bool hasTests = hasTestShards(flags.place);
     if (hasTests && !pipeline::partRecords(image::FramePattern(flags.place)).empty())
-        failUsage(fmt::format("{}: there are shards of taut test and of taut render: which? Move either elsewhere",
-                              flags.place));
-    if (!hasTests && !flags.junit.empty()) failUsage("--junit goes with shards of taut test");
+        failJoin(fmt::format("{}: there are shards of taut test and of taut render: which? Move either elsewhere",
+                             flags.place));
+    if (!hasTests && !flags.junit.empty()) failJoin("--junit goes with shards of taut test");
     return hasTests ? joinTests(flags) : joinFrames(flags);
 }
 

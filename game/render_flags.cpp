@@ -29,28 +29,28 @@ std::vector<std::string> allOverrides(const RenderFlags& flags) {
 
 namespace {
 
-[[noreturn]] void failUsage(const std::string& message) {
+[[noreturn]] void failRender(const std::string& message) {
     throw core::Error(core::ErrorKind::usage, message);
 }
 
 void checkShard(const RenderFlags& flags) {
     (void)shard(flags.shard);
-    if (flags.noPictures) failUsage("--shard shares out what is drawn: leave --no-pictures out");
+    if (flags.noPictures) failRender("--shard shares out what is drawn: leave --no-pictures out");
     if (!flags.video.empty() || image::isVideoPath(flags.output))
-        failUsage(fmt::format("a shard draws frames, -o FOLDER; of all shards taut join FOLDER -o {} makes the video",
-                              flags.video.empty() ? flags.output : flags.video));
-    if (flags.continuation.from) failUsage("--from and --shard exclude each other");
+        failRender(fmt::format("a shard draws frames, -o FOLDER; of all shards taut join FOLDER -o {} makes the video",
+                               flags.video.empty() ? flags.output : flags.video));
+    if (flags.continuation.from) failRender("--from and --shard exclude each other");
     if (flags.continuation.every > 0)
-        failUsage(
+        failRender(
             "states are those of the whole run: keep them by a run before, taut render SCENE --no-pictures "
             "--checkpoint-every 60 --checkpoints FOLDER, and give --checkpoints FOLDER to the shards");
 }
 
 void checkJobs(const RenderFlags& flags) {
-    if (!flags.shard.empty()) failUsage("--jobs starts the shards itself: leave --shard out");
-    if (flags.noPictures) failUsage("--jobs shares out what is drawn: leave --no-pictures out");
+    if (!flags.shard.empty()) failRender("--jobs starts the shards itself: leave --shard out");
+    if (flags.noPictures) failRender("--jobs shares out what is drawn: leave --no-pictures out");
     if (flags.continuation.isWanted() || !flags.continuation.folder.empty())
-        failUsage("--jobs keeps states of its own: leave --checkpoint-every, --checkpoints, --resume and --from out");
+        failRender("--jobs keeps states of its own: leave --checkpoint-every, --checkpoints, --resume and --from out");
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class Runs(Case):
             file.write_text(CLOTH)
             arguments = ["-o", f"{folder}/p_######.png", "--frames", "600-600", "--size", "32x32", "--quiet"]
             subprocess.run([PROGRAM, "render", file, *arguments], check=True)
-            hashes = json.loads((pathlib.Path(folder) / "run.json").read_text())["state_hash"]
+            hashes = json.loads((pathlib.Path(folder) / "run_600-600.json").read_text())["state_hash"]
             world = taut.load(file, threads=2)
             world.step(600)
         self.assertEqual(world.tick, 600)

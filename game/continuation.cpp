@@ -76,6 +76,7 @@ RunKeys runKeys(const scene::Loaded& scene, const std::vector<std::uint64_t>& lo
     core::Hash picture;
     picture.add(scene.keys.picture());
     for (const std::uint64_t each : look) picture.add(each);
+    for (const scene::UsedFile& file : scene::pictureFiles(scene.spec)) picture.add(file.content);
     const auto state = [keys = scene.keys, stepsKey = steps.value(),
                         ticks = world.ticksPerFrame()](std::int64_t frame) {
         core::Hash hash;

@@ -67,12 +67,16 @@ void printTool(const std::string& name, const std::string& version, const std::s
 }
 
 // Whether the folder is there.
-bool printFolder(const std::string& name, const std::filesystem::path& folder, const std::string& loss,
-                 const char* variable) {
+bool printFolder(const std::string& name, std::filesystem::path (*find)(), const std::string& loss,
+                 const char* variable) try {
+    const std::filesystem::path folder = find();
     printFact(name, folder.empty()
                         ? fmt::format("MISSING: {}; it is in the package taut, and {} may name another", loss, variable)
                         : folder.string());
     return !folder.empty();
+} catch (const core::Error& error) {
+    printFact(name, fmt::format("MISSING: {}: {}", loss, error.what()));
+    return false;
 }
 
 void printFont(Packages& packages) {
@@ -90,8 +94,7 @@ void printViewer(Packages& packages) {
     try {
         printTool("three.js", viewerLibrary().string(), "no pages by taut export --web", "libjs-three", packages);
     } catch (const core::Error& error) {
-        printFact("three.js", fmt::format("MISSING: no pages by taut export --web: {}", error.what()));
-        packages.add("libjs-three");
+        printFact("three.js", fmt::format("MISSING: no pages by taut export --web; TAUT_THREE: {}", error.what()));
     }
 }
 
@@ -113,8 +116,8 @@ image::Image printRenderer(const std::string& name, render::Backend backend, std
     render::RendererOptions options;
     options.backend = backend;
     options.device = device;
-    options.shaders = shaderFolder();
     try {
+        options.shaders = shaderFolder();
         render::Renderer renderer(options);
         pipeline::testRenderer(renderer);
         pipeline::TestDrawing drawing = pipeline::drawTest(renderer, pictures);
@@ -184,11 +187,12 @@ int doctor(const std::string& folder) {
     printTool("gnuplot", report::gnuplotVersion(), "no charts and maps; their CSV and JSON need none", "gnuplot-nox",
               packages);
     printViewer(packages);
-    bool files = printFolder("shaders", shaderFolder(), "no pictures", "TAUT_SHADERS");
-    files = printFolder("assets", assetFolder(), "no scene by its name", "TAUT_ASSETS") && files;
+    bool files = printFolder("shaders", shaderFolder, "no pictures", "TAUT_SHADERS");
+    const bool hasAssets = printFolder("assets", assetFolder, "no scene by its name", "TAUT_ASSETS");
+    files = files && hasAssets;
     printFont(packages);
     printWindow();
-    printFact("scenes", fmt::format("{}", fmt::join(shippedScenes(), " ")));
+    if (hasAssets) printFact("scenes", fmt::format("{}", fmt::join(shippedScenes(), " ")));
     const bool draws = printRenderers(packages);
     files = printWriteTest(folder) && files;
     const ExitCode code = !files ? ExitCode::inputOutput : !draws ? ExitCode::noRenderer : ExitCode::ok;

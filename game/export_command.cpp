@@ -210,6 +210,8 @@ int exportScene(const ExportFlags& flags) {
     geometry::WebPage page;
     if (!flags.web.empty()) {
         const std::string name = std::filesystem::path(flags.scene).stem().string();
+        if (!flags.quiet && (!spec.lamps.empty() || !spec.environment.image.empty()))
+            printNote("note: lamps and the picture around are not in the page: it is lit by sun and sky alone\n");
         page = spec.title.empty() ? webPage(name, "", flags.viewer) : webPage(spec.title, name, flags.viewer);
     }
     const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;

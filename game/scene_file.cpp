@@ -9,6 +9,7 @@
 #include "game/suggestion.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
+#include "taut/image/light_image.h"
 #include "taut/scene/load.h"
 
 namespace taut::game {
@@ -39,6 +40,22 @@ std::filesystem::path sceneFile(const std::string& argument) {
                                       : fmt::format("; the shipped ones are {}", fmt::join(scenes, ", "))));
 }
 
+namespace {
+
+std::string pictureFault(const std::filesystem::path& picture, bool isAround) {
+    try {
+        if (isAround)
+            image::expectAllAround(picture, image::lightImageSize(picture));
+        else
+            image::imageSize(picture);
+        return "";
+    } catch (const core::Error& error) {
+        return error.what();
+    }
+}
+
+}  // namespace
+
 world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides, bool isConfined) {
     return readSceneWithKeys(argument, overrides, isConfined).spec;
 }
@@ -51,6 +68,7 @@ scene::LoadOptions loadOptions(const std::vector<std::string>& overrides, bool i
     scene::LoadOptions options;
     options.isConfined = isConfined;
     options.overrides = overrides;
+    options.pictureFault = pictureFault;
     if (const std::filesystem::path assets = assetFolder(); !assets.empty()) options.assetFolders.push_back(assets);
     return options;
 }

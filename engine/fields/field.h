@@ -50,18 +50,19 @@ inline constexpr Range share{0.0, 1.0};
 // What the content of a text refers to, checked when the whole scene is known; or what a number stands for.
 enum class Role {
     none,
-    material,   // [material.NAME]
-    camera,     // [camera.NAME]
-    method,     // a method of integration
-    mesh,       // a path of an OBJ file
-    texture,    // a path of a picture
-    points,     // KIND.NAME@SELECTOR
-    bodies,     // KIND.NAME of bodies that have a surface
-    anyBodies,  // KIND.NAME
-    selector,   // points of the body it stands in
-    tieable,    // KIND.NAME@SELECTOR, or collider.NAME
-    collider,   // collider.NAME
-    time,       // a moment, taken to the nearest tick
+    material,     // [material.NAME]
+    camera,       // [camera.NAME]
+    method,       // a method of integration
+    mesh,         // a path of an OBJ file
+    texture,      // a path of a picture
+    environment,  // a path of a picture of all that is around
+    points,       // KIND.NAME@SELECTOR
+    bodies,       // KIND.NAME of bodies that have a surface
+    anyBodies,    // KIND.NAME
+    selector,     // points of the body it stands in
+    tieable,      // KIND.NAME@SELECTOR, or collider.NAME
+    collider,     // collider.NAME
+    time,         // a moment, taken to the nearest tick
 };
 
 // A value in the file's units. Vectors, directions, colours and segments are numbers; none is "not given".

@@ -29,6 +29,8 @@ class RadianceFile {
     RadianceFile(const std::filesystem::path& path, std::string_view content) : path_(path), content_(content) {}
 
     LightImage read(std::int64_t maxPixels);
+    ImageSize size(std::int64_t maxPixels);  // from the head
+    void skim(ImageSize size);               // the rest
 
   private:
     [[noreturn]] void fail(std::string_view reason) const {
@@ -44,10 +46,10 @@ class RadianceFile {
         if (end == std::string_view::npos) fail("its head breaks off");
         const std::string_view text = content_.substr(at_, end - at_);
         at_ = end + 1;
-        return text;
+        return text.substr(0, text.find_last_not_of(" \t\r") + 1);
     }
     void readHead();
-    void readSize(LightImage& image) const;
+    void readSize(ImageSize& size) const;
     void readScanline(std::span<Rgbe> line);
     void readPlanes(std::span<Rgbe> line);
     void readPixels(std::span<Rgbe> line, Rgbe first);
@@ -60,7 +62,8 @@ class RadianceFile {
 };
 
 bool isRadiance(std::string_view content) {
-    return content.starts_with("#?RADIANCE\n") || content.starts_with("#?RGBE\n");
+    const std::string_view first = content.substr(0, content.find_first_of("\r\n"));
+    return first == "#?RADIANCE" || first == "#?RGBE";
 }
 
 // Lines up to an empty one, and then the size. Those that are not known change nothing that is needed here.
@@ -72,7 +75,7 @@ void RadianceFile::readHead() {
             fail(fmt::format("its pixels are \"{}\", not 32-bit_rle_rgbe", text.substr(format.size())));
         if (!text.starts_with(exposure)) continue;
         text.remove_prefix(exposure.size());
-        text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+        text.remove_prefix(std::min(text.find_first_not_of(" +"), text.size()));
         double factor = 0.0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), factor);
         if (error != std::errc() || !std::isfinite(factor) || factor <= 0.0)
@@ -82,7 +85,7 @@ void RadianceFile::readHead() {
     size_ = line();
 }
 
-void RadianceFile::readSize(LightImage& image) const {
+void RadianceFile::readSize(ImageSize& size) const {
     const char* at = size_.data();
     const char* const end = at + size_.size();
     const auto number = [&](std::string_view before, int& value) {
@@ -91,8 +94,10 @@ void RadianceFile::readSize(LightImage& image) const {
         at = after;
         return error == std::errc() && value > 0 && value <= maxEdge;
     };
-    if (!number("-Y ", image.height) || !number(" +X ", image.width) || at != end)
-        fail(fmt::format("its size is \"{}\", not \"-Y height +X width\" of up to {} pixels", size_, maxEdge));
+    if (!number("-Y ", size.height) || !number(" +X ", size.width) || at != end)
+        fail(fmt::format(
+            "its size is \"{}\", not \"-Y height +X width\" of up to {} pixels, which is from the top, left to right",
+            size_, maxEdge));
 }
 
 // A line of 8 to 32767 pixels may begin with 2, 2 and its length, and then has its four planes one after another.
@@ -140,21 +145,32 @@ void RadianceFile::readPixels(std::span<Rgbe> line, Rgbe first) {
     }
 }
 
-void expectFits(const std::filesystem::path& path, const LightImage& image, std::int64_t maxPixels) {
-    if (std::int64_t{image.width} * image.height <= maxPixels) return;
+void expectFits(const std::filesystem::path& path, ImageSize size, std::int64_t maxPixels) {
+    if (std::int64_t{size.width} * size.height <= maxPixels) return;
     throw core::Error(core::ErrorKind::badContent,
                       fmt::format("{}: this picture has {} x {} pixels; up to {} million are read", path.string(),
-                                  image.width, image.height, maxPixels / 1000000));
+                                  size.width, size.height, maxPixels / 1000000));
+}
+
+ImageSize RadianceFile::size(std::int64_t maxPixels) {
+    readHead();
+    ImageSize size;
+    readSize(size);
+    expectFits(path_, size, maxPixels);
+    // A line has four bytes at least; that many are there before memory is taken.
+    if ((content_.size() - at_) / 4 < static_cast<std::size_t>(size.height)) fail("the file breaks off");
+    return size;
+}
+
+void RadianceFile::skim(ImageSize size) {
+    std::vector<Rgbe> line(static_cast<std::size_t>(size.width));
+    for (int y = 0; y < size.height; ++y) readScanline(line);
 }
 
 LightImage RadianceFile::read(std::int64_t maxPixels) {
-    readHead();
-    LightImage image;
-    readSize(image);
-    expectFits(path_, image, maxPixels);
+    const ImageSize found = size(maxPixels);
+    LightImage image{found.width, found.height, {}};
     const std::size_t width = static_cast<std::size_t>(image.width);
-    // A line has four bytes at least; that many are there before memory is taken.
-    if ((content_.size() - at_) / 4 < static_cast<std::size_t>(image.height)) fail("the file breaks off");
     std::array<float, 256> units{};
     for (int e = 1; e < 256; ++e)
         units[static_cast<std::size_t>(e)] =
@@ -170,14 +186,38 @@ LightImage RadianceFile::read(std::int64_t maxPixels) {
     return image;
 }
 
+void expectKnown(const std::filesystem::path& path, std::string_view content) {
+    if (!content.starts_with("\x89PNG") && !content.starts_with("\xFF\xD8"))
+        throw core::Error(core::ErrorKind::badContent,
+                          path.string() + ": no picture: it begins neither as Radiance HDR nor as PNG or JPEG");
+}
+
 }  // namespace
+
+ImageSize lightImageSize(const std::filesystem::path& path, std::int64_t maxPixels) {
+    const std::string content = core::fileContent(path, maxBytes);
+    if (isRadiance(content)) {
+        RadianceFile file(path, content);
+        const ImageSize size = file.size(maxPixels);
+        file.skim(size);
+        return size;
+    }
+    expectKnown(path, content);
+    return imageSize(path, maxPixels);
+}
+
+void expectAllAround(const std::filesystem::path& path, ImageSize size) {
+    if (size.width == 2 * size.height) return;
+    throw core::Error(core::ErrorKind::badContent,
+                      fmt::format("{}: this picture has {} x {} pixels; one of all that is around is twice as wide as "
+                                  "high (equirectangular)",
+                                  path.string(), size.width, size.height));
+}
 
 LightImage readLightImage(const std::filesystem::path& path, std::int64_t maxPixels) {
     const std::string content = core::fileContent(path, maxBytes);
     if (isRadiance(content)) return RadianceFile(path, content).read(maxPixels);
-    if (!content.starts_with("\x89PNG") && !content.starts_with("\xFF\xD8"))
-        throw core::Error(core::ErrorKind::badContent,
-                          path.string() + ": no picture: it begins neither as Radiance HDR nor as PNG or JPEG");
+    expectKnown(path, content);
     const Image bytes = readImage(path, maxPixels);
     const SrgbCurve curve;
     LightImage image{bytes.width, bytes.height, {}};

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "taut/image/read.h"
+
 namespace taut::image {
 
 // Linear light, 1 is white paper in full light, rows from the top.
@@ -21,5 +23,11 @@ inline constexpr std::int64_t mostLightPixels = std::int64_t{1} << 25U;  // 8192
 // made so. Throws core::Error: inputOutput when the file cannot be read, badContent when it is not a whole picture or
 // has more pixels than that, before memory is taken for them.
 LightImage readLightImage(const std::filesystem::path& path, std::int64_t maxPixels = mostLightPixels);
+
+// Of such a file, looked through to its end. Throws the same.
+ImageSize lightImageSize(const std::filesystem::path& path, std::int64_t maxPixels = mostLightPixels);
+
+// Throws core::Error(badContent) for a picture that is not twice as wide as high, as one of all that is around is.
+void expectAllAround(const std::filesystem::path& path, ImageSize size);
 
 }  // namespace taut::image

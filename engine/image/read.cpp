@@ -128,30 +128,45 @@ bool jpegIsDamaged(const std::string& content) {
     throw core::Error(core::ErrorKind::badContent, path.string() + ": not a whole PNG or JPEG picture: " + reason);
 }
 
+// A file that has been looked through, and what its head says.
+struct Content {
+    std::string bytes;
+    ImageSize size;
+    int channels = 0;
+    const stbi_uc* data() const { return reinterpret_cast<const stbi_uc*>(bytes.data()); }
+    int length() const { return static_cast<int>(bytes.size()); }
+};
+
+Content wholeContent(const std::filesystem::path& path, std::int64_t maxPixels) {
+    Content content;
+    content.bytes = core::fileContent(path, maxBytes);
+    const std::string& bytes = content.bytes;
+    if (bytes.empty()) fail(path, "the file is empty");
+    // Without this, what is not looked through here might be a JPEG picture to stb_image all the same.
+    if (!isPng(bytes) && !isJpeg(bytes)) fail(path, "it begins as neither does");
+    if (isPng(bytes) ? pngIsDamaged(bytes) : jpegIsDamaged(bytes)) fail(path, "the file breaks off or is damaged");
+
+    ImageSize& size = content.size;
+    if (stbi_info_from_memory(content.data(), content.length(), &size.width, &size.height, &content.channels) == 0)
+        fail(path, stbi_failure_reason());
+    if (std::int64_t{size.width} * size.height > maxPixels)
+        throw core::Error(core::ErrorKind::badContent, path.string() + ": this picture has " +
+                                                           std::to_string(size.width) + " x " +
+                                                           std::to_string(size.height) + " pixels; up to " +
+                                                           std::to_string(maxPixels / 1000000) + " million are read");
+    return content;
+}
+
 // The pixels of a whole picture, so many channels each; its size goes to `image`.
 using Pixels = std::unique_ptr<stbi_uc, decltype(&stbi_image_free)>;
 Pixels readPixels(const std::filesystem::path& path, std::int64_t maxPixels, bool keepsAlpha, Image& image,
                   std::size_t& channels) {
-    const std::string content = core::fileContent(path, maxBytes);
-    if (content.empty()) fail(path, "the file is empty");
-    // Without this, what is not looked through here might be a JPEG picture to stb_image all the same.
-    if (!isPng(content) && !isJpeg(content)) fail(path, "it begins as neither does");
-    if (isPng(content) ? pngIsDamaged(content) : jpegIsDamaged(content))
-        fail(path, "the file breaks off or is damaged");
-
+    const Content content = wholeContent(path, maxPixels);
+    const int wanted = keepsAlpha && content.channels % 2 == 0 ? 4 : 3;  // grey and colours with alpha have 2 and 4
     int channelsInFile = 0;
-    const auto* bytes = reinterpret_cast<const stbi_uc*>(content.data());
-    const int size = static_cast<int>(content.size());
-    if (stbi_info_from_memory(bytes, size, &image.width, &image.height, &channelsInFile) == 0)
-        fail(path, stbi_failure_reason());
-    if (std::int64_t{image.width} * image.height > maxPixels)
-        throw core::Error(core::ErrorKind::badContent, path.string() + ": this picture has " +
-                                                           std::to_string(image.width) + " x " +
-                                                           std::to_string(image.height) + " pixels; up to " +
-                                                           std::to_string(maxPixels / 1000000) + " million are read");
-    const int wanted = keepsAlpha && channelsInFile % 2 == 0 ? 4 : 3;  // grey and colours with alpha have 2 and 4
-    Pixels pixels(stbi_load_from_memory(bytes, size, &image.width, &image.height, &channelsInFile, wanted),
-                  &stbi_image_free);
+    Pixels pixels(
+        stbi_load_from_memory(content.data(), content.length(), &image.width, &image.height, &channelsInFile, wanted),
+        &stbi_image_free);
     if (!pixels) fail(path, stbi_failure_reason());
     channels = static_cast<std::size_t>(wanted);
     return pixels;
@@ -176,6 +191,10 @@ Image read(const std::filesystem::path& path, std::int64_t maxPixels, bool keeps
 }
 
 }  // namespace
+
+ImageSize imageSize(const std::filesystem::path& path, std::int64_t maxPixels) {
+    return wholeContent(path, maxPixels).size;
+}
 
 Image readImage(const std::filesystem::path& path, std::int64_t maxPixels) {
     return read(path, maxPixels, false);

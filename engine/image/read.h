@@ -18,4 +18,11 @@ Image readImage(const std::filesystem::path& path, std::int64_t maxPixels = most
 // The same with its transparency, if it has any.
 Image readImageWithAlpha(const std::filesystem::path& path, std::int64_t maxPixels = mostPixels);
 
+struct ImageSize {
+    int width = 0, height = 0;
+};
+
+// Of the picture in a file, looked through as readImage() does, but not decoded. Throws the same.
+ImageSize imageSize(const std::filesystem::path& path, std::int64_t maxPixels = mostPixels);
+
 }  // namespace taut::image

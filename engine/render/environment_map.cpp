@@ -1,13 +1,10 @@
 #include "taut/render/environment_map.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "taut/core/error.h"
 #include "taut/image/light_image.h"
 #include "taut/render/program.h"
 
@@ -21,12 +18,7 @@ constexpr int widest = 4096;  // [px] of the largest level: 100 MB with the smal
 
 EnvironmentMap::Known EnvironmentMap::read(const std::string& path) const {
     image::LightImage picture = image::readLightImage(path, std::min(image::mostLightPixels, budget_->pixels));
-    if (picture.width != 2 * picture.height) {
-        throw core::Error(core::ErrorKind::badContent,
-                          fmt::format("{}: this picture has {} x {} pixels; one of all that is around is twice as wide "
-                                      "as high (equirectangular)",
-                                      path, picture.width, picture.height));
-    }
+    image::expectAllAround(path, {picture.width, picture.height});
     budget_->pixels -= std::int64_t{picture.width} * picture.height;
     const std::vector<image::LightImage> levels = blurredLevels(std::move(picture), widest);
     Known known{GlObject(*gl_, GlKind::texture),

@@ -45,15 +45,33 @@ void setMesh(world::MeshSource& spec, const Assets& meshes) {
     spec.meshData = found->second.mesh;
 }
 
+// Why a file that was found cannot be used; empty if it can. Of a mesh, what it holds goes into the asset.
+std::string faultOf(const Reference& reference, const LoadOptions& options, Asset& asset) {
+    if (reference.role != Role::mesh) {
+        const std::string fault =
+            options.pictureFault ? options.pictureFault(asset.found, reference.role == Role::environment) : "";
+        return fault.empty() ? "" : "cannot use this picture: " + fault;
+    }
+    try {
+        asset.mesh = std::make_shared<const world::MeshData>(objMesh(asset.found));
+    } catch (const core::Error& error) {
+        return fmt::format("cannot use this mesh: {}", error.what());
+    }
+    return "";
+}
+
 }  // namespace
 
-void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vector<path>& assetFolders,
+void loadAssets(const path& sceneFolder, const path& baseFolder, const LoadOptions& options,
                 const Confinement& confinement, ReadScene& scene, Problems& problems) {
-    Assets meshes, textures;
+    Assets meshes, textures, environments;
     for (const Reference& reference : scene.references) {
-        const bool isMesh = reference.role == Role::mesh;
-        if (!isMesh && reference.role != Role::texture) continue;
-        Assets& assets = isMesh ? meshes : textures;
+        Assets* of = nullptr;
+        if (reference.role == Role::mesh) of = &meshes;
+        if (reference.role == Role::texture) of = &textures;
+        if (reference.role == Role::environment) of = &environments;
+        if (of == nullptr) continue;
+        Assets& assets = *of;
         if (assets.contains(reference.text)) continue;
 
         Asset asset;
@@ -61,7 +79,7 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vect
         std::vector<path> folders{sceneFolder};
         if (!scene.spec.base.empty() && baseFolder != sceneFolder)
             folders.insert(reference.place.origin < 0 ? folders.begin() : folders.end(), baseFolder);
-        for (const path& place : placesFor(reference.text, folders, assetFolders)) {
+        for (const path& place : placesFor(reference.text, folders, options.assetFolders)) {
             std::error_code code;
             searched.push_back(place.string());
             if (!asset.found.empty() || !std::filesystem::is_regular_file(place, code)) continue;
@@ -78,19 +96,15 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const std::vect
             scene.faulty.insert(reference.owner);
             continue;
         }
-        if (isMesh) {
-            try {
-                asset.mesh = std::make_shared<const world::MeshData>(objMesh(asset.found));
-            } catch (const core::Error& error) {
-                problems.addError(reference.place, fmt::format("cannot use this mesh: {}", error.what()));
-                scene.faulty.insert(reference.owner);
-                continue;
-            }
+        if (const std::string fault = faultOf(reference, options, asset); !fault.empty()) {
+            problems.addError(reference.place, fault);
+            scene.faulty.insert(reference.owner);
+            continue;
         }
         assets.emplace(reference.text, asset);
     }
 
-    setTexture(scene.spec.environment.image, textures);
+    setTexture(scene.spec.environment.image, environments);
     for (world::BodySpec& body : scene.spec.bodies) {
         if (world::MeshSource* source = body.meshSource()) setMesh(*source, meshes);
         setTexture(body.finish.texture, textures);

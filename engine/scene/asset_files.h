@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "taut/scene/load.h"
 #include "taut/scene/scene_reader.h"
 #include "taut/scene/text_file.h"
 
@@ -13,7 +14,6 @@ namespace taut::scene {
 // the file that names it, then in that of the other one (see Place),  then in each asset folder, its `models` and its
 // `textures`. Reports what is missing, not allowed or unusable.
 void loadAssets(const std::filesystem::path& sceneFolder, const std::filesystem::path& baseFolder,
-                const std::vector<std::filesystem::path>& assetFolders, const Confinement& confinement,
-                ReadScene& scene, Problems& problems);
+                const LoadOptions& options, const Confinement& confinement, ReadScene& scene, Problems& problems);
 
 }  // namespace taut::scene

@@ -213,7 +213,7 @@ SceneSection environmentSection() {
     section.existing = findPart(&SceneSpec::environment);
     section.fields =
         FieldList<EnvironmentSpec>()
-            .text("image", &EnvironmentSpec::image, Role::texture,
+            .text("image", &EnvironmentSpec::image, Role::environment,
                   "Equirectangular Radiance HDR, PNG or JPEG, twice as wide as high; its middle lies at -z, its right "
                   "at +x.")
             .required()

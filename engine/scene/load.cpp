@@ -158,7 +158,7 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
         problems.addError(member->value.place, "the scene that a file builds on cannot be set");
     ReadScene scene = readScene(root, sections, fileName, problems);
     scene.spec.base = base.string();
-    loadAssets(std::filesystem::path(fileName).parent_path(), base.parent_path(), options.assetFolders,
+    loadAssets(std::filesystem::path(fileName).parent_path(), base.parent_path(), options,
                confinementOf(fileName, options), scene, problems);
     const BodyIndex bodies(scene.spec, kinds, scene.faulty);
     checkReferences(scene, bodies, problems);

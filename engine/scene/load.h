@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -22,6 +23,8 @@ struct LoadOptions {
     std::vector<std::filesystem::path> assetFolders{};
     // Whether every file that the scene names must lie below its own folder or an asset folder, links resolved.
     bool isConfined = false;
+    // Why a picture cannot be used, as a texture or as one of all that is around; empty: it can. Null: nobody looks.
+    std::function<std::string(const std::filesystem::path& picture, bool isAround)> pictureFault{};
     // What a scene may be made of; null: what the engine has.
     std::shared_ptr<const world::Kinds> kinds{};
     // What a scene may take [bytes]; 0: half of the machine's memory.

@@ -21,28 +21,45 @@ std::uint64_t contentOf(const std::string& path) {
     }
 }
 
+// Each once.
+class Files {
+  public:
+    void add(const std::string& path) {
+        const bool isKnown =
+            std::any_of(files_.begin(), files_.end(), [&](const UsedFile& file) { return file.path == path; });
+        if (!path.empty() && !isKnown) files_.push_back({path, contentOf(path)});
+    }
+    std::vector<UsedFile> take() { return std::move(files_); }
+
+  private:
+    std::vector<UsedFile> files_;
+};
+
 }  // namespace
 
 std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
-    std::vector<UsedFile> files;
-    const auto add = [&](const std::string& path) {
-        const bool isKnown =
-            std::any_of(files.begin(), files.end(), [&](const auto& file) { return file.path == path; });
-        if (!path.empty() && !isKnown) files.push_back({path, contentOf(path)});
-    };
-    add(scene.file);
-    add(scene.base);
-    add(scene.environment.image);
+    Files files;
+    files.add(scene.file);
+    files.add(scene.base);
+    files.add(scene.environment.image);
     for (const world::BodySpec& body : scene.bodies) {
-        if (const world::MeshSource* mesh = body.meshSource()) add(mesh->mesh);
-        add(body.finish.texture);
+        if (const world::MeshSource* mesh = body.meshSource()) files.add(mesh->mesh);
+        files.add(body.finish.texture);
     }
     for (const world::ColliderSpec& collider : scene.colliders) {
-        add(collider.mesh);
-        add(collider.finish.texture);
-        for (const world::ColliderSpec& part : collider.parts) add(part.mesh);
+        files.add(collider.mesh);
+        files.add(collider.finish.texture);
+        for (const world::ColliderSpec& part : collider.parts) files.add(part.mesh);
     }
-    return files;
+    return files.take();
+}
+
+std::vector<UsedFile> pictureFiles(const world::SceneSpec& scene) {
+    Files files;
+    files.add(scene.environment.image);
+    for (const world::BodySpec& body : scene.bodies) files.add(body.finish.texture);
+    for (const world::ColliderSpec& collider : scene.colliders) files.add(collider.finish.texture);
+    return files.take();
 }
 
 std::vector<std::string> changedSince(std::span<const UsedFile> files) {

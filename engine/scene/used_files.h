@@ -20,6 +20,9 @@ struct UsedFile {
 // Of a scene that was loaded: its file, the one that it builds on, meshes and textures, each once.
 std::vector<UsedFile> usedFiles(const world::SceneSpec& scene);
 
+// Of them, those that only pictures show: textures and what is around.
+std::vector<UsedFile> pictureFiles(const world::SceneSpec& scene);
+
 // Those that are not what they were: "sail.obj has changed", "sail.obj is gone".
 std::vector<std::string> changedSince(std::span<const UsedFile> files);
 

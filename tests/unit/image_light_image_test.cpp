@@ -61,6 +61,13 @@ TEST(LightImage, RepeatsAfterRepeatsCountMore) {
     EXPECT_EQ(picture.rgb[3 * 258], 0.5F);
 }
 
+// As programs on other systems write it: lines that end in \r\n, blanks at their ends, a sign.
+TEST(LightImage, TakesAHeadWithOtherLineEnds) {
+    const LightImage picture =
+        readBack("#?RGBE\r\nFORMAT=32-bit_rle_rgbe \r\nEXPOSURE= +2.0\r\n\r\n-Y 2 +X 8\r\n" + planes + pixels);
+    EXPECT_EQ(picture.rgb, readBack(head + size8 + planes + pixels).rgb);
+}
+
 TEST(LightImage, BytesOfAPngAreLightBySrgb) {
     const TemporaryFolder folder;
     writePng(folder / "a.png", {1, 1, {255, 188, 0}, {}});
@@ -72,7 +79,15 @@ TEST(LightImage, BytesOfAPngAreLightBySrgb) {
 
 TEST(LightImage, WhateverIsMissingOfARadiancePictureIsAnError) {
     const std::string whole = head + size8 + planes + pixels;
-    for (std::size_t length = 0; length < whole.size(); ++length) messageFor(whole.substr(0, length));
+    const TemporaryFolder folder;
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        test::writeText(folder / "a.hdr", whole.substr(0, length));
+        messageOf(
+            ErrorKind::badContent, [&] { readLightImage(folder / "a.hdr"); });
+        messageOf(ErrorKind::badContent, [&] { lightImageSize(folder / "a.hdr"); });
+    }
+    test::writeText(folder / "a.hdr", whole);
+    EXPECT_EQ(lightImageSize(folder / "a.hdr").width, 8);
 }
 
 TEST(LightImage, SaysWhatIsWrongWithARadiancePicture) {

@@ -1,4 +1,5 @@
 // Every row: a faulty scene and the exact message with file, line, column, caret and remedy.
+#include "taut/scene/used_files.h"
 #include "unit/scene_support.h"
 
 namespace taut::scene {
@@ -325,6 +326,28 @@ TEST(SceneErrors, ReferencesToWhatIsNotThereAreReported) {
          "  mesh = \"broken.obj\"\n"
          "         ^"},
     });
+}
+
+// What can be used is said by who knows pictures; the keys of pictures change with what is in them.
+TEST(SceneErrors, PicturesThatCannotBeUsedAreReported) {
+    const AssetFolder folder;
+    LoadOptions options;
+    options.pictureFault = [](const std::filesystem::path& picture, bool isAround) {
+        return isAround ? picture.filename().string() + ": too narrow" : "";
+    };
+    const std::string text =
+        "schema = 1\nenvironment = { image = \"square.png\" }\n[rope.r]\n"
+        "ends = [[0, 0, 0], [1, 0, 0]]\nfinish = { pattern = \"image\", texture = \"square.png\" }\n";
+    EXPECT_EQ(folder.messageOf(text, options),
+              "s.toml:2:25: error: cannot use this picture: square.png: too narrow\n"
+              "  environment = { image = \"square.png\" }\n"
+              "                          ^");
+
+    const world::SceneSpec scene = folder.load(text).spec;
+    const std::vector<UsedFile> before = pictureFiles(scene);
+    ASSERT_EQ(before.size(), 1U);
+    folder.write("square.png", "another");
+    EXPECT_NE(pictureFiles(scene)[0].content, before[0].content);
 }
 
 }  // namespace

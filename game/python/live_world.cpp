@@ -49,8 +49,12 @@ std::shared_ptr<LiveWorld> LiveWorld::from(const std::string& bytes) {
 }
 
 const world::World& LiveWorld::asked() const {
-    const bool isAllowed =
-        phase_ == Phase::still || (phase_ == Phase::inSystem && ticker_ == std::this_thread::get_id());
+    if (activity_->asking > 0)
+        refuse(
+            "this world is asking a force or an energy of Python and is not to be used until that has answered; it has "
+            "t, x, v and mass to go by");
+    const bool isAllowed = activity_->phase == Phase::still ||
+                           (activity_->phase == Phase::inSystem && ticker_ == std::this_thread::get_id());
     if (!isAllowed)
         refuse("this world is in the middle of a tick; a force has t, x, v and mass, others may ask between two steps");
     return world_.world();
@@ -58,7 +62,7 @@ const world::World& LiveWorld::asked() const {
 
 void LiveWorld::requireStill(const char* what) const {
     (void)asked();
-    if (phase_ != Phase::still) refuse(fmt::format("a system may not {} the world that calls it", what));
+    if (activity_->phase != Phase::still) refuse(fmt::format("a system may not {} the world that calls it", what));
 }
 
 world::Selection LiveWorld::select(const std::string& target) const {
@@ -83,8 +87,8 @@ void LiveWorld::step(std::int64_t ticks) {
     struct Ticking {
         Phase& phase;
         ~Ticking() { phase = Phase::still; }
-    } ticking{phase_};
-    phase_ = Phase::inTick;
+    } ticking{activity_->phase};
+    activity_->phase = Phase::inTick;
     ticker_ = std::this_thread::get_id();
     const py::gil_scoped_release free;
     auto looked = Clock::now();
@@ -127,7 +131,7 @@ std::string LiveWorld::addForce(const py::function& force, const std::vector<std
         refuse("stiffness and damping_per_s are bounds for the step: they must not be negative");
     wishes.targets = targets;
     const Held own = held(force), ownEnergy = energy.is_none() ? Held() : held(energy);
-    world_.addForce(pythonForce(wishes, own, ownEnergy));
+    world_.addForce(pythonForce(wishes, own, ownEnergy, activity_));
     functions_.push_back(own);
     if (ownEnergy) functions_.push_back(ownEnergy);
     return wishes.name;
@@ -142,8 +146,8 @@ void LiveWorld::addSystem(const py::function& system) {
         struct Asking {
             Phase& phase;
             ~Asking() { phase = Phase::inTick; }
-        } asking{phase_};
-        phase_ = Phase::inSystem;
+        } asking{activity_->phase};
+        activity_->phase = Phase::inSystem;
         try {
             (*own)(py::cast(this, py::return_value_policy::reference), t, dt);
         } catch (py::error_already_set& error) {
@@ -157,7 +161,8 @@ void LiveWorld::addSystem(const py::function& system) {
 
 std::string LiveWorld::save() const {
     const world::World& now = asked();
-    if (phase_ != Phase::still) refuse("a system may not save the world that calls it; save it between two steps");
+    if (activity_->phase != Phase::still)
+        refuse("a system may not save the world that calls it; save it between two steps");
     SavedState state;
     state.source = source_;
     state.key = keys_.stateAt(now.tick());

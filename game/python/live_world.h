@@ -23,7 +23,8 @@ class LiveWorld {
     // From what save() gave, with the scene read again.
     static std::shared_ptr<LiveWorld> from(const std::string& bytes);
 
-    // To be asked, between two ticks or by a system. Refuses a force, and other threads meanwhile.
+    // To be asked, between two ticks or by a system. Refuses forces and energies, of whoever asks them, and other
+    // threads meanwhile.
     const world::World& asked() const;
     const world::SceneSpec& spec() const { return world_.spec(); }
     const std::vector<std::string>& warnings() const { return warnings_; }  // of the scene
@@ -53,7 +54,7 @@ class LiveWorld {
     void requireStill(const char* what) const;
     LiveWorld(SceneSource source, scene::Loaded loaded, int threads);
 
-    enum class Phase { still, inSystem, inTick };
+    using Phase = Activity::Phase;
     SceneSource source_;
     std::shared_ptr<const scene::ActionReader> actions_;
     scene::StateKeys keys_;
@@ -62,7 +63,7 @@ class LiveWorld {
     Painter painter_;
     std::vector<Held> functions_;
     std::optional<world::Divergence> divergence_;
-    Phase phase_ = Phase::still;
+    std::shared_ptr<Activity> activity_ = std::make_shared<Activity>();
     std::thread::id ticker_;  // the thread that ticks it
 };
 

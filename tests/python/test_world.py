@@ -230,6 +230,44 @@ class Callbacks(Case):
         with self.refused("a force force.mine already"):
             world.add_force(lambda t, x, v, m: x, name="mine")
 
+    def test_a_force_that_is_asked_does_not_touch_its_world(self):
+        world = taut.loads(CLOTH)
+        state, touch, refusals = world.save(), [], []
+
+        def zeros(t, x, v, m):
+            for each in touch:
+                with self.refused("has answered"):
+                    each()
+                refusals.append(each)
+            return np.zeros_like(x)
+
+        def from_another_thread():
+            raised = []
+
+            def ask():
+                try:
+                    world.positions("cloth.scarf")
+                except taut.Error as error:
+                    raised.append(error)
+
+            thread = threading.Thread(target=ask)
+            thread.start()
+            thread.join()
+            raise raised[0]
+
+        touch[:] = [lambda: world.restore(state), world.step, world.energies, world.save,
+                    lambda: world.add_force(zeros, name="another"),
+                    lambda: world.place("collider.ball", [0, 0, 0]), from_another_thread]
+        for ask in (lambda: world.add_force(zeros, energy=lambda t, x, v, m: zeros(t, x, v, m)[:, 0]), world.energies,
+                    world.measures, world.step, lambda: world.velocities("cloth.scarf"),
+                    lambda: world.add_force(zeros, name="late")):
+            refusals.clear()
+            ask()
+            self.assertEqual(set(refusals), set(touch))
+        touch.clear()
+        self.assertEqual(world.tick, 1)
+        world.step()
+
     def test_a_system_leads_a_collider_and_asks_but_does_not_step(self):
         world = taut.loads(CLOTH)
         seen = []

@@ -138,9 +138,9 @@ std::string LiveWorld::addForce(const py::function& force, const std::vector<std
 }
 
 void LiveWorld::addSystem(const py::function& system) {
-    requireStill("add a system to");
     const Held own = held(system);
     const std::string name = py::hasattr(system, "__name__") ? std::string(py::str(system.attr("__name__"))) : "system";
+    requireStill("add a system to");  // now that no code of Python is asked any more
     const auto call = [this, own, name](world::World&, double t, double dt) {
         const py::gil_scoped_acquire lock;
         struct Asking {

@@ -5,6 +5,7 @@ Expected values are of theory, or of the program.
 import contextlib
 import gc
 import json
+import multiprocessing
 import os
 import pathlib
 import pickle
@@ -80,6 +81,30 @@ class Runs(Case):
         self.assertLess(scarf.triangles.max(), len(scarf.positions))
         with self.refused("no camera \"back\"", "front"):
             world.render(camera="back")
+
+    def test_a_process_forked_from_one_that_has_drawn_refuses_to(self):
+        world = taut.loads(CLOTH)
+        world.render((16, 16), samples=1)
+        context = multiprocessing.get_context("fork")
+        said = context.SimpleQueue()
+
+        def draw():
+            for drawn in (world, taut.loads(CLOTH)):
+                try:
+                    drawn.render((32, 32), samples=1)
+                except taut.Error as error:
+                    said.put(f"{error.kind}: {error}")
+
+        child = context.Process(target=draw)
+        child.start()
+        child.join(20)
+        if child.is_alive():
+            child.kill()
+        self.assertEqual(child.exitcode, 0)
+        for _ in range(2):
+            self.assertFalse(said.empty())
+            self.assertRegex(said.get(), "^renderer: this process was forked .*spawn")
+        world.render((16, 16), samples=1)
 
     def test_actions_of_a_timeline_happen_now(self):
         world = taut.loads(MASSES)

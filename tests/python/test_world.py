@@ -359,6 +359,10 @@ class Refusals(Case):
             world.place("collider.bowl", [0, 0, 0])
         with self.refused("has the shape (2,); it must have (3,)"):
             world.place("collider.ball", [0, 0])
+        endless = []
+        endless.append(endless)
+        with self.refused("apply(): ", "in itself"):
+            world.apply({"do": endless})
         self.assertEqual(world.hash, before)
 
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "game/python/errors.h"
 #include "game/python/folders.h"
@@ -127,8 +128,9 @@ std::string LiveWorld::addForce(const py::function& force, const std::vector<std
     requireStill("add a force to");
     for (const std::string& target : targets)
         if (const std::string fault = scene::targetFault(spec(), target, true); !fault.empty()) refuse(fault);
-    if (!(wishes.stiffness >= 0) || !(wishes.dampingRate >= 0))
-        refuse("stiffness and damping_per_s are bounds for the step: they must not be negative");
+    for (const double bound : {wishes.stiffness, wishes.dampingRate})
+        if (!(bound >= 0) || !std::isfinite(bound))
+            refuse("stiffness and damping_per_s are bounds for the step: they must be finite and not negative");
     wishes.targets = targets;
     const Held own = held(force), ownEnergy = energy.is_none() ? Held() : held(energy);
     world_.addForce(pythonForce(wishes, own, ownEnergy, activity_));

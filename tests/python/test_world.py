@@ -250,6 +250,12 @@ class Callbacks(Case):
                 world.step()
         answer[0] = lambda x: np.zeros(x.shape, dtype=np.float32)
         world.step()
+        world.add_force(lambda t, x, v, m: 0 * x, energy=lambda t, x, v, m: x[:, 0] * np.nan, name="vague")
+        with self.refused("force.vague: its energy of point 0 of cloth.scarf at ", "not finite", kind="content"):
+            world.energies()
+        for bounds in ({"stiffness": np.inf}, {"damping_per_s": np.inf}, {"stiffness": -1.0}):
+            with self.refused("must be finite and not negative"):
+                world.add_force(lambda t, x, v, m: 0 * x, name="more", **bounds)
         with self.refused("there is no cloth.scraf", "cloth.scarf"):
             world.add_force(lambda t, x, v, m: x, on="cloth.scraf")
         with self.refused("a force force.mine already"):

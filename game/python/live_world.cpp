@@ -34,6 +34,10 @@ world::Options optionsFor(int threads) {
 
 }  // namespace
 
+void* LiveWorld::operator new(std::size_t) {
+    refuse("this World holds no scene; worlds are made by taut.load() and taut.loads()");
+}
+
 LiveWorld::LiveWorld(SceneSource source, int threads) : LiveWorld(source, read(source), threads) {}
 
 LiveWorld::LiveWorld(SceneSource source, scene::Loaded loaded, int threads)

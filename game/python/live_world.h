@@ -1,6 +1,7 @@
 // A world as Python has it: made from a scene, ticked without the interpreter's lock, asked between ticks.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,6 +20,8 @@ namespace taut::python {
 // Its functions expect the interpreter's lock and throw core::Error; those that take long let it go meanwhile.
 class LiveWorld {
   public:
+    // pybind11 asks for room where an object of Python, such as World.__new__ gives, holds no world when it is used.
+    static void* operator new(std::size_t size);
     LiveWorld(SceneSource source, int threads);
     // From what save() gave, with the scene read again.
     static std::shared_ptr<LiveWorld> from(const std::string& bytes);

@@ -370,6 +370,15 @@ class Refusals(Case):
         with self.refused("apply(): ", "in itself"):
             world.apply({"do": endless})
         self.assertEqual(world.hash, before)
+        for threads in (-1, 1025):
+            with self.refused(f"threads = {threads}; it must be 1 to 1024"):
+                taut.loads(CLOTH, threads=threads)
+
+    def test_objects_that_hold_nothing(self):
+        with self.refused("this World holds no scene", "taut.load()"):
+            taut.World.__new__(taut.World).positions("cloth.scarf")
+        with self.refused("this Surface holds nothing"):
+            taut.Surface.__new__(taut.Surface).name
 
 
 if __name__ == "__main__":

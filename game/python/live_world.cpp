@@ -45,12 +45,22 @@ LiveWorld::LiveWorld(SceneSource source, scene::Loaded loaded, int threads)
       actions_(loaded.actions),
       keys_(loaded.keys),
       warnings_(loaded.warnings),
-      world_(std::move(loaded.spec), optionsFor(threads)) {}
+      world_(std::move(loaded.spec), optionsFor(threads)) {
+    source_.file = lastingName(source_.file, source_.isText);
+}
 
 std::shared_ptr<LiveWorld> LiveWorld::from(const std::string& bytes) {
-    auto world = std::make_shared<LiveWorld>(fromBytes(bytes).source, 0);
-    world->restore(bytes);
-    return world;
+    const SceneSource source = fromBytes(bytes).source;
+    const char* remedy =
+        "\na pickle reads its scene again: put that back where it was, or load() it and restore() what save() gave";
+    try {
+        auto world = std::make_shared<LiveWorld>(source, 0);
+        remedy = "";  // restore() has its own
+        world->restore(bytes);
+        return world;
+    } catch (const core::Error& error) {
+        throw core::Error(error.kind(), fmt::format("this pickle's scene: {}{}", error.what(), remedy));
+    }
 }
 
 const world::World& LiveWorld::asked() const {
@@ -175,6 +185,7 @@ std::string LiveWorld::save() const {
     state.tick = now.tick();
     for (const world::RampAction& ramp : world_.applied()) state.ramps.push_back(ramp.key);
     state.files = scene::usedFiles(spec());
+    for (scene::UsedFile& file : state.files) file.path = lastingName(file.path, false);
     state.world = now.save();
     return toBytes(state);
 }

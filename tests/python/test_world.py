@@ -150,6 +150,27 @@ class States(Case):
         again.step(20)
         self.assertEqual(again.hash, world.hash)
 
+    def test_a_pickle_of_a_file_is_read_in_another_folder_and_says_what_is_amiss(self):
+        with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as back:
+            back.callback(os.chdir, os.getcwd())
+            os.chdir(folder)
+            file = pathlib.Path("cloth.toml")
+            file.write_text(CLOTH)
+            world = taut.load(b"cloth.toml")
+            world.step(3)
+            pickled = pickle.dumps(world)
+            os.chdir("/")
+            self.assertEqual(pickle.loads(pickled).hash, world.hash)
+            (folder / file).write_text(CLOTH.replace("radius = 0.3", "radius = 0.4"))
+            with self.refused("this pickle's scene: ", f"{folder}/cloth.toml has changed; load the scene"):
+                pickle.loads(pickled)
+            (folder / file).unlink()
+            with self.refused("this pickle's scene: ", f"{folder}/cloth.toml: there is no such file", "put that back",
+                              kind="file"):
+                pickle.loads(pickled)
+        flag = taut.load("flag")
+        self.assertEqual(pickle.loads(pickle.dumps(flag)).hash, flag.hash)  # by its name
+
     def test_a_pickle_holds_the_scene_s_name_and_bytes_alone(self):
         world = taut.loads(CLOTH)
         constructor, arguments, state = world.__reduce_ex__(2)[:3]

@@ -238,6 +238,9 @@ class Callbacks(Case):
             if len(after) == 6:
                 raise KeyError("mine too")
 
+        with self.assertRaises(IndexError) as caught:
+            world.add_force(lambda t, x, v, m: [][0], name="early")
+        self.assertRegex(caught.exception.__notes__[0], "^taut: in force.early at 0 s, asked for 49 points$")
         world.add_force(pull)
         world.add_system(lead)
         for error, note in ((ZeroDivisionError, "in force.pull at "), (KeyError, "in the system lead of the tick to")):
@@ -247,7 +250,7 @@ class Callbacks(Case):
             before = world.save(), world.hash, world.place_of("collider.ball")[0].tolist()
             with self.assertRaises(error) as caught:
                 world.step()
-            self.assertIn(note, "".join(caught.exception.__notes__))
+            self.assertRegex("".join(caught.exception.__notes__), f"{note}.*undone")
             self.assertEqual((world.save(), world.hash, world.place_of("collider.ball")[0].tolist()), before)
             after.append(b"")
         world.step(10)

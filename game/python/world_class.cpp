@@ -225,7 +225,8 @@ void addArrays(Class& type) {
              "debug"_a = false,
              "A picture, (height, width, 3) of uint8, sRGB, rows from top to bottom.\n\n"
              "size: (width, height) [px], samples: 1, 4, 8 or 16 a pixel, camera: its name; the scene's if not given.\n"
-             "debug: with springs, points and contacts.");
+             "debug: with springs, points and contacts.\n"
+             "A process that was forked from one that had drawn cannot: let multiprocessing \"spawn\" it.");
 }
 
 void addDoing(Class& type) {
@@ -266,6 +267,7 @@ void addDoing(Class& type) {
              "after the other in their order; for a moment again where a tick is repeated in shorter steps.\n"
              "energy(t, x, v, mass) -> (n,) [J] counts among the elastic. stiffness [N/m] and damping_per_s [1/s] are "
              "what it adds on a point at most, for steps that \"auto\" chooses.\n"
+             "While they are asked, the world refuses to be used, by them and by other threads.\n"
              "What it raises ends the tick, which then has not happened. From here on nobody promises equal bits on "
              "every machine: see equal_bits. Gives its name, \"force.NAME\".");
     type.def("add_system", &LiveWorld::addSystem, "system"_a,

@@ -12,14 +12,20 @@ namespace {
 
 // Calls function(t, x, v, mass) and takes what it returns.
 template <class Item>
-void ask(const Held& function, const std::string& what, const world::CallbackPoints& points, std::span<Item> into) {
+void ask(const Held& function, const std::string& what, Activity& activity, const world::CallbackPoints& points,
+         std::span<Item> into) {
     const py::gil_scoped_acquire lock;
+    struct Asking {
+        int& count;
+        explicit Asking(int& of) : count(of) { ++count; }
+        ~Asking() { --count; }
+    } asking(activity.asking);
     try {
         const py::object answer = (*function)(points.t, arrayOf(points.x), arrayOf(points.v), arrayOf(points.mass));
         take(answer, fmt::format("{}: what it returns", what), into);
     } catch (py::error_already_set& error) {
-        addNote(error, fmt::format("in {} at {:.6g} s, asked for {} points; the tick is undone", what, points.t,
-                                   points.x.size()));
+        addNote(error, fmt::format("in {} at {:.6g} s, asked for {} points{}", what, points.t, points.x.size(),
+                                   activity.phase == Activity::Phase::inTick ? "; the tick is undone" : ""));
         throw;
     }
 }
@@ -34,18 +40,19 @@ Held held(py::object object) {
             }};
 }
 
-world::CallbackSpec pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy) {
+world::CallbackSpec pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy,
+                                const std::shared_ptr<Activity>& activity) {
     world::CallbackSpec spec;
     spec.name = wishes.name;
     spec.targets = wishes.targets;
     spec.stiffness = wishes.stiffness;
     spec.dampingRate = wishes.dampingRate;
-    spec.force = [force, name = wishes.name](const world::CallbackPoints& points, std::span<glm::dvec3> f) {
-        ask(force, name, points, f);
+    spec.force = [force, activity, name = wishes.name](const world::CallbackPoints& points, std::span<glm::dvec3> f) {
+        ask(force, name, *activity, points, f);
     };
     if (energy)
-        spec.energy = [energy, name = wishes.name](const world::CallbackPoints& points, std::span<double> e) {
-            ask(energy, "the energy of " + name, points, e);
+        spec.energy = [energy, activity, name = wishes.name](const world::CallbackPoints& points, std::span<double> e) {
+            ask(energy, "the energy of " + name, *activity, points, e);
         };
     return spec;
 }

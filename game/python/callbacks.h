@@ -16,6 +16,13 @@ namespace taut::python {
 using Held = std::shared_ptr<pybind11::object>;
 Held held(pybind11::object object);
 
+// What a world is about, for its functions and for all who ask it. Changes with the interpreter's lock held.
+struct Activity {
+    enum class Phase { still, inSystem, inTick };
+    Phase phase = Phase::still;
+    int asking = 0;  // forces and energies that have not answered yet
+};
+
 struct ForceWishes {
     std::string name;  // "force.pull"
     std::vector<std::string> targets;
@@ -25,7 +32,8 @@ struct ForceWishes {
 
 // force(t, x, v, mass) -> (n, 3), energy(t, x, v, mass) -> (n,) or null. What they raise passes through the engine,
 // with a note of where it was.
-world::CallbackSpec pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy);
+world::CallbackSpec pythonForce(const ForceWishes& wishes, const Held& force, const Held& energy,
+                                const std::shared_ptr<Activity>& activity);
 
 // Adds a line to what an exception of Python prints.
 void addNote(pybind11::error_already_set& error, const std::string& text);

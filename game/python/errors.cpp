@@ -41,8 +41,14 @@ const Types& types() {
     return *all;
 }
 
+// Paths in it may be no UTF-8.
+py::object textOf(const std::string& message) {
+    return py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(message.data(), static_cast<Py_ssize_t>(message.size()), "surrogateescape"));
+}
+
 void raise(const py::object& type, const core::Error& error, const world::Divergence* divergence) {
-    const py::object value = type(py::str(error.what()));
+    const py::object value = type(textOf(error.what()));
     value.attr("kind") = nameOf(error.kind());
     if (divergence != nullptr) {
         value.attr("tick") = divergence->tick;

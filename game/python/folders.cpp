@@ -69,4 +69,10 @@ std::filesystem::path sceneFile(const std::string& name) {
                                   hint.empty() ? "" : "; " + hint));
 }
 
+std::string lastingName(const std::string& name, bool isText) {
+    std::error_code ignored;
+    if (name.empty() || !(isText || std::filesystem::is_regular_file(name, ignored))) return name;
+    return std::filesystem::absolute(name).lexically_normal().string();
+}
+
 }  // namespace taut::python

@@ -14,4 +14,8 @@ std::filesystem::path shaderFolder();
 // A file as named or, for a bare name such as "flag", the shipped scene or scenario. Throws core::Error(inputOutput).
 std::filesystem::path sceneFile(const std::string& name);
 
+// A name of that scene that holds in every working folder; a shipped scene's own. The name of a text need be no
+// file's.
+std::string lastingName(const std::string& name, bool isText);
+
 }  // namespace taut::python

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "game/python/errors.h"
 #include "game/python/folders.h"
@@ -33,6 +34,10 @@ world::Options optionsFor(int threads) {
 
 }  // namespace
 
+void* LiveWorld::operator new(std::size_t) {
+    refuse("this World holds no scene; worlds are made by taut.load() and taut.loads()");
+}
+
 LiveWorld::LiveWorld(SceneSource source, int threads) : LiveWorld(source, read(source), threads) {}
 
 LiveWorld::LiveWorld(SceneSource source, scene::Loaded loaded, int threads)
@@ -40,17 +45,31 @@ LiveWorld::LiveWorld(SceneSource source, scene::Loaded loaded, int threads)
       actions_(loaded.actions),
       keys_(loaded.keys),
       warnings_(loaded.warnings),
-      world_(std::move(loaded.spec), optionsFor(threads)) {}
+      world_(std::move(loaded.spec), optionsFor(threads)) {
+    source_.file = lastingName(source_.file, source_.isText);
+}
 
 std::shared_ptr<LiveWorld> LiveWorld::from(const std::string& bytes) {
-    auto world = std::make_shared<LiveWorld>(fromBytes(bytes).source, 0);
-    world->restore(bytes);
-    return world;
+    const SceneSource source = fromBytes(bytes).source;
+    const char* remedy =
+        "\na pickle reads its scene again: put that back where it was, or load() it and restore() what save() gave";
+    try {
+        auto world = std::make_shared<LiveWorld>(source, 0);
+        remedy = "";  // restore() has its own
+        world->restore(bytes);
+        return world;
+    } catch (const core::Error& error) {
+        throw core::Error(error.kind(), fmt::format("this pickle's scene: {}{}", error.what(), remedy));
+    }
 }
 
 const world::World& LiveWorld::asked() const {
-    const bool isAllowed =
-        phase_ == Phase::still || (phase_ == Phase::inSystem && ticker_ == std::this_thread::get_id());
+    if (activity_->asking > 0)
+        refuse(
+            "this world is asking a force or an energy of Python and is not to be used until that has answered; it has "
+            "t, x, v and mass to go by");
+    const bool isAllowed = activity_->phase == Phase::still ||
+                           (activity_->phase == Phase::inSystem && ticker_ == std::this_thread::get_id());
     if (!isAllowed)
         refuse("this world is in the middle of a tick; a force has t, x, v and mass, others may ask between two steps");
     return world_.world();
@@ -58,7 +77,7 @@ const world::World& LiveWorld::asked() const {
 
 void LiveWorld::requireStill(const char* what) const {
     (void)asked();
-    if (phase_ != Phase::still) refuse(fmt::format("a system may not {} the world that calls it", what));
+    if (activity_->phase != Phase::still) refuse(fmt::format("a system may not {} the world that calls it", what));
 }
 
 world::Selection LiveWorld::select(const std::string& target) const {
@@ -83,8 +102,8 @@ void LiveWorld::step(std::int64_t ticks) {
     struct Ticking {
         Phase& phase;
         ~Ticking() { phase = Phase::still; }
-    } ticking{phase_};
-    phase_ = Phase::inTick;
+    } ticking{activity_->phase};
+    activity_->phase = Phase::inTick;
     ticker_ = std::this_thread::get_id();
     const py::gil_scoped_release free;
     auto looked = Clock::now();
@@ -123,27 +142,28 @@ std::string LiveWorld::addForce(const py::function& force, const std::vector<std
     requireStill("add a force to");
     for (const std::string& target : targets)
         if (const std::string fault = scene::targetFault(spec(), target, true); !fault.empty()) refuse(fault);
-    if (!(wishes.stiffness >= 0) || !(wishes.dampingRate >= 0))
-        refuse("stiffness and damping_per_s are bounds for the step: they must not be negative");
+    for (const double bound : {wishes.stiffness, wishes.dampingRate})
+        if (!(bound >= 0) || !std::isfinite(bound))
+            refuse("stiffness and damping_per_s are bounds for the step: they must be finite and not negative");
     wishes.targets = targets;
     const Held own = held(force), ownEnergy = energy.is_none() ? Held() : held(energy);
-    world_.addForce(pythonForce(wishes, own, ownEnergy));
+    world_.addForce(pythonForce(wishes, own, ownEnergy, activity_));
     functions_.push_back(own);
     if (ownEnergy) functions_.push_back(ownEnergy);
     return wishes.name;
 }
 
 void LiveWorld::addSystem(const py::function& system) {
-    requireStill("add a system to");
     const Held own = held(system);
     const std::string name = py::hasattr(system, "__name__") ? std::string(py::str(system.attr("__name__"))) : "system";
+    requireStill("add a system to");  // now that no code of Python is asked any more
     const auto call = [this, own, name](world::World&, double t, double dt) {
         const py::gil_scoped_acquire lock;
         struct Asking {
             Phase& phase;
             ~Asking() { phase = Phase::inTick; }
-        } asking{phase_};
-        phase_ = Phase::inSystem;
+        } asking{activity_->phase};
+        activity_->phase = Phase::inSystem;
         try {
             (*own)(py::cast(this, py::return_value_policy::reference), t, dt);
         } catch (py::error_already_set& error) {
@@ -157,13 +177,15 @@ void LiveWorld::addSystem(const py::function& system) {
 
 std::string LiveWorld::save() const {
     const world::World& now = asked();
-    if (phase_ != Phase::still) refuse("a system may not save the world that calls it; save it between two steps");
+    if (activity_->phase != Phase::still)
+        refuse("a system may not save the world that calls it; save it between two steps");
     SavedState state;
     state.source = source_;
     state.key = keys_.stateAt(now.tick());
     state.tick = now.tick();
     for (const world::RampAction& ramp : world_.applied()) state.ramps.push_back(ramp.key);
     state.files = scene::usedFiles(spec());
+    for (scene::UsedFile& file : state.files) file.path = lastingName(file.path, false);
     state.world = now.save();
     return toBytes(state);
 }

@@ -1,6 +1,7 @@
 // A world as Python has it: made from a scene, ticked without the interpreter's lock, asked between ticks.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,11 +20,14 @@ namespace taut::python {
 // Its functions expect the interpreter's lock and throw core::Error; those that take long let it go meanwhile.
 class LiveWorld {
   public:
+    // pybind11 asks for room where an object of Python, such as World.__new__ gives, holds no world when it is used.
+    static void* operator new(std::size_t size);
     LiveWorld(SceneSource source, int threads);
     // From what save() gave, with the scene read again.
     static std::shared_ptr<LiveWorld> from(const std::string& bytes);
 
-    // To be asked, between two ticks or by a system. Refuses a force, and other threads meanwhile.
+    // To be asked, between two ticks or by a system. Refuses forces and energies, of whoever asks them, and other
+    // threads meanwhile.
     const world::World& asked() const;
     const world::SceneSpec& spec() const { return world_.spec(); }
     const std::vector<std::string>& warnings() const { return warnings_; }  // of the scene
@@ -53,7 +57,7 @@ class LiveWorld {
     void requireStill(const char* what) const;
     LiveWorld(SceneSource source, scene::Loaded loaded, int threads);
 
-    enum class Phase { still, inSystem, inTick };
+    using Phase = Activity::Phase;
     SceneSource source_;
     std::shared_ptr<const scene::ActionReader> actions_;
     scene::StateKeys keys_;
@@ -62,7 +66,7 @@ class LiveWorld {
     Painter painter_;
     std::vector<Held> functions_;
     std::optional<world::Divergence> divergence_;
-    Phase phase_ = Phase::still;
+    std::shared_ptr<Activity> activity_ = std::make_shared<Activity>();
     std::thread::id ticker_;  // the thread that ticks it
 };
 

@@ -1,4 +1,5 @@
 // taut._taut: what `import taut` gives.
+#include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -18,14 +19,16 @@ namespace taut::python {
 namespace {
 
 std::shared_ptr<LiveWorld> made(SceneSource source, const py::object& set, int threads) {
-    if (threads < 0) refuse("threads must be 1 or more, or 0 for as many as the machine has");
+    constexpr int most = 1024;
+    if (threads < 0 || threads > most)
+        refuse(fmt::format("threads = {}; it must be 1 to {}, or 0 for as many as the machine has", threads, most));
     source.overrides = overridesOf(set);
     return std::make_shared<LiveWorld>(std::move(source), threads);
 }
 
 std::shared_ptr<LiveWorld> load(const py::object& path, const py::object& set, int threads, bool isConfined) {
     SceneSource source;
-    source.file = py::str(py::module_::import("os").attr("fspath")(path));
+    source.file = py::module_::import("os").attr("fsencode")(path).cast<std::string>();
     source.isConfined = isConfined;
     return made(std::move(source), set, threads);
 }
@@ -56,7 +59,7 @@ PYBIND11_MODULE(_taut, module) {
                "A world of a scene file, or of a shipped scene by its name, such as \"flag\".\n\n"
                "set: values in the place of the file's, {\"cloth.flag.cells\": [72, 48]} or "
                "[\"cloth.flag.cells=[72,48]\"], checked like the file.\n"
-               "threads: how many may work at it; 0: as many as the machine has.\n"
+               "threads: how many may work at it, at most 1024; 0: as many as the machine has.\n"
                "confined: the scene reads files below its own folder and the shipped assets only.\n"
                "Raises taut.Error with file, line, column and remedy.");
     module.def("loads", &loads, "text"_a, "set"_a = py::none(), py::kw_only(), "threads"_a = 0, "name"_a = "scene.toml",

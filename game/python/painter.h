@@ -14,8 +14,14 @@ namespace taut::python {
 
 class Painter {
   public:
-    // Expects sizes that the caller has looked at. May be called without the interpreter's lock, by several threads.
-    // Throws core::Error.
+    Painter() = default;
+    Painter(const Painter&) = delete;
+    Painter& operator=(const Painter&) = delete;
+    ~Painter();
+
+    // Refuses in a process that was forked from one that had drawn: the threads of its renderer are not there. Expects
+    // sizes that the caller has looked at. May be called without the interpreter's lock, by several threads. Throws
+    // core::Error.
     image::Image draw(const view::FrameView& view, const world::PictureSpec& picture);
 
   private:

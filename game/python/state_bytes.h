@@ -16,7 +16,7 @@ namespace taut::python {
 // Where a scene comes from.
 struct SceneSource {
     bool isText = false;                 // `text` is the scene, `file` its name in messages
-    std::string file;                    // as given
+    std::string file;                    // as given; of a state, such that it holds in every working folder
     std::string text;                    // else empty
     std::vector<std::string> overrides;  // "cloth.flag.cells=[72,48]"
     bool isConfined = false;

@@ -21,10 +21,12 @@ std::string quoted(const std::string& text) {
     return all + '"';
 }
 
-}  // namespace
-
-std::string tomlOf(const py::handle& value, const std::string& what) {
-    if (py::hasattr(value, "tolist")) return tomlOf(value.attr("tolist")(), what);  // of numpy
+std::string nested(const py::handle& value, const std::string& what, int depth) {
+    constexpr int most = 32;
+    if (depth > most)
+        refuse(fmt::format("{}: lists and dicts stand in each other more than {} deep, or one in itself", what, most));
+    const auto inner = [&](const py::handle& item) { return nested(item, what, depth + 1); };
+    if (py::hasattr(value, "tolist")) return inner(value.attr("tolist")());  // of numpy
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
     if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value))
         return py::repr(value).cast<std::string>();
@@ -32,15 +34,21 @@ std::string tomlOf(const py::handle& value, const std::string& what) {
     std::string all;
     if (py::isinstance<py::dict>(value)) {
         for (const auto& [key, item] : py::reinterpret_borrow<py::dict>(value))
-            all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", quoted(py::str(key)), tomlOf(item, what));
+            all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", quoted(py::str(key)), inner(item));
         return "{ " + all + " }";
     }
     if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
-        for (const py::handle item : value) all += (all.empty() ? "" : ", ") + tomlOf(item, what);
+        for (const py::handle item : value) all += (all.empty() ? "" : ", ") + inner(item);
         return "[" + all + "]";
     }
     refuse(fmt::format("{}: {} is no value of a scene; take a number, a text, a bool, or lists and dicts of such", what,
                        py::repr(value).cast<std::string>()));
+}
+
+}  // namespace
+
+std::string tomlOf(const py::handle& value, const std::string& what) {
+    return nested(value, what, 0);
 }
 
 std::vector<std::string> overridesOf(const py::handle& set) {

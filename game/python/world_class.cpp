@@ -73,11 +73,13 @@ py::list islandsOf(const LiveWorld& world) {
 
 // A surface as it is drawn.
 struct Surface {
+    // As a world's: of an object that holds none.
+    static void* operator new(std::size_t) { refuse("this Surface holds nothing; surfaces are what a world gives"); }
     std::string name;
     py::array positions, normals, triangles;
 };
 
-Surface surfaceOf(const view::Surface& surface) {
+std::shared_ptr<Surface> surfaceOf(const view::Surface& surface) {
     const auto n = static_cast<py::ssize_t>(surface.geometry->positions.size());
     py::array_t<float> positions({n, py::ssize_t{3}}), normals({n, py::ssize_t{3}});
     for (py::ssize_t i = 0; i < n; ++i) {
@@ -89,11 +91,12 @@ Surface surfaceOf(const view::Surface& surface) {
     const std::vector<std::uint32_t>& corners = surface.topology->triangles;
     py::array_t<std::uint32_t> triangles({static_cast<py::ssize_t>(corners.size() / 3), py::ssize_t{3}});
     std::copy(corners.begin(), corners.end(), triangles.mutable_data());
-    return {surface.name, std::move(positions), std::move(normals), std::move(triangles)};
+    return std::make_shared<Surface>(
+        Surface{surface.name, std::move(positions), std::move(normals), std::move(triangles)});
 }
 
-std::vector<Surface> surfacesOf(const LiveWorld& world) {
-    std::vector<Surface> all;
+std::vector<std::shared_ptr<Surface>> surfacesOf(const LiveWorld& world) {
+    std::vector<std::shared_ptr<Surface>> all;
     for (const view::Surface& surface : world.asked().view(false).surfaces) all.push_back(surfaceOf(surface));
     return all;
 }
@@ -222,7 +225,8 @@ void addArrays(Class& type) {
              "debug"_a = false,
              "A picture, (height, width, 3) of uint8, sRGB, rows from top to bottom.\n\n"
              "size: (width, height) [px], samples: 1, 4, 8 or 16 a pixel, camera: its name; the scene's if not given.\n"
-             "debug: with springs, points and contacts.");
+             "debug: with springs, points and contacts.\n"
+             "A process that was forked from one that had drawn cannot: let multiprocessing \"spawn\" it.");
 }
 
 void addDoing(Class& type) {
@@ -263,6 +267,7 @@ void addDoing(Class& type) {
              "after the other in their order; for a moment again where a tick is repeated in shorter steps.\n"
              "energy(t, x, v, mass) -> (n,) [J] counts among the elastic. stiffness [N/m] and damping_per_s [1/s] are "
              "what it adds on a point at most, for steps that \"auto\" chooses.\n"
+             "While they are asked, the world refuses to be used, by them and by other threads.\n"
              "What it raises ends the tick, which then has not happened. From here on nobody promises equal bits on "
              "every machine: see equal_bits. Gives its name, \"force.NAME\".");
     type.def("add_system", &LiveWorld::addSystem, "system"_a,
@@ -289,7 +294,7 @@ void addDoing(Class& type) {
 }  // namespace
 
 void addWorld(py::module_& module) {
-    auto surface = py::class_<Surface>(module, "Surface", "A surface as it is drawn.");
+    auto surface = py::class_<Surface, std::shared_ptr<Surface>>(module, "Surface", "A surface as it is drawn.");
     surface.attr("__module__") = "taut";
     surface.def_readonly("name", &Surface::name, "\"cloth.flag\", of a collider \"ball\"");
     surface.def_readonly("positions", &Surface::positions, "(n, 3) of float32 [m]");

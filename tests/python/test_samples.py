@@ -23,6 +23,14 @@ class Samples(unittest.TestCase):
         self.assertEqual(struct.unpack(">I", header[16:20]), (1920,))
         return said
 
+    def test_help_says_how_to_call_them_and_draws_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for sample in SAMPLES.glob("*.py"):
+                said = subprocess.run([sys.executable, sample, "--help"], cwd=folder, check=True, capture_output=True,
+                                      text=True).stdout
+                self.assertIn(f"usage: {sample.name}", said)
+            self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
+
     def test_energy_of_eight_methods(self):
         off = dict(re.findall(r"^([\w-]+): (.*)$", self.run_sample("energy"), re.M))
         self.assertEqual(len(off), 8)

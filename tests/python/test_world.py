@@ -5,6 +5,7 @@ Expected values are of theory, or of the program.
 import contextlib
 import gc
 import json
+import multiprocessing
 import os
 import pathlib
 import pickle
@@ -81,6 +82,30 @@ class Runs(Case):
         with self.refused("no camera \"back\"", "front"):
             world.render(camera="back")
 
+    def test_a_process_forked_from_one_that_has_drawn_refuses_to(self):
+        world = taut.loads(CLOTH)
+        world.render((16, 16), samples=1)
+        context = multiprocessing.get_context("fork")
+        said = context.SimpleQueue()
+
+        def draw():
+            for drawn in (world, taut.loads(CLOTH)):
+                try:
+                    drawn.render((32, 32), samples=1)
+                except taut.Error as error:
+                    said.put(f"{error.kind}: {error}")
+
+        child = context.Process(target=draw)
+        child.start()
+        child.join(20)
+        if child.is_alive():
+            child.kill()
+        self.assertEqual(child.exitcode, 0)
+        for _ in range(2):
+            self.assertFalse(said.empty())
+            self.assertRegex(said.get(), "^renderer: this process was forked .*spawn")
+        world.render((16, 16), samples=1)
+
     def test_actions_of_a_timeline_happen_now(self):
         world = taut.loads(MASSES)
         world.apply({"do": "push", "target": "net.ball1@m", "impulse_Ns": np.array([0.0, 6.0, 0.0])})
@@ -124,6 +149,27 @@ class States(Case):
         self.assertEqual(again.tick, 10)
         again.step(20)
         self.assertEqual(again.hash, world.hash)
+
+    def test_a_pickle_of_a_file_is_read_in_another_folder_and_says_what_is_amiss(self):
+        with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as back:
+            back.callback(os.chdir, os.getcwd())
+            os.chdir(folder)
+            file = pathlib.Path("cloth.toml")
+            file.write_text(CLOTH)
+            world = taut.load(b"cloth.toml")
+            world.step(3)
+            pickled = pickle.dumps(world)
+            os.chdir("/")
+            self.assertEqual(pickle.loads(pickled).hash, world.hash)
+            (folder / file).write_text(CLOTH.replace("radius = 0.3", "radius = 0.4"))
+            with self.refused("this pickle's scene: ", f"{folder}/cloth.toml has changed; load the scene"):
+                pickle.loads(pickled)
+            (folder / file).unlink()
+            with self.refused("this pickle's scene: ", f"{folder}/cloth.toml: there is no such file", "put that back",
+                              kind="file"):
+                pickle.loads(pickled)
+        flag = taut.load("flag")
+        self.assertEqual(pickle.loads(pickle.dumps(flag)).hash, flag.hash)  # by its name
 
     def test_a_pickle_holds_the_scene_s_name_and_bytes_alone(self):
         world = taut.loads(CLOTH)
@@ -192,6 +238,9 @@ class Callbacks(Case):
             if len(after) == 6:
                 raise KeyError("mine too")
 
+        with self.assertRaises(IndexError) as caught:
+            world.add_force(lambda t, x, v, m: [][0], name="early")
+        self.assertRegex(caught.exception.__notes__[0], "^taut: in force.early at 0 s, asked for 49 points$")
         world.add_force(pull)
         world.add_system(lead)
         for error, note in ((ZeroDivisionError, "in force.pull at "), (KeyError, "in the system lead of the tick to")):
@@ -201,7 +250,7 @@ class Callbacks(Case):
             before = world.save(), world.hash, world.place_of("collider.ball")[0].tolist()
             with self.assertRaises(error) as caught:
                 world.step()
-            self.assertIn(note, "".join(caught.exception.__notes__))
+            self.assertRegex("".join(caught.exception.__notes__), f"{note}.*undone")
             self.assertEqual((world.save(), world.hash, world.place_of("collider.ball")[0].tolist()), before)
             after.append(b"")
         world.step(10)
@@ -225,10 +274,54 @@ class Callbacks(Case):
                 world.step()
         answer[0] = lambda x: np.zeros(x.shape, dtype=np.float32)
         world.step()
+        world.add_force(lambda t, x, v, m: 0 * x, energy=lambda t, x, v, m: x[:, 0] * np.nan, name="vague")
+        with self.refused("force.vague: its energy of point 0 of cloth.scarf at ", "not finite", kind="content"):
+            world.energies()
+        for bounds in ({"stiffness": np.inf}, {"damping_per_s": np.inf}, {"stiffness": -1.0}):
+            with self.refused("must be finite and not negative"):
+                world.add_force(lambda t, x, v, m: 0 * x, name="more", **bounds)
         with self.refused("there is no cloth.scraf", "cloth.scarf"):
             world.add_force(lambda t, x, v, m: x, on="cloth.scraf")
         with self.refused("a force force.mine already"):
             world.add_force(lambda t, x, v, m: x, name="mine")
+
+    def test_a_force_that_is_asked_does_not_touch_its_world(self):
+        world = taut.loads(CLOTH)
+        state, touch, refusals = world.save(), [], []
+
+        def zeros(t, x, v, m):
+            for each in touch:
+                with self.refused("has answered"):
+                    each()
+                refusals.append(each)
+            return np.zeros_like(x)
+
+        def from_another_thread():
+            raised = []
+
+            def ask():
+                try:
+                    world.positions("cloth.scarf")
+                except taut.Error as error:
+                    raised.append(error)
+
+            thread = threading.Thread(target=ask)
+            thread.start()
+            thread.join()
+            raise raised[0]
+
+        touch[:] = [lambda: world.restore(state), world.step, world.energies, world.save,
+                    lambda: world.add_force(zeros, name="another"),
+                    lambda: world.place("collider.ball", [0, 0, 0]), from_another_thread]
+        for ask in (lambda: world.add_force(zeros, energy=lambda t, x, v, m: zeros(t, x, v, m)[:, 0]), world.energies,
+                    world.measures, world.step, lambda: world.velocities("cloth.scarf"),
+                    lambda: world.add_force(zeros, name="late")):
+            refusals.clear()
+            ask()
+            self.assertEqual(set(refusals), set(touch))
+        touch.clear()
+        self.assertEqual(world.tick, 1)
+        world.step()
 
     def test_a_system_leads_a_collider_and_asks_but_does_not_step(self):
         world = taut.loads(CLOTH)
@@ -296,7 +389,20 @@ class Refusals(Case):
             world.place("collider.bowl", [0, 0, 0])
         with self.refused("has the shape (2,); it must have (3,)"):
             world.place("collider.ball", [0, 0])
+        endless = []
+        endless.append(endless)
+        with self.refused("apply(): ", "in itself"):
+            world.apply({"do": endless})
         self.assertEqual(world.hash, before)
+        for threads in (-1, 1025):
+            with self.refused(f"threads = {threads}; it must be 1 to 1024"):
+                taut.loads(CLOTH, threads=threads)
+
+    def test_objects_that_hold_nothing(self):
+        with self.refused("this World holds no scene", "taut.load()"):
+            taut.World.__new__(taut.World).positions("cloth.scarf")
+        with self.refused("this Surface holds nothing"):
+            taut.Surface.__new__(taut.Surface).name
 
 
 if __name__ == "__main__":

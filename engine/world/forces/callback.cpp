@@ -53,7 +53,8 @@ class Callback final : public mechanics::ForceGenerator<Real> {
         std::fill(f_.begin(), f_.end(), dvec3(0.0));
         spec_->force(read(motion), f_);
         for (std::size_t i = 0; i < seen_.size(); ++i) {
-            if (!std::isfinite(f_[i].x) || !std::isfinite(f_[i].y) || !std::isfinite(f_[i].z)) fail(i, motion.t);
+            if (!std::isfinite(f_[i].x) || !std::isfinite(f_[i].y) || !std::isfinite(f_[i].z))
+                fail("force on", i, motion.t);
             if (!seen_[i].isFirst) continue;
             for (int p = 0; p < 3; ++p) f[p * motion.stride + seen_[i].point] += static_cast<Real>(f_[i][p]);
         }
@@ -63,9 +64,11 @@ class Callback final : public mechanics::ForceGenerator<Real> {
         std::vector<double> energies(seen_.size(), 0.0);
         spec_->energy(read(motion), energies);
         double sum = 0;
-        for (std::size_t i = 0; i < seen_.size(); ++i)
+        for (std::size_t i = 0; i < seen_.size(); ++i) {
+            if (!std::isfinite(energies[i])) fail("energy of", i, motion.t);
             if (seen_[i].isFirst && (only.empty() || only[static_cast<std::size_t>(seen_[i].point)]))
                 sum += energies[i];
+        }
         return sum;
     }
     void addStiffnessProduct(const Motion& motion, const Real* u, Real* out) const override {
@@ -94,12 +97,12 @@ class Callback final : public mechanics::ForceGenerator<Real> {
             if (each.isFirst)
                 for (int p = 0; p < 3; ++p) out[p * stride + each.point] += factor * u[p * stride + each.point];
     }
-    [[noreturn]] void fail(std::size_t i, double t) const {
+    [[noreturn]] void fail(const char* what, std::size_t i, double t) const {
         char text[120];
         std::snprintf(text, sizeof text, " at %.6g s is not finite; look for a division by 0 in the function", t);
-        throw core::Error(
-            core::ErrorKind::badContent,
-            spec_->name + ": its force on point " + std::to_string(seen_[i].number) + " of " + seen_[i].body + text);
+        throw core::Error(core::ErrorKind::badContent, spec_->name + ": its " + what + " point " +
+                                                           std::to_string(seen_[i].number) + " of " + seen_[i].body +
+                                                           text);
     }
 
     std::shared_ptr<const CallbackSpec> spec_;

@@ -38,7 +38,7 @@ struct CallbackSpec {
     double dampingRate = 0.0;  // [1/s]
 };
 
-// A force that is not finite throws core::Error(badContent) with the body, the point and the moment.
+// A force or an energy that is not finite throws core::Error(badContent) with the body, the point and the moment.
 std::shared_ptr<const Force> callbackForce(CallbackSpec spec);
 
 }  // namespace taut::world

@@ -4,7 +4,7 @@ The ball is thrown past the frame of the shipped scene "net". At the start of ev
 frame are, computes where the ball comes down to the height of the net, and slides the frame there, no faster than
 3.5 m/s and no harder than 30 m/s². Prints how far from the middle of the net the ball ends up.
 """
-import sys
+import argparse
 
 import matplotlib
 
@@ -69,6 +69,9 @@ def play(is_led, shown=()):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("picture", nargs="?", default="catch.png", help="the file to draw; catch.png if not given")
+    arguments = parser.parse_args()
     pictures, track, ball, off = play(True, SHOWN)
     missed = play(False)[2]
     print(f"caught: {np.hypot(off[0], off[2]):.3f} m from the middle of the net, {ball[1]:.3f} m up")
@@ -94,7 +97,7 @@ def main():
     axes.legend(fontsize=14, frameon=False, loc="upper left")
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "catch.png")
+    figure.savefig(arguments.picture)
 
 
 if __name__ == "__main__":

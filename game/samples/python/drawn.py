@@ -2,7 +2,7 @@
 
 Prints how near the cloth comes to the ball's middle: never nearer than the ball's radius and the cloth's thickness.
 """
-import sys
+import argparse
 
 import matplotlib
 
@@ -64,6 +64,9 @@ def draw(axes, world):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("picture", nargs="?", default="drawn.png", help="the file to draw; drawn.png if not given")
+    arguments = parser.parse_args()
     world = taut.loads(SCENE)
     figure = plt.figure(figsize=(12.8, 4.4), dpi=150)
     nearest = np.inf
@@ -72,7 +75,7 @@ def main():
             world.step()
             nearest = min(nearest, np.linalg.norm(world.positions("cloth.scarf") - CENTRE, axis=1).min())
         draw(figure.add_axes((i / len(SHOWN), 0, 1 / len(SHOWN), 1), projection="3d"), world)
-    figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "drawn.png")
+    figure.savefig(arguments.picture)
     print(f"nearest to the middle: {nearest:.4f} m")
 
 

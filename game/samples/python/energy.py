@@ -4,7 +4,7 @@ Nothing damps it, so that kinetic, elastic and gravitational energy should keep 
 the largest that leap-frog stands. Prints for each how far the sum strays from its start, in parts of the energy of
 the swing, or when it diverges.
 """
-import sys
+import argparse
 
 import matplotlib
 
@@ -77,6 +77,9 @@ def label(axes, ends, is_above):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("picture", nargs="?", default="energy.png", help="the file to draw; energy.png if not given")
+    arguments = parser.parse_args()
     limit = taut.loads(SCENE.replace("METHOD", "leapfrog").replace("dt = STEP\n", "")).islands[0]["step_limit"]
     figure, axes = plt.subplots(figsize=(12.8, 7.2), dpi=150)
     lowest, highest = 1e-9, 10.0
@@ -108,7 +111,7 @@ def main():
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     figure.subplots_adjust(left=0.08, right=0.85, top=0.91, bottom=0.1)
-    figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "energy.png")
+    figure.savefig(arguments.picture)
 
 
 if __name__ == "__main__":

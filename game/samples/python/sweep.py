@@ -4,7 +4,7 @@ A sheet of n rows whose springs are columns alone hangs by its upper edge until 
 row i bears what hangs below it, so that a column is longer by the sum of those weights over k: with m the mass of a cell,
 m g n²/(2 k). Prints k, the stretch, and the stretch by that formula.
 """
-import sys
+import argparse
 
 import matplotlib
 
@@ -46,6 +46,9 @@ def stretch(k):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("picture", nargs="?", default="sweep.png", help="the file to draw; sweep.png if not given")
+    arguments = parser.parse_args()
     stiffnesses = np.geomspace(20.0, 2000.0, 9)  # [N/m]
     weight = DENSITY * HEIGHT**2 / ROWS**2 * G  # [N] of a cell
     measured = np.array([stretch(k) for k in stiffnesses])
@@ -69,7 +72,7 @@ def main():
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     figure.subplots_adjust(left=0.08, right=0.98, top=0.97, bottom=0.1)
-    figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "sweep.png")
+    figure.savefig(arguments.picture)
 
 
 if __name__ == "__main__":

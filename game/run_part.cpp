@@ -109,6 +109,13 @@ RunPart partOf(const RenderFlags& flags, const world::RunSpec& run) {
     return part;
 }
 
+void noteMissingLocks(const std::vector<pipeline::RunLock>& locks) {
+    const auto open = std::find_if(locks.begin(), locks.end(), [](const auto& lock) { return !lock.excludesOthers(); });
+    if (open == locks.end()) return;
+    printNote("note: {} knows no locks: see to it that no two runs, and no two of the same shard, write there\n",
+              open->folder().string());
+}
+
 std::vector<pipeline::RunLock> lockPart(const RunPart& part, const PartPlace& place, const std::string& name) {
     std::vector<pipeline::RunLock> locks;
     const std::filesystem::path& folder = place.pattern.folder();

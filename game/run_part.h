@@ -40,6 +40,9 @@ struct PartPlace {
 // core::Error(inputOutput).
 std::vector<pipeline::RunLock> lockPart(const RunPart& part, const PartPlace& place, const std::string& name);
 
+// Says so once where the file system knows no locks.
+void noteMissingLocks(const std::vector<pipeline::RunLock>& locks);
+
 // Begun: what lies there of its frames is its own.
 enum class PartState { fresh, begun, complete };
 

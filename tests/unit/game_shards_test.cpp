@@ -157,6 +157,9 @@ TEST_F(Shards, ThatAreNotThereAreUsageErrors) {
     const Outcome video = render({"-o", path("a.mp4"), "--shard", "0/2"});
     EXPECT_EQ(video.code, 2);
     EXPECT_TRUE(has(video.err, "taut join FOLDER -o " + path("a.mp4"))) << video.err;
+    const Outcome states = render({"-o", path("shards"), "--shard", "0/2", "--checkpoints", path("nowhere")});
+    EXPECT_EQ(states.code, 6);
+    EXPECT_TRUE(has(states.err, "--checkpoint-every 60 --checkpoints " + path("nowhere"))) << states.err;
     EXPECT_EQ(folder_.entryCount(), 1);
 }
 

@@ -84,7 +84,7 @@ int joinTests(const JoinFlags& flags) {
     addAcceptance(all.accepts, all.report);
     showOutcome(all.report, folder);
     writeReport(all.report, folder, flags.junit);
-    return all.hasUnread ? static_cast<int>(ExitCode::badContent) : exitCodeOf(report::verdictOf(all.report));
+    return exitCodeOf(all);
 }
 
 int join(const JoinFlags& flags) {

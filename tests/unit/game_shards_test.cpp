@@ -225,7 +225,9 @@ TEST_F(Shards, OfATestBecomeItsReport) {
     EXPECT_TRUE(has(missing.err, "shard 1/2 is missing")) << missing.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "shards/report.html"));
     EXPECT_EQ(test("shards", {"--shard", "1/2"}).code, 1) << "b";
-    EXPECT_TRUE(has(test("shards", {"--shard", "1/2", "--resume"}).err, "there already"));
+    const Outcome again = test("shards", {"--shard", "1/2", "--resume"});
+    EXPECT_TRUE(has(again.err, "there already")) << again.err;
+    EXPECT_EQ(again.code, 1) << "as it was stored";
     const Outcome joined = run({"join", path("shards"), "--junit", path("joined.xml")});
     EXPECT_EQ(joined.code, 1) << joined.err;
     const auto timeless = [&](const std::string& name) {
@@ -234,8 +236,27 @@ TEST_F(Shards, OfATestBecomeItsReport) {
     EXPECT_EQ(timeless("joined.xml"), timeless("one.xml"));
     EXPECT_EQ(timeless("shards/report.html"), timeless("one/report.html"));
     EXPECT_EQ(test("shards", {"--shard", "0/4"}).code, 2) << "there are three";
+    std::filesystem::copy(folder_ / "shards/shard_0-of-2.taut", folder_ / "shards/shard_7-of-2.taut");
+    EXPECT_TRUE(has(run({"join", path("shards")}).err, "shard_7-of-2.taut holds shard 0/2, which shard_0-of-2.taut"));
+    std::filesystem::remove(folder_ / "shards/shard_7-of-2.taut");
     test("shards", {"--shard", "0/3"});
     EXPECT_EQ(run({"join", path("shards")}).code, 6) << "shards of two runs";
+}
+
+// Of files of the same content that cannot be read, wherever they lie; while one plays, no other run writes there.
+TEST_F(Shards, OfATestAreOfTheSameFilesInAnyFolder) {
+    for (const char* place : {"my", "mine"}) {
+        std::filesystem::create_directory(folder_ / place);
+        std::filesystem::copy(folder_ / "spring.toml", folder_ / place / "a.toml");
+        writeText(folder_ / place / "b.toml", "schema = 1\nnonsense = 1\n");
+    }
+    EXPECT_EQ(run({"test", path("my"), "--quiet", "-o", path("shards"), "--shard", "0/2"}).code, 8) << "no golden";
+    EXPECT_EQ(run({"test", path("mine"), "--quiet", "-o", path("shards"), "--shard", "1/2"}).code, 3);
+    EXPECT_EQ(run({"join", path("shards")}).code, 3);
+    const pipeline::RunLock shard(folder_ / "shards", {1, "a shard"});
+    const Outcome whole = run({"test", path("my"), "--quiet", "-o", path("shards")});
+    EXPECT_EQ(whole.code, 6);
+    EXPECT_TRUE(has(whole.err, "another run is writing here (a shard)")) << whole.err;
 }
 
 }  // namespace

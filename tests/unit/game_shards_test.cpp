@@ -144,6 +144,59 @@ TEST_F(Shards, OfTwoScenesAreNotJoined) {
     EXPECT_EQ(frame("shards", 1), before);
 }
 
+TEST_F(Shards, OfARunThatFailedBeforeItsFirstPictureAreNone) {
+    const std::filesystem::path failed = folder_ / "shards/run_5-9.json";
+    draw({"-o", path("shards"), "--shard", "1/2", "--set", "world.gravity=[0,-9,0]"});
+    writeText(failed, std::regex_replace(contentOf(failed), std::regex("\"complete\""), "\"begun\""));
+    const std::string record = contentOf(failed);
+    EXPECT_EQ(render({"-o", path("shards"), "--shard", "0/2"}).code, 6) << "it has left pictures";
+    for (int i = 5; i < 10; ++i)
+        std::filesystem::remove(folder_ / "shards" / ("frame_00000" + std::to_string(i) + ".png"));
+    draw({"-o", path("shards"), "--shard", "0/2"});
+    EXPECT_FALSE(std::filesystem::exists(failed));
+    draw({"-o", path("shards"), "--shard", "1/2"});
+    writeText(folder_ / "shards/run_5-8.json", record);
+    EXPECT_EQ(run({"join", path("shards")}).code, 0);
+}
+
+TEST_F(Shards, OfRunsOfOtherLengthsAreRefused) {
+    draw({"-o", path("shards"), "--shard", "0/2"});
+    const Outcome longer = render({"-o", path("shards"), "--shard", "1/2", "--seconds", "1", "--resume"});
+    EXPECT_EQ(longer.code, 6);
+    EXPECT_TRUE(has(longer.err, "run_0-4.json is of a run of 10 frames, and this one has 20")) << longer.err;
+    EXPECT_EQ(filesIn("shards"), 6U);
+}
+
+TEST_F(Shards, ThatAreDamagedAreDrawnAgain) {
+    drawShards(2);
+    const std::filesystem::path damaged = folder_ / "shards/frame_000007.png";
+    const std::string whole = contentOf(damaged);
+    writeText(damaged, whole.substr(0, whole.size() / 2));
+    const Outcome joined = run({"join", path("shards"), "-o", path("joined.mp4"), "--quiet"});
+    EXPECT_EQ(joined.code, 6);
+    for (const char* part : {"frame_000007.png", "remove it, and the same --shard K/N --resume draws it again"})
+        EXPECT_TRUE(has(joined.err, part)) << joined.err;
+    std::filesystem::remove(damaged);
+    draw({"-o", path("shards"), "--shard", "1/2", "--resume"});
+    EXPECT_EQ(contentOf(damaged), whole);
+}
+
+TEST_F(Shards, OfOtherNamesAreNamed) {
+    draw({"-o", path("shards/p_######.png"), "--shard", "0/10"});
+    const Outcome joined = run({"join", path("shards")});
+    EXPECT_EQ(joined.code, 6);
+    EXPECT_TRUE(has(joined.err, "taut join " + path("shards/p_######.png"))) << joined.err;
+}
+
+TEST_F(Shards, WithoutAllMetricsAreJoinedWithANote) {
+    draw({"-o", path("shards"), "--shard", "0/2", "--metrics"});
+    draw({"-o", path("shards"), "--shard", "1/2"});
+    const Outcome joined = run({"join", path("shards"), "-o", path("joined.mp4"), "--quiet"});
+    EXPECT_EQ(joined.code, 0);
+    EXPECT_TRUE(has(joined.err, "metrics_0-4.csv is there, and no metrics_5-9.csv")) << joined.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "joined.metrics.csv"));
+}
+
 TEST_F(Shards, ThatAreNotThereAreUsageErrors) {
     for (const auto& [shard, words] : {std::pair("3/3", "they count from 0/3 to 2/3"),
                                        {"0/0", "1 to 1000000"},

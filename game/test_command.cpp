@@ -179,7 +179,8 @@ Action declareTest(Options& options) {
         .value("--shard", flags->shard,
                "Play this of N shares of the scenarios, 0/N to N-1/N, into a folder that they share; then taut join")
         .typeName("K/N");
-    options.flag("--resume", flags->resume, "With --shard: nothing to do where that shard is there already");
+    options.flag("--resume", flags->resume,
+                 "With --shard: where that shard is there already, only its exit code again");
     options.value("--update", flags->updates, "Make what this scenario does its golden; repeatable, with --why")
         .typeName("NAME")
         .oneValue();

@@ -40,9 +40,9 @@ void expectOneRun(const image::FramePattern& pattern, const std::vector<PartReco
         if (&record == &*longest) continue;
         const std::string difference = pipeline::differenceOf(record, *longest, !takesAnyRenderer);
         if (difference.empty()) continue;
-        const bool isRenderer = pipeline::differenceOf(record, *longest, false).empty();
+        const bool isDrawer = pipeline::differenceOf(record, *longest, false).empty();
         refuse(pattern, fmt::format("{} and {} are not parts of one run: {}{}", nameOf(record), nameOf(*longest),
-                                    difference, isRenderer ? "; --any-renderer joins them all the same" : ""));
+                                    difference, isDrawer ? "; --any-renderer joins them all the same" : ""));
     }
 }
 
@@ -98,14 +98,26 @@ class Reading {
   private:
     static std::size_t threadCount() { return std::max(1U, std::thread::hardware_concurrency()); }
 
+    // Throws as one that is missing does: it has to be drawn again.
     image::Image read(std::int64_t frame) const {
+        const auto askForAnew = [&](const std::string& why) {
+            throw core::Error(core::ErrorKind::inputOutput,
+                              fmt::format("{}; remove it, and the same --shard K/N --resume draws it again, as does "
+                                          "taut render SCENE --frames {}",
+                                          why, frame));
+        };
         const std::filesystem::path path = join_.pattern.pathOf(frame);
-        image::Image picture = join_.hasAlpha() ? image::readImageWithAlpha(path) : image::readImage(path);
+        image::Image picture;
+        try {
+            picture = join_.hasAlpha() ? image::readImageWithAlpha(path) : image::readImage(path);
+        } catch (const core::Error& error) {
+            if (error.kind() != core::ErrorKind::badContent) throw;
+            askForAnew(error.what());
+        }
         const std::string size = fmt::format("{} x {}", picture.width, picture.height);
         if (size != size_ || picture.alpha.empty() == join_.hasAlpha())
-            throw core::Error(core::ErrorKind::inputOutput,
-                              fmt::format("{}: {}, and not {} pixels {} transparency as the record of its run says",
-                                          path.string(), size, size_, join_.hasAlpha() ? "with" : "without"));
+            askForAnew(fmt::format("{}: {}, and not {} pixels {} transparency as the record of its run says",
+                                   path.string(), size, size_, join_.hasAlpha() ? "with" : "without"));
         return picture;
     }
 
@@ -133,6 +145,24 @@ class Reading {
     std::vector<std::jthread> workers_;  // last: they end before what they use
 };
 
+// Another run that has failed before its first picture has left none of the parts.
+void leaveOutFailed(std::vector<PartRecord>& records) {
+    const auto hasDrawn = [](const PartRecord& record) { return record.lastDrawn() >= record.first; };
+    const auto drawn = std::find_if(records.begin(), records.end(), hasDrawn);
+    if (drawn == records.end()) return;
+    std::erase_if(records, [&, run = std::pair(drawn->key, drawn->count)](const PartRecord& record) {
+        return !hasDrawn(record) && std::pair(record.key, record.count) != run;
+    });
+}
+
+[[noreturn]] void refuseWithoutRecord(const image::FramePattern& pattern) {
+    const std::vector<std::string> others = pipeline::recordedFiles(pattern.folder());
+    if (others.empty())
+        refuse(pattern, "there is no record of pictures, run.json or run_0-119.json: nothing was drawn here");
+    refuse(pattern, fmt::format("no record is of files {}, but of {}: taut join {}", pattern.name(),
+                                fmt::join(others, " and "), (pattern.folder() / others.front()).string()));
+}
+
 }  // namespace
 
 FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
@@ -143,8 +173,8 @@ FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<F
     FrameJoin join{pattern, pipeline::partRecords(pattern), {}};
     for (const PartRecord& record : join.records)
         if (!record.fault.empty()) throw core::Error(core::ErrorKind::badContent, record.fault);
-    if (join.records.empty())
-        refuse(pattern, "there is no record of pictures, run.json or run_0-119.json: nothing was drawn here");
+    if (join.records.empty()) refuseWithoutRecord(pattern);
+    leaveOutFailed(join.records);
     expectOneRun(pattern, join.records, takesAnyRenderer);
     const std::int64_t count = join.records.front().count;
     const FrameRange range = wanted.value_or(FrameRange{});
@@ -155,21 +185,28 @@ FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<F
     return join;
 }
 
-std::string joinedMetrics(const FrameJoin& join) {
+JoinedMetrics joinedMetrics(const FrameJoin& join) {
     constexpr std::uint64_t mostBytes = std::uint64_t{1} << 32U;
-    std::string all, heading;
+    std::string all, heading, from, without;
     std::int64_t next = 0;
     for (const PartRecord& record : join.records) {
+        if (next > join.frames.last) break;
         // run_0-119.json: metrics_0-119.csv
         const std::string name = "metrics" + record.path.stem().string().substr(3) + ".csv";
         const std::filesystem::path path = record.path.parent_path() / name;
-        if (record.last < next) continue;
-        if (!core::isThere(path)) return "";
+        if (record.lastDrawn() < std::max(next, record.first)) continue;
+        if (!core::isThere(path)) {
+            if (without.empty()) without = name;
+            continue;
+        }
         std::istringstream lines(core::fileContent(path, mostBytes));
         std::string line;
         std::getline(lines, line);
-        if (heading.empty()) all = heading = line;
-        if (line != heading) return "";
+        if (heading.empty()) {
+            all = heading = line;
+            from = name;
+        }
+        if (line != heading) return {"", fmt::format("{} and {} have other columns", from, name)};
         const std::int64_t last = std::min(record.lastDrawn(), join.frames.last);
         while (std::getline(lines, line)) {
             const std::int64_t frame = std::strtoll(line.c_str(), nullptr, 10);
@@ -177,7 +214,9 @@ std::string joinedMetrics(const FrameJoin& join) {
         }
         next = last + 1;
     }
-    return all + "\n";
+    if (from.empty()) return {};
+    if (!without.empty()) return {"", fmt::format("{} is there, and no {}", from, without)};
+    return {all + "\n", ""};
 }
 
 bool encodeFrames(const FrameJoin& join, image::FrameSink& sink, bool quiet, const std::atomic<bool>& stop) {

@@ -23,16 +23,20 @@ struct FrameJoin {
 };
 
 // All frames of the run, or those wanted. Throws core::Error(inputOutput) where records are not of one run, by their
-// keys, their renderers unless any will do, or their state hashes; and where frames or records are missing, with all
-// that is.
+// keys, their renderers and versions of the program unless any will do, or their state hashes; and where frames or
+// records are missing, with all that is.
 FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
                        bool takesAnyRenderer);
 
-// metrics.csv of all parts: of each the lines of its own frames, and before the first what that one has. Empty where
-// not all have written the same columns.
-std::string joinedMetrics(const FrameJoin& join);
+struct JoinedMetrics {
+    std::string text;
+    std::string fault;  // why there is no text, where some parts have metrics
+};
+// metrics.csv of all parts: of each the lines of its own frames, and before the first what that one has. None where not
+// all have written the same columns.
+JoinedMetrics joinedMetrics(const FrameJoin& join);
 
-// Into the sink, which is not finished where `stop` became true: false then. Throws core::Error: badContent for a
+// Into the sink, which is not finished where `stop` became true: false then. Throws core::Error: inputOutput for a
 // picture that is damaged or of another size, what the sink throws.
 bool encodeFrames(const FrameJoin& join, image::FrameSink& sink, bool quiet, const std::atomic<bool>& stop);
 

@@ -37,8 +37,9 @@ using Clock = std::chrono::steady_clock;
 void writeJoinedRecords(const FrameJoin& join, const image::FrameSink& sink) {
     writeWith(sink.companion("run.json"),
               [&](const pipeline::Write& write) { pipeline::writeJoinedJson(write, join.records, join.frames); });
-    const std::string metrics = joinedMetrics(join);
-    if (!metrics.empty()) core::writeWholeFile(sink.companion("metrics.csv"), metrics);
+    const JoinedMetrics metrics = joinedMetrics(join);
+    if (!metrics.text.empty()) core::writeWholeFile(sink.companion("metrics.csv"), metrics.text);
+    if (!metrics.fault.empty()) printNote("note: metrics are not joined: {}\n", metrics.fault);
 }
 
 int joinFrames(const JoinFlags& flags) {
@@ -84,7 +85,7 @@ int joinTests(const JoinFlags& flags) {
     addAcceptance(all.accepts, all.report);
     showOutcome(all.report, folder);
     writeReport(all.report, folder, flags.junit);
-    return all.hasUnread ? static_cast<int>(ExitCode::badContent) : exitCodeOf(report::verdictOf(all.report));
+    return exitCodeOf(all);
 }
 
 int join(const JoinFlags& flags) {
@@ -106,7 +107,7 @@ Action declareJoin(Options& options) {
     options.value("--junit", flags->junit, "Of tests: write the results as JUnit XML too").typeName("FILE");
     options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
     options.flag("--any-renderer", flags->anyRenderer,
-                 "Join pictures also where not all were drawn by the same renderer");
+                 "Join pictures also where not all were drawn by the same renderer and version of taut");
     const Option yes = options.flag("-y,--yes", flags->yes, "Overwrite what exists");
     options.flag("-n,--no", flags->no, "Never overwrite").excludes(yes);
     options.flag("--quiet", flags->quiet, "No progress");

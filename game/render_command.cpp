@@ -250,6 +250,7 @@ int render(const RenderFlags& flags) {
     const std::uint64_t key = keyOfRun(keys, part.count - 1);
     const std::optional<PartPlace> place = placeOf(flags, key);
     const std::vector<pipeline::RunLock> locks = locksOf(flags, part, place, states);
+    noteMissingLocks(locks);
     std::optional<JobsFolder> jobs;
     if (flags.jobs > 0) {
         jobs.emplace(flags.output);

@@ -44,6 +44,14 @@ void checkShard(const RenderFlags& flags) {
         failRender(
             "states are those of the whole run: keep them by a run before, taut render SCENE --no-pictures "
             "--checkpoint-every 60 --checkpoints FOLDER, and give --checkpoints FOLDER to the shards");
+    const std::string& states = flags.continuation.folder;
+    std::error_code ignored;
+    if (!states.empty() && !std::filesystem::is_directory(states, ignored))
+        throw core::Error(
+            core::ErrorKind::inputOutput,
+            fmt::format("--checkpoints {}: there is no such folder; taut render SCENE --no-pictures --checkpoint-every "
+                        "60 --checkpoints {} makes it, and without --checkpoints a shard simulates from frame 0 on",
+                        states, states));
 }
 
 void checkJobs(const RenderFlags& flags) {

@@ -10,6 +10,7 @@
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/video_writer.h"
+#include "taut/pipeline/machine.h"
 #include "taut/pipeline/run.h"
 
 namespace taut::game {
@@ -62,15 +63,28 @@ void takeAwayRecords(const RunPart& part, const std::vector<pipeline::PartRecord
         if (record.fault.empty() && overlap(record, part.frames)) removeFile(record.path);
 }
 
-void refuseOtherRuns(const PartPlace& place, const std::vector<pipeline::PartRecord>& records) {
+bool isOfRun(const pipeline::PartRecord& record, const RunPart& part, const PartPlace& place) {
+    return record.key == hexadecimal(place.key) && record.count == part.count;
+}
+
+// Failed before its first picture. Who draws another run holds the lock of the folder: it is at work no more.
+bool hasLeftNothing(const pipeline::PartRecord& record, const PartPlace& place) {
+    return record.fault.empty() && record.lastDrawn() < record.first &&
+           framesThere(place, {record.first, record.last}).empty();
+}
+
+void refuseOtherRuns(const RunPart& part, const PartPlace& place, const std::vector<pipeline::PartRecord>& records) {
     for (const pipeline::PartRecord& record : records) {
-        if (record.key == hexadecimal(place.key)) continue;
-        if (!place.mayOverwrite)
-            throw core::Error(
-                core::ErrorKind::inputOutput,
-                fmt::format("{} is of another run{}: give this one a folder of its own; -y draws over what is "
-                            "there",
-                            record.path.string(), record.fault.empty() ? "" : ", or of none"));
+        if (isOfRun(record, part, place)) continue;
+        if (!place.mayOverwrite && !hasLeftNothing(record, place)) {
+            const std::string other =
+                record.key == hexadecimal(place.key)
+                    ? fmt::format("a run of {} frames, and this one has {}", record.count, part.count)
+                    : fmt::format("another run{}", record.fault.empty() ? "" : ", or of none");
+            throw core::Error(core::ErrorKind::inputOutput,
+                              fmt::format("{} is of {}: give this one a folder of its own; -y draws over what is there",
+                                          record.path.string(), other));
+        }
         removeFile(record.path);
     }
 }
@@ -109,6 +123,13 @@ RunPart partOf(const RenderFlags& flags, const world::RunSpec& run) {
     return part;
 }
 
+void noteMissingLocks(const std::vector<pipeline::RunLock>& locks) {
+    const auto open = std::find_if(locks.begin(), locks.end(), [](const auto& lock) { return !lock.excludesOthers(); });
+    if (open == locks.end()) return;
+    printNote("note: {} knows no locks: see to it that no two runs, and no two of the same shard, write there\n",
+              open->folder().string());
+}
+
 std::vector<pipeline::RunLock> lockPart(const RunPart& part, const PartPlace& place, const std::string& name) {
     std::vector<pipeline::RunLock> locks;
     const std::filesystem::path& folder = place.pattern.folder();
@@ -125,10 +146,10 @@ PartState claimPart(const RunPart& part, const PartPlace& place, const std::stri
         if (!place.resumes) takeAwayRecords(part, records);
         return PartState::fresh;
     }
-    refuseOtherRuns(place, records);
+    refuseOtherRuns(part, place, records);
     const std::string name = part.companion("run", ".json");
     const auto own = std::find_if(records.begin(), records.end(), [&](const pipeline::PartRecord& record) {
-        return record.path.filename() == name && record.key == hexadecimal(place.key);
+        return record.path.filename() == name && isOfRun(record, part, place);
     });
     const bool goesOn = own != records.end() && place.resumes;
     if (goesOn && own->ended == "complete" && isWhole(part, place)) return PartState::complete;
@@ -137,13 +158,18 @@ PartState claimPart(const RunPart& part, const PartPlace& place, const std::stri
         throw core::Error(core::ErrorKind::inputOutput,
                           fmt::format("{} is there, and no {} says of which run; -y draws it again",
                                       place.pattern.pathOf(there.front()).string(), name));
+    const std::string program = pipeline::machine().program;
+    const auto isAlike = [&](const pipeline::PartRecord& record) {
+        return record.renderer == renderer && record.program == program;
+    };
     for (const pipeline::PartRecord& record : records)
-        if (overlap(record, part.frames) && record.renderer != renderer && core::isThere(record.path))
-            removeFile(record.path);
-    if (goesOn && own->renderer == renderer) return PartState::begun;
-    if (goesOn)
+        if (overlap(record, part.frames) && !isAlike(record) && core::isThere(record.path)) removeFile(record.path);
+    if (goesOn && isAlike(*own)) return PartState::begun;
+    if (goesOn) {
+        const bool isRenderer = own->renderer != renderer;
         printNote("note: frames {}-{} were begun by {}: all of them are drawn again by {}\n", part.frames.first,
-                  part.frames.last, own->renderer, renderer);
+                  part.frames.last, isRenderer ? own->renderer : own->program, isRenderer ? renderer : program);
+    }
     if (own != records.end()) removeFile(own->path);
     removeFrames(place, part.frames);
     return PartState::begun;

@@ -40,12 +40,16 @@ struct PartPlace {
 // core::Error(inputOutput).
 std::vector<pipeline::RunLock> lockPart(const RunPart& part, const PartPlace& place, const std::string& name);
 
+// Says so once where the file system knows no locks.
+void noteMissingLocks(const std::vector<pipeline::RunLock>& locks);
+
 // Begun: what lies there of its frames is its own.
 enum class PartState { fresh, begun, complete };
 
 // What has been done of the part, which `renderer` is to draw. Takes away what is to be replaced, what another renderer
-// has begun, and records of other runs where they may be overwritten. Expects the lock. Throws core::Error(inputOutput)
-// where they may not, or where nothing says of which run frames are that lie there.
+// or another version of the program has begun, and records of other runs where they may be overwritten or have drawn
+// nothing; a run of another length is another one. Expects the lock. Throws core::Error(inputOutput) where they may
+// not, or where nothing says of which run frames are that lie there.
 PartState claimPart(const RunPart& part, const PartPlace& place, const std::string& renderer);
 
 }  // namespace taut::game

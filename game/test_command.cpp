@@ -16,6 +16,7 @@
 #include "game/live_line.h"
 #include "game/messages.h"
 #include "game/renderers.h"
+#include "game/run_part.h"
 #include "game/scene_file.h"
 #include "game/test_outcome.h"
 #include "game/test_shards.h"
@@ -79,12 +80,14 @@ int test(const TestFlags& flags) {
     core::prepareFolderOf(pageIn(flags.output));
     if (!flags.junit.empty()) core::prepareFolderOf(flags.junit);
     const std::optional<Shard> piece = flags.shard.empty() ? std::nullopt : std::optional(shard(flags.shard));
-    std::vector<pipeline::RunLock> locks;
-    if (piece) locks = lockShard(flags.output, run, *piece);
-    if (piece && flags.resume && isShardThere(flags.output, run, *piece)) {
-        printNote("--shard {} is there already, in {}\n", flags.shard, flags.output);
-        return static_cast<int>(ExitCode::ok);
-    }
+    const std::vector<pipeline::RunLock> locks = lockReport(flags.output, run, piece);
+    noteMissingLocks(locks);
+    if (piece && flags.resume)
+        if (const std::optional<TestShard> stored = storedShard(flags.output, run, *piece)) {
+            printNote("--shard {} is there already, in {}: {}\n", flags.shard, flags.output,
+                      report::testSummary(stored->report));
+            return exitCodeOf(*stored);
+        }
 
     const Interruption interruption;
     const core::ThreadLimit limit(run.suite.threadsEach);
@@ -176,7 +179,8 @@ Action declareTest(Options& options) {
         .value("--shard", flags->shard,
                "Play this of N shares of the scenarios, 0/N to N-1/N, into a folder that they share; then taut join")
         .typeName("K/N");
-    options.flag("--resume", flags->resume, "With --shard: nothing to do where that shard is there already");
+    options.flag("--resume", flags->resume,
+                 "With --shard: where that shard is there already, only its exit code again");
     options.value("--update", flags->updates, "Make what this scenario does its golden; repeatable, with --why")
         .typeName("NAME")
         .oneValue();

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <set>
 
+#include "game/exit_code.h"
+#include "game/test_outcome.h"
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
@@ -23,7 +25,16 @@ namespace {
 
 const pipeline::SealedKind kind{.mark = "tauttest", .version = 1, .title = "shard of a test"};
 
-// The scenarios by their files, the goldens by their manifest.
+// Empty where it cannot be read.
+std::string contentIfThere(const std::filesystem::path& path) {
+    try {
+        return core::fileContent(path);
+    } catch (const core::Error&) {
+        return "";
+    }
+}
+
+// The scenarios by their files, the goldens by their manifest: wherever they lie.
 std::uint64_t keyOf(const TestFlags& flags, const TestRun& run) {
     core::Hash hash;
     hash.add(static_cast<std::uint64_t>(world::resultBits));
@@ -31,7 +42,7 @@ std::uint64_t keyOf(const TestFlags& flags, const TestRun& run) {
     for (const std::string& name : run.names) hash.add(name);
     for (const regression::Scenario& scenario : run.read.scenarios)
         for (const scene::UsedFile& file : scene::usedFiles(scenario.spec)) hash.add(file.content);
-    for (const regression::UnreadScenario& scenario : run.read.unread) hash.add(scenario.fault);
+    for (const regression::UnreadScenario& scenario : run.read.unread) hash.add(contentIfThere(scenario.file));
     const std::filesystem::path manifest = run.suite.goldens.manifest();
     if (core::isThere(manifest)) hash.add(core::fileContent(manifest));
     return hash.value();
@@ -150,25 +161,33 @@ std::filesystem::path shardPath(const std::filesystem::path& folder, const Shard
     return folder / fmt::format("shard_{}-of-{}.taut", piece.index, piece.count);
 }
 
-std::vector<pipeline::RunLock> lockShard(const std::filesystem::path& folder, const TestRun& run, const Shard& piece) {
+std::vector<pipeline::RunLock> lockReport(const std::filesystem::path& folder, const TestRun& run,
+                                          const std::optional<Shard>& piece) {
     char host[256] = "";
     ::gethostname(host, sizeof host - 1);
-    const std::string name = fmt::format("taut test --shard {}, process {} on {}", piece.text(), ::getpid(), host);
+    const std::string name =
+        fmt::format("taut test{}, process {} on {}", piece ? " --shard " + piece->text() : "", ::getpid(), host);
     std::vector<pipeline::RunLock> locks;
-    locks.emplace_back(folder, pipeline::RunParty{run.key, name});
-    locks.emplace_back(folder, pipeline::RunParty{std::nullopt, name},
-                       fmt::format("shard_{}-of-{}", piece.index, piece.count));
+    locks.emplace_back(folder, pipeline::RunParty{piece ? std::optional(run.key) : std::nullopt, name});
+    if (piece)
+        locks.emplace_back(folder, pipeline::RunParty{std::nullopt, name},
+                           fmt::format("shard_{}-of-{}", piece->index, piece->count));
     return locks;
 }
 
-bool isShardThere(const std::filesystem::path& folder, const TestRun& run, const Shard& piece) {
+std::optional<TestShard> storedShard(const std::filesystem::path& folder, const TestRun& run, const Shard& piece) {
     const std::filesystem::path path = shardPath(folder, piece);
-    if (!core::isThere(path)) return false;
+    if (!core::isThere(path)) return std::nullopt;
     try {
-        return readShard(path).key == run.key;
-    } catch (const core::Error&) {
-        return false;
+        TestShard shard = readShard(path);
+        if (shard.key == run.key && shard.piece.index == piece.index && shard.piece.count == piece.count) return shard;
+    } catch (const core::Error&) {  // damaged, it is played again
     }
+    return std::nullopt;
+}
+
+int exitCodeOf(const TestShard& shard) {
+    return shard.hasUnread ? static_cast<int>(ExitCode::badContent) : exitCodeOf(report::verdictOf(shard.report));
 }
 
 void writeShard(const std::filesystem::path& folder, const TestShard& shard) {
@@ -193,8 +212,13 @@ TestShard joinedShards(const std::filesystem::path& folder) {
     const std::vector<std::filesystem::path> files = shardFiles(folder);
     TAUT_EXPECTS(!files.empty());
     std::map<std::int64_t, TestShard> shards;
+    std::map<std::string, std::string> holders;  // of pieces, by their text
     for (const std::filesystem::path& file : files) {
         TestShard shard = readShard(file);
+        const std::string name = file.filename().string();
+        if (const auto [holder, isFirst] = holders.emplace(shard.piece.text(), name); !isFirst)
+            refuse(folder, fmt::format("{} holds shard {}, which {} holds too; take away the copy", name,
+                                       shard.piece.text(), holder->second));
         shards.emplace(shard.piece.index, std::move(shard));
     }
     expectOneRun(folder, shards, files);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,11 +30,16 @@ void deal(const TestFlags& flags, TestRun& run);
 
 std::filesystem::path shardPath(const std::filesystem::path& folder, const Shard& piece);
 
-// Locks the folder for shards of the same scenarios, and the shard in it; throws core::Error(inputOutput).
-std::vector<pipeline::RunLock> lockShard(const std::filesystem::path& folder, const TestRun& run, const Shard& piece);
+// Locks the folder for shards of the same scenarios, and the shard in it; for a run of all scenarios it is that one's
+// alone. Throws core::Error(inputOutput).
+std::vector<pipeline::RunLock> lockReport(const std::filesystem::path& folder, const TestRun& run,
+                                          const std::optional<Shard>& piece);
 
-// Whether the shard is there whole, and of the same scenarios.
-bool isShardThere(const std::filesystem::path& folder, const TestRun& run, const Shard& piece);
+// The shard that lies there, where it is whole and of the same scenarios.
+std::optional<TestShard> storedShard(const std::filesystem::path& folder, const TestRun& run, const Shard& piece);
+
+// That taut test has for it.
+int exitCodeOf(const TestShard& shard);
 
 // Whole or not at all; throws core::Error(inputOutput).
 void writeShard(const std::filesystem::path& folder, const TestShard& shard);

@@ -128,6 +128,7 @@ ChildProcess::~ChildProcess() {
         ::kill(process_, SIGKILL);
         wait();
     }
+    closeInput();
     ::close(output_);
     ::close(errors_);
 }

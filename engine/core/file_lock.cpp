@@ -8,15 +8,15 @@
 
 namespace taut::core {
 
-bool tryLock(int descriptor, FileLock lock) {
+LockOutcome tryLock(int descriptor, FileLock lock) {
     struct flock range = {};  // all of it
     range.l_type = lock == FileLock::exclusive ? F_WRLCK : F_RDLCK;
     range.l_whence = SEEK_SET;
     while (::fcntl(descriptor, F_OFD_SETLK, &range) != 0) {
         if (errno == EINTR) continue;
-        return errno != EAGAIN && errno != EACCES;
+        return errno == EAGAIN || errno == EACCES ? LockOutcome::refused : LockOutcome::unknown;
     }
-    return true;
+    return LockOutcome::taken;
 }
 
 bool isNamed(int descriptor, const std::filesystem::path& path) {

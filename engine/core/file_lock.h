@@ -8,9 +8,15 @@ namespace taut::core {
 
 enum class FileLock { shared, exclusive };
 
+enum class LockOutcome {
+    taken,
+    refused,  // another holds one that excludes it
+    unknown,  // the file system knows no locks
+};
+
 // Locks the whole of an open file, or changes the lock that this descriptor holds into the other, at once and without
-// waiting. False when another holds one that excludes it. A file system that knows no locks counts as having none.
-bool tryLock(int descriptor, FileLock lock);
+// waiting.
+LockOutcome tryLock(int descriptor, FileLock lock);
 
 // Whether the file that is open is still the one of that name; a symbolic link is not followed.
 bool isNamed(int descriptor, const std::filesystem::path& path);

@@ -21,14 +21,14 @@ namespace {
     throw Error(ErrorKind::inputOutput, path.string() + ": " + what + ": " + std::strerror(error));
 }
 
-// Removes what a process that was killed has left under a temporary name; a link is not followed. False when it is being
-// written, by a process that lives.
+// Removes what a process that was killed has left under a temporary name; a link is not followed. False when it is
+// being written, by a process that lives.
 bool hasRemovedLeftOver(const std::filesystem::path& path, const std::filesystem::path& temporary) {
     const int left = ::open(temporary.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     const bool isLink = left < 0 && errno == ELOOP;
     if (left < 0 && errno == ENOENT) return true;
     if (left < 0 && !isLink) failOn(path, "cannot write", errno);
-    const bool isFree = isLink || tryLock(left, FileLock::exclusive);
+    const bool isFree = isLink || tryLock(left, FileLock::exclusive) != LockOutcome::refused;
     // The lock may be one on a file that another process has replaced meanwhile.
     const bool isGone = !isLink && !isNamed(left, temporary);
     const int error = isFree && !isGone && ::unlink(temporary.c_str()) != 0 && errno != ENOENT ? errno : 0;
@@ -71,7 +71,8 @@ WholeFile::WholeFile(std::filesystem::path path, std::chrono::milliseconds patie
             if (std::chrono::steady_clock::now() >= end)
                 throw Error(ErrorKind::inputOutput, path_.string() + ": another process is writing this file");
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        } else if (!tryLock(descriptor_, FileLock::exclusive) || !isNamed(descriptor_, temporary_)) {
+        } else if (tryLock(descriptor_, FileLock::exclusive) == LockOutcome::refused ||
+                   !isNamed(descriptor_, temporary_)) {
             ::close(descriptor_);
             descriptor_ = -1;
         }

@@ -36,18 +36,20 @@ bool write(int descriptor, std::string_view text) {
 
 // The first of a run locks for itself, says who it is, and then shares where it may. A part finds its key there, and
 // shares too.
-enum class Turn { taken, again, refused };
+enum class Turn { taken, unlocked, again, refused };
 Turn takeTurn(int descriptor, const std::filesystem::path& path, const RunParty& party) {
     const std::string key = fmt::format("{:016x} ", party.key.value_or(0));
-    const bool isFirst = core::tryLock(descriptor, core::FileLock::exclusive);
+    const core::LockOutcome outcome = core::tryLock(descriptor, core::FileLock::exclusive);
+    const bool isFirst = outcome != core::LockOutcome::refused;
     if (!isFirst && !party.key) return Turn::refused;
-    if (!isFirst && !core::tryLock(descriptor, core::FileLock::shared)) return Turn::refused;
+    if (!isFirst && core::tryLock(descriptor, core::FileLock::shared) == core::LockOutcome::refused)
+        return Turn::refused;
     if (!core::isNamed(descriptor, path)) return Turn::again;  // the last holder has taken the file away
     if (!isFirst) return contentOf(descriptor).starts_with(key) ? Turn::taken : Turn::refused;
     if (!write(descriptor, key + party.name))
         fail(path.parent_path(), fmt::format("cannot write: {}", std::strerror(errno)));
     if (party.key) core::tryLock(descriptor, core::FileLock::shared);
-    return Turn::taken;
+    return outcome == core::LockOutcome::taken ? Turn::taken : Turn::unlocked;
 }
 
 std::string nameIn(const std::string& content) {
@@ -73,8 +75,9 @@ RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party, con
             ::close(descriptor);
             throw;
         }
-        if (turn == Turn::taken) {
+        if (turn == Turn::taken || turn == Turn::unlocked) {
             descriptor_ = descriptor;
+            excludesOthers_ = turn == Turn::taken;
             return;
         }
         other = contentOf(descriptor);
@@ -92,19 +95,22 @@ RunLock::RunLock(const std::filesystem::path& folder, const RunParty& party, con
 RunLock::RunLock(RunLock&& other) noexcept
     : path_(std::move(other.path_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      hasMadeFolder_(other.hasMadeFolder_) {}
+      hasMadeFolder_(other.hasMadeFolder_),
+      excludesOthers_(other.excludesOthers_) {}
 
 RunLock& RunLock::operator=(RunLock&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(descriptor_, other.descriptor_);
     std::swap(hasMadeFolder_, other.hasMadeFolder_);
+    std::swap(excludesOthers_, other.excludesOthers_);
     return *this;
 }
 
 RunLock::~RunLock() {
     if (descriptor_ < 0) return;
     // The last one takes the file away: who has opened it meanwhile sees that it is no longer the one of that name.
-    if (core::tryLock(descriptor_, core::FileLock::exclusive) && core::isNamed(descriptor_, path_))
+    if (core::tryLock(descriptor_, core::FileLock::exclusive) != core::LockOutcome::refused &&
+        core::isNamed(descriptor_, path_))
         ::unlink(path_.c_str());
     if (hasMadeFolder_) ::rmdir(path_.parent_path().c_str());  // refused where there is something
     ::close(descriptor_);

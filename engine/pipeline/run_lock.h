@@ -27,10 +27,14 @@ class RunLock {
     RunLock& operator=(RunLock&& other) noexcept;
     ~RunLock();
 
+    std::filesystem::path folder() const { return path_.parent_path(); }
+    bool excludesOthers() const { return excludesOthers_; }  // false on a file system that knows no locks
+
   private:
     std::filesystem::path path_;
     int descriptor_ = -1;
     bool hasMadeFolder_ = false;  // which goes with it when nothing has come to lie there
+    bool excludesOthers_ = true;
 };
 
 }  // namespace taut::pipeline

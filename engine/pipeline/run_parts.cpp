@@ -6,6 +6,7 @@
 #include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
@@ -109,16 +110,18 @@ PartRecord readPartRecord(const std::filesystem::path& path) {
     }
 }
 
-std::vector<PartRecord> partRecords(const image::FramePattern& pattern) {
+namespace {
+
+// Those of pictures, and those that cannot be read.
+std::vector<PartRecord> recordsIn(const std::filesystem::path& folder) {
     std::vector<PartRecord> records;
-    const std::filesystem::path& folder = pattern.folder();
     std::error_code ignored;  // a missing folder has none
     for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, ignored)) {
         if (!isRecordName(entry.path().filename().string())) continue;
         const std::filesystem::path path = folder / entry.path().filename();
         try {
             PartRecord record = readPartRecord(path);
-            if (!record.renderer.empty() && record.files == pattern.name()) records.push_back(std::move(record));
+            if (!record.renderer.empty()) records.push_back(std::move(record));
         } catch (const core::Error& error) {
             if (!core::isThere(path)) continue;  // a part that begins anew has taken it away
             records.emplace_back();
@@ -126,13 +129,30 @@ std::vector<PartRecord> partRecords(const image::FramePattern& pattern) {
             records.back().fault = error.what();
         }
     }
+    return records;
+}
+
+}  // namespace
+
+std::vector<std::string> recordedFiles(const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    for (const PartRecord& record : recordsIn(folder))
+        if (record.fault.empty()) names.insert(record.files);
+    return {names.begin(), names.end()};
+}
+
+std::vector<PartRecord> partRecords(const image::FramePattern& pattern) {
+    std::vector<PartRecord> records = recordsIn(pattern.folder());
+    std::erase_if(
+        records,
+        [name = pattern.name()](const PartRecord& record) { return record.fault.empty() && record.files != name; });
     std::sort(records.begin(), records.end(), [](const PartRecord& a, const PartRecord& b) {
         return std::pair(a.first, a.path) < std::pair(b.first, b.path);
     });
     return records;
 }
 
-std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesRenderers) {
+std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesDrawers) {
     if (a.bits != b.bits) return fmt::format("results of bits {} and {}", a.bits, b.bits);
     if (a.size != b.size) return fmt::format("{} and {} pixels", a.size, b.size);
     if (a.fps != b.fps) return fmt::format("{} and {} pictures a second", a.fps, b.fps);
@@ -140,7 +160,8 @@ std::string differenceOf(const PartRecord& a, const PartRecord& b, bool compares
     if (a.key.empty() || a.key != b.key)
         return a.scene == b.scene ? "other settings of scene, timeline or look"
                                   : fmt::format("scenes {} and {}", a.scene, b.scene);
-    if (comparesRenderers && a.renderer != b.renderer)
+    if (comparesDrawers && a.program != b.program) return fmt::format("drawn by {} and by {}", a.program, b.program);
+    if (comparesDrawers && a.renderer != b.renderer)
         return fmt::format("drawn by {} and by {}", a.renderer, b.renderer);
     const auto [x, y] = std::mismatch(
         a.hashes.begin(), a.hashes.begin() + static_cast<std::ptrdiff_t>(std::min(a.hashes.size(), b.hashes.size())),

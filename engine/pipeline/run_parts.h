@@ -51,9 +51,13 @@ PartRecord readPartRecord(const std::filesystem::path& path);
 // names, are left out. Of one that cannot be read, path and fault are set.
 std::vector<PartRecord> partRecords(const image::FramePattern& pattern);
 
+// Of which files there are records in the folder, "p_######.png", by name.
+std::vector<std::string> recordedFiles(const std::filesystem::path& folder);
+
 // In what two records show that they are not of one run: "scenes flag.toml and drape.toml", "64 x 48 and 32 x
-// 24 pixels", "other states from frame 12 on"; empty where they may be. Renderers are compared if asked for.
-std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesRenderers = true);
+// 24 pixels", "other states from frame 12 on"; empty where they may be. Renderers and versions of the program are
+// compared if asked for.
+std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesDrawers = true);
 
 struct FrameSpan {
     std::int64_t first = 0, last = 0;  // included

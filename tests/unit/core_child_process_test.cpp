@@ -4,6 +4,8 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <thread>
 
 #include "image_support.h"
 #include "support/text.h"
@@ -49,6 +51,19 @@ TEST(ChildProcess, ThatCannotBeRunIsAnErrorWithItsName) {
     }
     EXPECT_TRUE(isInPath("sh"));
     EXPECT_TRUE(isInPath("/bin/sh"));
+}
+
+TEST(ChildProcess, ClosesItsFilesHoweverItsEndIsNoticed) {
+    const auto files = [] {
+        const std::filesystem::directory_iterator open("/proc/self/fd");
+        return std::distance(begin(open), end(open));
+    };
+    const auto before = files();
+    {
+        ChildProcess child(shell("exit 0"));
+        while (child.isRunning()) std::this_thread::yield();
+    }
+    EXPECT_EQ(files(), before);
 }
 
 // A minute of sleep that nobody waits for.

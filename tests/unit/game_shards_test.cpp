@@ -144,6 +144,59 @@ TEST_F(Shards, OfTwoScenesAreNotJoined) {
     EXPECT_EQ(frame("shards", 1), before);
 }
 
+TEST_F(Shards, OfARunThatFailedBeforeItsFirstPictureAreNone) {
+    const std::filesystem::path failed = folder_ / "shards/run_5-9.json";
+    draw({"-o", path("shards"), "--shard", "1/2", "--set", "world.gravity=[0,-9,0]"});
+    writeText(failed, std::regex_replace(contentOf(failed), std::regex("\"complete\""), "\"begun\""));
+    const std::string record = contentOf(failed);
+    EXPECT_EQ(render({"-o", path("shards"), "--shard", "0/2"}).code, 6) << "it has left pictures";
+    for (int i = 5; i < 10; ++i)
+        std::filesystem::remove(folder_ / "shards" / ("frame_00000" + std::to_string(i) + ".png"));
+    draw({"-o", path("shards"), "--shard", "0/2"});
+    EXPECT_FALSE(std::filesystem::exists(failed));
+    draw({"-o", path("shards"), "--shard", "1/2"});
+    writeText(folder_ / "shards/run_5-8.json", record);
+    EXPECT_EQ(run({"join", path("shards")}).code, 0);
+}
+
+TEST_F(Shards, OfRunsOfOtherLengthsAreRefused) {
+    draw({"-o", path("shards"), "--shard", "0/2"});
+    const Outcome longer = render({"-o", path("shards"), "--shard", "1/2", "--seconds", "1", "--resume"});
+    EXPECT_EQ(longer.code, 6);
+    EXPECT_TRUE(has(longer.err, "run_0-4.json is of a run of 10 frames, and this one has 20")) << longer.err;
+    EXPECT_EQ(filesIn("shards"), 6U);
+}
+
+TEST_F(Shards, ThatAreDamagedAreDrawnAgain) {
+    drawShards(2);
+    const std::filesystem::path damaged = folder_ / "shards/frame_000007.png";
+    const std::string whole = contentOf(damaged);
+    writeText(damaged, whole.substr(0, whole.size() / 2));
+    const Outcome joined = run({"join", path("shards"), "-o", path("joined.mp4"), "--quiet"});
+    EXPECT_EQ(joined.code, 6);
+    for (const char* part : {"frame_000007.png", "remove it, and the same --shard K/N --resume draws it again"})
+        EXPECT_TRUE(has(joined.err, part)) << joined.err;
+    std::filesystem::remove(damaged);
+    draw({"-o", path("shards"), "--shard", "1/2", "--resume"});
+    EXPECT_EQ(contentOf(damaged), whole);
+}
+
+TEST_F(Shards, OfOtherNamesAreNamed) {
+    draw({"-o", path("shards/p_######.png"), "--shard", "0/10"});
+    const Outcome joined = run({"join", path("shards")});
+    EXPECT_EQ(joined.code, 6);
+    EXPECT_TRUE(has(joined.err, "taut join " + path("shards/p_######.png"))) << joined.err;
+}
+
+TEST_F(Shards, WithoutAllMetricsAreJoinedWithANote) {
+    draw({"-o", path("shards"), "--shard", "0/2", "--metrics"});
+    draw({"-o", path("shards"), "--shard", "1/2"});
+    const Outcome joined = run({"join", path("shards"), "-o", path("joined.mp4"), "--quiet"});
+    EXPECT_EQ(joined.code, 0);
+    EXPECT_TRUE(has(joined.err, "metrics_0-4.csv is there, and no metrics_5-9.csv")) << joined.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "joined.metrics.csv"));
+}
+
 TEST_F(Shards, ThatAreNotThereAreUsageErrors) {
     for (const auto& [shard, words] : {std::pair("3/3", "they count from 0/3 to 2/3"),
                                        {"0/0", "1 to 1000000"},
@@ -157,6 +210,9 @@ TEST_F(Shards, ThatAreNotThereAreUsageErrors) {
     const Outcome video = render({"-o", path("a.mp4"), "--shard", "0/2"});
     EXPECT_EQ(video.code, 2);
     EXPECT_TRUE(has(video.err, "taut join FOLDER -o " + path("a.mp4"))) << video.err;
+    const Outcome states = render({"-o", path("shards"), "--shard", "0/2", "--checkpoints", path("nowhere")});
+    EXPECT_EQ(states.code, 6);
+    EXPECT_TRUE(has(states.err, "--checkpoint-every 60 --checkpoints " + path("nowhere"))) << states.err;
     EXPECT_EQ(folder_.entryCount(), 1);
 }
 
@@ -186,6 +242,10 @@ TEST(RunParts, DifferInTheFirstStateThatDoes) {
     b = a;
     b.renderer = "softpipe";
     EXPECT_EQ(pipeline::differenceOf(a, b), "drawn by  and by softpipe");
+    EXPECT_EQ(pipeline::differenceOf(a, b, false), "");
+    b = a;
+    b.program = "taut 9";
+    EXPECT_EQ(pipeline::differenceOf(a, b), "drawn by  and by taut 9");
     EXPECT_EQ(pipeline::differenceOf(a, b, false), "");
 }
 
@@ -222,7 +282,9 @@ TEST_F(Shards, OfATestBecomeItsReport) {
     EXPECT_TRUE(has(missing.err, "shard 1/2 is missing")) << missing.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "shards/report.html"));
     EXPECT_EQ(test("shards", {"--shard", "1/2"}).code, 1) << "b";
-    EXPECT_TRUE(has(test("shards", {"--shard", "1/2", "--resume"}).err, "there already"));
+    const Outcome again = test("shards", {"--shard", "1/2", "--resume"});
+    EXPECT_TRUE(has(again.err, "there already")) << again.err;
+    EXPECT_EQ(again.code, 1) << "as it was stored";
     const Outcome joined = run({"join", path("shards"), "--junit", path("joined.xml")});
     EXPECT_EQ(joined.code, 1) << joined.err;
     const auto timeless = [&](const std::string& name) {
@@ -231,8 +293,27 @@ TEST_F(Shards, OfATestBecomeItsReport) {
     EXPECT_EQ(timeless("joined.xml"), timeless("one.xml"));
     EXPECT_EQ(timeless("shards/report.html"), timeless("one/report.html"));
     EXPECT_EQ(test("shards", {"--shard", "0/4"}).code, 2) << "there are three";
+    std::filesystem::copy(folder_ / "shards/shard_0-of-2.taut", folder_ / "shards/shard_7-of-2.taut");
+    EXPECT_TRUE(has(run({"join", path("shards")}).err, "shard_7-of-2.taut holds shard 0/2, which shard_0-of-2.taut"));
+    std::filesystem::remove(folder_ / "shards/shard_7-of-2.taut");
     test("shards", {"--shard", "0/3"});
     EXPECT_EQ(run({"join", path("shards")}).code, 6) << "shards of two runs";
+}
+
+// Of files of the same content that cannot be read, wherever they lie; while one plays, no other run writes there.
+TEST_F(Shards, OfATestAreOfTheSameFilesInAnyFolder) {
+    for (const char* place : {"my", "mine"}) {
+        std::filesystem::create_directory(folder_ / place);
+        std::filesystem::copy(folder_ / "spring.toml", folder_ / place / "a.toml");
+        writeText(folder_ / place / "b.toml", "schema = 1\nnonsense = 1\n");
+    }
+    EXPECT_EQ(run({"test", path("my"), "--quiet", "-o", path("shards"), "--shard", "0/2"}).code, 8) << "no golden";
+    EXPECT_EQ(run({"test", path("mine"), "--quiet", "-o", path("shards"), "--shard", "1/2"}).code, 3);
+    EXPECT_EQ(run({"join", path("shards")}).code, 3);
+    const pipeline::RunLock shard(folder_ / "shards", {1, "a shard"});
+    const Outcome whole = run({"test", path("my"), "--quiet", "-o", path("shards")});
+    EXPECT_EQ(whole.code, 6);
+    EXPECT_TRUE(has(whole.err, "another run is writing here (a shard)")) << whole.err;
 }
 
 }  // namespace

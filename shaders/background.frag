@@ -1,4 +1,5 @@
-// The sky: its colours are shown as they are given; ENVIRONMENT: the picture around. TRANSPARENT: it takes nothing from what lies behind the picture.
+// The sky: its colours are shown as they are given. ENVIRONMENT: the picture around in its place. TRANSPARENT: it takes
+// nothing from what lies behind the picture.
 #include "tone.glsl"
 #ifdef ENVIRONMENT
 #include "environment.glsl"

@@ -1,5 +1,5 @@
-// The floor with its lines, fading into the horizon. SHADED where shadows may fall, DARKENED where things hide the sky.
-// ENVIRONMENT: into the picture around instead.
+// The floor with its lines, fading into the horizon, or into the picture around with ENVIRONMENT. SHADED where shadows
+// may fall, DARKENED where things hide the sky.
 // TRANSPARENT: without lines, and only what shadows leave of its colour, 0 … 1. LAMPS further lights shine on it.
 #include "tone.glsl"
 #ifdef SHADED

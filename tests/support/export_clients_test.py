@@ -21,49 +21,11 @@ import time
 import numpy
 from selenium import webdriver
 
+from exporting import CUT, done, expect, scene
+
 HERE = pathlib.Path(__file__).resolve().parent / "clients"
 SKIPPED = 77
-SCENE = """schema = 1
-[run]
-fps = 60
-seconds = 0.5
-[material.silk]
-density_kg_per_m2 = 0.1
-stretch_N_per_m = 200.0
-[cloth.flag]
-size = [1.0, 0.8]
-cells = [10, 8]
-origin = [0.0, 2.0, 0.0]
-material = "silk"
-hold = ["left"]
-[wind.breeze]
-velocity = [5.0, 0.0, 2.0]
-[rope.line]
-ends = [[0.0, 1.0, 1.0], [1.0, 1.0, 1.0]]
-segments = 6
-mass_kg = 0.2
-stretch_N = 500.0
-hold = ["start"]
-[collider.ball]
-shape = "sphere"
-radius = 0.2
-keys = [ { t = 0.0, position = [0.0, 0.2, 0.0], ease = "linear" }, { t = 0.5, position = [1.0, 0.2, 0.0], ease = "linear" } ]
-[collider.ground]
-shape = "plane"
-[camera.main]
-keys = [ { t = 0.0, eye = [0.5, 1.5, 4.0], target = [0.5, 1.5, 0.0] }, { t = 0.5, eye = [0.0, 1.5, 4.0], target = [0.5, 1.5, 0.0] } ]
-"""
-CUT = """[[at]]
-t = 0.2
-do = "cut"
-target = "cloth.flag"
-segment = [[0.45, 1.0], [0.45, 0.4]]
-"""
-
-
-def expect(condition, what):
-    if not condition:
-        sys.exit("does not hold: " + what)
+SCENE = scene('keys = [ { t = 0.0, eye = [0.5, 1.5, 4.0], target = [0.5, 1.5, 0.0] }, { t = 0.5, eye = [0.0, 1.5, 4.0], target = [0.5, 1.5, 0.0] } ]')
 
 
 def skip(why):
@@ -94,11 +56,6 @@ def installed(folder):
         if run.returncode != 0:
             skip("npm installs nothing: " + run.stderr.strip().replace("npm error ", "").splitlines()[0])
     return folder / "node_modules"
-
-
-def export(scene, *arguments):
-    run = subprocess.run([sys.argv[1], "export", scene, *arguments, "--quiet"], capture_output=True, text=True, check=False)
-    expect(run.returncode == 0, "taut export %s %s: %s" % (scene, arguments, run.stderr))
 
 
 def glb_is_valid(packages):
@@ -188,11 +145,11 @@ def usd_agrees():
 def main(packages):
     pathlib.Path("small.toml").write_text(SCENE, encoding="utf-8")
     pathlib.Path("torn.toml").write_text(SCENE + CUT, encoding="utf-8")
-    export("small.toml", "-o", "small.usda", "--digits", "9", "--points", "small.npz")
-    export("torn.toml", "-o", "torn.usda", "--digits", "9", "--points", "torn.npz", "--fps", "20")
-    export("small.toml", "-o", "small.glb")
-    export("small.toml", "-o", "plain.glb", "--no-normals", "--only", "cloth.*,rope.*", "--every", "7")
-    export("flag", "-o", "flag.glb", "--frames", "0-1")  # with a picture
+    done("export", "small.toml", "-o", "small.usda", "--digits", "9", "--points", "small.npz")
+    done("export", "torn.toml", "-o", "torn.usda", "--digits", "9", "--points", "torn.npz", "--fps", "20")
+    done("export", "small.toml", "-o", "small.glb")
+    done("export", "small.toml", "-o", "plain.glb", "--no-normals", "--only", "cloth.*,rope.*", "--every", "7")
+    done("export", "flag", "-o", "flag.glb", "--frames", "0-1")  # with a picture
     glb_is_valid(packages)
     for file in (packages / "three-usdz-loader" / "external").iterdir():
         os.symlink(file, file.name)

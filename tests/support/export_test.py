@@ -19,41 +19,9 @@ import vtkmodules.vtkCommonExecutionModel  # noqa: F401
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
-SCENE = """schema = 1
-[run]
-fps = 60
-seconds = 0.5
-[material.silk]
-density_kg_per_m2 = 0.1
-stretch_N_per_m = 200.0
-[cloth.flag]
-size = [1.0, 0.8]
-cells = [10, 8]
-origin = [0.0, 2.0, 0.0]
-material = "silk"
-hold = ["left"]
-[wind.breeze]
-velocity = [5.0, 0.0, 2.0]
-[rope.line]
-ends = [[0.0, 1.0, 1.0], [1.0, 1.0, 1.0]]
-segments = 6
-mass_kg = 0.2
-stretch_N = 500.0
-hold = ["start"]
-[collider.ball]
-shape = "sphere"
-radius = 0.2
-keys = [ { t = 0.0, position = [0.0, 0.2, 0.0], ease = "linear" }, { t = 0.5, position = [1.0, 0.2, 0.0], ease = "linear" } ]
-[camera.main]
-eye = [0.5, 1.5, 4.0]
-target = [0.5, 1.5, 0.0]
-"""
-CUT = """[[at]]
-t = 0.2
-do = "cut"
-target = "cloth.flag"
-segment = [[0.45, 1.0], [0.45, 0.4]]
-"""
+from exporting import CUT, done, expect, refused, scene
+
+SCENE = scene("eye = [0.5, 1.5, 4.0]\ntarget = [0.5, 1.5, 0.0]", has_ground=False)
 FRAMES = (0, 13, 29)
 # A float of 2 m is off by 1.2e-7 at most, and so is a difference of two that is added again.
 FLOATS = 5e-7
@@ -78,29 +46,8 @@ numpy.save(sys.argv[-1], numpy.array(shots))
 """ % (FRAMES,)
 
 
-def expect(condition, what):
-    if not condition:
-        sys.exit("does not hold: " + what)
-
-
-def run(*arguments):
-    return subprocess.run([sys.argv[1], "export", *map(str, arguments)], capture_output=True, text=True)
-
-
 def export(*arguments):
-    done = run(*arguments, "--quiet")
-    expect(done.returncode == 0, "taut export %s: %s" % (arguments, done.stderr))
-    return done.stdout
-
-
-def refused(code, words, *arguments):
-    """Nothing new is there then, and nothing old is gone."""
-    before = sorted(os.listdir("."))
-    done = run(*arguments)
-    expect(done.returncode == code, "exit %s, not %s: %s" % (code, done.returncode, done.stderr))
-    for word in words:
-        expect(word in done.stderr, '"%s" in: %s' % (word, done.stderr))
-    expect(sorted(os.listdir(".")) == before, "nothing is left of %s" % (arguments,))
+    return done("export", *arguments)
 
 
 def blocks_of(reader, frame):
@@ -187,12 +134,12 @@ def blender_agrees(x):
         print("skipped: Blender is not installed")
         return
     pathlib.Path("read.py").write_text(BLENDER)
-    done = subprocess.run(
+    blender = subprocess.run(
         ["blender", "--background", "--factory-startup", "--python", os.path.abspath("read.py"), "--",
          os.path.abspath("small.glb"), os.path.abspath("shots.npy")],
         capture_output=True, text=True,
     )
-    expect(os.path.exists("shots.npy"), "Blender reads it: " + done.stdout + done.stderr)
+    expect(os.path.exists("shots.npy"), "Blender reads it: " + blender.stdout + blender.stderr)
     for frame, there in zip(FRAMES, numpy.load("shots.npy")):
         order = places(there, x) if frame == 0 else order
         expect(numpy.abs(there[order] - x[frame]).max() < FLOATS, "Blender has frame %d" % frame)

@@ -8,7 +8,6 @@ written is refused and leaves nothing.
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import time
@@ -21,70 +20,14 @@ from selenium.webdriver.common.keys import Keys
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-SCENE = """schema = 1
-title = "A flag & a <ball>"
-[run]
-fps = 600
-seconds = 0.5
-[material.silk]
-density_kg_per_m2 = 0.1
-stretch_N_per_m = 200.0
-[cloth.flag]
-size = [1.0, 0.8]
-cells = [10, 8]
-origin = [0.0, 1.6, 0.0]
-material = "silk"
-hold = ["left"]
-finish = { pattern = "tartan", colour = "#b3122a", accent = "#2d1a4a", back_colour = "#cbb791", repeat_m = 0.3, weave = 0.5, sheen = 0.3 }
-[wind.breeze]
-velocity = [5.0, 0.0, 2.0]
-[rope.line]
-ends = [[0.0, 0.5, 0.5], [1.0, 0.5, 0.5]]
-segments = 6
-mass_kg = 0.2
-stretch_N = 500.0
-hold = ["start"]
-[collider.ball]
-shape = "sphere"
-radius = 0.2
-keys = [ { t = 0.0, position = [0.0, 0.2, 0.0], ease = "linear" }, { t = 0.5, position = [1.0, 0.2, 0.0], ease = "linear" } ]
-[collider.ground]
-shape = "plane"
-[camera.main]
-eye = [0.5, 1.2, 3.5]
-target = [0.5, 0.9, 0.0]
-"""
-CUT = """[[at]]
-t = 0.2
-do = "cut"
-target = "cloth.flag"
-segment = [[0.45, 1.0], [0.45, 0.4]]
-"""
+from exporting import CUT, done, expect, refused, scene
+
+SCENE = scene("eye = [0.5, 1.2, 3.5]\ntarget = [0.5, 0.9, 0.0]", fps=600, height=1.6, rope=0.5,
+              head='title = "A flag & a <ball>"',
+              finish='finish = { pattern = "tartan", colour = "#b3122a", accent = "#2d1a4a", '
+                     'back_colour = "#cbb791", repeat_m = 0.3, weave = 0.5, sheen = 0.3 }')
 LAST = 299  # of 300 keys; WebGL promises room for 256
 SHADED = 160  # a frame to look at
-
-
-def expect(condition, what):
-    if not condition:
-        sys.exit("does not hold: " + what)
-
-
-def taut(*arguments, **more):
-    return subprocess.run([sys.argv[1], *map(str, arguments)], capture_output=True, text=True, check=False, **more)
-
-
-def done(*arguments):
-    run = taut(*arguments, "--quiet")
-    expect(run.returncode == 0, "taut %s: %s" % (arguments, run.stderr))
-
-
-def refused(code, words, *arguments, **more):
-    before = sorted(os.listdir("."))
-    run = taut("export", *arguments, **more)
-    expect(run.returncode == code, "exit %s, not %s: %s" % (code, run.returncode, run.stderr))
-    for word in words:
-        expect(word in run.stderr, '"%s" in: %s' % (word, run.stderr))
-    expect(sorted(os.listdir(".")) == before, "nothing is left of %s" % (arguments,))
 
 
 def browser():

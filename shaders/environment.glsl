@@ -1,7 +1,9 @@
 // The picture that stands around a scene: see engine/render/environment.h.
 uniform sampler2D environment;
 
-vec3 turnedBack(vec3 way) { return vec3(around.x * way.x - around.y * way.z, way.y, around.y * way.x + around.x * way.z); }
+vec3 turnedBack(vec3 way) {
+    return vec3(around.x * way.x - around.y * way.z, way.y, around.y * way.x + around.x * way.z);
+}
 
 // What shines from a direction, as the mean over a cone [rad].
 vec3 lightFrom(vec3 way, float cone) {

@@ -20,6 +20,12 @@ void makeAscending(std::vector<int>& points) {
     points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
+void addYielding(const Elements& elements, const MeetingPair& pair, std::span<const double> inverseMass,
+                 std::vector<int>& surfaces) {
+    for (int i : pair.points)
+        if (inverseMass[static_cast<std::size_t>(i)] > 0) surfaces.push_back(elements.surfaceOf(i));
+}
+
 }  // namespace
 
 Group::Group(std::vector<Surface> surfaces, std::vector<dvec3> rest, const GroupOptions& options)
@@ -60,7 +66,8 @@ std::vector<Crossing> Group::crossingsAt(std::span<const dvec3> x) {
     return findCrossings(elements_, near_.patches(), x);
 }
 
-Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, double seconds) {
+Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
+                       double seconds) {
     for (std::size_t i = 0; i < x.size(); ++i) xIs_[i] = x[i] + seconds * v[i];
     near_.find(x, xIs_);
     locate(x, xIs_);
@@ -83,7 +90,9 @@ Outlook Group::foresee(std::span<const dvec3> x, std::span<const dvec3> v, doubl
         for (std::size_t k = 0; k < 4; ++k) speed += pair.weights[k] * v[static_cast<std::size_t>(pair.points[k])];
         outlook.closing = std::max(outlook.closing, -glm::dot(pair.normal, speed));
         outlook.leastKeep = std::min(outlook.leastKeep, pair.keep);
+        addYielding(elements_, pair, inverseMass, outlook.surfaces);
     }
+    makeAscending(outlook.surfaces);
     outlook.meets = outlook.meets || !crossings_.empty();
     return outlook;
 }
@@ -133,7 +142,12 @@ void Group::press(const Instant& instant) {
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) prepare(i);
     pressing_.solve(pressed_, instant.held, instant.inverseMass, instant.h, options_.pressing, u_, v_, shift_);
-    for (double impulse : pressing_.impulses()) meeting_.pressing += impulse > 0 ? 1 : 0;
+    for (std::size_t p = 0; p < pressed_.size(); ++p) {
+        if (!(pressing_.impulses()[p] > 0)) continue;
+        ++meeting_.pressing;
+        addYielding(elements_, pressed_[p], instant.inverseMass, meeting_.surfaces);
+    }
+    makeAscending(meeting_.surfaces);
     meeting_.sweeps = pressing_.sweeps();
     if (options_.untangles) leadApart(instant);
 

@@ -45,6 +45,7 @@ struct Meeting {
     std::vector<int> moved;  // points of which x1 or v has changed, ascending
     int pressing = 0;        // pairs with an impulse
     double deepest = 0;      // how far a pair would have gone beyond touching, over the distance it keeps
+    std::vector<int> surfaces;  // of which points that may yield were pressed, ascending
     int sweeps = 0, slides = 0, zones = 0, uncertified = 0;
 };
 
@@ -54,6 +55,7 @@ struct Outlook {
     double closing = 0.0;  // [m/s] of what does, at most
     double leastKeep = 0;  // [m] that it keeps, at least
     double stir = 0;  // [1/s] speed of points against their patches, over a quarter of the distance kept, in the mean
+    std::vector<int> surfaces;  // with points that may yield, of what does; ascending
 };
 
 // Two surfaces in contact, for pictures.
@@ -80,7 +82,8 @@ class Group {
     // Before the instants of a tick: looks for crossings if there may be any. Their pairs are not pressed until the
     // next tick, but led apart.
     void begin(std::span<const dvec3> x);
-    Outlook foresee(std::span<const dvec3> x, std::span<const dvec3> v, double seconds);
+    Outlook foresee(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
+                    double seconds);
     const Meeting& meet(const Instant& instant);
 
     const std::vector<Crossing>& crossings() const { return crossings_; }  // at the start of the tick

@@ -25,8 +25,8 @@ std::string insideWarning(const Body& body, const std::string& collider, int poi
 Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
                bool keepsStep, int parts)
     : tickSeconds_(1.0 / ticksPerSecond),
-      fewest_(std::min(parts, leastParts)),
-      parts_(parts),
+      keepsStep_(keepsStep),
+      quietParts_(parts),
       plan_(std::move(plan)),
       forces_(forces) {
     dynamics_ = makeDynamics(plan_, forces_);
@@ -47,11 +47,11 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
     if (choice_.need)
         following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
     if (choice_.splits) dynamics_->split(true);
-    if (parts_ > 1) {
-        choice_.substeps = inParts(choice_.substeps);
+    ownSubsteps_ = choice_.substeps;
+    if (quietParts_ > 1) {
+        choice_.substeps = wantedSubsteps();
         choice_.step = tickSeconds_ / choice_.substeps;
     }
-    ownSubsteps_ = choice_.substeps;
     shortensForContact_ = !keepsStep && !plan_.solver.dt;
     dynamics_->start(t, choice_.step);
     foreseeFreezing(t);
@@ -117,10 +117,7 @@ void Island::beginTick(const TickTime& time) {
     if (mayFreeze_ && frozen_) return;
     TAUT_EXPECTS(!isOpen_);
     hasMoved_ = true;
-    if (wantedSubsteps() != choice_.substeps) {
-        dynamics_->synchronise(time.start(), contacts_);
-        startWith(time, wantedSubsteps(), false);
-    }
+    takeParts(time, parts_);
     keepTouches();
     tries_ = {};
 }
@@ -202,13 +199,27 @@ void Island::tryAgain(const TickTime& time, Verdict verdict) {
     startWith(time, wantedSubsteps(), true);
 }
 
-// Few substeps become a power of two.
-int Island::inParts(int substeps) const {
-    if (!plan_.solver.dt) substeps = std::max(substeps, fewest_);
-    if (substeps >= parts_) return (substeps + parts_ - 1) / parts_ * parts_;
-    int parts = 1;
+int Island::quietSubsteps() const {
+    const int substeps = contactFactor_ * (choice_.need ? following_.substeps() : ownSubsteps_);
+    if (substeps >= quietParts_) return (substeps + quietParts_ - 1) / quietParts_ * quietParts_;
+    int parts = plan_.solver.dt ? 1 : std::min(quietParts_, leastParts);
     while (parts < substeps) parts *= 2;
     return parts;
+}
+
+int Island::instantsToPress() const {
+    const int substeps = quietSubsteps();
+    if (!std::isfinite(choice_.limit)) return substeps;
+    const double turn = choice_.mode.omega * tickSeconds_ / substeps;
+    const int each = turn < longestTurn ? static_cast<int>(std::min(longestTurn / turn, 1.0 * substeps)) : 1;
+    return std::max(quietParts_, (substeps + each - 1) / each);
+}
+
+void Island::takeParts(const TickTime& time, int parts) {
+    parts_ = parts;
+    if (frozen_ || wantedSubsteps() == choice_.substeps) return;
+    dynamics_->synchronise(time.start(), contacts_);
+    startWith(time, wantedSubsteps(), false);
 }
 
 void Island::read(std::span<dvec3> x, std::span<dvec3> v) const {

@@ -54,6 +54,12 @@ struct ColliderMotion {
 // What becomes of a try of a tick.
 enum class Verdict { stands, again, fails };
 
+// [rad] ω H of the fastest motion of what presses, H the time from one instant of contact to the next. At an instant a
+// step each (2 is the limit of leap-frog) an impulse is one more force of the step's kick, and contact without
+// restitution takes energy: ΔE = ½ λ (u' + u), u' and u the approach after it and in the step before, never above 0.
+// What is moved back over several steps is moved against its springs: at ω H = 3 they gain several times ½ m u².
+inline constexpr double longestTurn = 2.0;
+
 // By how much contact shortens the steps of "auto" at most.
 inline constexpr int mostContactFactor = 1024;
 
@@ -61,8 +67,8 @@ class Island {
   public:
     // At time t [s]. Chooses its step, which holds for all that the envelope allows; throws core::Error(badContent)
     // where no step would do.
-    // With `keepsStep` no state changes it. A tick has at least `parts` substeps, in as many equal parts, a power of
-    // two; fewer where dt is given, or the method has no limit.
+    // With `keepsStep` no state changes it. All substeps of a tick can be divided into `parts`, a power of two; fewer
+    // are a power of two.
     Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
            bool keepsStep, int parts = 1);
     Island(const Island&) = delete;
@@ -86,10 +92,12 @@ class Island {
     void tryAgain(const TickTime& time, Verdict verdict);
     void endTick(const TickTime& time);
     int substeps() const { return choice_.substeps; }
-    // Of its fastest motion, where its method has to resolve it, else 0. [1/s]
-    double fastestToResolve() const { return std::isfinite(choice_.limit) ? choice_.mode.omega : 0.0; }
-    // A tick has at least so many substeps from the next one on, where none are given, and can be divided into them.
-    void takeParts(int parts) { parts_ = fewest_ = parts; }
+    bool keepsStep() const { return keepsStep_; }
+    // Instants of a tick in which something presses it: one a step, or where steps are shorter than that, as many as
+    // turn its fastest motion by no more than longestTurn.
+    int instantsToPress() const;
+    // All substeps of a tick can be divided into so many parts from now on; to be called between two tries.
+    void takeParts(const TickTime& time, int parts);
     // Where points of the island are, and velocities as the method stores them (points) [m], [m/s].
     void read(std::span<dvec3> x, std::span<dvec3> v) const;
     // After a part: points (ascending) were moved by contact with other bodies; out of colliders again.
@@ -184,10 +192,8 @@ class Island {
     bool addsTooMuch(const ContactWork& work) const;
     void account(const ContactWork& work);
     std::string contactWarning() const;  // empty where nothing is to be said
-    int wantedSubsteps() const {
-        return inParts(contactFactor_ * (choice_.need ? following_.substeps() : ownSubsteps_));
-    }
-    int inParts(int substeps) const;
+    int quietSubsteps() const;  // where nothing presses it
+    int wantedSubsteps() const { return (quietSubsteps() + parts_ - 1) / parts_ * parts_; }
     void addPoints(const std::vector<bool>& only, const TickTime& time, Metrics& metrics);
     void addSprings(const std::vector<bool>& only, Metrics& metrics);
     void addCells(const Body& body, Metrics& metrics) const;
@@ -215,8 +221,9 @@ class Island {
     bool shortensForContact_ = false;  // the step
     StepChoice choice_;
     double tickSeconds_;                     // [s]
-    int fewest_ = 1;                         // substeps of a tick
-    int parts_ = 1;                          // a tick, that all substeps are to be divided into
+    bool keepsStep_ = false;                 // whatever the state is
+    int quietParts_ = 1;                     // a tick, that substeps are to be divided into while nothing presses it
+    int parts_ = 1;                          // likewise, now
     int ownSubsteps_ = 1;                    // a tick, where they do not follow the state
     int contactFactor_ = 1, calmTicks_ = 0;  // by which contact makes them more; since when it does not need that
     ContactWork contactWork_;                // so far

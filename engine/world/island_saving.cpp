@@ -139,7 +139,7 @@ void Island::visitStep(StateBytes& bytes) {
     bytes(calmTicks_);
     bytes.require(contactFactor_ >= 1 && contactFactor_ <= mostContactFactor && calmTicks_ >= 0);
     // By contact they may have been more, and be about to be less again.
-    const bool isOwn = substeps > 0 && substeps % ownSubsteps_ == 0 && substeps / ownSubsteps_ <= mostContactFactor;
+    const bool isOwn = substeps >= ownSubsteps_ && (quietParts_ > 1 || (substeps % ownSubsteps_ == 0 && substeps / ownSubsteps_ <= mostContactFactor));
     if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && !isOwn))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
     bytes.each(stepChanges_, [&](StepChange& change) {

@@ -165,6 +165,10 @@ void World::Impl::visit(StateBytes& bytes, std::span<const RampAction> applied) 
         const std::vector<Body*> all = allBodies();
         touchWatch.visit(bytes, std::vector<const Body*>(all.begin(), all.end()));
     }
+    if (touchesAny()) {
+        contactPace.visit([&](auto& number) { bytes(number); });
+        bytes.require(contactPace.isSound());
+    }
     auto count = static_cast<std::uint64_t>(islands.size());
     bytes(count);
     if (count != islands.size()) misfit("its bodies hang together in another way");

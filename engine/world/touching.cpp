@@ -12,9 +12,8 @@
 namespace taut::world {
 namespace {
 
-constexpr double longestInstant = 1.1e-3;  // [s] of a tick in as many parts as there may be
-constexpr int mostParts = 64;
-constexpr int mostStiffParts = 512;
+constexpr double longestInstant = 1.1e-3;  // [s] in which anything touches
+constexpr int mostForWays = 64;    // instants of a tick, for what is fast
 constexpr double calmWay = 4.0;     // of the distance kept, that neighbours may move in an instant without contact
 constexpr double wayOfKeep = 0.35;  // of the distance kept, that two may approach in an instant
 
@@ -34,11 +33,10 @@ bool isMet(const BodySpec& spec) {
 
 }  // namespace
 
-int partsOfTick(double tickSeconds, const ContactSpec& spec) {
-    if (spec.instants) return *spec.instants;
-    int parts = 1;
-    while (parts < mostParts && tickSeconds / parts > longestInstant) parts *= 2;
-    return parts;
+int fewestInstants(double tickSeconds) {
+    int instants = 1;
+    while (instants < mostForWays && tickSeconds / instants > longestInstant) instants *= 2;
+    return instants;
 }
 
 bool touches(const IslandPlan& plan) {
@@ -72,8 +70,8 @@ contact::Surface surfaceOf(const Body& body, int offset, int bond) {
 }
 
 Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds,
-                   const std::function<std::vector<MetCollider>()>& colliders)
-    : spec_(spec), tickSeconds_(tickSeconds), parts_(partsOfTick(tickSeconds, spec)) {
+                   StepFollowing& pace, const std::function<std::vector<MetCollider>()>& colliders)
+    : spec_(spec), tickSeconds_(tickSeconds), fewest_(fewestInstants(tickSeconds)), pace_(pace) {
     std::vector<contact::Surface> surfaces;
     std::vector<dvec3> rest;
     for (const auto& island : islands) {
@@ -94,7 +92,6 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
         rooms_.push_back({island.get(), offset, static_cast<int>(rest.size())});
     }
     if (islands_.empty()) return;
-    shortenForStiff();
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return meetsColliders(*body->spec); }))
         rigids_ = MetColliders(colliders(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
@@ -105,18 +102,6 @@ Touching::Touching(std::span<const std::unique_ptr<Island>> islands, const Conta
     group_ = std::make_unique<contact::Group>(std::move(surfaces), std::move(rest), options);
     rigids_.placeAll(x1_);
     x0_ = x1_;
-}
-
-// Contact moves points of stiff springs by what they would go in an instant if there were none, so that it has to be
-// short against their period; and the softest body of a group has to have as many steps as the stiffest has instants.
-void Touching::shortenForStiff() {
-    if (spec_.instants) return;
-    double omega = 0;
-    for (const Island* island : islands_) omega = std::max(omega, island->fastestToResolve());
-    const int before = parts_;
-    while (parts_ < mostStiffParts && tickSeconds_ / parts_ * omega > longestTurn) parts_ *= 2;
-    if (parts_ == before) return;
-    for (Island* island : islands_) island->takeParts(parts_);
 }
 
 double Touching::facePenetration(const std::function<bool(const Body&)>& wanted) {
@@ -158,45 +143,65 @@ void Touching::readAll() {
     }
 }
 
-int Touching::mostInstants() const {
-    int most = 0;
+int Touching::commonSubsteps() const {
+    int common = 0;
     for (const Island* island : islands_)
-        if (island->frozen() == nullptr) most = std::gcd(most, island->substeps());
-    return std::max(most, 1);
+        if (island->frozen() == nullptr) common = std::gcd(common, island->substeps());
+    return std::max(common, 1);
 }
 
-// Of a tick in which anything touches.
-int Touching::fewestMet() const {
-    return std::min(parts_, mostInstants());
+// What presses each other these surfaces need, of bodies or not: whatever else is in the group.
+int Touching::instantsFor(std::span<const int> surfaces) const {
+    int needed = 1;
+    for (int s : surfaces)
+        if (isOfBody(s) && bodyOf(s).island->frozen() == nullptr)
+            needed = std::max(needed, bodyOf(s).island->instantsToPress());
+    return needed;
 }
 
-// The next number that all substeps can be divided into, at least half as many again.
-int Touching::moreInstants(int than) const {
-    const int most = mostInstants();
-    int instants = than + (than + 1) / 2;
-    while (instants < most && most % instants != 0) ++instants;
-    return std::min(instants, most);
+// Whatever presses what, of those that move.
+int Touching::mostInstants() const {
+    int most = spec_.instants.value_or(fewest_);
+    if (!spec_.instants)
+        for (const Island* island : islands_)
+            if (island->frozen() == nullptr) most = std::max(most, island->instantsToPress());
+    return most;
+}
+
+// That many, or a few more: all bodies take their steps in as many parts.
+int Touching::takeInstants(const TickTime& time, int needed) {
+    if (pace_.isExceededBy(needed)) pace_.shorten(needed);
+    for (Island* island : islands_) island->takeParts(time, pace_.substeps());
+    const int common = commonSubsteps();
+    int instants = std::min(needed, common);
+    while (common % instants != 0) ++instants;
+    return instants;
 }
 
 // How many the tick is to have; less than nothing where it is a trial, in which nothing should meet.
 int Touching::chooseInstants(const TickTime& time) {
-    const int most = mostInstants();
-    if (spec_.instants) return std::gcd(most, *spec_.instants);
-    const contact::Outlook outlook = group_->foresee(x1_, v_, 1.0 / time.ticksPerSecond / parts_);
-    const auto enough = [&](int fewest, double longest) {
-        int instants = fewest;
-        while (most % instants != 0) --instants;
-        while (instants < most && tickSeconds_ / instants > longest) instants = moreInstants(instants);
+    if (spec_.instants) return takeInstants(time, *spec_.instants);
+    const contact::Outlook outlook =
+        group_->foresee(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
+    // As many as it takes for a way at that speed [m/s] to be no longer in any.
+    const auto enough = [&](int instants, double speed, double way) {
+        while (instants < mostForWays && tickSeconds_ * speed > instants * way) instants *= 2;
         return instants;
     };
     // Where nothing meets, by what is cheapest.
-    if (!outlook.meets) return -enough(1, calmWay / std::max(outlook.stir, 1e-9));
-    const double longest = outlook.closing > 0 ? wayOfKeep * outlook.leastKeep / outlook.closing : HUGE_VAL;
-    return enough(fewestMet(), longest);
+    if (!outlook.meets) {
+        const int common = commonSubsteps();
+        return -takeInstants(time, std::min(common, enough(1, outlook.stir, calmWay)));
+    }
+    return takeInstants(time, enough(std::max(fewest_, instantsFor(outlook.surfaces)), outlook.closing,
+                                     wayOfKeep * outlook.leastKeep));
 }
 
 std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
-    for (Island* island : islands_) island->beginTick(time);
+    for (Island* island : islands_) {
+        island->takeParts(time, pace_.substeps());
+        island->beginTick(time);
+    }
     areCrossingsKnown_ = false;
     takeDamage();
     for (const Part& room : rooms_) {
@@ -215,6 +220,8 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
     hasJumped_ = false;
     const auto start = Clock::now();
     group_->begin(x1_);
+    // Steps that stay are such from the first tick on that anything may press anything.
+    if (islands_.front()->keepsStep()) takeInstants(time, mostInstants());
     int instants = chooseInstants(time);
     total_.seconds += secondsSince(start);
     for (;;) {
@@ -247,21 +254,21 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
         readAll();
         rigids_.place(0.0, x1_);
         group_->goBack(x0_, x1_);
-        if (isCoarse)
-            instants = isTrial ? std::max(fewestMet(), moreInstants(instants_)) : moreInstants(instants_);
-        else
-            instants = chooseInstants(time);
+        instants = isCoarse ? takeInstants(time, std::max({fewest_, 2 * instants_, instantsFor(meeting_.surfaces)}))
+                            : chooseInstants(time);
     }
     for (Island* island : islands_) island->endTick(time);
+    pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : instants_);
     total_.instants += instants_;
     ++total_.ticks;
     return std::nullopt;
 }
 
 // Whether an instant was too long for what it found: of a trial anything at all, else what went deep.
-bool Touching::isTooCoarse(int instants, bool isTrial) const {
-    if (spec_.instants || instants >= mostInstants()) return false;
-    return meeting_.deepest > wayOfKeep || meeting_.slides > 0 || (isTrial && meeting_.pressing > 0);
+bool Touching::isTooCoarse(bool isTrial) const {
+    if (spec_.instants) return false;
+    if (instants_ < instantsFor(meeting_.surfaces) || (isTrial && meeting_.pressing > 0)) return true;
+    return instants_ < mostForWays && (meeting_.deepest > wayOfKeep || meeting_.slides > 0);
 }
 
 // Ends early where there have to be more instants, and then returns true.
@@ -282,7 +289,7 @@ bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> mov
         readAll();
         rigids_.place(static_cast<double>(c + 1) / instants, x1_);
         meet(h);
-        if (isTooCoarse(instants, isTrial)) return true;
+        if (isTooCoarse(isTrial)) return true;
     }
     return false;
 }
@@ -340,7 +347,7 @@ ContactInfo Touching::info() const {
         info.surfaces.push_back({elements().surface(surface).thickness, elements().shortestEdge(surface)});
     }
     info.points = static_cast<int>(x1_.size());
-    info.mostInstants = parts_;
+    info.mostInstants = mostInstants();
     info.lastInstants = instants_;
     info.located = static_cast<int>(group_->located());
     info.pressing = meeting_.pressing;

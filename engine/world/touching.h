@@ -13,24 +13,21 @@
 
 namespace taut::world {
 
-// Parts of a tick that bodies which touch take their steps in, by the tick's length [s] and what the scene asks for.
-int partsOfTick(double tickSeconds, const ContactSpec& spec);
+// Instants of a tick in which bodies touch, at least.
+int fewestInstants(double tickSeconds);
 
 // Whether any body of the plan touches anything.
 bool touches(const IslandPlan& plan);
-
-// [rad] ω H of the stiffest springs, H the length of an instant, up to which contact hardly adds energy to them; at 16
-// it was seen to.
-inline constexpr double longestTurn = 8.0;
 
 // The surface of a body, its points numbered from `offset` on as in its island.
 contact::Surface surfaceOf(const Body& body, int offset, int bond);
 
 class Touching {
   public:
-    // Of the islands with bodies that touch; expects that they stay. Colliders are asked for if any body meets them.
+    // Of the islands with bodies that touch; expects that they stay, and `pace` too, which follows what presses: the
+    // parts that all substeps of a tick can be divided into. Colliders are asked for if any body meets them.
     Touching(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds,
-             const std::function<std::vector<MetCollider>()>& colliders);
+             StepFollowing& pace, const std::function<std::vector<MetCollider>()>& colliders);
 
     bool isEmpty() const { return islands_.empty(); }
     std::span<Island* const> islands() const { return islands_; }
@@ -67,20 +64,21 @@ class Touching {
         int first, last;  // points of the group
     };
     void takeDamage();
-    void shortenForStiff();
     void readAll();
     int mostInstants() const;
-    int fewestMet() const;
-    int moreInstants(int than) const;
+    int commonSubsteps() const;
+    int instantsFor(std::span<const int> surfaces) const;
     int chooseInstants(const TickTime& time);
+    int takeInstants(const TickTime& time, int needed);
     void meet(double h);
-    bool isTooCoarse(int instants, bool isTrial) const;
+    bool isTooCoarse(bool isTrial) const;
     bool tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
                  std::vector<std::optional<Fault>>& faults, bool isTrial);
 
     ContactSpec spec_;
     double tickSeconds_;
-    int parts_;
+    int fewest_;  // instants of a tick in which anything touches
+    StepFollowing& pace_;
     std::vector<Island*> islands_;
     std::vector<Part> rooms_;          // (islands)
     std::vector<const Body*> bodies_;  // (surfaces)

@@ -22,6 +22,7 @@ World::Impl::Impl(const SceneSpec& scene, const Options& options)
       start(std::make_unique<const SceneSpec>(scene)) {
     ticksPerFrame = Ticks(spec.run).perFrame;
     ticksPerSecond = Ticks(spec.run).perSecond;
+    contactPace = StepFollowing(1, 1.0, static_cast<int>(ticksPerSecond));
     for (const CameraSpec& camera : spec.cameras) {
         const ecs::Entity entity = registry.create();
         registry.add(entity, Identity{"camera", camera.name});
@@ -103,7 +104,7 @@ void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Env
     addTies(plan, spec, [this](const std::string& collider) { return poseOf(collider); });
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
-    const int parts = touches(plan) ? partsOfTick(1.0 / ticksPerSecond, spec.contact) : 1;
+    const int parts = touches(plan) ? fewestInstants(1.0 / ticksPerSecond) : 1;
     islands.push_back(
         std::make_unique<Island>(std::move(plan), current, envelope, ticksPerSecond, seconds(), keepsSteps, parts));
     touching.reset();
@@ -206,7 +207,8 @@ void World::Impl::findTouching() {
             for (const Body* body : island->plan().bodies) gone += body->damage.goneCells();
     if (touching && gone == goneCells) return;
     goneCells = gone;
-    touching = std::make_unique<Touching>(islands, spec.contact, 1.0 / ticksPerSecond, [this] { return met(); });
+    touching =
+        std::make_unique<Touching>(islands, spec.contact, 1.0 / ticksPerSecond, contactPace, [this] { return met(); });
 }
 
 // Those that touch go together, all others side by side.

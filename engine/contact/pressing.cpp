@@ -11,7 +11,7 @@ namespace {
 
 constexpr double fastestOut = 1.0;  // [m/s] that it is taken back with
 constexpr std::size_t shared = 64;  // rows; fewer are solved sooner than they are shared out
-constexpr double settled = 1e-4;    // of the distance kept, an instant: smaller changes end the sweeps
+constexpr double settled = 1e-6;    // of the distance kept, an instant: smaller changes end the sweeps
 
 dvec3 between(const MeetingPair& pair, std::span<const dvec3> u) {
     dvec3 sum(0.0);

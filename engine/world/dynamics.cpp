@@ -165,12 +165,14 @@ class DynamicsOf final : public Dynamics {
     void velocities(std::span<dvec3> v) const override {
         for (std::size_t i = 0; i < v.size(); ++i) v[i] = at(state_.v, static_cast<int>(i));
     }
-    std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts) override {
-        findVelocities(t, contacts);
+    std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts,
+                                    std::span<const Pressed> pressed) override {
+        findVelocities(t, contacts, pressed);
         return list(velocity_);
     }
-    void synchronise(double t, std::span<const collision::Contact> contacts) override {
-        findVelocities(t, contacts);
+    void synchronise(double t, std::span<const collision::Contact> contacts,
+                     std::span<const Pressed> pressed) override {
+        findVelocities(t, contacts, pressed);
         std::copy(velocity_.begin(), velocity_.end(), state_.v.begin());
     }
     void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
@@ -333,8 +335,9 @@ class DynamicsOf final : public Dynamics {
     }
 
     // Those at t into velocity_. Methods that store them have had them resolved.
-    void findVelocities(double t, std::span<const collision::Contact> contacts) {
+    void findVelocities(double t, std::span<const collision::Contact> contacts, std::span<const Pressed> pressed) {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
+        contacts_.bear(pressed, 0.5 * step_, velocity_);
         contacts_.bear(contacts, velocity_);
     }
 

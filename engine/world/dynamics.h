@@ -47,6 +47,12 @@ struct ContactWork {
     double atTouch = 0;  // [J] kinetic, elastic, and of the height over the lowest point, at the first touch; 0 without
 };
 
+// What contact with other bodies gave a point in the last instant.
+struct Pressed {
+    int point;
+    dvec3 acceleration;  // [m/s²] in the mean of the instant
+};
+
 // Of points on their way out of a collider that they began in. [m/s]
 inline constexpr double emergingSpeed = 1.0;
 
@@ -112,10 +118,13 @@ class Dynamics {
 
     // Velocities as the method stores them, those at t [s], which may cost an evaluation, and the first made the
     // second. Contacts, those at t, point by point, bear what forces have added since the velocities that are stored.
+    // What is pressed goes on being so.
     virtual std::vector<dvec3> velocities() const = 0;
     virtual void velocities(std::span<dvec3> v) const = 0;
-    virtual std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts) = 0;
-    virtual void synchronise(double t, std::span<const collision::Contact> contacts) = 0;
+    virtual std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts,
+                                            std::span<const Pressed> pressed) = 0;
+    virtual void synchronise(double t, std::span<const collision::Contact> contacts,
+                             std::span<const Pressed> pressed) = 0;
     virtual void setVelocity(int point, const dvec3& v) = 0;
     // Whether every velocity is a number below the limit, and those of points that the last collide() touched.
     virtual bool isBounded() const = 0;

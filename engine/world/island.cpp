@@ -195,7 +195,7 @@ void Island::tryAgain(const TickTime& time, Verdict verdict) {
     following_ = following;
     contactFactor_ = factor;
     calmTicks_ = calmTicks;
-    dynamics_->synchronise(time.start(), contacts_);
+    dynamics_->synchronise(time.start(), contacts_, pressed_);
     startWith(time, wantedSubsteps(), true);
 }
 
@@ -218,7 +218,7 @@ int Island::instantsToPress() const {
 void Island::takeParts(const TickTime& time, int parts) {
     parts_ = parts;
     if (frozen_ || wantedSubsteps() == choice_.substeps) return;
-    dynamics_->synchronise(time.start(), contacts_);
+    dynamics_->synchronise(time.start(), contacts_, pressed_);
     startWith(time, wantedSubsteps(), false);
 }
 
@@ -236,6 +236,7 @@ void Island::place(std::span<const int> points, std::span<dvec3> x, std::span<dv
 
 void Island::keepTouches() {
     before_.contacts = contacts_;
+    before_.pressed = pressed_;
     before_.inside = inside_;
     before_.hasTouched = hasTouched_;
     before_.contactWork = contactWork_;
@@ -256,6 +257,7 @@ void Island::undoTick() {
     dynamics_->goBack(Since::tick);
     takeBackGiven();
     contacts_ = before_.contacts;
+    pressed_ = before_.pressed;
     inside_ = before_.inside;
     hasTouched_ = before_.hasTouched;
     contactWork_ = before_.contactWork;
@@ -314,6 +316,7 @@ void Island::moveColliders(std::span<const ColliderMotion> moving, int substep) 
 void Island::freeze(const Fault& fault, const TickTime& time) {
     dynamics_->goBack(Since::step);
     contacts_.clear();
+    pressed_.clear();
     FrozenIsland frozen;
     frozen.name = plan_.bodies.front()->fullName();
     for (const Body* body : plan_.bodies) frozen.bodies.push_back(body->fullName());

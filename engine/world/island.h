@@ -102,6 +102,8 @@ class Island {
     void read(std::span<dvec3> x, std::span<dvec3> v) const;
     // After a part: points (ascending) were moved by contact with other bodies; out of colliders again.
     void place(std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v);
+    // After the last part: what contact with other bodies gave points in the last instant.
+    void bear(std::span<const Pressed> pressed) { pressed_.assign(pressed.begin(), pressed.end()); }
 
     // Whether any spring tore in the last tick.
     bool hasTorn() const { return hasTorn_; }
@@ -238,8 +240,10 @@ class Island {
     std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
     std::vector<collision::Contact> contacts_;  // of the last tick's last step
+    std::vector<Pressed> pressed_;              // of its last instant
     struct {
         std::vector<collision::Contact> contacts;
+        std::vector<Pressed> pressed;
         std::vector<int> inside;
         bool hasTouched = false;
         ContactWork contactWork;

@@ -8,7 +8,7 @@ namespace taut::world {
 
 void Island::open(const TickTime& time) {
     if (isOpen_) return;
-    if (!frozen_) dynamics_->synchronise(time.start(), contacts_);
+    if (!frozen_) dynamics_->synchronise(time.start(), contacts_, pressed_);
     isOpen_ = true;
 }
 
@@ -103,7 +103,7 @@ std::vector<dvec3> Island::velocities(const TickTime& time) {
     if (isOpen_) return dynamics_->velocities();
     // Asking changes nothing, the work of the run least of all.
     workElsewhere_ += dynamics_->work();
-    std::vector<dvec3> v = dynamics_->velocitiesAt(time.start(), contacts_);
+    std::vector<dvec3> v = dynamics_->velocitiesAt(time.start(), contacts_, pressed_);
     workElsewhere_ -= dynamics_->work();
     return v;
 }

@@ -117,6 +117,17 @@ class IslandContacts {
         method.touch(state_, points);
     }
 
+    // Velocities to which forces have been added for so long [s] since those of the state, and what presses points has
+    // not: as much again as in the last instant. Of an impact, which does not go on, hardly more than of the forces.
+    void bear(std::span<const Pressed> pressed, double seconds, Planes& velocities) const {
+        constexpr double most = 2.0;  // of what forces have added
+        for (const Pressed& one : pressed) {
+            const dvec3 v = planar_.at(velocities, one.point), added = v - planar_.at(state_.v, one.point);
+            const dvec3 push = seconds * one.acceleration;
+            const double size = std::sqrt(glm::dot(push, push)), limit = most * std::sqrt(glm::dot(added, added));
+            planar_.set(velocities, one.point, v + (size > limit ? limit / size : 1.0) * push);
+        }
+    }
     // Velocities to which forces have been added since those of the state: what contacts, point by point, leave of
     // them.
     void bear(std::span<const collision::Contact> contacts, Planes& velocities) const {

@@ -200,6 +200,10 @@ void Island::visit(StateBytes& bytes) {
         bytes.require(
             contact.point >= 0 && contact.point < static_cast<int>(plan_.points.size()) && contact.friction >= 0 &&
             std::isfinite(glm::dot(contact.normal, contact.normal) + glm::dot(contact.carried, contact.carried)));
+    bytes.list(pressed_);
+    for (const Pressed& one : pressed_)
+        bytes.require(one.point >= 0 && one.point < static_cast<int>(plan_.points.size()) &&
+                      std::isfinite(glm::dot(one.acceleration, one.acceleration)));
     for (std::string* warning : {&stretchWarning_, &collapseWarning_, &limitWarning_, &freezingWarning_})
         bytes(*warning);
     ode::Work done = work();

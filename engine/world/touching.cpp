@@ -258,6 +258,7 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
                             : chooseInstants(time);
     }
     for (Island* island : islands_) island->endTick(time);
+    bear();
     pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : instants_);
     total_.instants += instants_;
     ++total_.ticks;
@@ -328,6 +329,7 @@ void Touching::meet(double h) {
             }
         }
     };
+    vBefore_ = v_;
     const auto start = Clock::now();
     meeting_ = group_->meet(instant);
     total_.seconds += secondsSince(start);
@@ -336,6 +338,21 @@ void Touching::meet(double h) {
     total_.slides += meeting_.slides;
     total_.zones += meeting_.zones;
     total_.uncertified += meeting_.uncertified;
+}
+
+// What the last instant gave.
+void Touching::bear() {
+    const double h = tickSeconds_ / instants_;
+    std::vector<Pressed> pressed;
+    auto moved = meeting_.moved.begin();
+    for (const Part& room : rooms_) {
+        pressed.clear();
+        for (; moved != meeting_.moved.end() && *moved < room.last; ++moved) {
+            const auto i = static_cast<std::size_t>(*moved);
+            pressed.push_back({*moved - room.first, (v_[i] - vBefore_[i]) / h});
+        }
+        room.island->bear(pressed);
+    }
 }
 
 ContactInfo Touching::info() const {

@@ -71,6 +71,7 @@ class Touching {
     int chooseInstants(const TickTime& time);
     int takeInstants(const TickTime& time, int needed);
     void meet(double h);
+    void bear();
     bool isTooCoarse(bool isTrial) const;
     bool tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
                  std::vector<std::optional<Fault>>& faults, bool isTrial);
@@ -90,6 +91,7 @@ class Touching {
     bool areCrossingsKnown_ = false;
     std::vector<contact::Crossing> crossings_;
     std::vector<dvec3> x0_, x1_, v_;   // (points)
+    std::vector<dvec3> vBefore_;       // (points) of the last instant's contact
     std::vector<double> inverseMass_;  // (points)
     std::vector<contact::Held> held_;
     int instants_ = 0;

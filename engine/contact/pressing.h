@@ -25,7 +25,7 @@ struct Held {
 };
 
 struct PressingOptions {
-    int sweeps = 20;           // at most
+    int sweeps = 10;           // at most
     double recovery = 0.2;     // share of an overlap that is taken back an instant
     double restitution = 0.0;  // of arrivals faster than restSpeed [-]
     double restSpeed = 0.0;    // [m/s]

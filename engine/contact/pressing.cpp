@@ -26,43 +26,12 @@ void press(const MeetingPair& pair, const std::array<double, 4>& gains, const dv
     for (std::size_t i = 0; i < 4; ++i) u[static_cast<std::size_t>(pair.points[i])] += gains[i] * impulse;
 }
 
-// One visit: normal and rub are the impulses so far. Returns by how much a point's velocity changed at most.
-template <class Row>
-double visit(const MeetingPair& pair, const Row& row, double bounce, std::span<dvec3> u, double& normal, dvec3& rub) {
-    dvec3 change(0.0);
-    dvec3 way = between(pair, u);
-    const double along = glm::dot(pair.normal, way);
-    const double wanted = std::max(0.0, normal - row.mass * (along + row.open - bounce));
-    change = (wanted - normal) * pair.normal;
-    normal = wanted;
-    if (pair.friction > 0) {
-        const dvec3 across = way - along * pair.normal;
-        dvec3 next = rub - row.mass * across;
-        const double square = glm::dot(next, next), limit = pair.friction * normal;
-        if (square > limit * limit) next = square > 0 ? next * (limit / std::sqrt(square)) : dvec3(0.0);
-        change += next - rub;
-        rub = next;
-    }
-    const double square = glm::dot(change, change);
-    if (!(square > 0)) return 0.0;
-    press(pair, row.gains, change, u);
-    return row.most * std::sqrt(square);
-}
-
-// Likewise of a point and what holds it, for an impulse by mass; speed [m/s] is the surface's along the normal.
-void support(const Held& held, double speed, std::span<dvec3> u, double& normal, dvec3* rub) {
-    dvec3& own = u[static_cast<std::size_t>(held.point)];
-    const double along = glm::dot(own, held.normal) - speed;
-    const double wanted = std::max(0.0, normal - along);
-    own += (wanted - normal) * held.normal;
-    normal = wanted;
-    if (rub == nullptr || !(held.friction > 0)) return;
-    const dvec3 relative = own - held.carried;
-    dvec3 next = *rub - (relative - glm::dot(relative, held.normal) * held.normal);
-    const double square = glm::dot(next, next), limit = held.friction * normal;
-    if (square > limit * limit) next = square > 0 ? next * (limit / std::sqrt(square)) : dvec3(0.0);
-    own += next - *rub;
-    *rub = next;
+// A point that is held does not go further into what holds it: way is how far [m] it was kept from that so far.
+void hold(const Held& held, std::span<dvec3> shift, double& way) {
+    dvec3& own = shift[static_cast<std::size_t>(held.point)];
+    const double wanted = std::max(0.0, way - glm::dot(own, held.normal));
+    own += (wanted - way) * held.normal;
+    way = wanted;
 }
 
 // Calls until it says that it is settled. Returns how often.
@@ -139,11 +108,12 @@ void Pressing::findClusters(std::span<const MeetingPair> pairs, std::span<const 
             clusterStart_.push_back(k);
             supportStart_.push_back(supports_.size());
             for (; next < holds.size() && holds[next].first <= order[k].first; ++next)
-                if (holds[next].first == order[k].first) supports_.push_back({held[holds[next].second]});
+                if (holds[next].first == order[k].first) {
+                    const Held& own = held[holds[next].second];
+                    supports_.push_back({own, 1.0 / inverseMass[static_cast<std::size_t>(own.point)]});
+                }
         }
-        Row row;
-        row.pair = order[k].second;
-        rows_.push_back(row);
+        rows_.push_back({order[k].second});
     }
     clusterStart_.push_back(rows_.size());
     supportStart_.push_back(supports_.size());
@@ -159,7 +129,7 @@ void Pressing::takeBack(std::span<const MeetingPair> pairs, std::span<const Row>
         const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
         const double recover = pair.gap() < 0 ? std::min(-options.recovery * pair.gap(), fastestOut * h) : 0.0;
         overlaps = overlaps || recover > 0;
-        if (recover > 0 || row.impulse > 0) pushes.push_back({row.pair, row.gains, row.mass, recover});
+        if (recover > 0 || row.impulse.normal > 0) pushes.push_back({row.pair, row.gains, row.mass, recover});
     }
     if (!overlaps) return;
     std::vector<double> held(supports.size(), 0.0);
@@ -174,7 +144,7 @@ void Pressing::takeBack(std::span<const MeetingPair> pairs, std::span<const Row>
             press(pair, push.gains, change * pair.normal, shift);
             most = std::max(most, std::abs(change) / push.mass / h);
         }
-        for (std::size_t i = 0; i < supports.size(); ++i) support(supports[i].held, 0.0, shift, held[i], nullptr);
+        for (std::size_t i = 0; i < supports.size(); ++i) hold(supports[i].held, shift, held[i]);
         return most < little;
     });
 }
@@ -184,10 +154,13 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
                      std::span<dvec3> v, std::span<dvec3> shift) {
     impulses_.assign(pairs.size(), 0.0);
     findClusters(pairs, held, u.size(), inverseMass);
+    const auto bounceOf = [&](const MeetingPair& pair, std::span<const dvec3> velocities) {
+        const double arrival = -glm::dot(pair.normal, between(pair, velocities));
+        return arrival > options.restSpeed ? options.restitution * arrival : 0.0;
+    };
     for (Row& row : rows_) {
         const MeetingPair& pair = pairs[static_cast<std::size_t>(row.pair)];
         double inverse = 0;
-        row.most = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             const double own = inverseMass[static_cast<std::size_t>(pair.points[i])];
             inverse += pair.weights[i] * pair.weights[i] * own;
@@ -196,12 +169,7 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
         }
         row.mass = 1.0 / inverse;
         row.open = std::max(pair.gap(), 0.0) / h;
-        const auto bounceOf = [&](std::span<const dvec3> velocities) {
-            const double arrival = -glm::dot(pair.normal, between(pair, velocities));
-            return arrival > options.restSpeed ? options.restitution * arrival : 0.0;
-        };
-        row.bounce = bounceOf(u);
-        row.bounceV = bounceOf(v);
+        row.bounce = bounceOf(pair, u);
         if (row.bounce > 0) row.open = 0;
     }
     const int count = clusters();
@@ -213,24 +181,17 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
         double keep = 1e300;
         for (const Row& row : rows) keep = std::min(keep, pairs[static_cast<std::size_t>(row.pair)].keep);
         const double little = settled * keep / h;
-        sweepsOf[k] = sweep(options.sweeps, [&] {
-            double most = 0;
-            for (Row& row : rows)
-                most = std::max(
-                    most, visit(pairs[static_cast<std::size_t>(row.pair)], row, row.bounce, u, row.impulse, row.rub));
-            for (Support& one : supports) support(one.held, one.held.speed, u, one.impulse, &one.rub);
-            return most < little;
-        });
+        sweepsOf[k] = descend(pairs, rows, supports, options.sweeps, little, u);
+        for (const Row& row : rows) impulses_[static_cast<std::size_t>(row.pair)] = row.impulse.normal;
         const auto pressV = [&] {
-            sweep(options.sweeps, [&] {
-                double most = 0;
-                for (Row& row : rows)
-                    if (row.impulse > 0)
-                        most = std::max(most, visit(pairs[static_cast<std::size_t>(row.pair)], row, row.bounceV, v,
-                                                    row.impulseV, row.rubV));
-                for (Support& one : supports) support(one.held, one.held.speed, v, one.impulseV, &one.rubV);
-                return most < little;
-            });
+            std::vector<Row> pressing;
+            for (const Row& row : rows)
+                if (row.impulse.normal > 0) {
+                    pressing.push_back(row);
+                    pressing.back().bounce = bounceOf(pairs[static_cast<std::size_t>(row.pair)], v);
+                }
+            std::vector<Support> holding(supports.begin(), supports.end());
+            descend(pairs, pressing, holding, options.sweeps, little, v);
         };
         const auto recover = [&] { takeBack(pairs, rows, supports, h, options, little, shift); };
         if (rows.size() < shared) {
@@ -239,7 +200,6 @@ void Pressing::solve(std::span<const MeetingPair> pairs, std::span<const Held> h
         } else {
             core::parallelFor(2, [&](int which) { which == 0 ? recover() : pressV(); });
         }
-        for (const Row& row : rows) impulses_[static_cast<std::size_t>(row.pair)] = row.impulse;
     };
     if (rows_.size() < shared)
         for (int c = 0; c < count; ++c) solveCluster(c);

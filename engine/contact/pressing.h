@@ -1,31 +1,22 @@
-// Impulses that keep pairs apart, with Coulomb's friction: projected Gauss-Seidel over them, in their order.
+// Impulses that keep pairs apart, with Coulomb's friction, cluster by cluster.
 //
 //   0 <= λ  ⊥  n·Σ w u + max(g, 0) / h >= 0          u mean velocity of the points in the instant, g gap at its start
 //
-// From λ = 0 on it descends ½ λᵀ A λ + λᵀ (u_n + g⁺/h), A = W M⁻¹ Wᵀ, so that after any number of sweeps the kinetic
+// From λ = 0 on sweeps descend ½ λᵀ A λ + λᵀ (u_n + g⁺/h), A = W M⁻¹ Wᵀ, so that after any number of them the kinetic
 // energy ½ Σ m u² has not grown. The velocities v that a method stores get impulses of their own, of the pairs that
-// press, by the same rule: what the points' mean motion needs is not what they need at its end. Overlaps are taken back
-// as a shift without speed.
+// press, by the same rule and from those on: what the points' mean motion needs is not what they need at its end.
+// Overlaps are taken back as a shift without speed.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "taut/contact/meeting_pair.h"
+#include "taut/contact/descent.h"
 
 namespace taut::contact {
 
-// A point that a collider holds: it does not go into it, and what presses it there lets friction hold it the more.
-struct Held {
-    int point;
-    dvec3 normal;           // unit, out of the collider
-    double speed;           // [m/s] of the surface along it
-    dvec3 carried{0.0};     // [m/s] of the surface
-    double friction = 0.0;  // Coulomb's μ of point and surface [-]
-};
-
 struct PressingOptions {
-    int sweeps = 10;           // at most
+    int sweeps = 20;           // at most
     double recovery = 0.2;     // share of an overlap that is taken back an instant
     double restitution = 0.0;  // of arrivals faster than restSpeed [-]
     double restSpeed = 0.0;    // [m/s]
@@ -46,27 +37,11 @@ class Pressing {
     int clusters() const { return static_cast<int>(clusterStart_.size()) - 1; }
 
   private:
-    struct Row {
-        int pair;
-        std::array<double, 4> gains;  // [1/kg] of its points, by its weights
-        double most;                  // [1/kg] of them
-        double mass;                  // [kg] that the pair's points have along the normal together
-        double open;                  // [m/s] they may approach each other with
-        double bounce, bounceV;       // [m/s] they have to part with
-        double impulse = 0, impulseV = 0;
-        dvec3 rub{0.0}, rubV{0.0};
-    };
     struct Push {
         int pair;
         std::array<double, 4> gains;  // as of a row
         double mass;
         double recover, way = 0;  // [m] to be, and so far
-    };
-    // What a collider gives a point besides what it gave it before, by its mass.
-    struct Support {
-        Held held;
-        double impulse = 0, impulseV = 0;  // [m/s]
-        dvec3 rub{0.0}, rubV{0.0};
     };
     void takeBack(std::span<const MeetingPair> pairs, std::span<const Row> rows, std::span<const Support> supports,
                   double h, const PressingOptions& options, double little, std::span<dvec3> shift) const;

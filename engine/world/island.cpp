@@ -43,14 +43,10 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
                 if (isHeld[i]) inverseMasses[i] = 0;
             return mechanics::leastFrequency(inverseMasses, stiffnessAt(plan_.positions));
         },
-        keepsStep ? nullptr : &now);
+        keepsStep ? nullptr : &now, [&](int substeps) { return inParts(substeps); });
     if (choice_.need)
         following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
     if (choice_.splits) dynamics_->split(true);
-    if (parts_ > 1) {
-        choice_.substeps = inParts(choice_.substeps);
-        choice_.step = tickSeconds_ / choice_.substeps;
-    }
     ownSubsteps_ = choice_.substeps;
     shortensForContact_ = !keepsStep && !plan_.solver.dt;
     dynamics_->start(t, choice_.step);

@@ -42,6 +42,24 @@ TEST(Publish, EveryBodyAndVisibleColliderIsASurfaceAndTheLevelPlaneTheGround) {
     EXPECT_TRUE(view.marks.lines.empty());
 }
 
+// Faces name the vertices 3, 1, 2, 4 of the file first.
+TEST(Publish, VerticesOfAMeshAreInTheOrderOfItsFile) {
+    auto mesh = std::make_shared<MeshData>();
+    mesh->positions = {{3, 0, 0}, {1, 1, 0}, {2, 0, 0}, {4, 1, 0}};
+    mesh->numbers = {3, 1, 2, 4};
+    mesh->triangles = {{0, 1, 2}, {0, 3, 1}};
+    ClothSpec cloth;
+    cloth.name = "c";
+    cloth.mesh = "c.obj";
+    cloth.meshData = mesh;
+    SceneSpec scene;
+    scene.bodies.add(cloth);
+    const view::FrameView view = World(scene).view(false);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(view.surfaces[0].geometry->positions[i].x, 1.0F + static_cast<float>(i));
+    EXPECT_EQ(view.surfaces[0].topology->triangles, (std::vector<std::uint32_t>{2, 0, 1, 2, 3, 0}));
+}
+
 TEST(Publish, WhatDoesNotChangeIsShared) {
     World world(smallScene());
     const view::FrameView first = world.view(false);

@@ -197,7 +197,7 @@ void printLost(const geometry::LostMotion& lost, std::int64_t every) {
     if (lost.unmeasured > 0) {
         const std::size_t others = lost.changes.size() - 1;
         text += fmt::format("; {} of them, where {}{}, not measured", lost.unmeasured, *lost.changes.begin(),
-                            others == 0 ? "" : fmt::format(" and {} more so", others));
+                            others == 0 ? "" : fmt::format(" and {} more change", others));
     }
     printResult("{}\n", text);
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/small_scenes.h"
@@ -40,6 +41,22 @@ TEST(Publish, EveryBodyAndVisibleColliderIsASurfaceAndTheLevelPlaneTheGround) {
     ASSERT_TRUE(view.ground);
     EXPECT_EQ(view.ground->height, 0.0F);
     EXPECT_TRUE(view.marks.lines.empty());
+}
+
+// A rounded foot has normals that lean down.
+TEST(Publish, ABoxOnTheGroundHasASharpFootAndOneAboveItHasNot) {
+    const auto leansDown = [](double height) {
+        SceneSpec scene = smallScene();
+        scene.colliders[0].shape = "box";
+        scene.colliders[0].size = {1, 1, 1};
+        scene.colliders[0].position = {0, height, 0};
+        const view::FrameView view = World(scene).view(false);
+        const auto& normals = surface(view, "ball")->geometry->normals;
+        return std::any_of(normals.begin(), normals.end(),
+                           [](const glm::vec3& n) { return n.y < -0.1F && n.y > -0.9F; });
+    };
+    EXPECT_FALSE(leansDown(0.5));
+    EXPECT_TRUE(leansDown(0.51));
 }
 
 // Faces name the vertices 3, 1, 2, 4 of the file first.

@@ -117,13 +117,19 @@ Option Option::mayBeBare() const {
 }
 
 template <class Number>
-Option Option::within(Number least, Number most) const {
-    option_->check(CLI::Range(least, most));
+Option Option::within(Number least, Number most, const std::string& unit) const {
+    const CLI::Range range(least, most);
+    option_->check(CLI::Validator(
+        [range, unit](std::string& text) {
+            const std::string fault = range(text);
+            return fault.empty() || unit.empty() ? fault : fault + " " + unit;
+        },
+        range.get_description()));
     return *this;
 }
-template Option Option::within(int, int) const;
-template Option Option::within(std::int64_t, std::int64_t) const;
-template Option Option::within(double, double) const;
+template Option Option::within(int, int, const std::string&) const;
+template Option Option::within(std::int64_t, std::int64_t, const std::string&) const;
+template Option Option::within(double, double, const std::string&) const;
 
 Option Option::oneOf(const std::vector<std::string>& words) const {
     option_->check(CLI::IsMember(words));

@@ -34,7 +34,7 @@ class Option {
 
     // What values may be; numbers are int, std::int64_t or double.
     template <class Number>
-    Option within(Number least, Number most) const;
+    Option within(Number least, Number most, const std::string& unit = {}) const;  // unit: for who is outside
     Option oneOf(const std::vector<std::string>& words) const;
     Option suggests(const std::vector<std::string>& words) const;  // in the help and to a shell; others may do, too
     // Empty when the text will do, else what is wrong with it.

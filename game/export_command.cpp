@@ -194,7 +194,11 @@ void printLost(const geometry::LostMotion& lost, std::int64_t every) {
     else
         text += fmt::format(", off by {:.3g} mm rms, {:.3g} mm at worst ({}, frame {}), moved evenly in between",
                             1e3 * lost.rms, 1e3 * lost.worst, lost.worstName, lost.worstFrame);
-    if (lost.unmeasured > 0) text += fmt::format("; {} of them, where something tears, not measured", lost.unmeasured);
+    if (lost.unmeasured > 0) {
+        const std::size_t others = lost.changes.size() - 1;
+        text += fmt::format("; {} of them, where {}{}, not measured", lost.unmeasured, *lost.changes.begin(),
+                            others == 0 ? "" : fmt::format(" and {} more change", others));
+    }
     printResult("{}\n", text);
 }
 

@@ -1,6 +1,7 @@
 #include "game/messages.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -13,6 +14,12 @@ namespace {
 // A failure stays with the stream.
 void write(std::FILE* stream, std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+// As head does when it has had enough.
+bool hasReaderGone() {
+    pollfd out{STDOUT_FILENO, 0, 0};
+    return ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
 }
 
 void openIfClosed(int descriptor, int mode) {
@@ -49,7 +56,7 @@ void printWarnings(const std::vector<std::string>& warnings) {
 }
 
 bool areResultsWritten() {
-    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    return (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || hasReaderGone();
 }
 
 void openMissingStreams() {

@@ -35,7 +35,7 @@ void printNote(fmt::format_string<Values...> format, Values&&... values) {
 void printError(const core::Error& error);
 void printWarnings(const std::vector<std::string>& warnings);
 
-// Makes sure that what was printed has left, and tells whether all of it did.
+// Makes sure that what was printed has left, and tells whether all of it did, or its reader wanted no more of it.
 bool areResultsWritten();
 
 // Opens what the program was started without, so that no file of ours gets the number of a standard stream: there,

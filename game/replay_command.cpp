@@ -122,6 +122,10 @@ int replay(const ReplayFlags& flags) {
     if (!flags.other.empty()) {
         if (!flags.scene.empty())
             throw core::Error(core::ErrorKind::usage, "--verify with a second tape plays nothing: leave --scene out");
+        if (std::filesystem::path(flags.other).extension() == ".toml")
+            throw core::Error(
+                core::ErrorKind::usage,
+                fmt::format("--verify reads a second tape; a scene is played by --verify --scene {}", flags.other));
         return verdict(flags, tape, regression::readTape(flags.other));
     }
     if (tape.origin.bits != world::resultBits) {

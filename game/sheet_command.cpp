@@ -8,6 +8,7 @@
 #include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/image/png.h"
+#include "taut/pipeline/run_parts.h"
 #include "taut/report/contact_sheet.h"
 
 namespace taut::game {
@@ -19,8 +20,15 @@ struct SheetFlags {
     report::SheetLayout layout;
 };
 
+// Of a folder the names that the run's record tells, if it has one.
+image::FramePattern patternOf(const std::filesystem::path& frames) {
+    if (frames.extension() == ".png") return image::FramePattern(frames);
+    const std::vector<std::string> names = pipeline::recordedFiles(frames);
+    return image::FramePattern(names.size() == 1 ? frames / names.front() : frames);
+}
+
 int sheet(const SheetFlags& flags) {
-    const image::FramePattern pattern(flags.frames);
+    const image::FramePattern pattern = patternOf(flags.frames);
     const std::filesystem::path output =
         flags.output.empty() ? pattern.folder() / "sheet.png" : std::filesystem::path(flags.output);
     if (output.extension() != ".png")
@@ -34,7 +42,10 @@ int sheet(const SheetFlags& flags) {
 
 Action declareSheet(Options& options) {
     const auto flags = std::make_shared<SheetFlags>();
-    options.value("FRAMES", flags->frames, "The folder of the frames, or their names: out/frame_######.png").required();
+    options
+        .value("FRAMES", flags->frames,
+               "The folder of the frames, whose record tells their names, or the names: out/p_######.png")
+        .required();
     options.value("-o,--output", flags->output, "The PNG to write; sheet.png in that folder when left out");
     options.value("--pictures", flags->layout.pictures, "How many frames to show").within(1, 400).showDefault();
     options.value("--columns", flags->layout.columns, "How many stand side by side").within(1, 100).showDefault();

@@ -28,6 +28,7 @@ struct ShapeSizes {
     std::vector<dvec3> vertices;           //
     std::vector<std::uint32_t> triangles;  // (3 · triangles) counter-clockwise seen from outside
     double edge = 0.0;                     // rounding of edges, for the eye
+    bool stands = false;                   // with its lower side on a ground
     std::map<std::string, double, std::less<>> own;  // what a shape adds to these, by its key
 };
 

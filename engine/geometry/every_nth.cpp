@@ -1,6 +1,8 @@
 #include "taut/geometry/every_nth.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "taut/geometry/parts.h"
@@ -16,9 +18,31 @@ bool isStill(const view::Surface& a, const view::Surface& b) {
     return a.geometry == b.geometry && a.transform == b.transform;
 }
 
-bool isOfOneKind(const view::Surface& a, const view::Surface& b) {
-    return a.name == b.name && (a.topology == b.topology || a.topology->triangles == b.topology->triangles) &&
-           a.geometry->positions.size() == b.geometry->positions.size();
+bool isOfOneKind(const view::Surface* a, const view::Surface* b) {
+    return (a->topology == b->topology || a->topology->triangles == b->topology->triangles) &&
+           a->geometry->positions.size() == b->geometry->positions.size();
+}
+
+using Pieces = std::map<std::string, std::vector<const view::Surface*>>;  // by the name of the body
+
+Pieces piecesOf(const view::FrameView& view) {
+    Pieces pieces;
+    for (const view::Surface& surface : view.surfaces) pieces[PartFinder::fullName(surface)].push_back(&surface);
+    return pieces;
+}
+
+// What has other triangles, and why.
+std::set<std::string> changesBetween(const view::FrameView& from, const view::FrameView& to) {
+    std::set<std::string> changes;
+    const Pieces before = piecesOf(from), after = piecesOf(to);
+    for (const auto& [name, pieces] : before)
+        if (const auto now = after.find(name); now == after.end())
+            changes.insert(name + " goes");
+        else if (!std::equal(pieces.begin(), pieces.end(), now->second.begin(), now->second.end(), isOfOneKind))
+            changes.insert(name + " tears or is cut");
+    for (const auto& [name, pieces] : after)
+        if (!before.contains(name)) changes.insert(name + " appears");
+    return changes;
 }
 
 }  // namespace
@@ -43,15 +67,17 @@ void EveryNth::write(const view::FrameView& view) {
 void EveryNth::measure(const view::FrameView& to) {
     for (const view::FrameView& at : between_) {
         ++lost_.frames;
-        if (!measure(at, to)) ++lost_.unmeasured;
+        std::set<std::string> changes = changesBetween(from_, at);
+        changes.merge(changesBetween(from_, to));
+        if (changes.empty())
+            measure(at, to);
+        else
+            ++lost_.unmeasured;
+        lost_.changes.merge(changes);
     }
 }
 
-bool EveryNth::measure(const view::FrameView& at, const view::FrameView& to) {
-    if (at.surfaces.size() != from_.surfaces.size() || to.surfaces.size() != from_.surfaces.size()) return false;
-    for (std::size_t i = 0; i < to.surfaces.size(); ++i)
-        if (!isOfOneKind(at.surfaces[i], from_.surfaces[i]) || !isOfOneKind(to.surfaces[i], from_.surfaces[i]))
-            return false;
+void EveryNth::measure(const view::FrameView& at, const view::FrameView& to) {
     const double share = static_cast<double>(at.frame - from_.frame) / static_cast<double>(to.frame - from_.frame);
     for (std::size_t i = 0; i < to.surfaces.size(); ++i) {
         const view::Surface &a = from_.surfaces[i], &x = at.surfaces[i], &b = to.surfaces[i];
@@ -67,7 +93,6 @@ bool EveryNth::measure(const view::FrameView& at, const view::FrameView& to) {
             lost_.worstName = PartFinder::fullName(x);
         }
     }
-    return true;
 }
 
 LostMotion EveryNth::lost() const {

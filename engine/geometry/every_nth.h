@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "taut/geometry/geometry_sink.h"
@@ -10,10 +11,11 @@
 namespace taut::geometry {
 
 struct LostMotion {
-    std::int64_t frames = 0;      // that were left out
-    std::int64_t unmeasured = 0;  // of them, where triangles had changed before the next frame that was not left out
-    double rms = 0.0;             // [m] over all vertices that moved, in all frames left out
-    double worst = 0.0;           // [m]
+    std::int64_t frames = 0;        // that were left out
+    std::int64_t unmeasured = 0;    // of them, where triangles had changed before the next frame that was not left out
+    std::set<std::string> changes;  // those: "cloth.flag tears or is cut", "rope.line appears"
+    double rms = 0.0;               // [m] over all vertices that moved, in all frames left out
+    double worst = 0.0;             // [m]
     std::int64_t worstFrame = 0;
     std::string worstName;  // "cloth.flag"; empty: nothing moved
 };
@@ -32,7 +34,7 @@ class EveryNth : public GeometrySink {
 
   private:
     void measure(const view::FrameView& to);
-    bool measure(const view::FrameView& at, const view::FrameView& to);
+    void measure(const view::FrameView& at, const view::FrameView& to);
 
     GeometrySink& sink_;
     std::int64_t first_, last_, every_;

@@ -34,8 +34,10 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
         return;
     }
     if (first == std::string::npos)
-        fail(fmt::format("the frame number has no place; put '#' for each digit, for example {}_######.png",
-                         (pattern.parent_path() / pattern.stem()).string()));
+        fail(
+            fmt::format("the frame number has no place; put '#' for each digit, for example {}_######.png, and for one "
+                        "picture alone --frames with its number",
+                        (pattern.parent_path() / pattern.stem()).string()));
     const std::size_t last = std::min(name.find_first_not_of('#', first), name.size());
     if (name.find('#', last) != std::string::npos) fail("'#' may stand at one place only");
     folder_ = pattern.parent_path();

@@ -174,7 +174,7 @@ bool isStable(double z, double d) {
            s * s < 1 + rounding;
 }
 
-// z h at which undamped motion first grows, by 0.14 % a step at most; from 3.160 to 6.314 it does not. With ζ > 0.0044
+// z h at which undamped motion first grows, by 1.4 % a step at most; from 3.160 to 6.314 it does not. With ζ > 0.0044
 // nothing grows there, and up to 6.3 and more.
 constexpr double undampedLimit = 3.132823398;
 constexpr double dashpotLimit = 9.5760540;  // of h times a rate that no spring opposes

@@ -106,7 +106,16 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const LoadOptio
 
     setTexture(scene.spec.environment.image, environments);
     for (world::BodySpec& body : scene.spec.bodies) {
-        if (world::MeshSource* source = body.meshSource()) setMesh(*source, meshes);
+        if (world::MeshSource* source = body.meshSource()) {
+            setMesh(*source, meshes);
+            if (body.finish.weave > 0 && source->meshData != nullptr && source->meshData->uv.empty()) {
+                body.finish.weave = 0;
+                problems.addWarning(
+                    scene.owners.at(body.fullName()),
+                    fmt::format("{} has no texture coordinates for threads to run along: no weave", source->mesh),
+                    "unwrap the mesh, or leave weave out");
+            }
+        }
         setTexture(body.finish.texture, textures);
     }
     for (world::ColliderSpec& collider : scene.spec.colliders) {

@@ -194,7 +194,8 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
             .ramps(Affects::colliders)
             .tables("keys", &ColliderSpec::keys, poseKeySection(), "Keyframes, in the order of time.")
             .flag("visible", &ColliderSpec::visible, "Whether it is drawn.")
-            .number("edge", &ColliderSpec::edge, "m", Range{0.0, 1e3}, "Rounding of a drawn box's edges.")
+            .number("edge", &ColliderSpec::edge, "m", Range{0.0, 1e3},
+                    "Rounding of a drawn box's edges, but for its foot on the ground.")
             .only(edged)
             .table("finish", &ColliderSpec::finish, finishSection(), "How it looks.")
             .take();

@@ -102,13 +102,15 @@ std::vector<float> boxLines(float halfSize, float edgeRadius) {
 }
 
 // One side of a rounded box: a grid on the cube's face, pushed onto the rounded surface.
-void appendBoxSide(Topology& topology, Geometry& geometry, glm::vec3 halfSize, float edgeRadius, int axis, float sign) {
+void appendBoxSide(Topology& topology, Geometry& geometry, glm::vec3 halfSize, float edgeRadius, bool stands, int axis,
+                   float sign) {
     const int axisU = (axis + 1) % 3;
     const int axisV = (axis + 2) % 3;
     const std::vector<float> linesU = boxLines(halfSize[axisU], edgeRadius);
     const std::vector<float> linesV = boxLines(halfSize[axisV], edgeRadius);
     const auto first = static_cast<std::uint32_t>(geometry.positions.size());
-    const glm::vec3 inner = halfSize - glm::vec3(edgeRadius);
+    const glm::vec3 inner = halfSize - glm::vec3(edgeRadius), low(-inner.x, stands ? -halfSize.y : -inner.y, -inner.z);
+    const bool isFlat = edgeRadius == 0.0F || (stands && axis == 1 && sign < 0.0F);
     for (const float v : linesV) {
         for (const float u : linesU) {
             glm::vec3 onCube(0.0F);
@@ -117,9 +119,14 @@ void appendBoxSide(Topology& topology, Geometry& geometry, glm::vec3 halfSize, f
             onCube[axisV] = v;
             glm::vec3 normal(0.0F);
             normal[axis] = sign;
-            const glm::vec3 core = edgeRadius > 0.0F ? glm::clamp(onCube, -inner, inner) : onCube;
-            if (edgeRadius > 0.0F) normal = glm::normalize(onCube - core);
-            geometry.positions.push_back(core + edgeRadius * normal);
+            const glm::vec3 core = glm::clamp(onCube, low, inner);
+            glm::vec3 out(0.0F);  // from the core, up to 1 on the edge of a flat side
+            if (core != onCube) {
+                const glm::vec3 part = glm::abs(onCube - core) / (halfSize - inner);
+                out = std::max({part.x, part.y, part.z}) * glm::normalize(onCube - core);
+            }
+            if (!isFlat) normal = out;
+            geometry.positions.push_back(core + edgeRadius * out);
             geometry.normals.push_back(normal);
             topology.uv.emplace_back(sign * u, v);
         }
@@ -146,16 +153,14 @@ Mesh sphereMesh(float radius) {
     return revolved(profile);
 }
 
-Mesh boxMesh(glm::vec3 halfSize, float edgeRadius) {
+Mesh boxMesh(glm::vec3 halfSize, float edgeRadius, bool stands) {
     const float smallest = std::min({halfSize.x, halfSize.y, halfSize.z});
     TAUT_EXPECTS(smallest > 0.0F && edgeRadius >= 0.0F);
     const float rounded = std::min(edgeRadius, smallest);
     Topology topology;
     Geometry geometry;
-    for (int axis = 0; axis < 3; ++axis) {
-        appendBoxSide(topology, geometry, halfSize, rounded, axis, 1.0F);
-        appendBoxSide(topology, geometry, halfSize, rounded, axis, -1.0F);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float sign : {1.0F, -1.0F}) appendBoxSide(topology, geometry, halfSize, rounded, stands, axis, sign);
     return meshOf(std::move(topology), std::move(geometry));
 }
 

@@ -16,7 +16,9 @@ struct Mesh {
 };
 
 Mesh sphereMesh(float radius);
-Mesh boxMesh(glm::vec3 halfSize, float edgeRadius);  // edges rounded for the eye: catch the light; radius >= 0
+// Edges rounded for the eye: catch the light; radius >= 0. Where it stands, those of its foot are not: they would leave
+// a slit above the ground, all but black.
+Mesh boxMesh(glm::vec3 halfSize, float edgeRadius, bool stands = false);
 Mesh cylinderMesh(float radius, float height);
 Mesh coneMesh(float radius, float height);        // centre at half height, tip up
 Mesh capsuleMesh(float radius, float height);     // height >= 0 between the centres of the two half spheres

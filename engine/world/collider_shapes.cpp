@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "taut/core/error.h"
@@ -24,11 +25,17 @@ collision::ShapeSizes sizesOf(const ColliderSpec& spec) {
     return sizes;
 }
 
+bool isFloor(const ColliderSpec& spec) {
+    return spec.shape == "plane" && spec.normal.y > 0 && spec.normal.x == 0 && spec.normal.z == 0 &&
+           spec.rotation == dvec3(0.0) && spec.keys.empty();
+}
+
 // What is made of a collider: its shape, and the pieces that are drawn.
 class Maker {
   public:
-    Maker(const collision::ShapeKinds& kinds, const FinishSpec& finish, std::vector<ColliderModel::Piece>* pieces)
-        : kinds_(kinds), finish_(finish), pieces_(pieces) {}
+    Maker(const collision::ShapeKinds& kinds, const ColliderSpec& whole, std::span<const ColliderSpec> all,
+          std::vector<ColliderModel::Piece>* pieces)
+        : kinds_(kinds), whole_(whole), all_(all), pieces_(pieces) {}
 
     collision::Shape make(const ColliderSpec& spec, const glm::mat4& transform) const {
         collision::Shape shape;
@@ -44,13 +51,24 @@ class Maker {
         collision::ShapeSizes sizes = sizesOf(spec);
         for (const collision::OwnSize& own : kind->own) sizes.own.emplace(own.key, own.standard);
         shape.form = kind->form(sizes);
-        if (pieces_ != nullptr) pieces_->push_back({kind->mesh(sizes), transform, finishOf(finish_)});
+        sizes.stands = stands(sizes, transform);
+        if (pieces_ != nullptr) pieces_->push_back({kind->mesh(sizes), transform, finishOf(whole_.finish)});
         return shape;
     }
 
   private:
+    // Upright on a floor as the scene starts, or down in it.
+    bool stands(const collision::ShapeSizes& sizes, const glm::mat4& transform) const {
+        constexpr double near = 1e-4;  // [m]
+        const glm::mat4 at = matrixOf(poseAt(whole_, 0.0)) * transform;
+        return at[1].y > 1.0F - 1e-6F && std::any_of(all_.begin(), all_.end(), [&](const ColliderSpec& other) {
+                   return isFloor(other) && at[3].y - sizes.halfSize.y < other.position.y + near;
+               });
+    }
+
     const collision::ShapeKinds& kinds_;
-    const FinishSpec& finish_;
+    const ColliderSpec& whole_;
+    std::span<const ColliderSpec> all_;
     std::vector<ColliderModel::Piece>* pieces_;  // null: it is not drawn
 };
 
@@ -63,14 +81,13 @@ glm::mat4 matrixOf(const collision::Pose& pose) {
 }
 
 std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, const collision::ShapeKinds& kinds,
-                                                       bool mayTurn) {
+                                                       bool mayTurn, std::span<const ColliderSpec> all) {
     auto model = std::make_shared<ColliderModel>();
     model->material = {spec.friction, spec.restitution};
-    model->isGround = spec.shape == "plane" && spec.normal.y > 0 && spec.normal.x == 0 && spec.normal.z == 0 &&
-                      spec.rotation == dvec3(0.0) && spec.keys.empty() && !mayTurn;
+    model->isGround = isFloor(spec) && !mayTurn;
     const bool isDrawn = spec.visible && !model->isGround;
     try {  // what cannot be is found here, where its line is known
-        model->shape = Maker(kinds, spec.finish, isDrawn ? &model->pieces : nullptr).make(spec, glm::mat4(1.0F));
+        model->shape = Maker(kinds, spec, all, isDrawn ? &model->pieces : nullptr).make(spec, glm::mat4(1.0F));
         collision::Colliders().add(model->shape, model->material, poseAt(spec, 0.0));
     } catch (const core::Error& error) {
         throw core::Error(error.kind(), spec.source.file + ":" + std::to_string(spec.source.line) + ":" +

@@ -76,7 +76,8 @@ Section finishSection() {
             .colour("accent", &FinishSpec::accent, "Second colour of a pattern.")
             .choice("pattern", &FinishSpec::pattern, {"plain", "checker", "stripes", "tartan", "image"}, "Pattern.")
             .number("repeat_m", &FinishSpec::repeat, "m", lengthRange, "Length after which the pattern repeats.")
-            .number("weave", &FinishSpec::weave, "", fields::share, "Depth of the weave: 0 smooth, 1 coarse linen.")
+            .number("weave", &FinishSpec::weave, "", fields::share,
+                    "Depth of the weave: 0 smooth, 1 coarse linen. A mesh without texture coordinates has none.")
             .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")
             .number("roughness", &FinishSpec::roughness, "", fields::share, "0 a mirror, 1 chalk.")
             .number("sheen", &FinishSpec::sheen, "", fields::share, "Bright rim of fabric.")
@@ -88,6 +89,17 @@ Section finishSection() {
             .only({"the pattern image"})
             .take();
     return section;
+}
+
+void keepRadius(const fields::CheckInput& input, double radius, BodySpec& body) {
+    constexpr double far = 0.5;
+    if (input.table.find("thickness") == nullptr)
+        body.thickness = radius;
+    else if (body.thickness < far * radius && (body.collide || body.touch != Touch::nothing))
+        input.problems.addWarning(input.at("thickness"),
+                                  fmt::format("drawn with a radius of {} m, it sinks {:.3g} m into what it touches",
+                                              radius, radius - body.thickness),
+                                  "leave thickness out");
 }
 
 std::vector<std::string> easeNames() {

@@ -30,6 +30,8 @@ fields::Section arraySection();
 std::vector<std::string> easeNames();
 std::vector<std::string> lumpingNames();
 std::vector<std::string> methodNames();  // of the engine's own
+// What is drawn round keeps its radius [m], if no thickness is given; one far below it is warned of.
+void keepRadius(const fields::CheckInput& input, double radius, BodySpec& body);
 
 // Fields of all that stops being elastic.
 template <class Spec>
@@ -74,8 +76,10 @@ std::vector<fields::Field> bodyRows() {
                 "Random offset of the free points at the start, to break symmetry.")
         .whole("seed", &Spec::seed, "", Range{0.0, 1e12}, "Seed of the offsets.")
         .number("friction", &Spec::friction, "", Range{0.0, 100.0}, "Factor on the collider's friction.")
-        .number("thickness", &Spec::thickness, "m", Range{0.0, 10.0},
-                "Distance kept from colliders; bodies that touch keep the sum of theirs.")
+        .number(
+            "thickness", &Spec::thickness, "m", Range{0.0, 10.0},
+            "Distance kept from colliders; bodies that touch keep the sum of theirs. Of a rope or net its radius if "
+            "not given.")
         .flagOr(
             "collide", &Spec::collide, "faces", &Spec::meetsFaces,
             "Whether colliders stop it: its points, and with \"faces\" its triangles and edges, which their corners "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "taut/core/srgb.h"
 #include "taut/view/tube.h"
@@ -51,6 +52,19 @@ Skin wholeSkin(const mechanics::Model& model) {
     return skin;
 }
 
+// The vertices of a mesh file in its order, for who knows them by it; none if the body is made of none.
+std::vector<int> orderInFile(const BodySpec& spec) {
+    const MeshSource* source = spec.meshSource();
+    if (source == nullptr || source->meshData == nullptr) return {};
+    const std::vector<int>& numbers = source->meshData->numbers;
+    std::vector<int> order(numbers.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+        return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)];
+    });
+    return order;
+}
+
 // Cloth, and the skin of a block. A block's faces get vertices of their own, so that its edges stay edges.
 class SkinDrawing final : public BodyDrawing {
   public:
@@ -64,23 +78,26 @@ class SkinDrawing final : public BodyDrawing {
         const Skin skin = body.damage.isEmpty() ? wholeSkin(model) : skinOf(body);
         const BlockAxes axes = twoSided_ ? BlockAxes{} : BlockAxes(model);
         std::map<std::pair<int, int>, std::uint32_t> vertexOf;  // (vertex of the skin, side of the block)
+        const auto vertexAt = [&](int v, int side) {
+            const SkinVertex& vertex = skin.vertices[static_cast<std::size_t>(v)];
+            const auto [entry, isNew] = vertexOf.try_emplace({v, side}, static_cast<std::uint32_t>(points_.size()));
+            if (isNew) {
+                if (vertex.terms.size() > 1) beyond_.push_back({points_.size(), vertex});
+                points_.push_back(vertex.terms.front().point);
+                topology->uv.push_back(twoSided_ ? along(model, vertex.uv)
+                                                 : axes.across(vertex.rest, side % sidesOfBlock));
+            }
+            return entry->second;
+        };
+        if (body.damage.isEmpty())
+            for (int v : orderInFile(*body.spec)) vertexAt(v, 0);
         for (const SkinTriangle& triangle : skin.triangles) {
             // The faces of cuts are sides of their own.
             const bool isCut = triangle.source < 0;
             const int side = twoSided_ ? 0
                              : isCut   ? sidesOfBlock + axes.sideLike(normalOf(skin, triangle))
                                        : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
-            for (int v : triangle.vertices) {
-                const SkinVertex& vertex = skin.vertices[static_cast<std::size_t>(v)];
-                const auto [entry, isNew] = vertexOf.try_emplace({v, side}, static_cast<std::uint32_t>(points_.size()));
-                if (isNew) {
-                    if (vertex.terms.size() > 1) beyond_.push_back({points_.size(), vertex});
-                    points_.push_back(vertex.terms.front().point);
-                    topology->uv.push_back(twoSided_ ? along(model, vertex.uv)
-                                                     : axes.across(vertex.rest, side % sidesOfBlock));
-                }
-                topology->triangles.push_back(entry->second);
-            }
+            for (int v : triangle.vertices) topology->triangles.push_back(vertexAt(v, side));
         }
         topology_ = topology;
     }

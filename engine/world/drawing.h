@@ -45,10 +45,10 @@ struct ColliderModel {
     };
     std::vector<Piece> pieces;
 };
-// A plane that mayTurn is drawn as a board, not as the floor. Throws core::Error(badContent) with file, line and column
-// for a shape that cannot be built.
+// A plane that mayTurn is drawn as a board, not as the floor. `all` are the scene's, on whose floors it may stand.
+// Throws core::Error(badContent) with file, line and column for a shape that cannot be built.
 std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, const collision::ShapeKinds& kinds,
-                                                       bool mayTurn);
+                                                       bool mayTurn, std::span<const ColliderSpec> all);
 
 glm::mat4 matrixOf(const collision::Pose& pose);
 

@@ -43,15 +43,11 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
                 if (isHeld[i]) inverseMasses[i] = 0;
             return mechanics::leastFrequency(inverseMasses, stiffnessAt(plan_.positions));
         },
-        keepsStep ? nullptr : &now);
+        keepsStep ? nullptr : &now, [&](int substeps) { return inParts(substeps); });
     if (choice_.need)
         following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
     if (choice_.splits) dynamics_->split(true);
     ownSubsteps_ = choice_.substeps;
-    if (quietParts_ > 1) {
-        choice_.substeps = wantedSubsteps();
-        choice_.step = tickSeconds_ / choice_.substeps;
-    }
     shortensForContact_ = !keepsStep && !plan_.solver.dt;
     dynamics_->start(t, choice_.step);
     foreseeFreezing(t);
@@ -199,8 +195,8 @@ void Island::tryAgain(const TickTime& time, Verdict verdict) {
     startWith(time, wantedSubsteps(), true);
 }
 
-int Island::quietSubsteps() const {
-    const int substeps = contactFactor_ * (choice_.need ? following_.substeps() : ownSubsteps_);
+// While nothing presses it; few substeps become a power of two.
+int Island::inParts(int substeps) const {
     if (substeps >= quietParts_) return (substeps + quietParts_ - 1) / quietParts_ * quietParts_;
     int parts = plan_.solver.dt ? 1 : std::min(quietParts_, leastParts);
     while (parts < substeps) parts *= 2;

@@ -194,7 +194,10 @@ class Island {
     bool addsTooMuch(const ContactWork& work) const;
     void account(const ContactWork& work);
     std::string contactWarning() const;  // empty where nothing is to be said
-    int quietSubsteps() const;  // where nothing presses it
+    int inParts(int substeps) const;
+    int quietSubsteps() const {  // where nothing presses it
+        return inParts(contactFactor_ * (choice_.need ? following_.substeps() : ownSubsteps_));
+    }
     int wantedSubsteps() const { return (quietSubsteps() + parts_ - 1) / parts_ * parts_; }
     void addPoints(const std::vector<bool>& only, const TickTime& time, Metrics& metrics);
     void addSprings(const std::vector<bool>& only, Metrics& metrics);

@@ -160,28 +160,26 @@ void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
                             ", and sets the step: merge by distance, or integrator = \"implicit-euler\"");
 }
 
-// A damping time with which the step is at least half as long as without any, where that is at least twice as long.
-void adviseOnDamping(const IslandPlan& plan, const ode::MethodInfo& method, StepChoice& choice) {
+// A damping time with which the step is at least half as long as without any, where that makes it twice as long.
+// substepsWith: a tick with damping times that share of what they are; all are the same, so that one says them.
+void adviseOnDamping(const IslandPlan& plan, StepChoice& choice, const std::function<int(double)>& substepsWith) {
     constexpr double worthIt = 2.0, nearly = 0.5;
-    ode::FastestMode mode = choice.mode;
     const double tau = largestTau(plan);
-    const auto limitAt = [&](double smaller) {
-        mode.tau = choice.mode.tau * (tau > 0 ? smaller / tau : 0.0);
-        return method.automaticStep(mode);
-    };
-    const double without = limitAt(0.0);
-    if (!(tau > 0) || !(choice.limit > 0) || !(without > worthIt * choice.limit) || !std::isfinite(without)) return;
+    const bool isOne = std::all_of(plan.springs.begin(), plan.springs.end(), [&](const mechanics::Spring& s) {
+        return s.dampingTime == tau || s.dampingTime == 0;
+    });
+    if (!(tau > 0) || !isOne) return;
+    const double most = choice.substeps / worthIt;
+    const int without = substepsWith(0.0);
+    if (without > most) return;
     double smaller = 1e-9;  // powers of ten read well
-    while (10.0 * smaller < tau && limitAt(10.0 * smaller) > nearly * without) smaller *= 10.0;
-    if (!(limitAt(smaller) > worthIt * choice.limit)) return;
-    const auto damped = std::find_if(plan.springs.begin(), plan.springs.end(),
-                                     [&](const mechanics::Spring& s) { return s.dampingTime == tau; });
-    const SpringOrigin& origin = plan.origins[static_cast<std::size_t>(damped - plan.springs.begin())];
-    const std::string name =
-        origin.body < 0 ? "a joint" : plan.bodies[static_cast<std::size_t>(origin.body)]->fullName();
-    choice.advice.push_back(name + ": damping_time_s = " + plain(tau) + " sets the step: " + plain(smaller) +
-                            " would allow one of " + inSeconds(limitAt(smaller)) + " instead of " +
-                            inSeconds(choice.limit));
+    while (10.0 * smaller < tau && nearly * substepsWith(10.0 * smaller / tau) <= without) smaller *= 10.0;
+    const int substeps = substepsWith(smaller / tau);
+    if (substeps > most) return;
+    choice.advice.push_back(plan.bodies.front()->fullName() + (plan.bodies.size() > 1 ? " and all joined to it" : "") +
+                            ": damping_time_s = " + plain(tau) + " sets the step of " + inSeconds(choice.step) +
+                            ": with " + plain(smaller) + " it is " +
+                            inSeconds(choice.step * choice.substeps / substeps));
 }
 
 }  // namespace
@@ -245,7 +243,8 @@ std::string inSeconds(double t) {
 }
 
 StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds,
-                      const std::function<double()>& leastOmega, const mechanics::FastestNow* now) {
+                      const std::function<double()>& leastOmega, const mechanics::FastestNow* now,
+                      const std::function<int(int)>& inParts) {
     const IslandPlan& plan = envelope.plan;
     for (std::size_t i = 0; i < envelope.handStiffness.size(); ++i) {
         share.stiffness[i] += envelope.handStiffness[i];
@@ -268,31 +267,39 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
         return fastestMode(share, envelope.leastDrag, envelope.mostDrag, omega, damping);
     };
     const double tau = largestTau(plan), leastTauShare = tau > 0 ? std::min(1.0, envelope.leastTau / tau) : 1.0;
-    choice.mode = modeAt(choice.anywhere.omega, bounds.dampingAnywhere());
-    choice.limit = automaticStep(*method, leastTauShare, choice.mode);
+    const double damping = bounds.dampingAnywhere();
+    choice.mode = modeAt(choice.anywhere.omega, damping);
     const double limitHere = automaticStep(*method, leastTauShare, modeAt(choice.here.omega, bounds.dampingHere()));
 
-    double wanted = plan.solver.dt ? *plan.solver.dt : plan.solver.safety * choice.limit;
-    if (now != nullptr && !plan.solver.dt && method->caution.empty() && std::isfinite(choice.limit)) {
-        choice.need = StepNeed{method, tickSeconds, plan.solver.safety, modeAt(0, 0), 0, leastTauShare};
-        choice.need->raise(share, inverseMassesOf(plan));
-        StepNeed split = *choice.need;
+    // The step [s] with that part of the damping, and what it comes of.
+    const auto wantedStep = [&](double part, StepChoice& of) {
+        of.limit = automaticStep(*method, leastTauShare, modeAt(choice.anywhere.omega, part * damping));
+        if (plan.solver.dt) return *plan.solver.dt;
+        if (now == nullptr || !method->caution.empty() || !std::isfinite(of.limit))
+            return plan.solver.safety * of.limit;
+        const mechanics::FastestNow then{now->omega2, part * now->damping, part * now->pairs};
+        of.need = StepNeed{method, tickSeconds, plan.solver.safety, modeAt(0, 0), 0, leastTauShare};
+        of.need->raise(share, inverseMassesOf(plan));
+        StepNeed split = *of.need;
         split.splits = true;
-        const bool isCheaper = splitCosts * split(*now) < (*choice.need)(*now);
+        const bool isCheaper = splitCosts * split(then) < (*of.need)(then);
         if (plan.solver.integrator == "leapfrog" && plan.solver.dashpots != Dashpots::extrapolated &&
             (isCheaper || plan.solver.dashpots == Dashpots::split))
-            choice.need = split;
-        choice.splits = choice.need->splits;
-        const double need = (*choice.need)(*now);
-        wanted = need > 0 ? tickSeconds / need : HUGE_VAL;
-    }
+            of.need = split;
+        of.splits = of.need->splits;
+        const double need = (*of.need)(then);
+        return need > 0 ? tickSeconds / need : HUGE_VAL;
+    };
+    // A hair less, so that a dt of exactly a tick's part is not cut once more.
+    const auto substepsOf = [&](double step) { return std::max(1.0, std::ceil(tickSeconds / step * (1 - 1e-12))); };
+
+    const double wanted = wantedStep(1.0, choice);
     if (!(wanted > 0))
         throw Error(ErrorKind::badContent, at(body.spec->source) + body.fullName() +
                                                ": dt = \"auto\" finds no step: " + std::string(method->title) +
                                                " is unstable for every step without damping; give dt in seconds, add "
                                                "damping, or choose another integrator");
-    // A hair less, so that a dt of exactly a tick's part is not cut once more.
-    const double substeps = std::ceil(tickSeconds / wanted * (1 - 1e-12));
+    const double substeps = substepsOf(wanted);
     if (substeps > mostSubsteps)
         throw Error(ErrorKind::badContent,
                     at(body.spec->source) + body.fullName() + ": a step of " + inSeconds(wanted) +
@@ -300,7 +307,7 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
                         (plan.solver.dt ? "give a longer dt, or dt = \"auto\""
                                         : "set by the " + choice.limitingSpring +
                                               "; soften it, give its points more mass, or use fewer cells"));
-    choice.substeps = std::max(1, static_cast<int>(substeps));
+    choice.substeps = inParts(static_cast<int>(substeps));
     choice.step = tickSeconds / choice.substeps;
     if (!method->caution.empty())
         choice.warnings.push_back(body.fullName() + ": " + std::string(method->title) + ": " +
@@ -309,7 +316,11 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
     if (!choice.need) warnOverLimit(envelope, *method, choice, limitHere, leastOmega);
     if (std::isfinite(choice.limit)) {
         adviseOnSliver(plan, choice);
-        adviseOnDamping(plan, *method, choice);
+        if (!plan.solver.dt && leastTauShare == 1.0)
+            adviseOnDamping(plan, choice, [&](double part) {
+                StepChoice tried;
+                return inParts(static_cast<int>(std::min(substepsOf(wantedStep(part, tried)), 1.0 * mostSubsteps)));
+            });
     }
     return choice;
 }

@@ -47,10 +47,11 @@ struct StepChoice {
 // Without `now` the step that holds for all that the envelope allows; with it, where dt is "auto" and the method's
 // limit is a promise, one that holds for that state, and the rule by which it may change. share: what generators other
 // than the springs and hands add. leastOmega: what the fastest motion at the start is not below [1/s], asked only of a
-// step that is over a limit. Throws core::Error(badContent) when "auto" has no answer or a tick would need more than a
-// million steps.
+// step that is over a limit. inParts: how many substeps a tick takes that needs so many. Throws
+// core::Error(badContent) when "auto" has no answer or a tick would need more than a million steps.
 StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds,
-                      const std::function<double()>& leastOmega, const mechanics::FastestNow* now);
+                      const std::function<double()>& leastOmega, const mechanics::FastestNow* now,
+                      const std::function<int(int)>& inParts);
 
 // The largest stable step [s] of the island as it is now, in any configuration.
 double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share);

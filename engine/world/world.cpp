@@ -119,7 +119,7 @@ ecs::Entity World::Impl::addCollider(const ColliderSpec& collider) {
         return move.rotation && target.kind == "collider" && matches(target.name, collider.name);
     });
     const collision::ShapeKinds& kinds = spec.shapes != nullptr ? *spec.shapes : collision::builtInShapes();
-    registry.add(entity, ColliderPart{collider, makeColliderModel(collider, kinds, mayTurn)});
+    registry.add(entity, ColliderPart{collider, makeColliderModel(collider, kinds, mayTurn, spec.colliders)});
     const collision::Pose pose = poseAt(collider, seconds());
     registry.add(entity, Placement{pose, pose});
     return entity;

@@ -91,6 +91,7 @@ seconds = 1.0
 constexpr Scene bouncingDumbbell{"Dumbbell", R"(
 schema = 1
 [net.d]
+radius = 0.005
 drag_per_s = 0.0
 points = [ { name = "a", position = [0.0, 0.3, 0.0], mass_kg = 0.1 }, { name = "b", position = [0.2, 0.4, 0.0], mass_kg = 0.1 } ]
 springs = [ { a = "a", b = "b", stiffness_N_per_m = 200.0 } ]

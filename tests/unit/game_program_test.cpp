@@ -67,6 +67,7 @@ TEST(Program, UnknownWordsAreUsageErrorsWithASuggestion) {
     EXPECT_EQ(run({"render"}).code, 2);
     EXPECT_EQ(run({"render", "flag", "-y", "-n", "-o", "x.mp4"}).code, 2);
     EXPECT_EQ(run({"render", "flag", "--threads", "0", "-o", "x.mp4"}).code, 2);
+    EXPECT_TRUE(has(run({"plan", "flag", "--effort", "2e8"}).err, "1000000.000000 times 1e9: 0.2 means 2e8"));
     EXPECT_TRUE(has(run({"render", "flag"}).err, "-o out/frame_######.png"));
     EXPECT_TRUE(has(run({"render", "flag", "-o", "a.png"}).err, "a_######.png"));
 }
@@ -328,6 +329,8 @@ TEST(Program, RendersFramesWithTheirRecordAndKeepsWhatExists) {
     EXPECT_EQ(json["state_hash"].size(), 5U);
     EXPECT_EQ(json["bits"], world::resultBits);
     EXPECT_EQ(json["gl"]["backend"], "osmesa");
+    EXPECT_EQ(run({"sheet", (folder / "out").string()}).code, 0) << "the record tells the names of the frames";
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/sheet.png"));
     EXPECT_EQ(run({"render", scene, "-o", pattern, "--frames", "2-4", "-n"}).code, 6);
     EXPECT_EQ(run({"render", scene, "-o", pattern, "--frames", "2-4", "-y", "--quiet"}).code, 0);
 }

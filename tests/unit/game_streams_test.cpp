@@ -60,6 +60,16 @@ TEST(Streams, ResultsThatNobodyCanReadAreAnErrorAndTheFilesStay) {
     EXPECT_TRUE(std::filesystem::exists(shell.folder / "a.mp4"));
 }
 
+// The schema is longer than a pipe holds (64 kB).
+TEST(Streams, AReaderThatHasHadEnoughIsNoError) {
+    const Shell shell;
+    for (const std::string what : {"schema", "--help", "manual", "completion bash", "info --methods --json"}) {
+        EXPECT_EQ(shell.exitCode("(", what + " 2>said; echo $? >code) | head -c 1 >/dev/null"), 0) << what;
+        EXPECT_EQ(test::contentOf(shell.folder / "said"), "") << what;
+        EXPECT_EQ(test::contentOf(shell.folder / "code"), "0\n") << what;
+    }
+}
+
 TEST(Streams, AFileThatMayNotGrowIsAnErrorAndLeavesNoHalf) {
     const Shell shell;
     EXPECT_EQ(shell.exitCode("ulimit -f 0;", "render spring.toml -o out 2>/dev/null"), 6);

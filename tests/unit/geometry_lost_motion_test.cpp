@@ -28,5 +28,28 @@ TEST(LostMotion, OfAParabolaIsWhatTheChordLeaves) {
     EXPECT_EQ(lost.worstName, "cloth.flag");
 }
 
+// What is spawned, and what tears, has no way from one kept frame to the next.
+TEST(LostMotion, OfWhatChangesItsTrianglesIsNotMeasuredButNamed) {
+    test::Film film;
+    Frames kept;
+    geometry::EveryNth every(kept, 0, 4, 2, nullptr);
+    for (std::int64_t k = 0; k <= 4; ++k) {
+        view::FrameView view = film.frame(k, 0.0F);
+        view::Surface late = view.surfaces[1];
+        late.name = "cloth.late";
+        if (k >= 1) view.surfaces.push_back(late);
+        if (k == 3) {
+            auto torn = std::make_shared<view::Topology>(*view.surfaces[1].topology);
+            torn->triangles.clear();
+            view.surfaces[1].topology = torn;
+        }
+        every.write(view);
+    }
+    const geometry::LostMotion lost = every.lost();
+    EXPECT_EQ(lost.frames, 2);
+    EXPECT_EQ(lost.unmeasured, 2);
+    EXPECT_EQ(lost.changes, (std::set<std::string>{"cloth.flag tears or is cut", "cloth.late appears"}));
+}
+
 }  // namespace
 }  // namespace taut

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "image_support.h"
 #include "taut/image/read.h"
 #include "taut/image/several_sinks.h"
-#include "image_support.h"
 
 namespace taut::image {
 namespace {
@@ -30,7 +30,9 @@ TEST(FramePattern, SaysWhatIsWrongAndShowsAnExample) {
     const auto message = [](const char* pattern) {
         return messageOf(ErrorKind::usage, [&] { FramePattern p(pattern); });
     };
-    EXPECT_NE(message("out/a.png").find("for example out/a_######.png"), std::string::npos) << message("out/a.png");
+    EXPECT_NE(message("out/a.png").find("for example out/a_######.png, and for one picture alone --frames"),
+              std::string::npos)
+        << message("out/a.png");
     EXPECT_NE(message("a#b#.png").find("one place"), std::string::npos);
     EXPECT_NE(message("o#/a.png").find("not into a folder"), std::string::npos);
     EXPECT_NE(message("a###.jpg").find(".png"), std::string::npos);

@@ -262,6 +262,9 @@ TEST(Replay, NamesWhatDiffersFromAnotherTapeOrScene) {
         EXPECT_EQ(outcome.code, 1) << outcome.err;
         EXPECT_TRUE(has(outcome.out, "net.spring differs first, at point 1")) << outcome.out;
     }
+    const Outcome noTape = run({"replay", a, "--verify", other});
+    EXPECT_EQ(noTape.code, 2);
+    EXPECT_TRUE(has(noTape.err, "a scene is played by --verify --scene " + other)) << noTape.err;
     // The tape keeps the text that it played: a change of the file is said and does not count.
     test::writeText(scene, springText("99.0"));
     const Outcome changed = run({"replay", a, "--verify", "--quiet"});

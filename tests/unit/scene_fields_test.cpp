@@ -301,6 +301,44 @@ TEST(SceneFields, CollidersLandInTheirMembers) {
     ASSERT_NE(table.parts[2].meshData, nullptr);
 }
 
+TEST(SceneFields, WhatIsDrawnRoundKeepsItsRadiusIfNoThicknessIsGiven) {
+    const AssetFolder folder;
+    const auto load = [&](const std::string& kind, const std::string& more) {
+        return folder.load("schema = 1\n" + kind + more);
+    };
+    const std::string rope = "[rope.r]\nends = [[0, 0, 0], [1, 0, 0]]\n",
+                      net = "[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0], mass_kg = 1 }]\nsprings = []\n";
+    EXPECT_EQ(load(rope, "").spec.bodies.of<world::RopeSpec>()[0].thickness, 0.02);  // the radius if none is given
+    EXPECT_EQ(load(rope, "radius = 0.03\n").spec.bodies.of<world::RopeSpec>()[0].thickness, 0.03);
+    EXPECT_EQ(load(net, "radius = 0.03\n").spec.bodies.of<world::NetSpec>()[0].thickness, 0.03);
+    EXPECT_EQ(world::RopeSpec().thickness, world::RopeSpec().radius);
+
+    const Loaded given = load(rope, "radius = 0.03\nthickness = 0.014\n");
+    EXPECT_EQ(given.spec.bodies.of<world::RopeSpec>()[0].thickness, 0.014);
+    ASSERT_EQ(given.warnings.size(), 1U);
+    EXPECT_EQ(folder.withoutFolder(given.warnings[0]),
+              "s.toml:5:13: warning: drawn with a radius of 0.03 m, it sinks 0.016 m into what it touches\n"
+              "  thickness = 0.014\n"
+              "              ^ leave thickness out");
+    for (const char* fine : {"radius = 0.03\nthickness = 0.015\n", "thickness = 0.001\ncollide = false\n"})
+        EXPECT_TRUE(load(rope, fine).warnings.empty()) << fine;
+}
+
+TEST(SceneFields, AMeshWithoutTextureCoordinatesHasNoWeave) {
+    const AssetFolder folder;
+    folder.write("unwrapped.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    const auto load = [&](const std::string& mesh) {
+        return folder.load("schema = 1\n[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"" + mesh +
+                           "\"\nfinish = { weave = 0.5 }\n");
+    };
+    const Loaded bare = load("square.obj"), unwrapped = load("unwrapped.obj");
+    EXPECT_EQ(bare.spec.bodies.of<world::ClothSpec>()[0].finish.weave, 0.0);
+    ASSERT_EQ(bare.warnings.size(), 1U);
+    EXPECT_NE(bare.warnings[0].find("square.obj has no texture coordinates"), std::string::npos) << bare.warnings[0];
+    EXPECT_EQ(unwrapped.spec.bodies.of<world::ClothSpec>()[0].finish.weave, 0.5);
+    EXPECT_TRUE(unwrapped.warnings.empty());
+}
+
 TEST(SceneFields, CamerasLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
     const world::CameraSpec& main = named(scene.cameras, "main");

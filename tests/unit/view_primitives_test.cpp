@@ -106,6 +106,21 @@ TEST(ViewPrimitives, BoxWithRoundEdgesIsClosedAndKeepsItsSize) {
     expectExtent(mesh, {1.0F, 0.5F, 0.25F});
 }
 
+// Above the middle as the one before; below a prism over a rectangle grown by a disc.
+TEST(ViewPrimitives, BoxThatStandsIsRoundButForItsFoot) {
+    const float r = 0.05F;
+    const glm::vec3 half(1.0F, 0.5F, 0.25F), inner = half - glm::vec3(r);
+    const float round = 8.0F * inner.x * inner.y * inner.z +
+                        8.0F * r * (inner.x * inner.y + inner.y * inner.z + inner.z * inner.x) +
+                        2.0F * pi * r * r * (inner.x + inner.y + inner.z) + 4.0F / 3.0F * pi * r * r * r;
+    const float prism = half.y * (4.0F * inner.x * inner.z + 4.0F * r * (inner.x + inner.z) + pi * r * r);
+    const Mesh mesh = boxMesh(half, r, true);
+    expectSolid(mesh, 0.5F * round + prism, 1e-3F);
+    expectExtent(mesh, half);
+    for (std::size_t i = 0; i < mesh.geometry->positions.size(); ++i)
+        EXPECT_TRUE(mesh.geometry->normals[i].y > -1e-6F || mesh.geometry->normals[i].y == -1.0F);
+}
+
 TEST(ViewPrimitives, BoxRoundedAsFarAsItGoesIsASphere) {
     const Mesh mesh = boxMesh(glm::vec3(0.5F), 9.0F);
     EXPECT_EQ(openEdges(*mesh.topology, *mesh.geometry), 0);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/small_scenes.h"
@@ -40,6 +41,40 @@ TEST(Publish, EveryBodyAndVisibleColliderIsASurfaceAndTheLevelPlaneTheGround) {
     ASSERT_TRUE(view.ground);
     EXPECT_EQ(view.ground->height, 0.0F);
     EXPECT_TRUE(view.marks.lines.empty());
+}
+
+// A rounded foot has normals that lean down.
+TEST(Publish, ABoxOnTheGroundHasASharpFootAndOneAboveItHasNot) {
+    const auto leansDown = [](double height) {
+        SceneSpec scene = smallScene();
+        scene.colliders[0].shape = "box";
+        scene.colliders[0].size = {1, 1, 1};
+        scene.colliders[0].position = {0, height, 0};
+        const view::FrameView view = World(scene).view(false);
+        const auto& normals = surface(view, "ball")->geometry->normals;
+        return std::any_of(normals.begin(), normals.end(),
+                           [](const glm::vec3& n) { return n.y < -0.1F && n.y > -0.9F; });
+    };
+    EXPECT_FALSE(leansDown(0.5));
+    EXPECT_TRUE(leansDown(0.51));
+}
+
+// Faces name the vertices 3, 1, 2, 4 of the file first.
+TEST(Publish, VerticesOfAMeshAreInTheOrderOfItsFile) {
+    auto mesh = std::make_shared<MeshData>();
+    mesh->positions = {{3, 0, 0}, {1, 1, 0}, {2, 0, 0}, {4, 1, 0}};
+    mesh->numbers = {3, 1, 2, 4};
+    mesh->triangles = {{0, 1, 2}, {0, 3, 1}};
+    ClothSpec cloth;
+    cloth.name = "c";
+    cloth.mesh = "c.obj";
+    cloth.meshData = mesh;
+    SceneSpec scene;
+    scene.bodies.add(cloth);
+    const view::FrameView view = World(scene).view(false);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(view.surfaces[0].geometry->positions[i].x, 1.0F + static_cast<float>(i));
+    EXPECT_EQ(view.surfaces[0].topology->triangles, (std::vector<std::uint32_t>{2, 0, 1, 2, 3, 0}));
 }
 
 TEST(Publish, WhatDoesNotChangeIsShared) {

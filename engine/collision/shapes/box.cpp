@@ -36,7 +36,7 @@ ShapeKind boxKind() {
             .form = makeBox,
             .mesh =
                 [](const ShapeSizes& sizes) {
-                    return view::boxMesh(glm::vec3(sizes.halfSize), static_cast<float>(sizes.edge));
+                    return view::boxMesh(glm::vec3(sizes.halfSize), static_cast<float>(sizes.edge), sizes.stands);
                 }};
 }
 

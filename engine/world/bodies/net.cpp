@@ -93,11 +93,13 @@ Section NetSpec::section() {
         .required()
         .tables("springs", &NetSpec::springs, netSpringSection(), "Its springs.");
     section.fields = withPlasticity(withLosses(list))
-                         .number("radius", &NetSpec::radius, "m", lengthRange, "Radius of a spring as it is drawn.")
+                         .number("radius", &NetSpec::radius, "m", lengthRange,
+                                 "Radius of a spring as it is drawn; the net's thickness too, if that is not given.")
                          .number("ball", &NetSpec::ball, "m", lengthRange, "Radius of a point as it is drawn.")
                          .take();
     section.check = [](const fields::CheckInput& input, void* target) {
-        const auto& net = *static_cast<const NetSpec*>(target);
+        auto& net = *static_cast<NetSpec*>(target);
+        keepRadius(input, net.radius, net);
         if (input.isClean && net.points.empty()) input.problems.addError(input.at("points"), "a net needs points");
         checkNet(input, net);
     };

@@ -30,6 +30,7 @@ struct NetSpec final : SpecOf<NetSpec, BodySpec> {
     double ball = 0.06;        // [m] radius of a drawn point
     PlasticitySpec plasticity{};
 
+    NetSpec() { thickness = radius; }
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     PlasticitySpec plasticityIn(const SceneSpec&) const override { return plasticity; }

@@ -112,12 +112,14 @@ Section RopeSpec::section() {
         .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
         .ramps(Affects::springs);
     section.fields = withPlasticity(withLosses(list))
-                         .number("radius", &RopeSpec::radius, "m", lengthRange, "As it is drawn.")
+                         .number("radius", &RopeSpec::radius, "m", lengthRange,
+                                 "As it is drawn; its thickness too, if that is not given.")
                          .choice("lumping", &RopeSpec::lumping, lumpingNames(),
                                  "How mass is shared out: by length, or the same for every point.")
                          .take();
     section.check = [](const fields::CheckInput& input, void* target) {
-        const auto& rope = *static_cast<const RopeSpec*>(target);
+        auto& rope = *static_cast<RopeSpec*>(target);
+        keepRadius(input, rope.radius, rope);
         if (!input.isClean) return;
         if (rope.start == rope.end && rope.through.empty())
             input.problems.addError(input.at("ends"), "the two ends are the same point");

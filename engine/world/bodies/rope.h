@@ -25,6 +25,7 @@ struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
 
+    RopeSpec() { thickness = radius; }
     static fields::Section section();
     mechanics::Model build(const SceneSpec& scene) const override;
     PlasticitySpec plasticityIn(const SceneSpec&) const override { return plasticity; }

@@ -10,8 +10,9 @@
 namespace taut::world {
 namespace {
 
-// [ns] about, of what a tick does; counted, for a clock would not say the same twice.
-constexpr double perPointStep = 6, perPointInstant = 60, perPair = 150;
+// [ns] about, of what is done in a tick; counted, for a clock would not say the same twice.
+constexpr double perEvaluation = 15, perIteration = 60, perPointInstant = 80;  // and point
+constexpr double perPair = 250;
 
 class Outlook {
   public:
@@ -35,7 +36,7 @@ class Outlook {
             while (world.tick() < last && work < most && !world.advance()) {
                 for (const BodyContact& c : w.touchWatch.contacts()) add(*c.first, *c.second);
                 for (const contact::Crossing& c : w.touching->crossingsBefore()) add(*w.touching, c);
-                work += workOf(world);
+                work = workOf(w);
             }
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
@@ -72,19 +73,23 @@ class Outlook {
         found_.pairs.emplace((isBefore ? a : b).fullName(), (isBefore ? b : a).fullName());
     }
 
-    double workOf(const World& world) {
-        const ContactInfo contact = world.contact();
-        const double pairs = static_cast<double>(contact.locatedInAll - pairsBefore_);
-        pairsBefore_ = contact.locatedInAll;
-        double work = perPointInstant * contact.points * contact.lastInstants + perPair * pairs;
-        for (const auto& island : WorldAccess::of(const_cast<World&>(world)).islands)
-            work += perPointStep * static_cast<double>(island->plan().points.size()) * island->substeps();
+    // Of all ticks so far [ns].
+    double workOf(const WorldImpl& world) {
+        const ContactInfo contact = world.touching->info();
+        contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.located);
+        double work = contactWork_;
+        for (const auto& island : world.islands) {
+            const ode::Work own = island->work();
+            work += static_cast<double>(island->plan().points.size()) *
+                    (perEvaluation * static_cast<double>(own.evaluations) +
+                     perIteration * static_cast<double>(own.iterations));
+        }
         return work;
     }
 
     SceneSpec trial_;
     std::set<std::string> silent_, entangled_;  // specs of bodies
-    std::int64_t pairsBefore_ = 0;
+    double contactWork_ = 0;                    // [ns]
     Encounters found_;
 };
 

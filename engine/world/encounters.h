@@ -17,6 +17,6 @@ struct Encounters {
 // Pairs of bodies, of different islands, that do not both touch and come into each other's way: the scene is played
 // with its timeline and colliders as if all touched, for about so many nanoseconds at most, and who presses on whom, or
 // is found in another, is kept. Bodies that start in each other pass through each other meanwhile.
-Encounters encounters(const SceneSpec& scene, double most = 5e8);
+Encounters encounters(const SceneSpec& scene, double most = 1e9);
 
 }  // namespace taut::world

@@ -114,7 +114,7 @@ TEST(Encounters, AreLookedForAsFarAsIsCheap) {
         scene.bodies.add(support::rope(name, {0, 2, 0.1 * name[0]}, {1, 2, 0.1 * name[0]}));
     const double seen = encounters(scene, 1e6).seen;
     EXPECT_GT(seen, 0);
-    EXPECT_LT(seen, 13);  // a tick of 22 points counts 60 ns a point at least
+    EXPECT_LT(seen, 10);  // a tick of 22 points counts 80 ns a point at least
     EXPECT_GT(encounters(scene, 2e6).seen, 1.5 * seen);
 }
 

@@ -296,7 +296,8 @@ void printTable(const Facts& facts) {
         "\nin all {} points, {} springs, {} islands, {} colliders, about {:.3g} MB, {:.3g} MB of it for pictures\n",
         points, springs, facts.islands.size(), spec.colliders.size(), size.bytes() / 1e6, size.pictures / 1e6);
     if (facts.cost.ticks > 0) printCost(facts, pointSteps);
-    for (const std::string& warning : facts.warnings) printResult("warning: {}\n", warning);
+    for (const std::string& warning : facts.warnings)
+        printResult("{}{}\n", warning.find("warning: ") == std::string::npos ? "warning: " : "", warning);
 }
 
 Json methodsJson() {

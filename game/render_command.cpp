@@ -297,7 +297,7 @@ int render(const RenderFlags& flags) {
     if (!flags.output.empty() && (!jobs || drawing.info)) {
         request.options = options;
         request.isBegun = false;
-        writeRecords(flags, part, writeJson(result), result, figures);
+        writeRecords(flags, part, writeJson(result), spec, result, figures);
     }
     warnOfNew(foreseen, world.warnings());
     if (!flags.quiet) printSummary(flags, result, before);

@@ -70,11 +70,11 @@ void writeWith(const std::filesystem::path& path, const std::function<void(const
 }
 
 void writeRecords(const RenderFlags& flags, const RunPart& part,
-                  const std::function<void(const pipeline::Write&)>& writeJson, const pipeline::RunResult& result,
-                  const std::vector<std::string>& figures) {
+                  const std::function<void(const pipeline::Write&)>& writeJson, const world::SceneSpec& spec,
+                  const pipeline::RunResult& result, const std::vector<std::string>& figures) {
     if (flags.writesMetrics())
         writeWith(recordPath(flags, part, "metrics", ".csv"),
-                  [&](const pipeline::Write& write) { pipeline::writeMetricsCsv(write, result, figures); });
+                  [&](const pipeline::Write& write) { pipeline::writeMetricsCsv(write, spec, result, figures); });
     writeWith(recordPath(flags, part, "run", ".json"), writeJson);  // last: it says that all is there
 }
 

@@ -29,7 +29,7 @@ void writeWith(const std::filesystem::path& path, const std::function<void(const
 
 // run.json, and metrics.csv if it was asked for.
 void writeRecords(const RenderFlags& flags, const RunPart& part,
-                  const std::function<void(const pipeline::Write&)>& writeJson, const pipeline::RunResult& result,
-                  const std::vector<std::string>& figures);
+                  const std::function<void(const pipeline::Write&)>& writeJson, const world::SceneSpec& spec,
+                  const pipeline::RunResult& result, const std::vector<std::string>& figures);
 
 }  // namespace taut::game

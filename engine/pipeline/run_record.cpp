@@ -162,7 +162,8 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     write(result.frames.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
-void writeMetricsCsv(const Write& write, const RunResult& result, const std::vector<std::string>& figures) {
+void writeMetricsCsv(const Write& write, const world::SceneSpec& spec, const RunResult& result,
+                     const std::vector<std::string>& figures) {
     std::string text = "frame,time_s";
     for (const world::Metric& metric : world::metricTable()) text += fmt::format(",{}", metric.columns);
     for (const std::string& name : figures) text += "," + csvCell(name);
@@ -171,6 +172,10 @@ void writeMetricsCsv(const Write& write, const RunResult& result, const std::vec
         if (!frame.metrics) continue;
         text += fmt::format("\n{},{}", frame.frame, frame.time);
         for (const world::Metric& metric : world::metricTable()) {
+            if (!world::isCounted(metric.counts, spec)) {
+                text += ",";
+                continue;
+            }
             const world::MetricValue value = metric.value(*frame.metrics);
             if (const auto* v = std::get_if<glm::dvec3>(&value)) text += fmt::format(",{},{},{}", v->x, v->y, v->z);
             if (const auto* number = std::get_if<double>(&value)) text += fmt::format(",{}", *number);

@@ -46,7 +46,8 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
                   const std::optional<render::RendererInfo>& renderer, const RunResult& result);
 
 // A line a frame that has metrics, with a heading that names the units; and the figures under their names, to 17
-// digits, empty where they were not measured or are no numbers.
-void writeMetricsCsv(const Write& write, const RunResult& result, const std::vector<std::string>& figures = {});
+// digits. Empty where they were not measured or are no numbers, and of contact where no body of the scene has any.
+void writeMetricsCsv(const Write& write, const world::SceneSpec& spec, const RunResult& result,
+                     const std::vector<std::string>& figures = {});
 
 }  // namespace taut::pipeline

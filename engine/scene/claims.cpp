@@ -86,7 +86,7 @@ class Claims {
             const std::vector<const BodyEntry*> named = bodies_.matches(target);
             return std::any_of(scene_.spec.bodies.begin(), scene_.spec.bodies.end(), [&](const world::BodySpec& body) {
                 const auto isIt = [&](const BodyEntry* entry) { return entry->title() == body.fullName(); };
-                return (body.touch != world::Touch::nothing || (isOfFaces && body.meetsFaces)) &&
+                return world::isCounted(call.function->counts, body) &&
                        (target.empty() || std::any_of(named.begin(), named.end(), isIt));
             });
         };

@@ -1,20 +1,22 @@
-// Bodies that will pass through each other, since one of them touches nothing: found by a coarse look ahead. It
-// simulates nothing.
+// Bodies that will pass through each other, since one of them touches nothing: found by a look ahead.
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace taut::world {
 
-class World;
+struct SceneSpec;
 
-// Pairs of bodies, of different islands, that do not both touch and come into each other's way. Bodies are taken as
-// they start: those that nothing holds fly by their mean velocity and gravity alone until a collider stops them, the
-// others stay. Two meet where a point of one passes a point of the other at less than half a spring of each. What
-// springs, winds, hands and moving colliders do is not looked at: a swing or a bounce into another body is missed.
-// Expects a world that has not ticked.
-std::vector<std::pair<std::string, std::string>> encounters(World& world);
+struct Encounters {
+    std::set<std::pair<std::string, std::string>> pairs;  // "cloth.flag", each in the order of the state hash
+    double seen = 0;                                      // [s] of the scene, all of it or as much as is cheap
+};
+
+// Pairs of bodies, of different islands, that do not both touch and come into each other's way: the scene is played
+// with its timeline and colliders as if all touched, for about so many nanoseconds at most, and who presses on whom, or
+// is found in another, is kept. Bodies that start in each other pass through each other meanwhile.
+Encounters encounters(const SceneSpec& scene, double most = 1e9);
 
 }  // namespace taut::world

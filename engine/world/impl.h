@@ -11,6 +11,7 @@
 //   publish.cpp        the view for a picture
 //   rehearsal.cpp      what a run would refuse later
 //   encounters.cpp     which bodies come into each other's way
+//   start_doubts.cpp   what a scene hardly means
 #pragma once
 
 #include <optional>

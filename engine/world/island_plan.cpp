@@ -136,6 +136,7 @@ class Planner {
             ++made;
             if (weld) {
                 welds_.unite(global(a), global(bs[best]));
+                report.jump = std::max(report.jump, bestDistance);
                 bs.erase(bs.begin() + static_cast<std::ptrdiff_t>(best));
             } else {
                 joints_.push_back({a, bs[best], &joint, bestDistance});

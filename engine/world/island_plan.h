@@ -52,6 +52,7 @@ struct JointReport {
         int points;         // of a that are joined to b
     };
     std::vector<Pair> pairs;                            // in the order of the bodies
+    double jump = 0;                                    // [m] largest distance of points that were welded
     std::vector<std::pair<const Body*, double>> loose;  // bodies that it names and does not join, and how far off [m]
 };
 

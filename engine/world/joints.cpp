@@ -18,7 +18,7 @@ std::string metres(double length) {
 }
 
 JointInfo infoOf(const JointReport& report) {
-    JointInfo info{report.spec->a, report.spec->b, report.spec->kind == JointSpec::Kind::weld, {}, {}};
+    JointInfo info{report.spec->a, report.spec->b, report.spec->kind == JointSpec::Kind::weld, {}, report.jump, {}};
     for (const auto& [a, b, points] : report.pairs) info.pairs.push_back({a->fullName(), b->fullName(), points});
     for (const auto& [body, distance] : report.loose) info.loose.push_back(body->fullName());
     return info;
@@ -39,16 +39,28 @@ std::string warningOf(const JointReport& report) {
                    : ": other bodies are nearer");
 }
 
+// Of a weld that moves points further than a cell; else empty.
+std::string jumpWarning(const JointReport& report) {
+    double cell = HUGE_VAL;
+    for (const auto& [a, b, points] : report.pairs) cell = std::min({cell, shortestEdge(*a), shortestEdge(*b)});
+    if (!(report.jump > cell)) return "";
+    const JointSpec& joint = *report.spec;
+    return asWarning(at(joint.source)) + "the weld \"" + joint.a + "\" – \"" + joint.b +
+           "\" jerks points together by " + metres(report.jump) + ", more than a cell (" + metres(cell) +
+           "): move the bodies together, lower reach_m, or use kind = \"spring\"";
+}
+
 }  // namespace
 
 void World::Impl::takeJoints(const std::vector<JointReport>& reports) {
     for (const JointReport& report : reports) {
         joints.push_back(infoOf(report));
         if (!report.loose.empty()) jointWarnings.push_back(warningOf(report));
+        if (std::string jerk = jumpWarning(report); !jerk.empty()) jointWarnings.push_back(std::move(jerk));
     }
     for (const JointSpec& joint : spec.joints) {
         if (!isTie(joint)) continue;
-        JointInfo info{joint.a, joint.b, joint.kind == JointSpec::Kind::weld, {}, {}};
+        JointInfo info{joint.a, joint.b, joint.kind == JointSpec::Kind::weld, {}, 0, {}};
         const std::string selector = parseTarget(pointsOf(joint)).selector;
         const std::vector<Body*> all = allBodies();
         for (const Body* body : matchBodies(all, pointsOf(joint)))

@@ -1,5 +1,6 @@
 #include "taut/world/metric_table.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace taut::world {
@@ -57,6 +58,17 @@ std::span<const Metric> metricTable() {
          plain<&M::facePenetration>, 1, Measures::all, Counts::whatMeetsFaces},
     };
     return table;
+}
+
+bool isCounted(Counts counts, const BodySpec& body) {
+    return counts == Counts::everyBody || body.touch != Touch::nothing ||
+           (counts == Counts::whatMeetsFaces && body.meetsFaces);
+}
+
+bool isCounted(Counts counts, const SceneSpec& scene) {
+    return counts == Counts::everyBody ||
+           std::any_of(
+               scene.bodies.begin(), scene.bodies.end(), [&](const BodySpec& body) { return isCounted(counts, body); });
 }
 
 }  // namespace taut::world

@@ -31,4 +31,8 @@ struct Metric {
 
 std::span<const Metric> metricTable();
 
+bool isCounted(Counts counts, const BodySpec& body);
+// Whether any body of the scene is.
+bool isCounted(Counts counts, const SceneSpec& scene);
+
 }  // namespace taut::world

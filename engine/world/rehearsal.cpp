@@ -1,5 +1,7 @@
 #include "taut/world/rehearsal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -8,8 +10,8 @@
 #include "taut/world/impl.h"
 #include "taut/world/kinds.h"
 #include "taut/world/pins.h"
+#include "taut/world/start_doubts.h"
 #include "taut/world/ticks.h"
-#include "taut/world/touch_doubts.h"
 
 namespace taut::world {
 namespace {
@@ -58,15 +60,19 @@ std::vector<Refusal> refusals(World& world, Pins& pins) {
 
 enum class Outcome { refused, fine, unknown };
 
-void warnOfEncounters(World& world, std::vector<std::string>& warnings) {
+void warnOfEncounters(const SceneSpec& scene, Rehearsal& rehearsal) {
     constexpr std::size_t most = 8;
-    const auto pairs = encounters(world);
-    for (std::size_t i = 0; i < std::min(most, pairs.size()); ++i)
-        warnings.push_back(pairs[i].first + " and " + pairs[i].second +
-                           " come into each other's way and pass through each other: give both touch = \"others\", "
-                           "keep them apart, or tie them by a joint");
-    if (pairs.size() > most)
-        warnings.push_back(std::to_string(pairs.size() - most) + " more pairs of bodies come into each other's way");
+    const auto [pairs, seen] = encounters(scene);
+    std::size_t count = 0;
+    for (const auto& [a, b] : pairs)
+        if (++count <= most)
+            rehearsal.warnings.push_back(a + " and " + b +
+                                         " come into each other's way and pass through each other: give both touch = "
+                                         "\"others\", keep them apart, or tie them by a joint");
+    if (count > most)
+        rehearsal.warnings.push_back(std::to_string(count - most) + " more pairs of bodies come into each other's way");
+    if (seen > 0 && seen < 0.99 * scene.run.seconds)
+        rehearsal.advice.push_back(fmt::format("bodies were followed up to {:.2g} s to see which meet", seen));
 }
 
 // Plays up to the end of that tick; why it was refused into `why`.
@@ -92,8 +98,8 @@ Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why) {
 Rehearsal rehearse(const SceneSpec& scene) {
     Rehearsal rehearsal;
     World world(scene);
-    warnOfEncounters(world, rehearsal.warnings);
-    for (std::string& doubt : touchDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
+    warnOfEncounters(scene, rehearsal);
+    for (std::string& doubt : startDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
     for (const auto& island : WorldAccess::of(world).islands)
         if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
     for (const IslandInfo& island : world.islands())

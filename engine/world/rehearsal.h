@@ -12,7 +12,7 @@ struct Rehearsal {
     std::vector<std::string> faults;    // what ends the run, with file, line and column
     std::vector<std::string> warnings;  // of the world as it starts; and what may end the run: it depends on where
                                         // bodies are by then
-    std::vector<std::string> advice;    // what would allow longer steps
+    std::vector<std::string> advice;    // what would allow longer steps; how far ahead was looked
 };
 
 // Performs the timeline on bodies that stay where they start: that shows what can be held, cut or pushed at all. Where

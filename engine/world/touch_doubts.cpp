@@ -7,12 +7,14 @@
 #include <numeric>
 #include <set>
 
+#include "taut/contact/closest.h"
 #include "taut/world/impl.h"
 
 namespace taut::world {
 namespace {
 
 constexpr std::size_t mostDoubts = 8;  // of one sort
+constexpr double samePlace = 0.01;     // of the distance kept: so near nothing says which of two is on which side
 
 std::string inLength(double metres) {
     return metres < 0.01 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
@@ -97,7 +99,68 @@ void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
         doubts.push_back(fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));
 }
 
+void doubtPlaces(const Touching& touching, std::vector<std::string>& doubts) {
+    const auto found = pointsInOnePlace(touching);
+    std::size_t count = 0;
+    for (const auto& [surfaces, points] : found) {
+        if (++count > mostDoubts) break;
+        const Body &a = touching.bodyOf(surfaces.first), &b = touching.bodyOf(surfaces.second);
+        doubts.push_back(fmt::format(
+            "{} and {} start in the same place, by {} points: nothing says which is to go to which side, and to part "
+            "them takes long; start them {} apart",
+            a.fullName(), b.fullName(), points.size(), inLength(a.spec->thickness + b.spec->thickness)));
+    }
+    if (found.size() > mostDoubts)
+        doubts.push_back(fmt::format("{} more pairs of bodies start in the same place", found.size() - mostDoubts));
+}
+
 }  // namespace
+
+std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const Touching& touching) {
+    const contact::Elements& elements = touching.elements();
+    std::vector<dvec3> x;
+    for (int i = 0; i < elements.pointCount(); ++i) x.push_back(touching.position(i));
+    contact::Patches patches(elements);
+    patches.start(x, x);
+    patches.followAll(x, x);
+    std::vector<contact::Box> boxes;
+    for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
+    std::vector<contact::PatchPair> near;
+    patches.findNear(boxes, 0.0, near);
+    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    std::map<std::pair<int, int>, std::set<int>> found;
+    const auto look = [&](const contact::Patch& a, const contact::Patch& b) {
+        const Body &own = touching.bodyOf(a.surface), &other = touching.bodyOf(b.surface);
+        const double within = samePlace * (own.spec->thickness + other.spec->thickness);
+        const auto isIn = [&](const dvec3& point) {
+            const auto isNear = [&](const dvec3& place) {
+                return glm::dot(point - place, point - place) <= within * within;
+            };
+            for (int t : b.triangles) {
+                const std::array<int, 3>& c = elements.triangles()[static_cast<std::size_t>(t)].points;
+                const auto [u, v, w] = contact::nearestOnTriangle(point, at(c[0]), at(c[1]), at(c[2])).weights;
+                if (isNear(u * at(c[0]) + v * at(c[1]) + w * at(c[2]))) return true;
+            }
+            for (int e : b.edges) {
+                const contact::Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
+                const double s = contact::nearestOnSegments(point, point, at(edge.a), at(edge.b)).t;
+                if (isNear((1 - s) * at(edge.a) + s * at(edge.b))) return true;
+            }
+            return false;
+        };
+        for (int i : a.points)
+            if (isIn(at(i))) found[std::minmax(a.surface, b.surface)].insert(i);
+    };
+    for (contact::PatchPair pair : near) {
+        const contact::Patch &a = patches[contact::lowOf(pair)], &b = patches[contact::highOf(pair)];
+        if (a.surface == b.surface || elements.shareBond(a.surface, b.surface) || !touching.isOfBody(a.surface) ||
+            !touching.isOfBody(b.surface))
+            continue;
+        look(a, b);
+        look(b, a);
+    }
+    return found;
+}
 
 std::vector<std::string> touchDoubts(World& world) {
     WorldImpl& w = WorldAccess::of(world);
@@ -107,6 +170,7 @@ std::vector<std::string> touchDoubts(World& world) {
     doubtThickness(bodies, doubts);
     doubtInstants(w, doubts);
     doubtCrossings(w, doubts);
+    if (w.touchesAny()) doubtPlaces(*w.touching, doubts);
     return doubts;
 }
 

@@ -153,6 +153,7 @@ struct JointInfo {
         int points = 0;    // of the first that are tied to the second
     };
     std::vector<Pair> pairs;
+    double jump = 0;                 // [m] of a weld: the largest by which points are moved together as it is made
     std::vector<std::string> loose;  // bodies that it names and does not tie
 };
 

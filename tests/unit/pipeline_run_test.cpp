@@ -193,7 +193,7 @@ TEST(Play, FailureOfTheFilesIsRethrown) {
 TEST(RunRecord, MetricsHaveALineAFrameWithTheColumnsOfTheHeading) {
     const RunResult result = playWithoutPictures(pendulum(), {.lastFrame = 6, .metrics = true});
     std::stringstream lines;
-    writeMetricsCsv([&](std::string_view text) { lines << text; }, result);
+    writeMetricsCsv([&](std::string_view text) { lines << text; }, pendulum(), result);
     std::string heading, line;
     std::getline(lines, heading);
     EXPECT_TRUE(heading.starts_with("frame,time_s,kinetic_J,elastic_J,gravitational_J,total_J,"));
@@ -203,6 +203,7 @@ TEST(RunRecord, MetricsHaveALineAFrameWithTheColumnsOfTheHeading) {
     while (std::getline(lines, line)) {
         EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(heading.begin(), heading.end(), ','));
         EXPECT_TRUE(line.starts_with(std::to_string(count) + ","));
+        EXPECT_TRUE(line.ends_with(",,,")) << "contact of bodies, of which none touches: " << line;
         ++count;
     }
     EXPECT_EQ(count, 7);
@@ -215,7 +216,8 @@ TEST(RunRecord, FiguresAreColumnsOfSeventeenDigits) {
     options.figureColumns = {2, 0};
     const RunResult result = playWithoutPictures(pendulum(), options);
     std::string csv;
-    writeMetricsCsv([&](std::string_view text) { csv += text; }, result, {"time / 3", "distance(a.b, c.d)"});
+    writeMetricsCsv([&](std::string_view text) { csv += text; }, pendulum(), result,
+                    {"time / 3", "distance(a.b, c.d)"});
     EXPECT_NE(csv.find(",time / 3,\"distance(a.b, c.d)\"\n"), std::string::npos) << csv;
     const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
     EXPECT_EQ(result.frames[1].time, 1.0 / 30.0);

@@ -23,6 +23,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_ramps_test.cpp
   world_rehearsal_test.cpp
   world_saving_test.cpp
+  world_start_doubts_test.cpp
   world_step_choice_test.cpp
   world_step_following_test.cpp
   world_targets_test.cpp

@@ -1,0 +1,122 @@
+// What is said before the first tick of what a scene hardly means.
+#include "taut/world/start_doubts.h"
+
+#include <gtest/gtest.h>
+
+#include "support/timelines.h"
+
+namespace taut::world {
+namespace {
+
+using Doubts = std::vector<std::string>;
+
+Doubts doubtsOf(const SceneSpec& scene) {
+    World world(scene);
+    return startDoubts(world);
+}
+
+SceneSpec ropeScene(RopeSpec rope) {
+    SceneSpec scene;
+    scene.bodies.add(std::move(rope));
+    return scene;
+}
+
+TEST(StartDoubts, AreOfBodiesInOnePlaceThatTouch) {
+    SceneSpec scene;
+    for (const char* name : {"a", "b"}) {
+        ClothSpec cloth = support::cloth(name, 4);
+        cloth.touch = Touch::others;
+        scene.bodies.add(cloth);
+    }
+    EXPECT_EQ(doubtsOf(scene),
+              (Doubts{"cloth.a and cloth.b start in the same place, by 50 points: nothing says which is to go to which "
+                      "side, and to part them takes long; start them 0.01 m apart"}));
+    scene.bodies.of<ClothSpec>()[1].origin.z += 0.001;  // a tenth of what they keep
+    EXPECT_EQ(doubtsOf(scene), Doubts());
+    scene.bodies.of<ClothSpec>()[1].origin = {0.7, 2, 0};  // in one plane, a part of each in the other
+    EXPECT_EQ(doubtsOf(scene).size(), 1U);
+    SceneSpec ropes = ropeScene(support::rope("a", {0, 2, 0}, {1, 2, 0}, 4));
+    ropes.bodies.add(support::rope("b", {0, 2, 0}, {1, 2, 0}, 7));
+    for (BodySpec& body : ropes.bodies) body.touch = Touch::others;
+    EXPECT_EQ(doubtsOf(ropes).size(), 1U);
+}
+
+TEST(StartDoubts, AreOfWindsFasterThanAnyStorm) {
+    SceneSpec scene = ropeScene(support::rope("line", {0, 2, 0}, {1, 2, 0}));
+    WindSpec wind;
+    wind.name = "breeze";
+    wind.velocity = {100, 0, 0};
+    scene.forces.add(wind);
+    EXPECT_EQ(doubtsOf(scene), Doubts());
+    scene.forces.of<WindSpec>()[0].gustAmplitude = 30;
+    EXPECT_EQ(doubtsOf(scene), (Doubts{"warning: wind.breeze blows at up to 130 m/s, faster than any storm; a gale has "
+                                       "20 to 30"}));
+}
+
+TEST(StartDoubts, AreOfACameraInsideACollider) {
+    SceneSpec scene = ropeScene(support::rope("line", {0, 2, 0}, {1, 2, 0}));
+    scene.run.seconds = 2;
+    ColliderSpec box;
+    box.name = "box";
+    box.shape = "box";
+    box.size = {1, 1, 1};
+    scene.colliders = {support::ground(), box};
+    scene.colliders[0].position.y = -3;
+    CameraSpec camera;
+    camera.name = "main";
+    camera.eye = {0, 0.51, 0};
+    scene.cameras = {camera};
+    EXPECT_EQ(doubtsOf(scene), Doubts());
+    scene.cameras[0].eye.y = 0.49;
+    EXPECT_EQ(doubtsOf(scene), (Doubts{"warning: camera.main is inside collider.box at 0 s, and sees little else; move "
+                                       "one of them"}));
+    scene.cameras[0].eye.y = 0.51;
+    scene.colliders[1].keys = {{.t = 0}, {.t = 2, .position = {0, 0.1, 0}}};  // smoothly: 0.01 m, a tenth, after 0.39 s
+    const Doubts later = doubtsOf(scene);
+    ASSERT_EQ(later.size(), 1U);
+    EXPECT_NE(later[0].find("at 0.4 s"), std::string::npos) << later[0];
+}
+
+TEST(StartDoubts, AreOfARopeOfHalfTheSpan) {
+    RopeSpec rope = support::rope("line", {0, 2, 0}, {1, 2, 0}, 10);
+    rope.length = 0.5;
+    EXPECT_EQ(doubtsOf(ropeScene(rope)),
+              (Doubts{"warning: rope.line starts with a strain of 1: a spring of it is 0.1 m long, and 0.05 m at rest; "
+                      "bring its ends together, or make it longer"}));
+    rope.length = 0.7;  // a strain of 0.43
+    EXPECT_EQ(doubtsOf(ropeScene(rope)), Doubts());
+    rope.length = 2;  // slack
+    EXPECT_EQ(doubtsOf(ropeScene(rope)), Doubts());
+}
+
+// ω of a chain of masses m and springs k is at most 2 sqrt(k / m): here k = 1e9 N / 0.1 m, m = 0.1 kg.
+TEST(StartDoubts, AreOfStepsWithoutNumber) {
+    RopeSpec rope = support::rope("wire", {0, 2, 0}, {1, 2, 0}, 10);
+    rope.dampingTime = 0;
+    EXPECT_EQ(doubtsOf(ropeScene(rope)), Doubts());
+    rope.stretch = 1e9;
+    const Doubts doubts = doubtsOf(ropeScene(rope));
+    ASSERT_EQ(doubts.size(), 1U);
+    const double steps = 2 * std::sqrt(1e10 / 0.1) / 2 / 60;  // of leap-frog, which stands ω h < 2
+    const double said = std::stod(doubts[0].substr(doubts[0].find("needs ") + 6));
+    EXPECT_GE(said, steps) << doubts[0];
+    EXPECT_LE(said, 1.5 * steps) << doubts[0];  // ends are lighter, and a tenth is for safety
+}
+
+TEST(StartDoubts, AreOfAWeldThatJerksPointsTogether) {
+    SceneSpec scene = ropeScene(support::rope("a", {0, 2, 0}, {1, 2, 0}, 10));
+    scene.bodies.add(support::rope("b", {1.15, 2, 0}, {2.15, 2, 0}, 10));
+    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.3, {}}};
+    World world(scene);
+    EXPECT_NEAR(world.joints()[0].jump, 0.15, 1e-12);
+    EXPECT_EQ(
+        world.warnings(),
+        (Doubts{"warning: the weld \"rope.a@end\" – \"rope.b@start\" jerks points together by 0.15 m, more than a "
+                "cell (0.1 m): move the bodies together, lower reach_m, or use kind = \"spring\""}));
+    EXPECT_TRUE(startDoubts(world).size() == 1 && startDoubts(world)[0].find("a strain of 1.5") != std::string::npos);
+    scene.bodies.of<RopeSpec>()[1].start.x = 1.02;
+    EXPECT_TRUE(World(scene).warnings().empty());
+}
+
+}  // namespace
+}  // namespace taut::world

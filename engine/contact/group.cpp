@@ -105,7 +105,7 @@ const Meeting& Group::meet(const Instant& instant) {
     locate(instant.x0, instant.x1);
     pressed_.clear();
     for (const MeetingPair& pair : pairs_) {
-        if (!pair.presses || !mayYield(elements_, pair, instant.inverseMass)) continue;
+        if (!pair.presses || !mayYield(pair, instant.inverseMass)) continue;
         pressed_.push_back(pair);
         dvec3 way(0.0);
         for (std::size_t k = 0; k < 4; ++k) {
@@ -180,7 +180,7 @@ void Group::leadApart(const Instant& instant) {
             speedV += crossing.weights[k] * glm::dot(v_[i], crossing.apart);
         }
         if (!(inverse > 0) || crossing.apart == dvec3(0.0)) continue;
-        if (!mayYield(elements_, crossing, instant.inverseMass)) continue;
+        if (!mayYield(crossing, instant.inverseMass)) continue;
         const double impulse = std::max(0.0, apartSpeed - speed) / inverse;
         const double impulseV = std::max(0.0, apartSpeed - speedV) / inverse;
         for (std::size_t k = 0; k < 5; ++k) {

@@ -5,21 +5,21 @@ namespace {
 
 constexpr double leastFree = 0.02;  // of the squares of the weights
 
-bool isRigidAt(const Elements& elements, int point) {
-    return elements.isRigid(elements.surfaceOf(point));
-}
-
-// Of points with those weights.
-template <class Points, class Weights>
-bool mayYield(const Points& points, const Weights& weights, std::size_t first, std::size_t last,
-              std::span<const double> inverseMass) {
+// One side: of points with those weights.
+bool mayYield(std::span<const int> points, std::span<const double> weights, std::span<const double> inverseMass) {
     double all = 0, free = 0;
-    for (std::size_t k = first; k < last; ++k) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
         const double square = weights[k] * weights[k];
         all += square;
         if (inverseMass[static_cast<std::size_t>(points[k])] > 0) free += square;
     }
-    return free >= leastFree * all;
+    return free > leastFree * all;
+}
+
+bool mayYield(std::span<const int> points, std::span<const double> weights, std::size_t firstSide,
+              std::span<const double> inverseMass) {
+    return mayYield(points.first(firstSide), weights.first(firstSide), inverseMass) ||
+           mayYield(points.subspan(firstSide), weights.subspan(firstSide), inverseMass);
 }
 
 }  // namespace
@@ -39,16 +39,12 @@ bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec
     return true;
 }
 
-bool mayYield(const Elements& elements, const MeetingPair& pair, std::span<const double> inverseMass) {
-    const auto side = static_cast<std::size_t>(pair.firstSide());
-    if (isRigidAt(elements, pair.points[0])) return mayYield(pair.points, pair.weights, side, 4, inverseMass);
-    if (isRigidAt(elements, pair.points[3])) return mayYield(pair.points, pair.weights, 0, side, inverseMass);
-    return true;
+bool mayYield(const MeetingPair& pair, std::span<const double> inverseMass) {
+    return mayYield(pair.points, pair.weights, static_cast<std::size_t>(pair.firstSide()), inverseMass);
 }
 
-bool mayYield(const Elements& elements, const Crossing& crossing, std::span<const double> inverseMass) {
-    if (!isRigidAt(elements, crossing.points[0])) return true;
-    return mayYield(crossing.points, crossing.weights, 2, 5, inverseMass);
+bool mayYield(const Crossing& crossing, std::span<const double> inverseMass) {
+    return mayYield(crossing.points, crossing.weights, 2, inverseMass);
 }
 
 }  // namespace taut::contact

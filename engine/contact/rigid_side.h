@@ -1,4 +1,4 @@
-// What holds of pairs of which one side is rigid, besides what holds of all.
+// What holds of pairs of which one side does not yield, or is rigid, besides what holds of all.
 #pragma once
 
 #include <span>
@@ -16,9 +16,9 @@ bool isCornerNearest(const Elements& elements, int point, const dvec3& outward, 
 // Whether neither face beside an edge does.
 bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec3> x);
 
-// Beside a point that is held, what a rigid surface presses is not to be moved by a long lever: whether what moves has
-// its share in the place that is pressed. True without a rigid side.
-bool mayYield(const Elements& elements, const MeetingPair& pair, std::span<const double> inverseMass);
-bool mayYield(const Elements& elements, const Crossing& crossing, std::span<const double> inverseMass);
+// What cannot go away itself, and meets what cannot, is not to be moved by a long lever beside a point that is held, or
+// by none at all: whether what moves of either side has its share in the place that is pressed.
+bool mayYield(const MeetingPair& pair, std::span<const double> inverseMass);
+bool mayYield(const Crossing& crossing, std::span<const double> inverseMass);
 
 }  // namespace taut::contact

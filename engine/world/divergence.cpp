@@ -24,8 +24,9 @@ std::string explainDivergence(const Divergence& d, const Fault& fault, const Ste
                             : fault.strain > 0 ? format("has a spring with a strain of %.3g", fault.strain)
                             : fault.isNumber   ? "moves faster than 3000 m/s"
                                                : "has a velocity that is not a number";
-    std::string text = format("%s diverged at t = %.4f s (tick %lld): point %d %s\n", d.body.c_str(), d.time,
-                              static_cast<long long>(d.tick), d.point, why.c_str());
+    std::string text = format("%s diverged at t = %.4f s (tick %lld): point %d %s%s\n", d.body.c_str(), d.time,
+                              static_cast<long long>(d.tick), d.point, why.c_str(),
+                              fault.byContact ? " after contact with other bodies" : "");
     if (!d.spring.empty()) text += "  stiffest there: " + d.spring + "\n";
     const std::string title(methodTitle);
     if (d.limit > 0 && !std::isfinite(d.limit))
@@ -39,6 +40,8 @@ std::string explainDivergence(const Divergence& d, const Fault& fault, const Ste
                        inSeconds(choice.step).c_str(), title.c_str());
     if (d.safeStep > 0 && choice.step > d.safeStep)
         text += "  remedy: dt = " + inSeconds(d.safeStep) + " or less holds in any shape; dt = \"auto\" finds it\n";
+    else if (fault.byContact)
+        text += "  remedy: look at what presses it there: what starts in another, or is led into it\n";
     else if (d.limit > 0)
         text +=
             "  the step is within the limit, so something else feeds energy in: look at colliders that move fast, "

@@ -41,6 +41,7 @@ struct Fault {
     int point = -1;           // in the island
     double time = 0;          // [s]
     bool isNumber = true;     // false: NaN or infinite
+    bool byContact = false;   // with other bodies, which was the last that moved it
     bool isTooStiff = false;  // for a million steps a tick
     double strain = 0;        // above 0: of a spring at the point, over the one at which to freeze
 };

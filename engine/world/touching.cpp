@@ -290,6 +290,7 @@ bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> mov
         readAll();
         rigids_.place(static_cast<double>(c + 1) / instants, x1_);
         meet(h);
+        if (findFaults(time.at(c + 1, instants), faults)) return false;
         if (isTooCoarse(isTrial)) return true;
     }
     return false;
@@ -338,6 +339,22 @@ void Touching::meet(double h) {
     total_.slides += meeting_.slides;
     total_.zones += meeting_.zones;
     total_.uncertified += meeting_.uncertified;
+}
+
+// Whether contact left any point without bounds, of whose islands nothing is to go on.
+bool Touching::findFaults(double t, std::vector<std::optional<Fault>>& faults) const {
+    bool areAny = false;
+    for (int i : meeting_.moved) {
+        const dvec3 &x = x1_[static_cast<std::size_t>(i)], &v = v_[static_cast<std::size_t>(i)];
+        const double square = glm::dot(v, v);
+        const bool isNumber = std::isfinite(square + glm::dot(x, x));
+        if (isNumber && square < mechanics::speedLimit * mechanics::speedLimit) continue;
+        for (std::size_t k = 0; k < rooms_.size(); ++k)
+            if (i >= rooms_[k].first && i < rooms_[k].last && !faults[k])
+                faults[k] = Fault{.point = i - rooms_[k].first, .time = t, .isNumber = isNumber, .byContact = true};
+        areAny = true;
+    }
+    return areAny;
 }
 
 // What the last instant gave.

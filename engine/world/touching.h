@@ -71,6 +71,7 @@ class Touching {
     int chooseInstants(const TickTime& time);
     int takeInstants(const TickTime& time, int needed);
     void meet(double h);
+    bool findFaults(double t, std::vector<std::optional<Fault>>& faults) const;
     void bear();
     bool isTooCoarse(bool isTrial) const;
     bool tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,

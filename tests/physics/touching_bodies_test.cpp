@@ -150,8 +150,10 @@ TEST(TouchingIslands, OfDifferentStepsKeepMomentum) {
             pressing = std::max(pressing, world.contact().pressing);
         }
         EXPECT_GT(pressing, 0);
+        // Each step rounds velocities once more, to either side.
+        const double rounding = precision == world::Precision::double_ ? 1e-16 : 6e-8;
         EXPECT_LT(glm::length(world.metrics().momentum - before.momentum),
-                  (precision == world::Precision::double_ ? 1e-12 : 1e-6) * passed);
+                  rounding * std::sqrt(30.0 * world.islands()[1].substeps) * passed);
     }
 }
 

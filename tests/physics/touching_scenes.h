@@ -75,4 +75,10 @@ inline double fastest(world::World& world, const std::vector<std::string>& bodie
     return most;
 }
 
+inline double meanAlong(const std::vector<dvec3>& x, const dvec3& direction) {
+    double sum = 0;
+    for (const dvec3& p : x) sum += glm::dot(p, direction);
+    return sum / static_cast<double>(x.size());
+}
+
 }  // namespace taut::test::touching

@@ -87,6 +87,10 @@ void visitPart(StateBytes& bytes, Divergence& d) {
 // begin.
 constexpr std::uint64_t insideMark = 0xfff8'7461'7574'0002ULL;
 
+// Before the steps that a tick would have by itself, of an island that takes them in the parts of those it touches; no
+// two flags, with which all others go on.
+constexpr std::uint64_t partsMark = 0xfff8'7461'7574'0005ULL;
+
 }  // namespace
 
 void Island::visitPlan(StateBytes& bytes) {
@@ -133,13 +137,17 @@ void Island::visitStep(StateBytes& bytes) {
     int substeps = choice_.substeps;
     bool splits = choice_.splits;
     bytes(follows);
+    int own = ownSubsteps_;
+    const bool isParted = bytes.mark(partsMark, !follows && parts_ > 1);
+    if (isParted) bytes(own);
     bytes(splits);
     bytes(substeps);
     bytes(contactFactor_);
     bytes(calmTicks_);
     bytes.require(contactFactor_ >= 1 && contactFactor_ <= mostContactFactor && calmTicks_ >= 0);
-    // By contact they may have been more, and be about to be less again.
-    const bool isOwn = substeps > 0 && substeps % ownSubsteps_ == 0 && substeps / ownSubsteps_ <= mostContactFactor;
+    // By contact they may have been more, and be about to be less again; parts may have rounded them up.
+    const bool isOwn =
+        own == ownSubsteps_ && substeps > 0 && (isParted || substeps % own == 0) && substeps / own <= mostContactFactor;
     if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && !isOwn))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
     bytes.each(stepChanges_, [&](StepChange& change) {

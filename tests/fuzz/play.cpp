@@ -38,7 +38,7 @@ PlayedScene playedScene(const world::SceneSpec& spec, std::int64_t ticks) {
     for (std::size_t i = 0; i < sets.size(); ++i)
         compare("threads and instructions", {.ticks = ticks, .threads = {i % 2 == 0 ? 2 : 7}, .instructions = sets[i]});
     compare("asked everything", {.ticks = ticks, .asksEvery = 1});
-    compare("saved and restored", {.ticks = ticks, .threads = {2, 7, 1}, .restoresEvery = 2});
+    compare("saved and restored", {.ticks = ticks, .threads = {2, 7, 1}, .restoresEvery = 1});
     return played;
 }
 

@@ -15,7 +15,7 @@ struct PlayedScene {
 };
 
 // With one, two and seven threads and every instruction set; asked everything between the ticks; saved and restored
-// after every other. Throws core::Error where no world can be made of it.
+// before each. Throws core::Error where no world can be made of it.
 PlayedScene playedScene(const world::SceneSpec& spec, std::int64_t ticks);
 
 }  // namespace taut::fuzz

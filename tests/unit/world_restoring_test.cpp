@@ -89,14 +89,14 @@ radius = 0.2
 )";
 }
 
-// A block that comes down on a collider at the origin.
-std::string landing(const std::string& shape) {
+// A block that begins over the corner of a collider, partly inside it.
+std::string comingOut(const std::string& shape) {
     return R"(
+solver.precision = "double"
 [block.b]
-size = [0.14, 0.1, 0.36]
+size = [0.14, 0.26, 0.36]
 cells = [1, 1, 3]
-position = [0.1, 0.26, 0.12]
-velocity = [0, -2, 0]
+position = [0.034, 0.066, 0.096]
 touch = "others"
 [collider.k]
 )" + shape;
@@ -109,11 +109,12 @@ const std::vector<Case> cases = {
     {"a_fixed_step", draped("solver.dt = 8e-5\n")},
     {"heun", draped("solver.integrator = \"heun\"\n")},
     {"double_precision", draped("solver.precision = \"double\"\n")},
-    {"a_block_over_the_corner_of_a_box", landing("shape = \"box\"\nsize = [0.4, 0.4, 0.4]\n")},
+    {"a_block_over_the_corner_of_a_box", comingOut("shape = \"box\"\nsize = [0.37, 0.42, 0.34]\n"), 20},
     {"a_compound",
-     landing("shape = \"compound\"\n"
-             "parts = [{ shape = \"box\", size = [0.37, 0.4, 0.34] }, { shape = \"sphere\", radius = 0.25, "
-             "position = [0, 0, 0.2] }]\n")},
+     comingOut("shape = \"compound\"\n"
+               "parts = [{ shape = \"box\", size = [0.37, 0.42, 0.34] }, { shape = \"sphere\", radius = 0.3, "
+               "position = [-0.03, -0.26, -0.12] }]\n"),
+     20},
 };
 
 INSTANTIATE_TEST_SUITE_P(Contact, Restoring, testing::ValuesIn(cases), nameOf);

@@ -253,8 +253,9 @@ class Growing {
                 if (choices_.oneIn(2)) happens(tick + 3, {"do = \"release\"\nid = \"h{}\"\n", hands_});
                 ++hands_;
                 break;
-            case 4: happens(tick, {"do = \"hold\"\ntarget = \"{}\"\n", points()}); break;
-            case 5: happens(tick, {"do = \"free\"\ntarget = \"{}\"\n", points()}); break;
+            // Both of a point at one moment is refused.
+            case 4: happens(tick & ~1, {"do = \"hold\"\ntarget = \"{}\"\n", points()}); break;
+            case 5: happens(tick | 1, {"do = \"free\"\ntarget = \"{}\"\n", points()}); break;
             case 6:
                 happens(tick, {"do = \"cut\"\ntarget = \"{}\"\nplane = [{}, {}]\n",
                                bodies_[static_cast<std::size_t>(choices_.below(static_cast<int>(bodies_.size())))].name,

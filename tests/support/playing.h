@@ -61,6 +61,7 @@ inline world::Metrics askEverything(world::World& world) {
 
 struct Playing {
     std::int64_t ticks = 5;
+    std::int64_t evaluations = std::int64_t{1} << 40U;   // of forces, after which it ends
     std::vector<int> threads{1};                         // tick after tick, round and round
     std::optional<core::InstructionSet> instructions{};  // those in use
     int asksEvery = 0;                                   // ticks; 0: nothing is asked
@@ -104,7 +105,7 @@ inline Played play(const world::SceneSpec& scene, const Playing& how) {
     played.hashes = {world.stateHash()};
     Observation observation;
     try {
-        while (world.tick() < how.ticks && played.end.empty()) {
+        while (world.tick() < how.ticks && world.work().evaluations < how.evaluations && played.end.empty()) {
             if (isDue(how.asksEvery, world.tick())) observation.look(world, played);
             if (isDue(how.restoresEvery, world.tick())) {
                 const std::vector<std::byte> bytes = world.save();
@@ -130,7 +131,8 @@ inline std::string differenceOf(const Played& a, const Played& b) {
     const auto [x, y] = std::mismatch(a.hashes.begin(), a.hashes.end(), b.hashes.begin(), b.hashes.end());
     if (x != a.hashes.end() && y != b.hashes.end())
         return "other states from tick " + std::to_string(x - a.hashes.begin()) + " on";
-    return a.end == b.end ? "" : "one ends with \"" + a.end + "\", the other with \"" + b.end + "\"";
+    if (a.end == b.end && a.hashes.size() == b.hashes.size()) return "";
+    return "one ends with \"" + a.end + "\", the other with \"" + b.end + "\"";
 }
 
 }  // namespace taut::support

@@ -202,9 +202,11 @@ TEST_F(Shards, ThatChangedPlacesOrAreOfAnotherRunAreNamedAndDrawnAgain) {
     refused("frame_000006.png");
     draw({"-o", path("shards"), "--depth", "--frames", "6", "-y"});
     EXPECT_EQ(run({"join", path("shards")}).code, 0);
-    std::filesystem::copy_file(folder_ / "others/frame_000008.depth.png", shards / "frame_000008.depth.png",
+    std::filesystem::copy_file(folder_ / "others/frame_000007.png", shards / "frame_000007.png",
                                std::filesystem::copy_options::overwrite_existing);
-    refused("frame_000008.png");
+    const std::filesystem::path depth = shards / "frame_000008.depth.png";
+    writeText(depth, contentOf(depth) + "more");
+    refused("frame_000007.png, frame_000008.png");
 }
 
 TEST_F(Shards, OfOtherNamesAreNamed) {

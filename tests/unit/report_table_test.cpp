@@ -35,7 +35,7 @@ TEST(ReportTable, ColumnsAlignByLettersNotBytes) {
 }
 
 TEST(ReportTable, ALineEndInATextIsShownAndNotMade) {
-    EXPECT_EQ(aligned({{"name", "n"}, {{std::string("two\nlines"), 1LL}}}), "name            n\ntwo\\u{A}lines  1\n");
+    EXPECT_EQ(aligned({{"name", "n"}, {{std::string("two\nlines"), 1LL}}}), "name           n\ntwo\\u{A}lines  1\n");
 }
 
 struct Lap {

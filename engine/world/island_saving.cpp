@@ -87,9 +87,10 @@ void visitPart(StateBytes& bytes, Divergence& d) {
 // begin.
 constexpr std::uint64_t insideMark = 0xfff8'7461'7574'0002ULL;
 
-// Before the steps that a tick would have by itself, of an island that takes them in the parts of those it touches; no
-// two flags, with which all others go on.
+// Before the parts in which an island that touches others takes its steps, which those others have a say in; no two
+// flags, with which all others go on.
 constexpr std::uint64_t partsMark = 0xfff8'7461'7574'0005ULL;
+constexpr int mostParts = 1024;  // of a tick
 
 }  // namespace
 
@@ -138,8 +139,11 @@ void Island::visitStep(StateBytes& bytes) {
     bool splits = choice_.splits;
     bytes(follows);
     int own = ownSubsteps_;
-    const bool isParted = bytes.mark(partsMark, !follows && parts_ > 1);
-    if (isParted) bytes(own);
+    const bool isParted = bytes.mark(partsMark, parts_ > 1);
+    if (isParted) {
+        for (int* number : {&own, &fewest_, &parts_}) bytes(*number);
+        bytes.require(fewest_ > 0 && fewest_ <= parts_ && parts_ <= mostParts);
+    }
     bytes(splits);
     bytes(substeps);
     bytes(contactFactor_);

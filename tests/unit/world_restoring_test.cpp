@@ -26,14 +26,25 @@ std::string nameOf(const testing::TestParamInfo<Case>& info) {
 
 class Restoring : public testing::TestWithParam<Case> {};
 
+SceneSpec sceneOf(const Case& each) {
+    return scene::loadSceneText("schema = 1\n" + each.text, "s.toml", {}).spec;
+}
+
 TEST_P(Restoring, AtEveryTickWithOtherThreadsChangesNothing) {
-    const SceneSpec scene = scene::loadSceneText("schema = 1\n" + GetParam().text, "s.toml", {}).spec;
+    const SceneSpec scene = sceneOf(GetParam());
     const support::Played through = support::play(scene, {.ticks = GetParam().ticks});
     EXPECT_EQ(through.end, "");
+    EXPECT_TRUE(through.hasTouched);
     const support::Played restored =
         support::play(scene, {.ticks = GetParam().ticks, .threads = {2, 7, 1}, .restoresEvery = 1});
     EXPECT_EQ(support::differenceOf(through, restored), "");
-    EXPECT_TRUE(through.hasTouched);
+}
+
+TEST_P(Restoring, ChangesAsLittleAsAskingEverythingBetweenTicks) {
+    const SceneSpec scene = sceneOf(GetParam());
+    const support::Played asked = support::play(scene, {.ticks = GetParam().ticks, .asksEvery = 1});
+    EXPECT_EQ(support::differenceOf(support::play(scene, {.ticks = GetParam().ticks}), asked), "");
+    EXPECT_EQ(asked.fault, "");
 }
 
 // A stiff sheet that touches asks for more parts of a tick than it is made with.
@@ -106,6 +117,9 @@ const std::vector<Case> cases = {
     {"a_stiff_cloth", draped("", "2e4")},
     {"a_ramp_at_the_start",
      draped("at = [{ t = 0, do = \"ramp\", key = \"material.m.stretch_N_per_m\", to = 1400, over_s = 0.1 }]\n")},
+    {"a_hold_at_the_start", draped("at = [{ t = 0, do = \"hold\", target = \"cloth.a@left\" }]\n")},
+    {"a_push", draped("at = [{ t = 0.04, do = \"push\", target = \"cloth.a@left\", impulse_Ns = [0, 0.01, 0.01] }]\n")},
+    {"gravity_that_jumps", draped("at = [{ t = 0.07, do = \"ramp\", key = \"world.gravity\", to = [9, 9, 0] }]\n")},
     {"a_fixed_step", draped("solver.dt = 8e-5\n")},
     {"heun", draped("solver.integrator = \"heun\"\n")},
     {"double_precision", draped("solver.precision = \"double\"\n")},

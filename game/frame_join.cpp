@@ -79,11 +79,31 @@ void expectAll(const FrameJoin& join) {
                        join.frames.first, join.frames.last, missing));
 }
 
+// Each is as a record of a part that has drawn it says.
+void expectUnchanged(const FrameJoin& join) {
+    constexpr std::size_t mostNames = 8;
+    const auto sums =
+        image::checksumsOf(join.pattern.with(join.records.front().besides), join.frames.first, join.frames.last);
+    std::vector<std::string> names;
+    for (std::int64_t frame = join.frames.first; frame <= join.frames.last; ++frame) {
+        const auto sum = sums[static_cast<std::size_t>(frame - join.frames.first)];
+        if (std::none_of(join.records.begin(), join.records.end(),
+                         [&](const PartRecord& record) { return sum && record.pictureOf(frame) == sum; }))
+            names.push_back(join.pattern.pathOf(frame).filename().string());
+    }
+    if (names.empty()) return;
+    const std::size_t count = names.size();
+    if (count > mostNames) names.resize(mostNames), names.push_back(fmt::format("{} more", count - mostNames));
+    refuse(join.pattern, fmt::format("not as the records say that they were drawn, but damaged, replaced or moved: {}\n"
+                                     "The same --shard K/N --resume draws them again, and so does taut render SCENE "
+                                     "--frames A-B -y",
+                                     fmt::join(names, ", ")));
+}
+
 // Reads pictures ahead, on several threads, and hands them on in order.
 class Reading {
   public:
-    explicit Reading(const FrameJoin& join)
-        : join_(join), next_(join.frames.first), pictures_(2 * threadCount()), size_(join.records.front().size) {
+    explicit Reading(const FrameJoin& join) : join_(join), next_(join.frames.first), pictures_(2 * threadCount()) {
         for (std::size_t i = 0; i < threadCount(); ++i) workers_.emplace_back([this] { work(); });
     }
     ~Reading() { pictures_.abandon(); }
@@ -98,27 +118,9 @@ class Reading {
   private:
     static std::size_t threadCount() { return std::max(1U, std::thread::hardware_concurrency()); }
 
-    // Throws as one that is missing does: it has to be drawn again.
     image::Image read(std::int64_t frame) const {
-        const auto askForAnew = [&](const std::string& why) {
-            throw core::Error(core::ErrorKind::inputOutput,
-                              fmt::format("{}; remove it, and the same --shard K/N --resume draws it again, as does "
-                                          "taut render SCENE --frames {}",
-                                          why, frame));
-        };
         const std::filesystem::path path = join_.pattern.pathOf(frame);
-        image::Image picture;
-        try {
-            picture = join_.hasAlpha() ? image::readImageWithAlpha(path) : image::readImage(path);
-        } catch (const core::Error& error) {
-            if (error.kind() != core::ErrorKind::badContent) throw;
-            askForAnew(error.what());
-        }
-        const std::string size = fmt::format("{} x {}", picture.width, picture.height);
-        if (size != size_ || picture.alpha.empty() == join_.hasAlpha())
-            askForAnew(fmt::format("{}: {}, and not {} pixels {} transparency as the record of its run says",
-                                   path.string(), size, size_, join_.hasAlpha() ? "with" : "without"));
-        return picture;
+        return join_.hasAlpha() ? image::readImageWithAlpha(path) : image::readImage(path);
     }
 
     void work() {
@@ -138,7 +140,6 @@ class Reading {
     const FrameJoin& join_;
     std::atomic<std::int64_t> next_;
     pipeline::OrderedHandover<image::Image> pictures_;
-    std::string size_;
     std::mutex mutex_;
     std::exception_ptr failure_;
     std::int64_t failed_ = std::numeric_limits<std::int64_t>::max();
@@ -182,6 +183,7 @@ FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<F
     if (join.frames.last >= count || join.frames.first >= count)
         throw core::Error(core::ErrorKind::usage, fmt::format("--frames: the run has frames 0-{}", count - 1));
     expectAll(join);
+    expectUnchanged(join);
     return join;
 }
 

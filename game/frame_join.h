@@ -23,8 +23,8 @@ struct FrameJoin {
 };
 
 // All frames of the run, or those wanted. Throws core::Error(inputOutput) where records are not of one run, by their
-// keys, their renderers and versions of the program unless any will do, or their state hashes; and where frames or
-// records are missing, with all that is.
+// keys, their renderers and versions of the program unless any will do, or their state hashes; where frames or records
+// are missing, with all that is; and where frames are not as records say, by their checksums.
 FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
                        bool takesAnyRenderer);
 
@@ -36,8 +36,8 @@ struct JoinedMetrics {
 // all have written the same columns.
 JoinedMetrics joinedMetrics(const FrameJoin& join);
 
-// Into the sink, which is not finished where `stop` became true: false then. Throws core::Error: inputOutput for a
-// picture that is damaged or of another size, what the sink throws.
+// Into the sink, which is not finished where `stop` became true: false then. Throws what the sink throws, and
+// core::Error for a picture that cannot be read.
 bool encodeFrames(const FrameJoin& join, image::FrameSink& sink, bool quiet, const std::atomic<bool>& stop);
 
 }  // namespace taut::game

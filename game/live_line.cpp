@@ -47,7 +47,7 @@ bool LiveLine::isDue(bool last) {
 
 void LiveLine::show(const std::string& text) {
     if (live_) {
-        writeNote("\r" + core::printable(cutToTerminal(text)) + "\x1b[K");
+        writeNote("\r" + core::printable(cutToTerminal(text), true) + "\x1b[K");
         open_ = true;
     } else {
         printNote("{}\n", text);

@@ -297,6 +297,8 @@ int render(const RenderFlags& flags) {
     if (!flags.output.empty() && (!jobs || drawing.info)) {
         request.options = options;
         request.isBegun = false;
+        const auto known = static_cast<std::int64_t>(result.frames.size());
+        if (place) request.pictures = place->checksums({part.frames.first, std::min(part.frames.last, known - 1)});
         writeRecords(flags, part, writeJson(result), spec, result, figures);
     }
     warnOfNew(foreseen, world.warnings());

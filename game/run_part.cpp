@@ -24,12 +24,6 @@ std::string hexadecimal(std::uint64_t key) {
     return fmt::format("{:016x}", key);
 }
 
-std::vector<image::FramePattern> patternsOf(const PartPlace& place) {
-    std::vector<image::FramePattern> patterns{place.pattern};
-    for (const std::string& kind : place.besides) patterns.push_back(place.pattern.beside(kind));
-    return patterns;
-}
-
 void removeFile(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::remove(path, error);
@@ -39,7 +33,7 @@ void removeFile(const std::filesystem::path& path) {
 }
 
 void removeFrames(const PartPlace& place, const pipeline::FrameSpan& frames) {
-    for (const image::FramePattern& pattern : patternsOf(place))
+    for (const image::FramePattern& pattern : place.files())
         for (const std::int64_t frame : pattern.framesThere())
             if (frame >= frames.first && frame <= frames.last) removeFile(pattern.pathOf(frame));
 }
@@ -50,8 +44,19 @@ std::vector<std::int64_t> framesThere(const PartPlace& place, const pipeline::Fr
     return there;
 }
 
+// Those that are not as their record says: the part draws them again.
+void removeChanged(const PartPlace& place, const pipeline::PartRecord& own) {
+    const auto there = image::checksumsOf(place.files(), own.first, own.lastDrawn());
+    for (std::int64_t frame = own.first; frame <= own.lastDrawn(); ++frame) {
+        const auto sum = there[static_cast<std::size_t>(frame - own.first)];
+        if (!sum || sum == own.pictureOf(frame).value_or(*sum)) continue;
+        printNote("note: {} is not what was drawn there: it is drawn again\n", place.pattern.pathOf(frame).string());
+        removeFrames(place, {frame, frame});
+    }
+}
+
 bool isWhole(const RunPart& part, const PartPlace& place) {
-    const std::vector<image::FramePattern> patterns = patternsOf(place);
+    const std::vector<image::FramePattern> patterns = place.files();
     return std::all_of(patterns.begin(), patterns.end(), [&](const image::FramePattern& pattern) {
         return pipeline::framesMissing(pattern.framesThere(), part.frames).empty();
     });
@@ -90,6 +95,12 @@ void refuseOtherRuns(const RunPart& part, const PartPlace& place, const std::vec
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> PartPlace::checksums(const pipeline::FrameSpan& frames) const {
+    std::vector<std::uint32_t> sums;
+    for (const auto& sum : image::checksumsOf(files(), frames.first, frames.last)) sums.push_back(sum.value_or(0));
+    return sums;
+}
 
 std::string RunPart::companion(const std::string& stem, const std::string& extension) const {
     return isShared ? pipeline::partName(frames.first, frames.last, stem, extension) : stem + extension;
@@ -142,17 +153,19 @@ std::vector<pipeline::RunLock> lockPart(const RunPart& part, const PartPlace& pl
 
 PartState claimPart(const RunPart& part, const PartPlace& place, const std::string& renderer) {
     const std::vector<pipeline::PartRecord> records = pipeline::partRecords(place.pattern);
-    if (!part.isShared) {
-        if (!place.resumes) takeAwayRecords(part, records);
-        return PartState::fresh;
-    }
-    refuseOtherRuns(part, place, records);
+    if (part.isShared) refuseOtherRuns(part, place, records);
     const std::string name = part.companion("run", ".json");
     const auto own = std::find_if(records.begin(), records.end(), [&](const pipeline::PartRecord& record) {
         return record.path.filename() == name && isOfRun(record, part, place);
     });
     const bool goesOn = own != records.end() && place.resumes;
-    if (goesOn && own->ended == "complete" && isWhole(part, place)) return PartState::complete;
+    if (goesOn) removeChanged(place, *own);
+    if (!part.isShared) {
+        if (!place.resumes) takeAwayRecords(part, records);
+        return PartState::fresh;
+    }
+    if (goesOn && own->ended == "complete" && own->pictureOf(part.frames.last) && isWhole(part, place))
+        return PartState::complete;
     const std::vector<std::int64_t> there = framesThere(place, part.frames);
     if (own == records.end() && place.resumes && !place.mayOverwrite && !there.empty())
         throw core::Error(core::ErrorKind::inputOutput,

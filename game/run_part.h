@@ -34,6 +34,10 @@ struct PartPlace {
     std::vector<std::string> besides;  // kinds of files beside the frames
     std::uint64_t key = 0;             // of the whole run
     bool resumes = false, mayOverwrite = false;
+
+    std::vector<image::FramePattern> files() const { return pattern.with(besides); }
+    // image::checksumOf() of frames that are drawn; 0 of one that somebody has taken away.
+    std::vector<std::uint32_t> checksums(const pipeline::FrameSpan& frames) const;
 };
 
 // Locks the folder for parts of this run, and the part in it. `name` tells other runs who holds it. Throws
@@ -46,10 +50,11 @@ void noteMissingLocks(const std::vector<pipeline::RunLock>& locks);
 // Begun: what lies there of its frames is its own.
 enum class PartState { fresh, begun, complete };
 
-// What has been done of the part, which `renderer` is to draw. Takes away what is to be replaced, what another renderer
-// or another version of the program has begun, and records of other runs where they may be overwritten or have drawn
-// nothing; a run of another length is another one. Expects the lock. Throws core::Error(inputOutput) where they may
-// not, or where nothing says of which run frames are that lie there.
+// What has been done of the part, which `renderer` is to draw. Takes away what is to be replaced, frames that are not
+// as the part's record says where it goes on, what another renderer or another version of the program has begun, and
+// records of other runs where they may be overwritten or have drawn nothing; a run of another length is another one.
+// Expects the lock. Throws core::Error(inputOutput) where they may not, or where nothing says of which run frames are
+// that lie there.
 PartState claimPart(const RunPart& part, const PartPlace& place, const std::string& renderer);
 
 }  // namespace taut::game

@@ -99,12 +99,15 @@ regression::DrawingOptions drawingOptions(const TestFlags& flags, int threads) {
 
 // What a scenario is held against lies in its folder, and nothing there leads elsewhere.
 void refuseLinks(const std::filesystem::path& goldens) {
-    std::error_code none;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(goldens, none))
-        if (entry.is_symlink())
+    const auto refuseLink = [](const std::filesystem::path& path) {
+        if (std::filesystem::is_symlink(path))
             throw core::Error(
                 core::ErrorKind::badContent,
-                fmt::format("{} is a link; goldens of confined scenarios hold none", entry.path().string()));
+                fmt::format("{} is a link; goldens of confined scenarios are none and hold none", path.string()));
+    };
+    refuseLink((goldens / "").lexically_normal().parent_path());  // not where it leads
+    std::error_code none;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(goldens, none)) refuseLink(entry.path());
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 namespace taut::core {
 namespace {
 
-bool steers(std::uint32_t code) {
-    if (code < 0x20) return code != '\n' && code != '\t';
+bool steers(std::uint32_t code, bool isOneLine) {
+    if (code < 0x20) return isOneLine || (code != '\n' && code != '\t');
     return (code >= 0x7F && code < 0xA0) || code == 0x61C || code == 0x200E || code == 0x200F ||
            (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
 }
@@ -37,14 +37,14 @@ Letter firstLetter(std::string_view text) {
     return {code, size};
 }
 
-std::string printable(std::string_view text) {
+std::string printable(std::string_view text, bool isOneLine) {
     std::string shown;
     shown.reserve(text.size());
     while (!text.empty()) {
         const Letter letter = firstLetter(text);
         if (letter.size == 0)
             shown += "\\x" + hexadecimal(static_cast<unsigned char>(text[0]));
-        else if (steers(letter.code))
+        else if (steers(letter.code, isOneLine))
             shown += "\\u{" + hexadecimal(letter.code) + "}";
         else
             shown += text.substr(0, letter.size);

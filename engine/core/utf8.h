@@ -18,7 +18,8 @@ Letter firstLetter(std::string_view text);
 
 // The text, safe to show on a terminal: what would steer one or turn the order of letters is shown as what it is.
 // Controls but line ends and tabs (U+0000 to U+001F, U+007F to U+009F), line separators and the marks of the
-// bidirectional algorithm (Unicode Annex 9) become "\u{202E}", bytes that are no UTF-8 "\x9B".
-std::string printable(std::string_view text);
+// bidirectional algorithm (Unicode Annex 9) become "\u{202E}", bytes that are no UTF-8 "\x9B". For what has to stay in
+// one line, line ends and tabs too.
+std::string printable(std::string_view text, bool isOneLine = false);
 
 }  // namespace taut::core

@@ -1,12 +1,14 @@
 #include "taut/image/frame_sequence.h"
 
 #include <fmt/format.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <charconv>
 #include <utility>
 
 #include "taut/core/error.h"
+#include "taut/core/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/png.h"
 
@@ -75,6 +77,33 @@ FramePattern FramePattern::beside(const std::string& kind) const {
     FramePattern other = *this;
     other.after_.insert(other.after_.size() - 4, "." + kind);  // before ".png"
     return other;
+}
+
+std::vector<FramePattern> FramePattern::with(const std::vector<std::string>& kinds) const {
+    std::vector<FramePattern> all{*this};
+    for (const std::string& kind : kinds) all.push_back(beside(kind));
+    return all;
+}
+
+std::optional<std::uint32_t> checksumOf(const std::vector<FramePattern>& files, std::int64_t frame) {
+    constexpr std::uint64_t mostBytes = std::uint64_t{1} << 32U;  // of a picture
+    std::uint32_t sum = 0;
+    for (const FramePattern& pattern : files) {
+        const std::filesystem::path path = pattern.pathOf(frame);
+        if (!core::isThere(path)) return std::nullopt;
+        const std::string content = core::fileContent(path, mostBytes);
+        sum = libdeflate_crc32(sum, content.data(), content.size());
+    }
+    return sum;
+}
+
+std::vector<std::optional<std::uint32_t>> checksumsOf(const std::vector<FramePattern>& files, std::int64_t first,
+                                                      std::int64_t last) {
+    std::vector<std::optional<std::uint32_t>> sums(
+        static_cast<std::size_t>(std::max<std::int64_t>(0, last + 1 - first)));
+    core::parallelFor(static_cast<int>(sums.size()),
+                      [&](int i) { sums[static_cast<std::size_t>(i)] = checksumOf(files, first + i); });
+    return sums;
 }
 
 FrameSequence::FrameSequence(const FramePattern& pattern) : pattern_(pattern) {

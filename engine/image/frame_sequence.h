@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class FramePattern {
 
     // Files of another kind beside these: "out/frame_######.depth.png".
     FramePattern beside(const std::string& kind) const;
+    // These files, and those of the kinds beside them.
+    std::vector<FramePattern> with(const std::vector<std::string>& kinds) const;
 
     // The numbers of the frames that are there, ascending; none when the folder is missing.
     std::vector<std::int64_t> framesThere() const;
@@ -32,6 +35,13 @@ class FramePattern {
     std::string before_, after_;
     std::size_t digits_ = 6;
 };
+
+// CRC-32 of the bytes of a frame's files, one after the other; none where one of them is missing. Throws
+// core::Error(inputOutput) where one cannot be read.
+std::optional<std::uint32_t> checksumOf(const std::vector<FramePattern>& files, std::int64_t frame);
+// Of frames first … last, by several threads.
+std::vector<std::optional<std::uint32_t>> checksumsOf(const std::vector<FramePattern>& files, std::int64_t first,
+                                                      std::int64_t last);
 
 class FrameSequence : public FrameSink {
   public:

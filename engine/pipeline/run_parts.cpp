@@ -29,12 +29,12 @@ std::int64_t frameIn(const nlohmann::json& json, const std::filesystem::path& pa
     return frame;
 }
 
-std::uint64_t hashIn(const std::string& text, const std::filesystem::path& path) {
-    std::uint64_t hash = 0;
+// As many hexadecimal digits as it has.
+template <class Number>
+void takeHash(Number& hash, const std::string& text, const std::filesystem::path& path) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
-    if (error != std::errc() || end != text.data() + text.size() || text.size() != 16)
-        refuse(path, fmt::format("\"{}\" is no state hash", text.substr(0, 40)));
-    return hash;
+    if (error != std::errc() || end != text.data() + text.size() || text.size() != 2 * sizeof hash)
+        refuse(path, fmt::format("\"{}\" is no hash", text.substr(0, 40)));
 }
 
 render::RendererInfo rendererIn(const nlohmann::json& gl) {
@@ -67,7 +67,9 @@ PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& pat
     record.count = frames.contains("of") ? frameIn(frames.at("of"), path) : record.last + 1;
     record.key = json.value("run", "");
     for (const nlohmann::json& hash : json.at("state_hash"))
-        record.hashes.push_back(hashIn(hash.get<std::string>(), path));
+        takeHash(record.hashes.emplace_back(), hash.get<std::string>(), path);
+    for (const nlohmann::json& sum : json.value("picture_crc32", nlohmann::json::array()))
+        takeHash(record.pictures.emplace_back(), sum.get<std::string>(), path);
     if (record.last < record.first || record.count <= record.last || !(record.fps > 0.0))
         refuse(path, "its frames are none");
     return record;
@@ -90,6 +92,11 @@ bool isRecordName(const std::string& name) {
 std::int64_t PartRecord::lastDrawn() const {
     if (ended == "begun") return first - 1;
     return std::max(first - 1, std::min(last, static_cast<std::int64_t>(hashes.size()) - 1));
+}
+
+std::optional<std::uint32_t> PartRecord::pictureOf(std::int64_t frame) const {
+    const auto i = static_cast<std::size_t>(frame - first);
+    return frame >= first && i < pictures.size() ? std::optional(pictures[i]) : std::nullopt;
 }
 
 std::string rendererText(const std::optional<render::RendererInfo>& info) {
@@ -223,6 +230,7 @@ void writeJoinedJson(const std::function<void(std::string_view)>& write, const s
     json["frames"] = {{"first", frames.first}, {"last", frames.last}, {"of", longest->count}};
     json["joined"] = nlohmann::ordered_json::array();
     for (const PartRecord& record : records) json["joined"].push_back(record.path.filename().string());
+    json.erase("picture_crc32");  // of that part alone
     write(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 

@@ -29,12 +29,15 @@ struct PartRecord {
     bool hasAlpha = false;
     std::vector<std::string> besides;  // kinds of files beside the frames, "depth"
     int bits = 1;
-    std::int64_t first = 0, last = 0;   // frames that it was to draw
-    std::int64_t count = 0;             // frames of the whole run
-    std::vector<std::uint64_t> hashes;  // of the states of frames 0, 1, …
+    std::int64_t first = 0, last = 0;     // frames that it was to draw
+    std::int64_t count = 0;               // frames of the whole run
+    std::vector<std::uint64_t> hashes;    // of the states of frames 0, 1, …
+    std::vector<std::uint32_t> pictures;  // image::checksumOf() of frames first, …
 
     // The last frame that is its own and drawn; before `first` where there is none.
     std::int64_t lastDrawn() const;
+    // The checksum of a frame; none where it knows none.
+    std::optional<std::uint32_t> pictureOf(std::int64_t frame) const;
 };
 
 // What drew, as records tell it; empty where nothing did.

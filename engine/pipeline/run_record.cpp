@@ -154,12 +154,14 @@ void writeRunJson(const Write& write, const world::SceneSpec& spec, const world:
     json["work"] = workJson(world.work());
     json["seconds"] = timesJson(result);
     std::string head = json.dump(2, ' ', false, Json::error_handler_t::replace);
-    head.resize(head.size() -
-                2);  // without the end of the object: one more member follows, by itself as it may be long
+    head.resize(head.size() - 2);  // without the end of the object: two more members follow, piece by piece
     write(head + ",\n  \"state_hash\": [");
     for (std::size_t i = 0; i < result.frames.size(); ++i)  // of frames 0, 1, …
         write(fmt::format("{}\n    \"{}\"", i > 0 ? "," : "", hex(result.frames[i].hash)));
-    write(result.frames.empty() ? "]\n}\n" : "\n  ]\n}\n");
+    write("],\n  \"picture_crc32\": [");
+    for (std::size_t i = 0; i < request.pictures.size(); ++i)  // of the first frame that was asked for, …
+        write(fmt::format("{}\n    \"{:08x}\"", i > 0 ? "," : "", request.pictures[i]));
+    write("]\n}\n");
 }
 
 void writeMetricsCsv(const Write& write, const world::SceneSpec& spec, const RunResult& result,

@@ -31,10 +31,11 @@ struct RunRequest {
     int threads = 0;                     // 0: all of the machine
     RunOptions options;
     PictureLayers layers{};
-    std::uint64_t key = 0;        // of the whole run, of which this may be a part
-    std::int64_t firstFrame = 0;  // that was asked for; where a run goes on, its options begin later
-    std::int64_t frames = 1;      // of the whole run
-    bool isBegun = false;         // nothing of it has been done yet
+    std::uint64_t key = 0;                  // of the whole run, of which this may be a part
+    std::int64_t firstFrame = 0;            // that was asked for; where a run goes on, its options begin later
+    std::int64_t frames = 1;                // of the whole run
+    bool isBegun = false;                   // nothing of it has been done yet
+    std::vector<std::uint32_t> pictures{};  // checksums of the files of frames firstFrame, …
 };
 
 // Takes the text piece by piece.

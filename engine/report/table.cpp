@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/core/utf8.h"
 
 namespace taut::report {
 namespace {
@@ -33,7 +34,7 @@ std::string exact(const Cell& cell) {
 }
 
 std::string brief(const Cell& cell) {
-    return textOf(cell, "{:.4g}");
+    return core::printable(textOf(cell, "{:.4g}"), true);
 }
 
 // Characters, not bytes: names may hold letters beyond ASCII.

@@ -6,6 +6,7 @@
 #include <array>
 #include <iterator>
 
+#include "taut/core/utf8.h"
 #include "taut/report/table.h"
 
 namespace taut::report {
@@ -72,7 +73,7 @@ std::string testFailures(const TestReport& report) {
     for (const TestScenario& scenario : report.scenarios) {
         const bool isSilent = scenario.verdict == Verdict::passed || scenario.verdict == Verdict::outdated;
         if (isSilent && scenario.notes.empty()) continue;
-        text += fmt::format("\n{} ({})\n", scenario.name, scenario.file);
+        text += fmt::format("\n{} ({})\n", core::printable(scenario.name, true), core::printable(scenario.file, true));
         for (const std::string& fault : scenario.faults) addLine(text, fault);
         for (const TestCheck& check : scenario.checks)
             if (!check.reason.empty()) addLine(text, fmt::format("{}: {}", check.source, check.reason));

@@ -133,13 +133,17 @@ void Island::visitStep(StateBytes& bytes) {
     int substeps = choice_.substeps;
     bool splits = choice_.splits;
     bytes(follows);
+    int own = ownSubsteps_;
+    bytes(own);
+    bytes(parts_);
+    bytes.require(parts_ > 0 && parts_ <= mostSubsteps);
     bytes(splits);
     bytes(substeps);
     bytes(contactFactor_);
     bytes(calmTicks_);
     bytes.require(contactFactor_ >= 1 && contactFactor_ <= mostContactFactor && calmTicks_ >= 0);
     // By contact they may have been more, and be about to be less again.
-    const bool isOwn = substeps >= ownSubsteps_ && (quietParts_ > 1 || (substeps % ownSubsteps_ == 0 && substeps / ownSubsteps_ <= mostContactFactor));
+    const bool isOwn = own == ownSubsteps_ && substeps > 0 && substeps <= mostSubsteps;
     if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && !isOwn))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
     bytes.each(stepChanges_, [&](StepChange& change) {

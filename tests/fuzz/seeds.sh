@@ -6,7 +6,7 @@ goldens=$1/tests/golden
 rm -rf "$2"
 mkdir -p "$2"
 cd "$2"
-mkdir scene timeline check overrides obj image light tape manifest world
+mkdir scene timeline check overrides obj image light tape manifest play world
 
 cp "$assets"/scenes/*.toml scene
 # One of each kind, as in the small scene of fuzz.h.
@@ -29,6 +29,8 @@ for file in "$assets"/models/*.obj; do
     { grep '^vt ' "$file" || true; } | head -n 24 >>"obj/$name"
     printf 'o a\ng one two\nf 1 2 3\nf 4/1 5/2 6/3 7\nf -1 -2 -3 -4 -5\ng\nf 8/1/1 9//1 10/2/2\n' >>"obj/$name"
 done
+# As good as random.
+for file in "$assets"/textures/*.png; do tail -c 900 "$file" | head -c 400 >"play/$(basename "$file" .png)"; done
 for format in rgb24.png pal8.png yuvj420p.jpg gray.jpg; do
     ffmpeg -nostdin -loglevel error -i "$assets/textures/flag.png" -vf scale=24:16 -pix_fmt "${format%.*}" "image/$format"
 done

@@ -12,6 +12,7 @@ std::span<const Target> targets() {
         {"manifest", readManifest},
         {"obj", readObj},
         {"overrides", readOverrides},
+        {"play", readPlay},
         {"scene", readScene},
         {"tape", readTape, changedTape},
         {"timeline", readTimeline},

@@ -35,6 +35,7 @@ void readLightImage(View bytes);
 void readManifest(View bytes);
 void readObj(View bytes);
 void readOverrides(View bytes);
+void readPlay(View bytes);
 void readScene(View bytes);
 void readTape(View bytes);
 void readTimeline(View bytes);

@@ -1,11 +1,14 @@
 list(APPEND TAUT_UNIT_TESTS
+  fuzz_play_test.cpp
   fuzz_targets_test.cpp
   ../fuzz/check.cpp
   ../fuzz/image.cpp
   ../fuzz/manifest.cpp
   ../fuzz/obj.cpp
   ../fuzz/overrides.cpp
+  ../fuzz/play.cpp
   ../fuzz/scene.cpp
+  ../fuzz/scene_grammar.cpp
   ../fuzz/tape.cpp
   ../fuzz/targets.cpp
   ../fuzz/timeline.cpp

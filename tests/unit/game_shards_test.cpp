@@ -174,11 +174,39 @@ TEST_F(Shards, ThatAreDamagedAreDrawnAgain) {
     writeText(damaged, whole.substr(0, whole.size() / 2));
     const Outcome joined = run({"join", path("shards"), "-o", path("joined.mp4"), "--quiet"});
     EXPECT_EQ(joined.code, 6);
-    for (const char* part : {"frame_000007.png", "remove it, and the same --shard K/N --resume draws it again"})
+    for (const char* part : {"frame_000007.png", "The same --shard K/N --resume draws them again"})
         EXPECT_TRUE(has(joined.err, part)) << joined.err;
-    std::filesystem::remove(damaged);
     draw({"-o", path("shards"), "--shard", "1/2", "--resume"});
     EXPECT_EQ(contentOf(damaged), whole);
+}
+
+// Whole pictures of the right size each time; the checksums know the files beside them too.
+TEST_F(Shards, ThatChangedPlacesOrAreOfAnotherRunAreNamedAndDrawnAgain) {
+    drawShards(2, {"--depth"});
+    draw({"-o", path("others"), "--depth", "--set", "world.gravity=[0,-5,0]"});
+    const auto refused = [&](const std::string& names) {
+        const Outcome joined = run({"join", path("shards")});
+        EXPECT_EQ(joined.code, 6);
+        EXPECT_TRUE(has(joined.err, "damaged, replaced or moved: " + names + "\n")) << joined.err;
+    };
+    const std::filesystem::path shards = folder_ / "shards", third = shards / "frame_000003.png";
+    const std::string whole = contentOf(third);
+    std::filesystem::rename(third, shards / "kept");
+    std::filesystem::rename(shards / "frame_000006.png", third);
+    std::filesystem::rename(shards / "kept", shards / "frame_000006.png");
+    refused("frame_000003.png, frame_000006.png");
+    // The part draws its own again, even if only another of them was taken away.
+    std::filesystem::remove(shards / "frame_000004.png");
+    draw({"-o", path("shards"), "--depth", "--shard", "0/2", "--resume"});
+    EXPECT_EQ(contentOf(third), whole);
+    refused("frame_000006.png");
+    draw({"-o", path("shards"), "--depth", "--frames", "6", "-y"});
+    EXPECT_EQ(run({"join", path("shards")}).code, 0);
+    std::filesystem::copy_file(folder_ / "others/frame_000007.png", shards / "frame_000007.png",
+                               std::filesystem::copy_options::overwrite_existing);
+    const std::filesystem::path depth = shards / "frame_000008.depth.png";
+    writeText(depth, contentOf(depth) + "more");
+    refused("frame_000007.png, frame_000008.png");
 }
 
 TEST_F(Shards, OfOtherNamesAreNamed) {

@@ -68,6 +68,13 @@ TEST(TestCommand, ATestOnlyReadsGoldensAndFollowsNoLinkWhenConfined) {
     const Outcome confined = testRun(folder, {"--confined"});
     EXPECT_EQ(confined.code, 3);
     EXPECT_TRUE(has(confined.err, "golden/spring/other is a link")) << confined.err;
+    std::filesystem::remove(folder / "golden/spring/other");
+    std::filesystem::rename(folder / "golden", folder / "elsewhere");
+    std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "golden");
+    EXPECT_EQ(testRun(folder).code, 0);
+    const Outcome linked = testRun(folder, {"--confined"});
+    EXPECT_EQ(linked.code, 3);
+    EXPECT_TRUE(has(linked.err, "golden is a link")) << linked.err;
 }
 
 TEST(TestCommand, AScenarioThatCannotBeReadKeepsNoneOfTheOthersFromBeingTested) {

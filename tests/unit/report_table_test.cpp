@@ -34,6 +34,10 @@ TEST(ReportTable, ColumnsAlignByLettersNotBytes) {
               "ω        n\ngrößer   7\nx       12\n");
 }
 
+TEST(ReportTable, ALineEndInATextIsShownAndNotMade) {
+    EXPECT_EQ(aligned({{"name", "n"}, {{std::string("two\nlines"), 1LL}}}), "name           n\ntwo\\u{A}lines  1\n");
+}
+
 struct Lap {
     std::string name;
     int steps = 0;

@@ -22,6 +22,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_publish_test.cpp
   world_ramps_test.cpp
   world_rehearsal_test.cpp
+  world_restoring_test.cpp
   world_saving_test.cpp
   world_start_doubts_test.cpp
   world_step_choice_test.cpp

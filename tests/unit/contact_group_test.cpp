@@ -156,5 +156,23 @@ TEST(ContactGroup, LeadsApartWhatIsCrossed) {
     EXPECT_GT(crossingsAfter(false), 0);
 }
 
+// Right through the middle of another, along a straight line: of the sheet that is parted the smaller part goes back,
+// straight through the other.
+TEST(ContactGroup, LeadsTheSmallerPartOfASheetBack) {
+    for (const double below : {0.055, 0.145}) {  // [m] of 0.2
+        Flight flight;
+        flight.addSheet({-0.2, 0.0, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 4, dvec3(0.0), 1e-3, 0.002);
+        flight.addSheet({-0.103, -below, 0.013}, {0.2, 0, 0.01}, {0, 0.2, 0.02}, 4, dvec3(0.0), 1e-3, 0.002);
+        const Elements elements(flight.surfaces, flight.x);
+        Patches patches(elements);
+        const std::vector<Crossing> crossings = findCrossings(elements, patches, flight.x);
+        EXPECT_GE(crossings.size(), 12U);  // 9 edges of the parted, and some of the other
+        for (const Crossing& crossing : crossings) {
+            const bool isParted = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface == 1;
+            EXPECT_NEAR(crossing.apart.y, isParted == (below < 0.1) ? 1.0 : -1.0, 1e-12);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace taut::contact

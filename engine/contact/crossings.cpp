@@ -130,35 +130,30 @@ std::vector<int> smallerSide(const Elements& elements, std::span<const Cut> cuts
     return sides[own];
 }
 
-// Of crossings of one curve (their numbers): straight through the triangles, so that the edges come back from where the
-// smaller part of their surface is; returns whether there is one.
-bool findWaysBack(const Elements& elements, std::span<const int> curve, std::span<const dvec3> x,
-                  std::vector<char>& sideOf, std::vector<Crossing>& crossings) {
+// What of the surface of a curve (crossings) went through: as smallerSide().
+std::vector<int> partThrough(const Elements& elements, std::span<const int> curve, std::span<const Crossing> crossings,
+                             std::vector<char>& sideOf) {
     std::vector<Cut> cuts;
     for (int c : curve) {
         const Edge& edge = elements.edges()[static_cast<std::size_t>(crossings[static_cast<std::size_t>(c)].edge)];
-        if (elements.isRigid(edge.surface)) return false;
+        if (elements.isRigid(edge.surface)) return {};
         // There and back again is not through.
         if (const Cut cut(edge.a, edge.b); !cuts.empty() && cuts.back() == cut)
             cuts.pop_back();
         else
             cuts.push_back(cut);
     }
-    if (cuts.empty()) return false;
     std::sort(cuts.begin(), cuts.end());
-    const std::vector<int> part = smallerSide(elements, cuts, sideOf);
-    if (part.empty()) return false;
-    const auto isIn = [&](int i) { return std::binary_search(part.begin(), part.end(), i); };
-    for (int c : curve) {
-        Crossing& crossing = crossings[static_cast<std::size_t>(c)];
-        const Edge& edge = elements.edges()[static_cast<std::size_t>(crossing.edge)];
-        crossing.apart = dvec3(0.0);
-        if (isIn(edge.a) == isIn(edge.b)) continue;
-        const dvec3 normal = normalOf(elements.triangles()[static_cast<std::size_t>(crossing.triangle)], x);
-        const dvec3 out = x[static_cast<std::size_t>(edge.b)] - x[static_cast<std::size_t>(edge.a)];
-        crossing.apart = (glm::dot(out, normal) > 0) == isIn(edge.a) ? normal : -normal;
-    }
-    return true;
+    return cuts.empty() ? std::vector<int>{} : smallerSide(elements, cuts, sideOf);
+}
+
+// Straight through the triangle, so that the edge comes back from where it has one end; zero with both or none.
+dvec3 wayBack(const Crossing& crossing, const Triangle& triangle, std::span<const dvec3> x) {
+    if (crossing.areThrough[0] == crossing.areThrough[1]) return dvec3(0.0);
+    const dvec3 normal = normalOf(triangle, x);
+    const dvec3 ahead =
+        x[static_cast<std::size_t>(crossing.points[1])] - x[static_cast<std::size_t>(crossing.points[0])];
+    return (glm::dot(ahead, normal) > 0) == crossing.areThrough[0] ? normal : -normal;
 }
 
 void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vector<Crossing>& crossings) {
@@ -174,14 +169,20 @@ void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vect
         last = middle;
         while (last < order.size() && curveOf(order[last]).contour == curveOf(order[first]).contour) ++last;
         const std::span all(order);
-        const bool one = findWaysBack(elements, all.subspan(first, middle - first), x, sideOf, crossings);
-        const bool other = findWaysBack(elements, all.subspan(middle, last - middle), x, sideOf, crossings);
+        // Of the surface of the edges on this curve and on the other.
+        std::array parts{partThrough(elements, all.subspan(first, middle - first), crossings, sideOf),
+                         partThrough(elements, all.subspan(middle, last - middle), crossings, sideOf)};
+        const bool isParted = !parts[0].empty() || !parts[1].empty();
         dvec3 sum(0.0);
         for (std::size_t k = first; k < last; ++k) {
             Crossing& crossing = crossings[static_cast<std::size_t>(order[k])];
-            if (!one && !other)
-                crossing.apart = shortening(elements, elements.edges()[static_cast<std::size_t>(crossing.edge)],
-                                            elements.triangles()[static_cast<std::size_t>(crossing.triangle)], x);
+            const Edge& edge = elements.edges()[static_cast<std::size_t>(crossing.edge)];
+            const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)];
+            for (std::size_t i = 0; i < 5; ++i) {
+                const std::vector<int>& part = parts[(i < 2) == (k < middle) ? 0 : 1];
+                crossing.areThrough[i] = !isParted || std::binary_search(part.begin(), part.end(), crossing.points[i]);
+            }
+            crossing.apart = isParted ? wayBack(crossing, triangle, x) : shortening(elements, edge, triangle, x);
             sum += curveOf(order[k]).isOther ? -crossing.apart : crossing.apart;
         }
         const dvec3 way = unit(sum);
@@ -253,7 +254,8 @@ std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, 
                                      at(edge.a) + p.s * (at(edge.b) - at(edge.a)),
                                      {edge.a, edge.b, c[0], c[1], c[2]},
                                      {1 - p.s, p.s, -p.weights[0], -p.weights[1], -p.weights[2]},
-                                     dvec3(0.0)});
+                                     dvec3(0.0),
+                                     {}});
             }
         }
     };

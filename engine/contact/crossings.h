@@ -27,6 +27,8 @@ struct Crossing {
     std::array<int, 5> points;
     std::array<double, 5> weights;
     dvec3 apart;  // unit, the way for the edge to go; or zero
+    // (points) Where its contour parts a surface, those of the smaller part, which are on the wrong side; else all.
+    std::array<bool, 5> areThrough;
 };
 
 // From an edge towards a place on a face beside it, straight off the edge; unit, or zero.

@@ -30,7 +30,7 @@ Group::Group(std::vector<Surface> surfaces, std::vector<dvec3> rest, const Group
     v_.resize(count);
     shift_.resize(count);
     xIs_.resize(count);
-    isMarked_.assign(count, 0);
+    marks_.assign(count, unmarked);
 }
 
 void Group::drop() {
@@ -46,14 +46,17 @@ void Group::goBack(std::span<const dvec3> from, std::span<const dvec3> to) {
 
 void Group::begin(std::span<const dvec3> x) {
     for (const Crossing& crossing : crossings_)
-        for (int i : crossing.points) isMarked_[static_cast<std::size_t>(i)] = 0;
+        for (int i : crossing.points) marks_[static_cast<std::size_t>(i)] = unmarked;
     crossings_.clear();
     if (!mayBeCrossed_) return;
     crossings_ = crossingsAt(x);
     mayBeCrossed_ = !crossings_.empty();
     if (!options_.untangles) return;
     for (const Crossing& crossing : crossings_)
-        for (int i : crossing.points) isMarked_[static_cast<std::size_t>(i)] = 1;
+        for (std::size_t k = 0; k < 5; ++k) {
+            char& mark = marks_[static_cast<std::size_t>(crossing.points[k])];
+            mark = std::max<char>(mark, crossing.areThrough[k] ? wrongSide : anySide);
+        }
 }
 
 std::vector<Crossing> Group::crossingsAt(std::span<const dvec3> x) {
@@ -167,8 +170,9 @@ void Group::leadApart(const Instant& instant) {
         }
         if (!(inverse > 0) || crossing.apart == dvec3(0.0)) continue;
         if (!mayYield(elements_, crossing, instant.inverseMass)) continue;
-        const double impulse = std::max(0.0, apartSpeed - speed) / inverse;
-        const double impulseV = std::max(0.0, apartSpeed - speedV) / inverse;
+        // No more than from rest, whatever comes against it: a pinch is held until it opens.
+        const double impulse = std::clamp(apartSpeed - speed, 0.0, apartSpeed) / inverse;
+        const double impulseV = std::clamp(apartSpeed - speedV, 0.0, apartSpeed) / inverse;
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
             const double share = crossing.weights[k] * instant.inverseMass[i];

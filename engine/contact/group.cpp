@@ -161,18 +161,22 @@ void Group::press(const Instant& instant) {
 
 void Group::leadApart(const Instant& instant) {
     for (const Crossing& crossing : crossings_) {
-        double inverse = 0, speed = 0, speedV = 0;
+        double inverse = 0, speed = 0, speedV = 0, most = 0;
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
             inverse += crossing.weights[k] * crossing.weights[k] * instant.inverseMass[i];
+            most = std::max(most, std::abs(crossing.weights[k]) * instant.inverseMass[i]);
             speed += crossing.weights[k] * glm::dot(u_[i], crossing.apart);
             speedV += crossing.weights[k] * glm::dot(v_[i], crossing.apart);
         }
         if (!(inverse > 0) || crossing.apart == dvec3(0.0)) continue;
         if (!mayYield(elements_, crossing, instant.inverseMass)) continue;
-        // No more than from rest, whatever comes against it: a pinch is held until it opens.
-        const double impulse = std::clamp(apartSpeed - speed, 0.0, apartSpeed) / inverse;
-        const double impulseV = std::clamp(apartSpeed - speedV, 0.0, apartSpeed) / inverse;
+        // No more than from rest, whatever comes against it, and no point faster than that, whatever lever it is on: a
+        // pinch is held until it opens.
+        const auto impulseAgainst = [&](double before) {
+            return std::min(std::clamp(apartSpeed - before, 0.0, apartSpeed) / inverse, apartSpeed / most);
+        };
+        const double impulse = impulseAgainst(speed), impulseV = impulseAgainst(speedV);
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
             const double share = crossing.weights[k] * instant.inverseMass[i];

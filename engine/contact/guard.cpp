@@ -10,8 +10,9 @@
 namespace taut::contact {
 namespace {
 
-constexpr double aslant = 0.98;    // cosine of the angle by which a way past turns the direction between the sides
-constexpr double leftApart = 0.2;  // of the distance at the start of the instant
+constexpr double aslant = 0.98;      // cosine of the angle by which a way past turns the direction between the sides
+constexpr double leftApart = 0.2;    // of the distance at the start of the instant
+constexpr double leastApart = 0.02;  // of the distance kept: what is pinched stays clear of rounding
 
 using Corners = std::array<dvec3, 4>;
 
@@ -140,7 +141,9 @@ bool slideApart(const MeetingPair& pair, std::span<const double> inverseMass, st
         }
     }
     const auto a = static_cast<std::size_t>(lowest), b = static_cast<std::size_t>(highest);
-    const double inverse = inverseMass[a] + inverseMass[b], missing = leftApart * pair.apart - (low - high);
+    const double inverse = inverseMass[a] + inverseMass[b];
+    const double wanted = std::max(leftApart * pair.apart, leastApart * pair.keep);
+    const double missing = wanted - (low - high);
     if (!(inverse > 0) || !(missing > 0)) return false;
     const double shareA = inverseMass[a] / inverse, shareB = inverseMass[b] / inverse;
     x1[a] += (shareA * missing) * pair.normal;

@@ -174,8 +174,8 @@ TEST(ContactGroup, LeadsTheSmallerPartOfASheetBack) {
     }
 }
 
-// A held edge through a triangle: of which one corner is free, far from where the edge goes through, or all are and come
-// at it at 50 m/s. In an instant a crossing makes no point faster by more than 0.3 m/s.
+// A held edge through a triangle: of which one corner is free, far from where the edge goes through, or all are and
+// come at it at 50 m/s. In an instant a crossing makes no point faster by more than 0.3 m/s.
 TEST(ContactGroup, LeadsNoPointApartFasterThanFromRest) {
     for (const bool isHeld : {true, false}) {
         Flight flight;

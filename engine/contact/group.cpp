@@ -214,7 +214,8 @@ void Group::guard(const Instant& instant) {
         if (bad.empty()) return;
         std::vector<int> moved;
         if (round < mostSlides && options_.slides) {
-            for (const MeetingPair* pair : bad) slideApart(*pair, instant.inverseMass, instant.x1, instant.v, moved);
+            for (const MeetingPair* pair : bad)
+                slideApart(*pair, instant.inverseMass, instant.held, instant.x1, instant.v, moved);
             meeting_.slides += static_cast<int>(bad.size());
         } else {
             moveAsZones(bad, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);

@@ -17,24 +17,27 @@ dvec3 unit(const dvec3& v) {
     return size > 0 ? v / size : dvec3(0.0);
 }
 
-// Volino and Magnenat-Thalmann, "Resolving surface collisions through intersection contour minimization", 2006.
-dvec3 wayApart(const Elements& elements, const Edge& edge, const Triangle& triangle, std::span<const dvec3> x) {
+dvec3 normalOf(const Triangle& triangle, std::span<const dvec3> x) {
+    const auto at = [&](int k) { return x[static_cast<std::size_t>(triangle.points[static_cast<std::size_t>(k)])]; };
+    return unit(glm::cross(at(1) - at(0), at(2) - at(0)));
+}
+
+// By which the contour grows shorter: Volino and Magnenat-Thalmann, "Resolving surface collisions through intersection
+// contour minimization", 2006.
+dvec3 shortening(const Elements& elements, const Edge& edge, const Triangle& triangle, std::span<const dvec3> x) {
     const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
     if (elements.isRigid(edge.surface)) return -outOfEdge(edge, triangle, x);
-    const dvec3 along = unit(at(edge.b) - at(edge.a));
-    const std::array<int, 3>& c = triangle.points;
-    const dvec3 normal = unit(glm::cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0])));
+    const dvec3 along = unit(at(edge.b) - at(edge.a)), normal = normalOf(triangle, x);
     const double slope = glm::dot(along, normal);
     if (std::abs(slope) < leastSlope) return dvec3(0.0);
     dvec3 sum(0.0);
     for (int t : edge.triangles) {
         if (t < 0) continue;
-        const std::array<int, 3>& f = elements.triangles()[static_cast<std::size_t>(t)].points;
-        int apex = f[0];
-        for (int i : f)
+        const Triangle& own = elements.triangles()[static_cast<std::size_t>(t)];
+        int apex = own.points[0];
+        for (int i : own.points)
             if (i != edge.a && i != edge.b) apex = i;
-        const dvec3 face = glm::cross(at(f[1]) - at(f[0]), at(f[2]) - at(f[0]));
-        dvec3 line = unit(glm::cross(face, normal));  // of the two planes, to be led into the face
+        dvec3 line = unit(glm::cross(normalOf(own, x), normal));  // of the two planes, to be led into the face
         const dvec3 inwards = at(apex) - at(edge.a);
         const dvec3 across = inwards - glm::dot(inwards, along) * along;
         if (glm::dot(line, across) < 0) line = -line;
@@ -43,10 +46,17 @@ dvec3 wayApart(const Elements& elements, const Edge& edge, const Triangle& trian
     return sum;
 }
 
-// Two triangles that cut each other do so along a line from one crossing to the next: those are of one contour, and
-// the sides of an edge in one of them are the other way round in the other. All of a contour goes the same way, or the
-// middle of a straight one would have none, and its ends only draw their surface together.
-void agreeOnWays(const Elements& elements, std::vector<Crossing>& crossings) {
+// Where a contour runs on one of the two sheets that it is of.
+struct Curve {
+    int contour;  // its lowest crossing
+    bool isOther;
+    bool operator==(const Curve&) const = default;
+    auto operator<=>(const Curve&) const = default;
+};
+
+// Of each crossing. Two triangles that cut each other do so along a line from one crossing to the next: those are of
+// one contour, and the sides of an edge in one of them are the other way round in the other.
+std::vector<Curve> findCurves(const Elements& elements, std::span<const Crossing> crossings) {
     struct Link {
         int low, high;  // triangles
         int crossing;
@@ -61,35 +71,123 @@ void agreeOnWays(const Elements& elements, std::vector<Crossing>& crossings) {
     std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
         return std::tie(a.low, a.high, a.crossing) < std::tie(b.low, b.high, b.crossing);
     });
-    std::vector<int> parent(crossings.size());
-    std::vector<char> isOther(crossings.size(), 0);  // way round than the parent
-    std::iota(parent.begin(), parent.end(), 0);
+    std::vector<Curve> parents;
+    for (std::size_t c = 0; c < crossings.size(); ++c) parents.push_back({static_cast<int>(c), false});
     const auto find = [&](int c) {
-        bool other = false;
-        while (parent[static_cast<std::size_t>(c)] != c) {
-            other = other != (isOther[static_cast<std::size_t>(c)] != 0);
-            c = parent[static_cast<std::size_t>(c)];
+        Curve curve{c, false};
+        for (;;) {
+            const Curve& up = parents[static_cast<std::size_t>(curve.contour)];
+            if (up.contour == curve.contour) return curve;
+            curve = {up.contour, curve.isOther != up.isOther};
         }
-        return std::pair(c, other);
     };
     for (std::size_t k = 1; k < links.size(); ++k) {
         if (links[k].low != links[k - 1].low || links[k].high != links[k - 1].high) continue;
-        const auto [a, otherA] = find(links[k - 1].crossing);
-        const auto [b, otherB] = find(links[k].crossing);
-        if (a == b) continue;
-        const bool differ = (otherA != otherB) != (links[k].isLow != links[k - 1].isLow);
-        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-        isOther[static_cast<std::size_t>(std::max(a, b))] = differ ? 1 : 0;
+        const Curve a = find(links[k - 1].crossing), b = find(links[k].crossing);
+        if (a.contour == b.contour) continue;
+        const bool differ = (a.isOther != b.isOther) != (links[k].isLow != links[k - 1].isLow);
+        parents[static_cast<std::size_t>(std::max(a.contour, b.contour))] = {std::min(a.contour, b.contour), differ};
     }
-    std::vector<dvec3> sums(crossings.size(), dvec3(0.0));
-    for (std::size_t c = 0; c < crossings.size(); ++c) {
-        const auto [root, other] = find(static_cast<int>(c));
-        sums[static_cast<std::size_t>(root)] += other ? -crossings[c].apart : crossings[c].apart;
+    std::vector<Curve> curves;
+    for (std::size_t c = 0; c < crossings.size(); ++c) curves.push_back(find(static_cast<int>(c)));
+    return curves;
+}
+
+// Edges by their points, the lower first.
+using Cut = std::pair<int, int>;
+
+// The points on the smaller side of cuts (ascending) through a surface, ascending; none where they do not part it. From
+// both sides of the first cut what hangs together is gathered, always on the side that has less area at rest so far:
+// it is soon known.
+std::vector<int> smallerSide(const Elements& elements, std::span<const Cut> cuts, std::vector<char>& sideOf) {
+    std::array<std::vector<int>, 2> sides{std::vector{cuts[0].first}, std::vector{cuts[0].second}};
+    std::array<std::size_t, 2> done{0, 0};
+    std::array<double, 2> areas{0, 0};
+    bool parts = true;
+    std::size_t own = 0;
+    const auto markOf = [&](int i) -> char& { return sideOf[static_cast<std::size_t>(i)]; };
+    for (std::size_t k : {0U, 1U}) markOf(sides[k][0]) = static_cast<char>(k + 1);
+    while (parts) {
+        own = areas[0] <= areas[1] ? 0 : 1;
+        if (done[own] == sides[own].size()) break;
+        const int i = sides[own][done[own]++];
+        for (int j : elements.neighbours(i)) {
+            const dvec3 way =
+                elements.rest()[static_cast<std::size_t>(j)] - elements.rest()[static_cast<std::size_t>(i)];
+            areas[own] += glm::dot(way, way);
+            if (std::binary_search(cuts.begin(), cuts.end(), Cut(std::min(i, j), std::max(i, j)))) continue;
+            if (markOf(j) == 0) {
+                markOf(j) = static_cast<char>(own + 1);
+                sides[own].push_back(j);
+            }
+            parts = parts && markOf(j) == static_cast<char>(own + 1);
+        }
     }
-    for (std::size_t c = 0; c < crossings.size(); ++c) {
-        const auto [root, other] = find(static_cast<int>(c));
-        const dvec3 way = unit(sums[static_cast<std::size_t>(root)]);
-        crossings[c].apart = other ? -way : way;
+    for (const std::vector<int>& side : sides)
+        for (int i : side) markOf(i) = 0;
+    if (!parts) return {};
+    std::sort(sides[own].begin(), sides[own].end());
+    return sides[own];
+}
+
+// What of the surface of a curve (crossings) went through: as smallerSide().
+std::vector<int> partThrough(const Elements& elements, std::span<const int> curve, std::span<const Crossing> crossings,
+                             std::vector<char>& sideOf) {
+    std::vector<Cut> cuts;
+    for (int c : curve) {
+        const Edge& edge = elements.edges()[static_cast<std::size_t>(crossings[static_cast<std::size_t>(c)].edge)];
+        if (elements.isRigid(edge.surface)) return {};
+        // There and back again is not through.
+        if (const Cut cut(edge.a, edge.b); !cuts.empty() && cuts.back() == cut)
+            cuts.pop_back();
+        else
+            cuts.push_back(cut);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    return cuts.empty() ? std::vector<int>{} : smallerSide(elements, cuts, sideOf);
+}
+
+// Straight through the triangle, so that the edge comes back from where it has one end; zero with both or none.
+dvec3 wayBack(const Crossing& crossing, const Triangle& triangle, std::span<const dvec3> x) {
+    if (crossing.areThrough[0] == crossing.areThrough[1]) return dvec3(0.0);
+    const dvec3 normal = normalOf(triangle, x);
+    const dvec3 ahead =
+        x[static_cast<std::size_t>(crossing.points[1])] - x[static_cast<std::size_t>(crossing.points[0])];
+    return (glm::dot(ahead, normal) > 0) == crossing.areThrough[0] ? normal : -normal;
+}
+
+void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vector<Crossing>& crossings) {
+    const std::vector<Curve> curves = findCurves(elements, crossings);
+    std::vector<int> order(crossings.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto curveOf = [&](int c) { return curves[static_cast<std::size_t>(c)]; };
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return curveOf(a) < curveOf(b); });
+    std::vector<char> sideOf(x.size(), 0);
+    for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+        std::size_t middle = first;
+        while (middle < order.size() && curveOf(order[middle]) == curveOf(order[first])) ++middle;
+        last = middle;
+        while (last < order.size() && curveOf(order[last]).contour == curveOf(order[first]).contour) ++last;
+        const std::span all(order);
+        // Of the surface of the edges on this curve and on the other.
+        std::array parts{partThrough(elements, all.subspan(first, middle - first), crossings, sideOf),
+                         partThrough(elements, all.subspan(middle, last - middle), crossings, sideOf)};
+        const bool isParted = !parts[0].empty() || !parts[1].empty();
+        dvec3 sum(0.0);
+        for (std::size_t k = first; k < last; ++k) {
+            Crossing& crossing = crossings[static_cast<std::size_t>(order[k])];
+            const Edge& edge = elements.edges()[static_cast<std::size_t>(crossing.edge)];
+            const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)];
+            for (std::size_t i = 0; i < 5; ++i) {
+                const std::vector<int>& part = parts[(i < 2) == (k < middle) ? 0 : 1];
+                crossing.areThrough[i] = !isParted || std::binary_search(part.begin(), part.end(), crossing.points[i]);
+            }
+            crossing.apart = isParted ? wayBack(crossing, triangle, x) : shortening(elements, edge, triangle, x);
+            sum += curveOf(order[k]).isOther ? -crossing.apart : crossing.apart;
+        }
+        const dvec3 way = unit(sum);
+        for (std::size_t k = first; k < last; ++k)
+            crossings[static_cast<std::size_t>(order[k])].apart = curveOf(order[k]).isOther ? -way : way;
     }
 }
 
@@ -102,9 +200,7 @@ dvec3 acrossEdge(const Edge& edge, int beside, std::span<const dvec3> x) {
 }
 
 dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec3> x) {
-    const std::array<int, 3>& c = triangle.points;
-    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
-    const dvec3 normal = unit(glm::cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0])));
+    const dvec3 normal = normalOf(triangle, x);
     if (edge.wings[0] < 0 || edge.wings[1] < 0) return dvec3(0.0);
     const double out = -glm::dot(normal, acrossEdge(edge, edge.wings[0], x) + acrossEdge(edge, edge.wings[1], x));
     return out < 0 ? -normal : normal;
@@ -158,7 +254,8 @@ std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, 
                                      at(edge.a) + p.s * (at(edge.b) - at(edge.a)),
                                      {edge.a, edge.b, c[0], c[1], c[2]},
                                      {1 - p.s, p.s, -p.weights[0], -p.weights[1], -p.weights[2]},
-                                     wayApart(elements, edge, triangle, x)});
+                                     dvec3(0.0),
+                                     {}});
             }
         }
     };
@@ -171,7 +268,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, 
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
         return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
     });
-    agreeOnWays(elements, crossings);
+    findWaysApart(elements, x, crossings);
     return crossings;
 }
 

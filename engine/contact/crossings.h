@@ -1,4 +1,16 @@
 // Edges that pierce triangles, and which way they come apart.
+//
+// Two sheets cut each other along contours. Where a contour parts a sheet, the smaller part is what went through, and
+// goes back (Baraff, Witkin and Kass, "Untangling cloth", 2003):
+//
+//        ______|____         the edges that are cut go straight through the other sheet, towards the larger part:
+//       small  |  large  ->  the contour moves over the small part until nothing is left of it, whether it closes in
+//                            itself or ends at borders
+//
+// One that parts neither begins at a border of the one and ends at one of the other, or goes through no edge but there
+// and back: it is made shorter, until it is drawn out over the borders (Volino and Magnenat-Thalmann 2006). A straight
+// one has no shorter one beside it, so that this alone would leave a sheet that is right through another where it is.
+// All of a contour goes the same way. Places and what hangs together decide, nothing is remembered.
 #pragma once
 
 #include <span>
@@ -14,7 +26,9 @@ struct Crossing {
     // As MeetingPair: the ends of the edge, and the corners of the triangle with less than nothing.
     std::array<int, 5> points;
     std::array<double, 5> weights;
-    dvec3 apart;  // unit, the way for the edge to go by which the line of intersection grows shorter; or zero
+    dvec3 apart;  // unit, the way for the edge to go; or zero
+    // (points) Where its contour parts a surface, those of the smaller part, which are on the wrong side; else all.
+    std::array<bool, 5> areThrough;
 };
 
 // From an edge towards a place on a face beside it, straight off the edge; unit, or zero.

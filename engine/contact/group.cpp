@@ -36,7 +36,7 @@ Group::Group(std::vector<Surface> surfaces, std::vector<dvec3> rest, const Group
     v_.resize(count);
     shift_.resize(count);
     xIs_.resize(count);
-    isMarked_.assign(count, 0);
+    marks_.assign(count, unmarked);
 }
 
 void Group::drop() {
@@ -52,14 +52,17 @@ void Group::goBack(std::span<const dvec3> from, std::span<const dvec3> to) {
 
 void Group::begin(std::span<const dvec3> x) {
     for (const Crossing& crossing : crossings_)
-        for (int i : crossing.points) isMarked_[static_cast<std::size_t>(i)] = 0;
+        for (int i : crossing.points) marks_[static_cast<std::size_t>(i)] = unmarked;
     crossings_.clear();
     if (!mayBeCrossed_) return;
     crossings_ = crossingsAt(x);
     mayBeCrossed_ = !crossings_.empty();
     if (!options_.untangles) return;
     for (const Crossing& crossing : crossings_)
-        for (int i : crossing.points) isMarked_[static_cast<std::size_t>(i)] = 1;
+        for (std::size_t k = 0; k < 5; ++k) {
+            char& mark = marks_[static_cast<std::size_t>(crossing.points[k])];
+            mark = std::max<char>(mark, crossing.areThrough[k] ? wrongSide : anySide);
+        }
 }
 
 std::vector<Crossing> Group::crossingsAt(std::span<const dvec3> x) {
@@ -172,17 +175,22 @@ void Group::press(const Instant& instant) {
 
 void Group::leadApart(const Instant& instant) {
     for (const Crossing& crossing : crossings_) {
-        double inverse = 0, speed = 0, speedV = 0;
+        double inverse = 0, speed = 0, speedV = 0, most = 0;
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
             inverse += crossing.weights[k] * crossing.weights[k] * instant.inverseMass[i];
+            most = std::max(most, std::abs(crossing.weights[k]) * instant.inverseMass[i]);
             speed += crossing.weights[k] * glm::dot(u_[i], crossing.apart);
             speedV += crossing.weights[k] * glm::dot(v_[i], crossing.apart);
         }
         if (!(inverse > 0) || crossing.apart == dvec3(0.0)) continue;
         if (!mayYield(crossing, instant.inverseMass)) continue;
-        const double impulse = std::max(0.0, apartSpeed - speed) / inverse;
-        const double impulseV = std::max(0.0, apartSpeed - speedV) / inverse;
+        // No more than from rest, whatever comes against it, and no point faster than that, whatever lever it is on: a
+        // pinch is held until it opens.
+        const auto impulseAgainst = [&](double before) {
+            return std::min(std::clamp(apartSpeed - before, 0.0, apartSpeed) / inverse, apartSpeed / most);
+        };
+        const double impulse = impulseAgainst(speed), impulseV = impulseAgainst(speedV);
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
             const double share = crossing.weights[k] * instant.inverseMass[i];
@@ -220,7 +228,8 @@ void Group::guard(const Instant& instant) {
         if (bad.empty()) return;
         std::vector<int> moved;
         if (round < mostSlides && options_.slides) {
-            for (const MeetingPair* pair : bad) slideApart(*pair, instant.inverseMass, instant.x1, instant.v, moved);
+            for (const MeetingPair* pair : bad)
+                slideApart(*pair, instant.inverseMass, instant.held, instant.x1, instant.v, moved);
             meeting_.slides += static_cast<int>(bad.size());
         } else {
             moveAsZones(bad, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);

@@ -119,7 +119,8 @@ class Group {
     NearPairs near_;
     bool mayBeCrossed_ = true;
     std::vector<Crossing> crossings_;
-    std::vector<char> isMarked_;                     // (points) of crossings
+    enum Mark : char { unmarked, anySide, wrongSide };
+    std::vector<char> marks_;                        // (points) of crossings
     std::vector<MeetingPair> pairs_;                 // all that were located
     std::vector<MeetingPair> pressed_;               // of them those that press
     std::vector<std::vector<MeetingPair>> located_;  // (tasks) scratch

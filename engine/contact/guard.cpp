@@ -10,8 +10,10 @@
 namespace taut::contact {
 namespace {
 
-constexpr double aslant = 0.98;    // cosine of the angle by which a way past turns the direction between the sides
-constexpr double leftApart = 0.2;  // of the distance at the start of the instant
+constexpr double aslant = 0.98;      // cosine of the angle by which a way past turns the direction between the sides
+constexpr double leftApart = 0.2;    // of the distance at the start of the instant
+constexpr double into = -0.5;        // cosine of a way with a normal: more into a surface than along it
+constexpr double leastApart = 0.02;  // of the distance kept: what is pinched stays clear of rounding
 
 using Corners = std::array<dvec3, 4>;
 
@@ -124,8 +126,8 @@ bool misses(const MeetingPair& pair, std::span<const dvec3> x0, std::span<const 
     return separatesOnTheWay(pair, cornersOf(pair, x0), cornersOf(pair, x1), share * pair.keep, aslant);
 }
 
-bool slideApart(const MeetingPair& pair, std::span<const double> inverseMass, std::span<dvec3> x1, std::span<dvec3> v,
-                std::vector<int>& moved) {
+bool slideApart(const MeetingPair& pair, std::span<const double> inverseMass, std::span<const Held> held,
+                std::span<dvec3> x1, std::span<dvec3> v, std::vector<int>& moved) {
     int lowest = -1, highest = -1;
     double low = 1e300, high = -1e300;
     for (int k = 0; k < 4; ++k) {
@@ -140,9 +142,17 @@ bool slideApart(const MeetingPair& pair, std::span<const double> inverseMass, st
         }
     }
     const auto a = static_cast<std::size_t>(lowest), b = static_cast<std::size_t>(highest);
-    const double inverse = inverseMass[a] + inverseMass[b], missing = leftApart * pair.apart - (low - high);
+    const auto inverseMassOf = [&](int point, const dvec3& way) {
+        for (const Held& own : std::ranges::equal_range(held, point, {}, &Held::point))
+            if (glm::dot(own.normal, way) < into) return 0.0;
+        return inverseMass[static_cast<std::size_t>(point)];
+    };
+    const double inverseA = inverseMassOf(lowest, pair.normal), inverseB = inverseMassOf(highest, -pair.normal);
+    const double inverse = inverseA + inverseB;
+    const double wanted = std::max(leftApart * pair.apart, leastApart * pair.keep);
+    const double missing = wanted - (low - high);
     if (!(inverse > 0) || !(missing > 0)) return false;
-    const double shareA = inverseMass[a] / inverse, shareB = inverseMass[b] / inverse;
+    const double shareA = inverseA / inverse, shareB = inverseB / inverse;
     x1[a] += (shareA * missing) * pair.normal;
     x1[b] -= (shareB * missing) * pair.normal;
     const double approach = -glm::dot(pair.normal, v[a] - v[b]);

@@ -27,14 +27,14 @@ void sleep(NearPairs::Record& record, double nearTravelled, double nearApproache
 
 }  // namespace
 
-// Pairs of crossed surfaces would be held where they are.
+// Pairs of crossed surfaces would be held where they are; but those of what is not through keep it so.
 bool Group::isTangled(const MeetingPair& pair) const {
-    bool first = false, second = false;
+    char first = unmarked, second = unmarked;
     for (int k = 0; k < 4; ++k) {
-        const bool isMarked = isMarked_[static_cast<std::size_t>(pair.points[static_cast<std::size_t>(k)])] != 0;
-        (k < pair.firstSide() ? first : second) |= isMarked;
+        char& side = k < pair.firstSide() ? first : second;
+        side = std::max(side, marks_[static_cast<std::size_t>(pair.points[static_cast<std::size_t>(k)])]);
     }
-    return first && second;
+    return std::min(first, second) != unmarked && std::max(first, second) == wrongSide;
 }
 
 // Whether no face beside the edge is nearer to what lies outward of a place on it.

@@ -189,12 +189,14 @@ TEST(TouchingFold, FallsLiftsAndHangsAsIfItHadNot) {
 }
 
 // Through each other as they are made: led apart, out of each other's middle as well, where the line of intersection
-// goes from border to border and gets no shorter at first. Repulsion alone would hold them for ever.
+// goes from border to border and gets no shorter at first; of the last, until it is gone. Repulsion alone would hold
+// them for ever.
 TEST(TouchingUntangling, LeadsSheetsApartThatWereBornCrossed) {
     const std::array seconds{
         sheet("second", {0.01, 0.31, 0.01}, {0.28, -0.28, 0.03}, {-0.28, -0.28, 0.02}, 7),
         sheet("second", {-0.2, 0.21, 0.01}, {0.4, 0, 0.03}, {0.01, -0.4, 0.02}, 7),
         sheet("second", {-0.2, -0.05, -0.17}, {0.4, 0.1, 0.03}, {0.01, 0.04, 0.4}, 7),
+        sheet("second", {-0.2, -0.16, 0.01}, {0.4, 0, 0}, {0, 0.38, 0.12}, 7),
     };
     for (const world::ClothSpec& second : seconds) {
         world::SceneSpec spec = scene();

@@ -156,5 +156,43 @@ TEST(ContactGroup, LeadsApartWhatIsCrossed) {
     EXPECT_GT(crossingsAfter(false), 0);
 }
 
+// Right through the middle of another, along a straight line: of the sheet that is parted the smaller part goes back,
+// straight through the other.
+TEST(ContactGroup, LeadsTheSmallerPartOfASheetBack) {
+    for (const double below : {0.055, 0.145}) {  // [m] of 0.2
+        Flight flight;
+        flight.addSheet({-0.2, 0.0, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 4, dvec3(0.0), 1e-3, 0.002);
+        flight.addSheet({-0.103, -below, 0.013}, {0.2, 0, 0.01}, {0, 0.2, 0.02}, 4, dvec3(0.0), 1e-3, 0.002);
+        const Elements elements(flight.surfaces, flight.x);
+        Patches patches(elements);
+        const std::vector<Crossing> crossings = findCrossings(elements, patches, flight.x);
+        EXPECT_GE(crossings.size(), 12U);  // 9 edges of the parted, and some of the other
+        for (const Crossing& crossing : crossings) {
+            const bool isParted = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface == 1;
+            EXPECT_NEAR(crossing.apart.y, isParted == (below < 0.1) ? 1.0 : -1.0, 1e-12);
+        }
+    }
+}
+
+// A held edge through a triangle: of which one corner is free, far from where the edge goes through, or all are and
+// come at it at 50 m/s. In an instant a crossing makes no point faster by more than 0.3 m/s.
+TEST(ContactGroup, LeadsNoPointApartFasterThanFromRest) {
+    for (const bool isHeld : {true, false}) {
+        Flight flight;
+        flight.addTriangle({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0, 0, 2)}, dvec3(0.0, isHeld ? 0.0 : 50.0, 0.0), 1.0,
+                           0.005);
+        if (isHeld) flight.inverseMass[0] = flight.inverseMass[1] = 0;
+        flight.addTriangle({dvec3(0.0, -0.1, 0.15), dvec3(0.02, 1.0, 0.16), dvec3(-0.02, 1.0, 0.15)}, dvec3(0.0), 0.0,
+                           0.005);
+        const std::vector<dvec3> before = flight.v;
+        flight.fly(1e-4);
+        EXPECT_FALSE(flight.group->crossings().empty());
+        double most = 0;
+        for (std::size_t i = 0; i < 3; ++i) most = std::max(most, glm::length(flight.v[i] - before[i]));
+        EXPECT_GT(most, 0.1);
+        EXPECT_LT(most, 2 * 0.3 + 1e-9);  // of two edges that go through
+    }
+}
+
 }  // namespace
 }  // namespace taut::contact

@@ -1,5 +1,6 @@
 // Impacts of points, edges and sheets that nothing else moves, against what momentum and energy leave over.
 #include "contact_support.h"
+#include "taut/contact/guard.h"
 
 namespace taut::contact {
 namespace {
@@ -360,6 +361,29 @@ TEST(ContactFriction, HoldsUpToItsAngleAndSlowsBeyondIt) {
         EXPECT_NEAR(slides(degrees, 0.4) / theory(degrees, 0.4), 1.0, 0.01) << degrees;  // half a step of 500: 0.2 %
     // Twice the friction is told from it.
     EXPECT_LT(std::abs(slides(30.0, 0.8)), 1e-6);
+}
+
+// A point pressed through a triangle that it was hardly away from: both come apart, with the momentum they had, as far
+// as rounding has no say, 0.02 of the 10 mm they keep, and no further. What a collider holds from below stays.
+TEST(ContactGuard, SlidesAPinchClearOfRoundingAndNotIntoWhatHoldsIt) {
+    const MeetingPair pair{{0, 1, 2, 3}, {1.0, -0.25, -0.25, -0.5}, {0, 1, 0}, 1e-9, 0.01, 0.0, 0, 0, true, true};
+    const std::vector<double> inverseMass(4, 1.0);
+    for (const bool isHeld : {false, true}) {
+        std::vector<dvec3> x{{0, -1e-6, 0}, {-1, 0, -1}, {1, 0, -1}, {0, 0, 1}}, v{{0, -1, 0}, {}, {}, {}};
+        const std::vector<dvec3> before = x;
+        std::vector<Held> held;
+        for (const int i : {1, 2, 3})
+            if (isHeld) held.push_back({i, {0, 1, 0}, 0.0});
+        std::vector<int> moved;
+        EXPECT_TRUE(slideApart(pair, inverseMass, held, x, v, moved));
+        const auto other = static_cast<std::size_t>(isHeld ? 1 : moved.back());
+        EXPECT_NEAR(x[0].y - x[other].y, 2e-4, 1e-15);
+        EXPECT_NEAR(v[0].y - v[other].y, 0.0, 1e-15);  // it took the approach of 1 m/s, and no more
+        EXPECT_EQ(moved.size(), isHeld ? 1U : 2U);
+        for (std::size_t i = 1; i < 4; ++i)
+            if (isHeld) EXPECT_EQ(x[i], before[i]);
+        if (!isHeld) EXPECT_NEAR(v[0].y + v[other].y, -1.0, 1e-15);
+    }
 }
 
 }  // namespace

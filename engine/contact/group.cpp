@@ -41,22 +41,18 @@ Group::Group(std::vector<Surface> surfaces, std::vector<dvec3> rest, const Group
 
 void Group::drop() {
     near_.drop();
-    mayBeCrossed_ = true;
     pressed_.clear();
 }
 
 void Group::goBack(std::span<const dvec3> from, std::span<const dvec3> to) {
     near_.go(from, to);
-    mayBeCrossed_ = !crossings_.empty();
 }
 
 void Group::begin(std::span<const dvec3> x) {
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) marks_[static_cast<std::size_t>(i)] = unmarked;
     crossings_.clear();
-    if (!mayBeCrossed_) return;
     crossings_ = crossingsAt(x);
-    mayBeCrossed_ = !crossings_.empty();
     if (!options_.untangles) return;
     for (const Crossing& crossing : crossings_)
         for (std::size_t k = 0; k < 5; ++k) {
@@ -241,7 +237,6 @@ void Group::guard(const Instant& instant) {
         refind(instant, moved_);
     }
     meeting_.uncertified = static_cast<int>(uncertified(instant).size());
-    if (meeting_.uncertified > 0) mayBeCrossed_ = true;
 }
 
 std::vector<Touching> Group::touching(std::span<const dvec3> x) const {

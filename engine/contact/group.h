@@ -117,7 +117,6 @@ class Group {
     GroupOptions options_;
     Elements elements_;
     NearPairs near_;
-    bool mayBeCrossed_ = true;
     std::vector<Crossing> crossings_;
     enum Mark : char { unmarked, anySide, wrongSide };
     std::vector<char> marks_;                        // (points) of crossings

@@ -143,8 +143,9 @@ bool slideApart(const MeetingPair& pair, std::span<const double> inverseMass, st
     }
     const auto a = static_cast<std::size_t>(lowest), b = static_cast<std::size_t>(highest);
     const auto inverseMassOf = [&](int point, const dvec3& way) {
-        for (const Held& own : std::ranges::equal_range(held, point, {}, &Held::point))
-            if (glm::dot(own.normal, way) < into) return 0.0;
+        auto own = std::lower_bound(held.begin(), held.end(), point, [](const Held& h, int i) { return h.point < i; });
+        for (; own != held.end() && own->point == point; ++own)
+            if (glm::dot(own->normal, way) < into) return 0.0;
         return inverseMass[static_cast<std::size_t>(point)];
     };
     const double inverseA = inverseMassOf(lowest, pair.normal), inverseB = inverseMassOf(highest, -pair.normal);

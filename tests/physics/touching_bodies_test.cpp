@@ -364,5 +364,65 @@ TEST(TouchingSpawn, ABodyThatAppearsLandsOnAnother) {
     EXPECT_LT(highest(positionsOf(world, "cloth.late")), -1.0);
 }
 
+// The corners at which two sheets are held lie nearer than they keep: nothing can give way there.
+TEST(TouchingIslands, HeldPointsNearEachOtherArePressedByNothing) {
+    world::SceneSpec spec = scene();
+    world::ClothSpec left = sheet("left", {0, 0, 0}, {0.3, 0, 0}, {0, -0.3, 0}, 3),
+                     right = sheet("right", {0.3 + 0.9 * keep, 0, 0}, {0.3, 0, 0}, {0, -0.3, 0}, 3);
+    left.hold = right.hold = {"corners"};
+    spec.bodies.add(left);
+    spec.bodies.add(right);
+    World world(spec);
+    EXPECT_FALSE(advance(world, 12));
+    EXPECT_LT(fastest(world, {"cloth.left", "cloth.right"}), 5.0);
+    EXPECT_GT(fastest(world, {"cloth.left", "cloth.right"}), 0.0);
+}
+
+TEST(TouchingIslands, TheOrderOfBodiesInASceneHasNoSay) {
+    std::vector<std::uint64_t> hashes;
+    for (const bool isTurned : {false, true}) {
+        world::SceneSpec spec = scene();
+        spec.colliders = {ground(0.0)};
+        std::vector bodies{sheet("a", {0.0, 0.006, 0.0}, {0.2, 0, 0}, {0, 0, 0.2}, 3),
+                           sheet("b", {0.03, 0.02, 0.02}, {0.2, 0, 0.02}, {-0.02, 0, 0.2}, 4)};
+        if (isTurned) std::swap(bodies[0], bodies[1]);
+        for (const world::ClothSpec& body : bodies) spec.bodies.add(body);
+        World world(spec);
+        EXPECT_FALSE(advance(world, 15));
+        EXPECT_GT(world.contact().pressing, 0);
+        hashes.push_back(world.stateHash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+// A hand leads a sheet against another at 2940 m/s, whose corners go faster where that presses beside them: the run ends, or the sheet stays where it was, and both say that
+// it was contact.
+TEST(TouchingFaults, AreSaidToBeOfContactAndLeaveNumbers) {
+    for (const auto on : {world::OnDivergence::stop, world::OnDivergence::freeze}) {
+        world::SceneSpec spec = scene();
+        spec.solver.onDivergence = on;
+        spec.bodies.add(sheet("led", {0.02, -0.015, 0}, {0.02, 0, 0}, {0, -0.02, 0}, 1));
+        spec.bodies.add(sheet("hit", {0.0, 0.0, 0.03}, {0.3, 0, 0}, {0, -0.3, 0}, 3));
+        world::GrabAction grab;
+        grab.target = "cloth.led@all";
+        grab.id = "hand";
+        grab.rigid = true;
+        world::MoveAction move;
+        move.id = "hand";
+        move.to = dvec3(0.03, -0.025, 49.0);
+        move.over = 1.0 / 60;
+        spec.actions = {grab, move};
+        World world(spec);
+        const auto divergence = world.advance();
+        ASSERT_EQ(divergence.has_value(), on == world::OnDivergence::stop);
+        if (!divergence) ASSERT_EQ(world.frozen().size(), 1U);
+        const world::Divergence& said = divergence ? *divergence : world.frozen()[0].divergence;
+        EXPECT_EQ(said.body, "cloth.hit");
+        EXPECT_NE(said.message.find("faster than 3000 m/s after contact with other bodies"), std::string::npos)
+            << said.message;
+        for (const dvec3& x : positionsOf(world, "cloth.hit")) EXPECT_LT(glm::length(x), 1.0);
+    }
+}
+
 }  // namespace
 }  // namespace taut::test::touching

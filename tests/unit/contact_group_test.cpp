@@ -182,7 +182,7 @@ TEST(ContactGroup, LeadsNoPointApartFasterThanFromRest) {
         flight.addTriangle({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0, 0, 2)}, dvec3(0.0, isHeld ? 0.0 : 50.0, 0.0), 1.0,
                            0.005);
         if (isHeld) flight.inverseMass[0] = flight.inverseMass[1] = 0;
-        flight.addTriangle({dvec3(0.0, -0.1, 0.15), dvec3(0.02, 1.0, 0.16), dvec3(-0.02, 1.0, 0.15)}, dvec3(0.0), 0.0,
+        flight.addTriangle({dvec3(0.0, -0.1, 0.5), dvec3(0.02, 1.0, 0.51), dvec3(-0.02, 1.0, 0.5)}, dvec3(0.0), 0.0,
                            0.005);
         const std::vector<dvec3> before = flight.v;
         flight.fly(1e-4);

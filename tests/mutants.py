@@ -19,9 +19,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 TESTS = [("unit", "*ontact*:*ouch*"), ("physics", "*Touch*")]  # programs, and the tests of them that concern contact
 
-GROUP, GUARD, LOCATING, PRESSING, DESCENT, RIGID, NEAR, CROSSINGS = (
+GROUP, GUARD, LOCATING, PRESSING, DESCENT, RIGID, NEAR = (
     f"engine/contact/{name}.cpp" for name in
-    ("group", "guard", "locating", "pressing", "descent", "rigid_side", "near_pairs", "crossings"))
+    ("group", "guard", "locating", "pressing", "descent", "rigid_side", "near_pairs"))
 TOUCHING = "engine/world/touching.cpp"
 ISLAND = "engine/world/island_contacts.h"
 
@@ -29,7 +29,7 @@ ISLAND = "engine/world/island_contacts.h"
 MUTANTS = {
     "cut-untold": (
         "contact is not told of cuts", TOUCHING,
-        "if (severed == damage_[s]) continue;", "if (severed == damage_[s] || isOther || s < bodies_.size()) continue;"),
+        "if (severed == damage_[s]) continue;", "if (severed == damage_[s] || s < bodies_.size()) continue;"),
     "held-by-still": (
         "a collider that moves is still to what it holds", TOUCHING,
         "glm::dot(c.normal, c.carried), c.carried, c.friction", "0.0, dvec3(0.0), c.friction"),
@@ -128,7 +128,8 @@ MUTANTS = {
         "            if (isFixed(i)) continue;\n", ""),
     "gains-turned": (
         "weights do not count for what an impulse gives", PRESSING,
-        "row.gains[i] = pair.weights[i] * own;", "row.gains[i] = (pair.weights[i] < 0 ? -own : own) / pair.firstSide();"),
+        "row.gains[i] = pair.weights[i] * own;",
+        "row.gains[i] = (pair.weights[i] < 0 ? -own : own) / pair.firstSide();"),
     "pull": (
         "impulses may pull", DESCENT,
         "std::max(0.0, next.normal - row.mass *", "(next.normal - row.mass *"),

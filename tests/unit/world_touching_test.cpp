@@ -90,6 +90,7 @@ TEST(TouchingWorld, WhatIsFrozenStopsWhatComesAndStays) {
         World world(scene);
         EXPECT_FALSE(world.advance());
         ASSERT_EQ(world.frozen().size(), 1U);
+        EXPECT_NEAR(world.metrics("net.ball").momentum.y, above > 0 ? -2.0 * 20.0 : 0.0, 1e-6) << above;
         const std::vector<dvec3> kept = positionsOf(world, "cloth.square");
         EXPECT_FALSE(test::advance(world, 10));
         EXPECT_EQ(positionsOf(world, "cloth.square"), kept) << above;

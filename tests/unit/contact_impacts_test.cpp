@@ -206,6 +206,45 @@ TEST(ContactImpact, LeavesAloneWhatMisses) {
     }
 }
 
+// A ball at 100 m/s past another, by that share of what they keep: nearer than 0.95 of it they meet.
+TEST(ContactImpact, MeetsWhatPassesNearerThanItKeeps) {
+    for (const double share : {0.3, 0.5, 0.9, 1.1}) {
+        constexpr double keep = 0.008;
+        Flight flight;
+        flight.addBall(dvec3(0.0), dvec3(0.0), 0.0, keep / 2);
+        flight.addBall({-0.05, share * keep, 0.0}, {100.0, 0.0, 0.0}, 0.01, keep / 2);
+        flight.fly(1e-3);
+        EXPECT_EQ(flight.v[1] != dvec3(100.0, 0.0, 0.0), share < 1) << share;
+    }
+}
+
+// A ball that nothing moves comes at a triangle of which two corners are held: the third goes out of the way by its
+// lever, 1 / 0.3 or 1 / 0.2, but not by one of 1 / 0.05, of 0.6 % of the squares of the shares.
+TEST(ContactImpact, FlingsNothingAwayByALongLever) {
+    for (const double share : {0.3, 0.2, 0.05}) {
+        Flight flight;
+        flight.addBall({0.0, 0.008, share}, {0.0, -2.0, 0.0}, 0.0, 0.004);
+        flight.addTriangle({dvec3(-1, 0, 0), dvec3(1, 0, 0), dvec3(0, 0, 1)}, dvec3(0.0), 1.0, 0.004);
+        flight.inverseMass[1] = flight.inverseMass[2] = 0;
+        flight.fly(1e-3);
+        EXPECT_NEAR(flight.v[3].y, share > 0.1 ? -2.0 / share : 0.0, 1e-9) << share;
+    }
+}
+
+// A ball of 2 m/s down and 3 m/s along: of those it loses μ 2 m/s, μ the product of all three factors.
+TEST(ContactFriction, HasTheFactorsOfBoth) {
+    for (const auto& [ofBall, ofTriangle] : {std::pair(1.0, 1.0), {0.5, 1.0}, {1.0, 0.5}, {0.5, 0.25}, {0.0, 2.0}}) {
+        Flight flight;
+        flight.options.friction = 0.4;
+        flight.addBall({0.0, 0.008, 0.0}, {3.0, -2.0, 0.0}, 0.1, 0.004);
+        flight.addTriangle({dvec3(-1, 0, -1), dvec3(1, 0, -1), dvec3(0, 0, 1)}, dvec3(0.0), 0.0, 0.004);
+        flight.surfaces[0].friction = ofBall;
+        flight.surfaces[1].friction = ofTriangle;
+        flight.fly(1e-4);
+        EXPECT_NEAR(flight.v[0].x, 3.0 - 0.4 * ofBall * ofTriangle * 2.0, 1e-9) << ofBall << ", " << ofTriangle;
+    }
+}
+
 // A ball over 40 cells of a flat sheet, pressed to it by its weight: the edges that it passes are no obstacles.
 TEST(ContactFriction, IsAllThatSlowsWhatSlidesOnAFlatSheet) {
     for (const double h : {1e-3, 2.5e-4}) {

@@ -1,0 +1,103 @@
+// What a world tells contact of its bodies: what is cut, where colliders go, what is frozen.
+#include <gtest/gtest.h>
+
+#include "support/scenes.h"
+#include "support/timelines.h"
+#include "taut/world/bodies/net.h"
+#include "taut/world/surface_gap.h"
+
+namespace taut::world {
+namespace {
+
+using test::positionsOf;
+
+constexpr double thickness = 0.02;  // [m] of all
+constexpr double keep = 2 * thickness;
+
+// Two triangles in a plane y, a metre square.
+ClothSpec square(double y, const std::vector<std::string>& hold) {
+    ClothSpec cloth;
+    cloth.name = "square";
+    cloth.origin = {0, y, 0};
+    cloth.cells = {1, 1};
+    cloth.down = {0, 0, 1};
+    cloth.hold = hold;
+    cloth.touch = Touch::others;
+    cloth.thickness = thickness;
+    return cloth;
+}
+NetSpec ball(const dvec3& place, const dvec3& velocity, double mass) {
+    NetSpec net;
+    net.name = "ball";
+    net.points = {{"only", place, mass, false, {}}};
+    net.velocity = velocity;
+    net.drag = 0.0;
+    net.touch = Touch::others;
+    net.thickness = thickness;
+    return net;
+}
+SceneSpec sceneOf(const ClothSpec& cloth, const NetSpec& net) {
+    SceneSpec scene;
+    scene.solver.precision = Precision::double_;
+    scene.bodies.add(cloth);
+    scene.bodies.add(net);
+    return scene;
+}
+
+// In 0.5 s it falls by 1.2 m.
+TEST(TouchingWorld, LetsThroughWhereACutTakesTrianglesAway) {
+    for (const bool isCut : {false, true}) {
+        World world(sceneOf(square(0.0, {"all"}), ball({0.7, 0.05, 0.3}, dvec3(0.0), 0.1)));
+        EXPECT_FALSE(test::advance(world, 2));
+        if (isCut) world.apply(support::cutPlane(0.0, "cloth.square", {0.5, 0, 0}, {1, 0, 0}));
+        EXPECT_FALSE(test::advance(world, 30));
+        const double y = positionsOf(world, "net.ball")[0].y;
+        if (isCut)
+            EXPECT_LT(y, -1.0);
+        else
+            EXPECT_NEAR(y, keep, 0.05 * keep);
+    }
+}
+
+// A belt, or a lift, with a light square on it and a heavy ball on that, all of one speed: they keep it.
+TEST(TouchingWorld, LiesOnAColliderThatMovesAsOnOneThatRests) {
+    for (const dvec3& speed : {dvec3(2, 0, 0), dvec3(0, 2, 0), dvec3(0, -2, 0)}) {
+        ClothSpec cloth = square(thickness, {});
+        cloth.velocity = speed;
+        SceneSpec scene = sceneOf(cloth, ball({0.6, thickness + keep, 0.3}, speed, 2.0));
+        ColliderSpec ground;
+        ground.name = "ground";
+        ground.shape = "plane";
+        ground.keys = {{0.0, dvec3(0.0), dvec3(0.0), Ease::linear}, {10.0, 10.0 * speed, dvec3(0.0), Ease::linear}};
+        scene.colliders = {ground};
+        World world(scene);
+        EXPECT_FALSE(test::advance(world, 30));
+        const dvec3 ought = dvec3(0.6, thickness + keep, 0.3) + world.time() * speed;
+        EXPECT_LT(glm::distance(positionsOf(world, "net.ball")[0], ought), 0.05 * keep) << speed.x << ", " << speed.y;
+    }
+}
+
+// A square, held at one side, that is torn out of its strain in the first tick, and a ball of a hundred times its mass
+// that is at it then, or comes later: it stops there, and the square stays bit for bit where it froze.
+TEST(TouchingWorld, WhatIsFrozenStopsWhatComesAndStays) {
+    for (const double above : {0.0, 0.1}) {
+        ClothSpec cloth = square(0.0, {"left"});
+        cloth.velocity = {400.0, 0.0, 0.0};
+        SceneSpec scene = sceneOf(cloth, ball({0.2, keep + above, 0.3}, {0.0, -2.0, 0.0}, 20.0));
+        scene.world.gravity = dvec3(0.0);
+        scene.solver.onDivergence = OnDivergence::freeze;
+        scene.solver.freezeStrain = 0.5;
+        World world(scene);
+        EXPECT_FALSE(world.advance());
+        ASSERT_EQ(world.frozen().size(), 1U);
+        EXPECT_NEAR(world.metrics("net.ball").momentum.y, above > 0 ? -2.0 * 20.0 : 0.0, 1e-6) << above;
+        const std::vector<dvec3> kept = positionsOf(world, "cloth.square");
+        EXPECT_FALSE(test::advance(world, 10));
+        EXPECT_EQ(positionsOf(world, "cloth.square"), kept) << above;
+        SurfaceGap gap(world.select("net.ball"), world.select("cloth.square"));
+        EXPECT_NEAR(gap.measure(), keep, 1e-6) << above;
+    }
+}
+
+}  // namespace
+}  // namespace taut::world

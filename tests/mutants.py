@@ -94,7 +94,7 @@ MUTANTS = {
         "if (pair.presses && pair.isPoint && feature >= 0)", "if (pair.presses && pair.isPoint && feature >= 6)"),
     "edges-are-ridges": (
         "edges in a flat sheet are obstacles", LOCATING,
-        "isRidge(first, onFirst, -pair.normal, x0) && isRidge(second, onSecond, pair.normal, x0)", "true"),
+        "if (rise > 0 && rise * rise > valley * valley * glm::dot(inwards, inwards))", "if (rise > 1e300)"),
     "ridge-turned": (
         "a ridge is told from the wrong side", LOCATING,
         "isRidge(first, onFirst, -pair.normal, x0)", "isRidge(first, onFirst, pair.normal, x0)"),
@@ -119,7 +119,7 @@ MUTANTS = {
         "std::min(-options.recovery * pair.gap(), fastestOut * h)", "-options.recovery * pair.gap()"),
     "recover-through-held": (
         "what is taken back goes into what holds it", PRESSING,
-        "for (std::size_t i = 0; i < supports.size(); ++i) hold(supports[i].held, shift, held[i]);", ""),
+        "++i) hold(supports[i].held, shift, held[i]);", "++i) if (most < 0) hold(supports[i].held, shift, held[i]);"),
     "clusters-apart": (
         "pairs of one cluster are solved as several", PRESSING,
         "parent_[static_cast<std::size_t>(std::max(first, own))] = low;", ""),
@@ -163,7 +163,7 @@ MUTANTS = {
         "return separatesOnTheWay(pair, before, after, 0.0, 2.0);", "return false;"),
     "slides-into-held": (
         "what is slid apart goes into what holds it", GUARD,
-        "if (glm::dot(own.normal, way) < into) return 0.0;", ""),
+        "if (glm::dot(own.normal, way) < into) return 0.0;", "if (glm::dot(own.normal, way) < 4 * into) return 0.0;"),
     "slides-unshared": (
         "both sides of what is slid apart go as far", GUARD,
         "const double shareA = inverseA / inverse, shareB = inverseB / inverse;",
@@ -191,7 +191,7 @@ MUTANTS = {
         "    hasJumped_ = false;\n    const auto start"),
     "trial-stands": (
         "a tick in which nothing should meet stands if something does", TOUCHING,
-        "|| (isTrial && meeting_.pressing > 0)) return true;", ") return true;"),
+        "(isTrial && meeting_.pressing > 0)", "(isTrial && meeting_.pressing < 0)"),
     "deep-stands": (
         "an instant that went deep stands", TOUCHING,
         "(meeting_.deepest > wayOfKeep || meeting_.slides > 0)", "meeting_.deepest > 1e300"),

@@ -46,6 +46,15 @@ TEST(ContactImpact, SharesTheSpeedByMassAndRestitution) {
             }
 }
 
+// Slower than restSpeed it stays where it comes: m1/(m1 + m2) v.
+TEST(ContactImpact, OfWhatIsSlowHasNoRestitution) {
+    Flight flight = pointOnTriangle(0.2, 0.6, 0.5);
+    flight.options.pressing.restitution = 1.0;
+    flight.options.pressing.restSpeed = 1.0;
+    for (int i = 0; i < 60; ++i) flight.fly(5e-4);  // on the way for 24 ms
+    for (const dvec3& v : flight.v) EXPECT_NEAR(v.y, -0.25 * 0.5, 1e-6);
+}
+
 // Off the middle: 1/m = 1/m1 + (α² + β² + γ²)/m of a corner; the impulse (1 + e) m v is shared as α, β, γ.
 TEST(ContactImpact, TurnsATriangleAsTheLeversSay) {
     const std::array<double, 3> shares{0.6, 0.3, 0.1};

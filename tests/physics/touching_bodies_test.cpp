@@ -416,7 +416,7 @@ TEST(TouchingFaults, AreSaidToBeOfContactAndLeaveNumbers) {
         const auto divergence = world.advance();
         ASSERT_EQ(divergence.has_value(), on == world::OnDivergence::stop);
         if (!divergence) ASSERT_EQ(world.frozen().size(), 1U);
-        const world::Divergence& said = divergence ? *divergence : world.frozen()[0].divergence;
+        const world::Divergence said = divergence ? *divergence : world.frozen()[0].divergence;
         EXPECT_EQ(said.body, "cloth.hit");
         EXPECT_NE(said.message.find("faster than 3000 m/s after contact with other bodies"), std::string::npos)
             << said.message;

@@ -9,6 +9,7 @@
 namespace taut::world {
 namespace {
 
+constexpr int mostToPress = 1024;  // instants of a tick: who has more steps is warned of them
 constexpr int leastParts = 4;  // of a tick of bodies that touch others, whatever their method bears
 
 std::string insideWarning(const Body& body, const std::string& collider, int points, double depth) {
@@ -208,7 +209,7 @@ int Island::instantsToPress() const {
     if (!std::isfinite(choice_.limit)) return substeps;
     const double turn = choice_.mode.omega * tickSeconds_ / substeps;
     const int each = turn < longestTurn ? static_cast<int>(std::min(longestTurn / turn, 1.0 * substeps)) : 1;
-    return std::max(quietParts_, (substeps + each - 1) / each);
+    return std::clamp((substeps + each - 1) / each, quietParts_, std::max(quietParts_, mostToPress));
 }
 
 void Island::takeParts(const TickTime& time, int parts) {

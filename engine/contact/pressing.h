@@ -3,9 +3,9 @@
 //   0 <= λ  ⊥  n·Σ w u + max(g, 0) / h >= 0          u mean velocity of the points in the instant, g gap at its start
 //
 // From λ = 0 on sweeps descend ½ λᵀ A λ + λᵀ (u_n + g⁺/h), A = W M⁻¹ Wᵀ, below 0 of which the kinetic energy
-// ½ Σ m u² has not grown; the steps on between them need not, but a sweep is always the last. The velocities v that a method stores get impulses of their own, of the pairs that
-// press, by the same rule and from those on: what the points' mean motion needs is not what they need at its end.
-// Overlaps are taken back as a shift without speed.
+// ½ Σ m u² has not grown; the steps on between them need not, but a sweep is always the last. The velocities v that a
+// method stores get impulses of their own, of the pairs that press, by the same rule and from those on: what the points'
+// mean motion needs is not what they need at its end. Overlaps are taken back as a shift without speed.
 #pragma once
 
 #include <span>

@@ -1,12 +1,10 @@
 # How every target of the project is compiled, and what of it is installed.
 
 # Headers are included as "taut/FOLDER/FILE.h", in the checkout as where they are installed.
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/engine ${PROJECT_BINARY_DIR}/include/taut SYMBOLIC)
 add_library(taut_headers INTERFACE)
 set_target_properties(taut_headers PROPERTIES EXPORT_NAME headers)
 target_include_directories(taut_headers INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/engine> $<INSTALL_INTERFACE:include>)
 target_compile_features(taut_headers INTERFACE cxx_std_20)
 
 # For our own targets alone: linked privately, so that a program that uses the engine keeps its own flags.
@@ -34,7 +32,7 @@ if(TAUT_UNITY GREATER 1)
 endif()
 
 # The folders where a scene's time goes.
-set(TAUT_COMPUTES core ode mechanics collision contact world image geometry)
+set(TAUT_COMPUTES core ode mechanics collision contact bodies forces island world image geometry)
 
 # taut_library(core SOURCES a.cpp HEADERS a.h LINK taut::ode PRIVATE_LINK fmt::fmt): the library of one folder, known
 # as taut::core. LINK is what its headers include, PRIVATE_LINK what only its sources do. With HEADERS, those that others

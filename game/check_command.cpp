@@ -11,7 +11,7 @@
 #include "game/scene_file.h"
 #include "taut/core/error.h"
 #include "taut/pipeline/run.h"
-#include "taut/world/rehearsal.h"
+#include "taut/advice/rehearsal.h"
 
 namespace taut::game {
 namespace {

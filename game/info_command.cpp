@@ -16,7 +16,7 @@
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/body_size.h"
-#include "taut/world/start_doubts.h"
+#include "taut/advice/start_doubts.h"
 #include "taut/world/world.h"
 
 namespace taut::game {

@@ -13,7 +13,7 @@
 #include "taut/core/whole_file.h"
 #include "taut/live/recording.h"
 #include "taut/scene/merge.h"
-#include "taut/world/common_rows.h"
+#include "taut/spec/common_rows.h"
 
 namespace taut::game {
 namespace {

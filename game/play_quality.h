@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/world/spec.h"
+#include "taut/spec/spec.h"
 
 namespace taut::game {
 

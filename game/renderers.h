@@ -8,7 +8,7 @@
 
 #include "taut/pipeline/run_record.h"
 #include "taut/render/renderer.h"
-#include "taut/world/spec.h"
+#include "taut/spec/spec.h"
 
 namespace taut::game {
 

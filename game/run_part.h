@@ -11,7 +11,7 @@
 #include "taut/image/frame_sequence.h"
 #include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/run_parts.h"
-#include "taut/world/spec.h"
+#include "taut/spec/spec.h"
 
 namespace taut::game {
 

@@ -7,7 +7,7 @@
 
 #include "game/command_line.h"
 #include "taut/scene/load.h"
-#include "taut/world/spec.h"
+#include "taut/spec/spec.h"
 
 namespace taut::game {
 

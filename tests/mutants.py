@@ -20,10 +20,10 @@ ROOT = Path(__file__).resolve().parent.parent
 TESTS = [("unit", "*ontact*:*ouch*"), ("physics", "*Touch*")]  # programs, and the tests of them that concern contact
 
 GROUP, GUARD, LOCATING, PRESSING, DESCENT, RIGID, NEAR = (
-    f"engine/contact/{name}.cpp" for name in
+    f"engine/taut/contact/{name}.cpp" for name in
     ("group", "guard", "locating", "pressing", "descent", "rigid_side", "near_pairs"))
-TOUCHING = "engine/world/touching.cpp"
-ISLAND = "engine/world/island_contacts.h"
+TOUCHING = "engine/taut/world/touching.cpp"
+ISLAND = "engine/taut/island/island_contacts.h"
 
 # name: what is wrong, the file, the text before, which is in it once, and the text after
 MUTANTS = {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/world/forces/callback.h"
+#include "taut/forces/callback.h"
 
 namespace taut::python {
 

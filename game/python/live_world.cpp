@@ -8,8 +8,8 @@
 
 #include "game/python/errors.h"
 #include "game/python/folders.h"
-#include "taut/world/motion.h"
-#include "taut/world/rotation.h"
+#include "taut/spec/motion.h"
+#include "taut/spec/rotation.h"
 
 namespace py = pybind11;
 

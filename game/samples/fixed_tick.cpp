@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/rope.h"
 #include "taut/world/world.h"
 
 using namespace taut;

@@ -2,7 +2,7 @@
 // Nothing damps it, so that the sum of the energies stays.
 #include <cstdio>
 
-#include "taut/world/bodies/cloth.h"
+#include "taut/bodies/cloth.h"
 #include "taut/world/world.h"
 
 int main() {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "taut/world/bodies/rope.h"
-#include "taut/world/forces/force.h"
+#include "taut/bodies/rope.h"
+#include "taut/forces/force.h"
 #include "taut/world/world.h"
 
 using namespace taut;

@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-#include "taut/world/bodies/cloth.h"
+#include "taut/bodies/cloth.h"
 #include "taut/world/world.h"
 
 namespace taut {

@@ -2,7 +2,7 @@
 // falls on its edge while it piles up and when it lies, one that hangs and meets nothing, and two that lie on a ball.
 #include <benchmark/benchmark.h>
 
-#include "taut/world/bodies/cloth.h"
+#include "taut/bodies/cloth.h"
 #include "taut/world/world.h"
 
 namespace taut {

@@ -1,9 +1,9 @@
 // What many bodies cost: both figures are to stay flat a body.
 #include <benchmark/benchmark.h>
 
-#include "taut/world/actions.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/spec/actions.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "taut/world/world.h"
 
 namespace taut {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "taut/world/spec.h"
+#include "taut/spec/spec.h"
 
 namespace taut::fuzz {
 

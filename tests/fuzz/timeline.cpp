@@ -1,6 +1,6 @@
 #include "fuzz/support.h"
 #include "taut/scene/body_size.h"
-#include "taut/world/ticks.h"
+#include "taut/spec/ticks.h"
 #include "taut/world/world.h"
 
 namespace taut::fuzz {

@@ -6,7 +6,7 @@
 
 #include "support/scenes.h"
 #include "taut/ode/method_table.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/net.h"
 
 namespace taut::test::contact {
 namespace {

@@ -10,10 +10,10 @@
 #include "support/oscillator.h"
 #include "support/scenes.h"
 #include "taut/mechanics/builders.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/forces/anchor.h"
-#include "taut/world/forces/wind.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/net.h"
+#include "taut/forces/anchor.h"
+#include "taut/forces/wind.h"
 
 namespace taut::test::hard_cases {
 namespace {

@@ -10,7 +10,7 @@
 #include "support/oscillator.h"
 #include "support/scenes.h"
 #include "taut/core/trig.h"
-#include "taut/world/bodies/cloth.h"
+#include "taut/bodies/cloth.h"
 
 namespace taut::test::implicit_euler {
 namespace {

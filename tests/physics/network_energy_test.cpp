@@ -6,7 +6,7 @@
 
 #include "support/network.h"
 #include "support/scenes.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/net.h"
 
 namespace taut::test::network_energy {
 namespace {

@@ -8,8 +8,8 @@
 #include "support/scenes.h"
 #include "taut/core/error.h"
 #include "taut/mechanics/builders.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/forces/wind.h"
+#include "taut/bodies/cloth.h"
+#include "taut/forces/wind.h"
 
 namespace taut::test::network_limits {
 namespace {

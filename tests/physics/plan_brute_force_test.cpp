@@ -17,8 +17,8 @@
 #include "taut/study/plan_run.h"
 #include "taut/study/plan_search.h"
 #include "taut/study/plan_text.h"
-#include "taut/world/bodies/rope.h"
-#include "taut/world/forces/wind.h"
+#include "taut/bodies/rope.h"
+#include "taut/forces/wind.h"
 
 namespace taut::study::plan_brute_force {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "support/scenes.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/forces/wind.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/net.h"
+#include "taut/forces/wind.h"
 
 namespace taut::test::precision {
 namespace {

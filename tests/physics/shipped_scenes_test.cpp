@@ -6,7 +6,7 @@
 
 #include "support/scenes.h"
 #include "taut/scene/load.h"
-#include "taut/world/bodies/cloth.h"
+#include "taut/bodies/cloth.h"
 
 namespace taut::test::shipped_scenes {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "support/network.h"
 #include "taut/ode/method_table.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/net.h"
 #include "taut/world/world.h"
 
 namespace taut::test::step_following {

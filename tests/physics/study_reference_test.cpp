@@ -13,7 +13,7 @@
 #include "taut/study/reference.h"
 #include "taut/study/scene_subject.h"
 #include "taut/study/work_precision.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/net.h"
 
 namespace taut::study::study_reference {
 namespace {

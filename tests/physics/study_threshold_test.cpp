@@ -8,8 +8,8 @@
 #include "taut/mechanics/builders.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/threshold.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 
 namespace taut::test::study_threshold {
 namespace {

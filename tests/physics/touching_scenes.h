@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "support/piercings.h"
-#include "taut/world/actions.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/spec/actions.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/net.h"
+#include "taut/bodies/rope.h"
 
 namespace taut::test::touching {
 

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
-#include "taut/world/spec.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
+#include "taut/spec/spec.h"
 
 namespace taut::support {
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "support/small_scenes.h"
-#include "taut/world/actions.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
-#include "taut/world/forces/anchor.h"
-#include "taut/world/forces/wind.h"
+#include "taut/spec/actions.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
+#include "taut/forces/anchor.h"
+#include "taut/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::support {

@@ -5,7 +5,7 @@
 #include "taut/core/error.h"
 #include "taut/scene/body_size.h"
 #include "unit/check_support.h"
-#include "taut/world/ticks.h"
+#include "taut/spec/ticks.h"
 
 namespace taut::check {
 namespace {

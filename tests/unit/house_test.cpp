@@ -32,14 +32,14 @@ std::vector<std::string> wordsAfter(const std::string& text, const std::string& 
 }
 
 // The folders of the engine from the ground up: the order in which it is built.
-const std::vector<std::string> floors = wordsAfter(contentOf(source / "engine/CMakeLists.txt"), "add_subdirectory(");
+const std::vector<std::string> floors = wordsAfter(contentOf(source / "engine/CMakeLists.txt"), "add_subdirectory(taut/");
 
 // What each folder links, and by that may include besides itself: its own links and what those link.
 std::map<std::string, Folders> linked() {
     std::map<std::string, Folders> all;
     for (const std::string& folder : floors) {
         Folders& folders = all[folder];
-        for (const std::string& other : wordsAfter(contentOf(source / "engine" / folder / "CMakeLists.txt"), "taut::")) {
+        for (const std::string& other : wordsAfter(contentOf(source / "engine/taut" / folder / "CMakeLists.txt"), "taut::")) {
             folders.insert(other);
             const Folders below = all.contains(other) ? all.at(other) : Folders{};
             folders.insert(below.begin(), below.end());
@@ -68,7 +68,7 @@ std::vector<Include> includesBelow(const std::filesystem::path& folder) {
 }
 
 TEST(House, EveryFolderOfTheEngineHasItsPlace) {
-    for (const auto& entry : std::filesystem::directory_iterator(source / "engine"))
+    for (const auto& entry : std::filesystem::directory_iterator(source / "engine/taut"))
         if (entry.is_directory()) {
             EXPECT_EQ(std::count(floors.begin(), floors.end(), entry.path().filename()), 1) << entry.path();
         }
@@ -76,7 +76,7 @@ TEST(House, EveryFolderOfTheEngineHasItsPlace) {
 
 TEST(House, LinksPointDown) {
     for (auto folder = floors.begin(); folder != floors.end(); ++folder)
-        for (const std::string& other : wordsAfter(contentOf(source / "engine" / *folder / "CMakeLists.txt"), "taut::"))
+        for (const std::string& other : wordsAfter(contentOf(source / "engine/taut" / *folder / "CMakeLists.txt"), "taut::"))
             if (std::find(floors.begin(), floors.end(), other) != floors.end()) {
                 EXPECT_NE(std::find(floors.begin(), folder, other), folder) << *folder << " links " << other;
             }
@@ -85,7 +85,7 @@ TEST(House, LinksPointDown) {
 TEST(House, IncludesPointOneWay) {
     std::size_t seen = 0;
     for (const auto& [folder, others] : linked())
-        for (const Include& include : includesBelow(source / "engine" / folder)) {
+        for (const Include& include : includesBelow(source / "engine/taut" / folder)) {
             if (!include.what.starts_with("taut/")) continue;
             const std::string first = include.what.substr(5, include.what.find('/', 5) - 5);
             ++seen;

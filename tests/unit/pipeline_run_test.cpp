@@ -10,8 +10,8 @@
 
 #include "taut/core/error.h"
 #include "taut/pipeline/run_record.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/forces/wind.h"
+#include "taut/bodies/net.h"
+#include "taut/forces/wind.h"
 
 namespace taut::pipeline {
 namespace {

@@ -12,7 +12,7 @@
 #include "taut/regression/judging.h"
 #include "taut/regression/mutants.h"
 #include "taut/regression/playing.h"
-#include "taut/world/bodies/cloth.h"
+#include "taut/bodies/cloth.h"
 
 namespace taut::regression {
 namespace {

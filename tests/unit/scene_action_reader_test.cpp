@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_support.h"
-#include "taut/world/actions.h"
+#include "taut/spec/actions.h"
 #include "taut/world/world.h"
 
 namespace taut::scene::action_reader_test {

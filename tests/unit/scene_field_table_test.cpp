@@ -5,7 +5,7 @@
 
 #include "taut/scene/document.h"
 #include "taut/scene/sections.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/rope.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 

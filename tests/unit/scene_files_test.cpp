@@ -1,5 +1,5 @@
 // Scene files on disk, and the files that they name.
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/rope.h"
 #include "unit/scene_support.h"
 
 namespace taut::scene {

@@ -1,6 +1,6 @@
 // A scenario that builds on a scene: what is merged, and which file a message names.
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "unit/scene_support.h"
 
 namespace taut::scene {

@@ -1,7 +1,7 @@
 // Fields given on the command line.
 #include "unit/scene_support.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 
 namespace taut::scene {
 namespace {

@@ -1,5 +1,5 @@
 // What is tied to colliders, as a file says it: what is read, and what is wrong with it.
-#include "taut/world/actions.h"
+#include "taut/spec/actions.h"
 #include "taut/world/world.h"
 #include "unit/scene_support.h"
 

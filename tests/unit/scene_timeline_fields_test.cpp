@@ -2,12 +2,12 @@
 #include <numeric>
 
 #include "taut/core/trig.h"
-#include "taut/world/actions.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/bodies/rope.h"
-#include "taut/world/forces/anchor.h"
-#include "taut/world/forces/wind.h"
+#include "taut/spec/actions.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/net.h"
+#include "taut/bodies/rope.h"
+#include "taut/forces/anchor.h"
+#include "taut/forces/wind.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 

@@ -8,8 +8,8 @@
 
 #include "taut/core/error.h"
 #include "taut/study/scene_subject.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "support/small_scenes.h"
 
 namespace taut::study {

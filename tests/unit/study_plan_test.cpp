@@ -12,10 +12,10 @@
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_need.h"
 #include "taut/study/plan_run.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
-#include "taut/world/forces/wind.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
+#include "taut/forces/wind.h"
 
 namespace taut::study {
 namespace {

@@ -10,7 +10,7 @@
 #include "taut/study/horizon.h"
 #include "taut/study/mechanical_subject.h"
 #include "taut/study/scene_subject.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/net.h"
 
 namespace taut::study {
 namespace {

@@ -13,7 +13,7 @@
 #include "taut/study/scene_subject.h"
 #include "taut/study/work_precision_chart.h"
 #include "taut/study/work_precision_text.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/net.h"
 
 namespace taut::study {
 namespace {

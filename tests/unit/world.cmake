@@ -32,4 +32,4 @@ list(APPEND TAUT_UNIT_TESTS
   world_ties_test.cpp
   world_touch_watch_test.cpp
   world_touching_test.cpp)
-list(APPEND TAUT_UNIT_LINKS taut::world)
+list(APPEND TAUT_UNIT_LINKS taut::advice taut::world)

@@ -1,4 +1,4 @@
-#include "taut/world/body.h"
+#include "taut/bodies/body.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "taut/core/error.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "support/small_scenes.h"
 
 namespace taut::world {

@@ -7,8 +7,8 @@
 
 #include "support/timelines.h"
 #include "taut/core/parallel.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/forces/callback.h"
+#include "taut/bodies/net.h"
+#include "taut/forces/callback.h"
 #include "taut/world/undoing_world.h"
 
 namespace taut::world::callbacks_test {

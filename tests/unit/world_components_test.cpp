@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "taut/core/trig.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "support/small_scenes.h"
 #include "support/timelines.h"
 #include "taut/world/components.h"
-#include "taut/world/forces/anchor.h"
-#include "taut/world/rotation.h"
+#include "taut/forces/anchor.h"
+#include "taut/spec/rotation.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/bodies/rope.h"
-#include "taut/world/forces/wind.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/net.h"
+#include "taut/bodies/rope.h"
+#include "taut/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "taut/world/components.h"
-#include "taut/world/forces/wind.h"
+#include "taut/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "support/timelines.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/forces/wind.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/net.h"
+#include "taut/forces/wind.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -1,6 +1,6 @@
 // A force that this file adds to a world: what applies to the engine's own applies to it.
-#include "taut/world/bodies/net.h"
-#include "taut/world/forces/force.h"
+#include "taut/bodies/net.h"
+#include "taut/forces/force.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "taut/world/components.h"
 #include "taut/world/world.h"
 

@@ -6,8 +6,8 @@
 #include "support/timelines.h"
 #include "taut/core/error.h"
 #include "taut/core/trig.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/net.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -1,12 +1,12 @@
-#include "taut/world/motion.h"
+#include "taut/spec/motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "taut/core/trig.h"
-#include "taut/world/rotation.h"
-#include "taut/world/ties.h"
+#include "taut/spec/rotation.h"
+#include "taut/bodies/ties.h"
 
 namespace taut::world {
 namespace {

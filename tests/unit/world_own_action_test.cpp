@@ -3,8 +3,8 @@
 
 #include "support/timelines.h"
 #include "taut/live/recording.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/kinds.h"
+#include "taut/bodies/net.h"
+#include "taut/spec/kinds.h"
 #include "unit/scene_support.h"
 
 namespace taut::world::own_action {

@@ -9,8 +9,8 @@
 #include "support/timelines.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/gravity.h"
-#include "taut/world/forces/force.h"
-#include "taut/world/kinds.h"
+#include "taut/forces/force.h"
+#include "taut/spec/kinds.h"
 #include "taut/world/world.h"
 
 namespace taut::world::own_kinds_test {

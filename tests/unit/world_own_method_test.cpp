@@ -6,7 +6,7 @@
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/scene/load.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/rope.h"
 #include "support/small_scenes.h"
 #include "taut/world/world.h"
 

@@ -6,7 +6,7 @@
 #include "collision_support.h"
 #include "support/small_scenes.h"
 #include "taut/scene/load.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/rope.h"
 #include "taut/world/world.h"
 
 namespace taut::world::own_shape {

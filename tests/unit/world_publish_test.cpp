@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "support/small_scenes.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
-#include "taut/world/drawing.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
+#include "taut/bodies/drawing.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

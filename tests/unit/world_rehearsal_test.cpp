@@ -1,10 +1,10 @@
 // What is said before the first tick of a timeline that its run will refuse, and of steps that will diverge.
-#include "taut/world/rehearsal.h"
+#include "taut/advice/rehearsal.h"
 
 #include <gtest/gtest.h>
 
 #include "support/timelines.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/net.h"
 
 namespace taut::world {
 namespace {

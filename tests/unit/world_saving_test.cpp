@@ -8,9 +8,9 @@
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/scene/load.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "taut/world/components.h"
 #include "taut/world/result_bits.h"
 

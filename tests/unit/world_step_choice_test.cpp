@@ -1,4 +1,4 @@
-#include "taut/world/step_choice.h"
+#include "taut/island/step_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include "support/small_scenes.h"
 #include "support/timelines.h"
 #include "taut/core/error.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/rope.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -1,11 +1,11 @@
-#include "taut/world/step_following.h"
+#include "taut/island/step_following.h"
 
 #include <gtest/gtest.h>
 
 #include "support/small_scenes.h"
 #include "support/timelines.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/rope.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/rope.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

@@ -1,4 +1,4 @@
-#include "taut/world/targets.h"
+#include "taut/spec/targets.h"
 
 #include <gtest/gtest.h>
 

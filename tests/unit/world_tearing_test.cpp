@@ -6,10 +6,10 @@
 
 #include "support/timelines.h"
 #include "taut/mechanics/mass_spring_system.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/rehearsal.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/net.h"
+#include "taut/advice/rehearsal.h"
 #include "taut/world/world.h"
 
 namespace taut::world::tearing {

@@ -7,11 +7,11 @@
 #include "support/timelines.h"
 #include "taut/core/error.h"
 #include "taut/core/trig.h"
-#include "taut/world/bodies/block.h"
-#include "taut/world/bodies/cloth.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/block.h"
+#include "taut/bodies/cloth.h"
+#include "taut/bodies/net.h"
 #include "taut/world/components.h"
-#include "taut/world/rotation.h"
+#include "taut/spec/rotation.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

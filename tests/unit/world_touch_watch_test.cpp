@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "support/timelines.h"
-#include "taut/world/bodies/net.h"
-#include "taut/world/rehearsal.h"
+#include "taut/bodies/net.h"
+#include "taut/advice/rehearsal.h"
 #include "taut/world/surface_gap.h"
-#include "taut/world/touch_doubts.h"
+#include "taut/advice/touch_doubts.h"
 
 namespace taut::world {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "support/scenes.h"
 #include "support/timelines.h"
-#include "taut/world/bodies/net.h"
+#include "taut/bodies/net.h"
 #include "taut/world/surface_gap.h"
 
 namespace taut::world {

@@ -1,0 +1,102 @@
+#include "taut/advice/encounters.h"
+
+#include <algorithm>
+
+#include "taut/core/error.h"
+#include "taut/world/impl.h"
+#include "taut/spec/ticks.h"
+#include "taut/advice/touch_doubts.h"
+
+namespace taut::world {
+namespace {
+
+// [ns] about, of what is done in a tick; counted, for a clock would not say the same twice.
+constexpr double perEvaluation = 15, perIteration = 60, perPointInstant = 80;  // and point
+constexpr double perPair = 250;
+
+class Outlook {
+  public:
+    explicit Outlook(const SceneSpec& scene) : trial_(scene) {
+        for (BodySpec& body : trial_.bodies) {
+            if (body.touch != Touch::nothing) continue;
+            silent_.insert(body.fullName());
+            body.touch = Touch::others;
+        }
+    }
+
+    Encounters look(double most) {
+        if (silent_.empty()) return {};
+        letPassWhatStartsInEachOther();
+        World world(trial_);
+        WorldImpl& w = WorldAccess::of(world);
+        if (w.islands.size() + w.waiting.size() < 2 || !w.touchesAny()) return found_;
+        const std::int64_t last = Ticks(trial_.run).last();
+        double work = 0;
+        try {
+            while (world.tick() < last && work < most && !world.advance()) {
+                for (const BodyContact& c : w.touchWatch.contacts()) add(*c.first, *c.second);
+                for (const contact::Crossing& c : w.touching->crossingsBefore()) add(*w.touching, c);
+                work = workOf(w);
+            }
+        } catch (const core::Error& error) {
+            if (error.kind() != core::ErrorKind::badContent) throw;
+        }
+        found_.seen = world.time();
+        return found_;
+    }
+
+  private:
+    void letPassWhatStartsInEachOther() {
+        World world(trial_);
+        WorldImpl& w = WorldAccess::of(world);
+        if (!w.touchesAny()) return;
+        for (const BodyCrossing& c : w.crossings()) add(*c.ofEdge, *c.ofTriangle);
+        for (const auto& [surfaces, points] : pointsInOnePlace(*w.touching))
+            add(w.touching->bodyOf(surfaces.first), w.touching->bodyOf(surfaces.second));
+        for (BodySpec& body : trial_.bodies)
+            if (entangled_.contains(body.fullName())) body.touch = Touch::nothing;
+    }
+
+    void add(const Touching& touching, const contact::Crossing& crossing) {
+        const contact::Elements& elements = touching.elements();
+        const int a = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
+        const int b = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
+        if (touching.isOfBody(a) && touching.isOfBody(b)) add(touching.bodyOf(a), touching.bodyOf(b));
+    }
+
+    void add(const Body& a, const Body& b) {
+        const bool areSilent[] = {silent_.contains(a.spec->fullName()), silent_.contains(b.spec->fullName())};
+        if (a.island == b.island || (!areSilent[0] && !areSilent[1])) return;
+        if (areSilent[0]) entangled_.insert(a.spec->fullName());
+        if (areSilent[1]) entangled_.insert(b.spec->fullName());
+        const bool isBefore = sortsBefore(a, b);
+        found_.pairs.emplace((isBefore ? a : b).fullName(), (isBefore ? b : a).fullName());
+    }
+
+    // Of all ticks so far [ns].
+    double workOf(const WorldImpl& world) {
+        const ContactInfo contact = world.touching->info();
+        contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.located);
+        double work = contactWork_;
+        for (const auto& island : world.islands) {
+            const ode::Work own = island->work();
+            work += static_cast<double>(island->plan().points.size()) *
+                    (perEvaluation * static_cast<double>(own.evaluations) +
+                     perIteration * static_cast<double>(own.iterations));
+        }
+        return work;
+    }
+
+    SceneSpec trial_;
+    std::set<std::string> silent_, entangled_;  // specs of bodies
+    double contactWork_ = 0;                    // [ns]
+    Encounters found_;
+};
+
+}  // namespace
+
+Encounters encounters(const SceneSpec& scene, double most) {
+    return Outlook(scene).look(most);
+}
+
+}  // namespace taut::world

@@ -1,0 +1,135 @@
+#include "taut/advice/rehearsal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "taut/core/error.h"
+#include "taut/advice/encounters.h"
+#include "taut/world/impl.h"
+#include "taut/spec/kinds.h"
+#include "taut/advice/pins.h"
+#include "taut/advice/start_doubts.h"
+#include "taut/spec/ticks.h"
+
+namespace taut::world {
+namespace {
+
+constexpr double mostPointSteps = 2e7;  // of playing: about a second
+
+struct Refusal {
+    std::int64_t tick = 0;
+    std::string message;
+    bool isCertain = false;  // wherever bodies will be
+};
+
+// Whether what the action finds does not depend on where bodies are.
+bool isPlaceless(const ActionSpec& action) {
+    if (const auto* cut = dynamic_cast<const CutAction*>(&action)) return cut->from.has_value();
+    if (const auto* grab = dynamic_cast<const GrabAction*>(&action)) return !grab->near && grab->radius == 0;
+    const auto* points = dynamic_cast<const PointsAction*>(&action);
+    return points != nullptr ? !points->near : builtInActions().find(action.kind()) != nullptr;
+}
+
+// A hand whose grab was refused can neither be led nor let go; that has been said.
+bool followsFromAnother(const ActionSpec& action, const std::vector<Refusal>& before) {
+    const bool isOfHand =
+        dynamic_cast<const MoveAction*>(&action) != nullptr || dynamic_cast<const ReleaseAction*>(&action) != nullptr;
+    return isOfHand && !before.empty();
+}
+
+std::vector<Refusal> refusals(World& world, Pins& pins) {
+    WorldImpl& w = WorldAccess::of(world);
+    const Ticks ticks(w.start->run);
+    std::vector<Refusal> all;
+    for (const ActionSpec& action : w.start->actions) {
+        w.tick = ticks.at(action.t);
+        if (w.tick >= ticks.last()) break;
+        try {
+            action.perform(world);
+            pins.look(world);
+        } catch (const core::Error& error) {
+            if (error.kind() != core::ErrorKind::badContent) throw;
+            if (!followsFromAnother(action, all))
+                all.push_back({w.tick, error.what(), w.tick == 0 || isPlaceless(action)});
+        }
+    }
+    return all;
+}
+
+enum class Outcome { refused, fine, unknown };
+
+void warnOfEncounters(const SceneSpec& scene, Rehearsal& rehearsal) {
+    constexpr std::size_t most = 8;
+    const auto [pairs, seen] = encounters(scene);
+    std::size_t count = 0;
+    for (const auto& [a, b] : pairs)
+        if (++count <= most)
+            rehearsal.warnings.push_back(a + " and " + b +
+                                         " come into each other's way and pass through each other: give both touch = "
+                                         "\"others\", keep them apart, or tie them by a joint");
+    if (count > most)
+        rehearsal.warnings.push_back(std::to_string(count - most) + " more pairs of bodies come into each other's way");
+    if (seen > 0 && seen < 0.99 * scene.run.seconds)
+        rehearsal.advice.push_back(fmt::format("bodies were followed up to {:.2g} s to see which meet", seen));
+}
+
+// Plays up to the end of that tick; why it was refused into `why`.
+Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why) {
+    World world(scene);
+    double pointSteps = 0;
+    for (const auto& island : WorldAccess::of(world).islands)
+        pointSteps += static_cast<double>(island->plan().points.size()) * world.tickSeconds() / island->step();
+    if (pointSteps * static_cast<double>(tick + 1) > mostPointSteps) return Outcome::unknown;
+    try {
+        while (world.tick() <= tick)
+            if (world.advance()) return Outcome::unknown;
+    } catch (const core::Error& error) {
+        if (error.kind() != core::ErrorKind::badContent) throw;
+        why = error.what();
+        return Outcome::refused;
+    }
+    return Outcome::fine;
+}
+
+}  // namespace
+
+Rehearsal rehearse(const SceneSpec& scene) {
+    Rehearsal rehearsal;
+    World world(scene);
+    warnOfEncounters(scene, rehearsal);
+    for (std::string& doubt : startDoubts(world)) rehearsal.warnings.push_back(std::move(doubt));
+    for (const auto& island : WorldAccess::of(world).islands)
+        if (!island->fault().empty()) rehearsal.faults.push_back(island->fault());
+    for (const IslandInfo& island : world.islands())
+        rehearsal.advice.insert(rehearsal.advice.end(), island.advice.begin(), island.advice.end());
+    for (const std::string& warning : world.warnings())
+        if (std::none_of(rehearsal.faults.begin(), rehearsal.faults.end(),
+                         [&](const std::string& fault) { return fault.find(warning) != std::string::npos; }))
+            rehearsal.warnings.push_back(warning);
+    std::optional<std::int64_t> lastDoubtful;
+    std::vector<std::string> doubts;
+    Pins pins;
+    pins.look(world);
+    const std::vector<Refusal> refused = refusals(world, pins);
+    rehearsal.warnings.insert(rehearsal.warnings.end(), pins.warnings().begin(), pins.warnings().end());
+    for (const Refusal& refusal : refused) {
+        if (refusal.isCertain) {
+            rehearsal.faults.push_back(refusal.message);
+            continue;
+        }
+        lastDoubtful = refusal.tick;
+        doubts.push_back(asWarning(refusal.message) + " (where it is as the scene starts)");
+    }
+    if (!lastDoubtful || !rehearsal.faults.empty()) return rehearsal;
+    std::string why;
+    switch (play(scene, *lastDoubtful, why)) {
+        case Outcome::refused: rehearsal.faults.push_back(why); break;
+        case Outcome::unknown: rehearsal.warnings.insert(rehearsal.warnings.end(), doubts.begin(), doubts.end()); break;
+        case Outcome::fine: break;
+    }
+    return rehearsal;
+}
+
+}  // namespace taut::world

@@ -1,0 +1,99 @@
+#include "taut/advice/start_doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/bodies/net.h"
+#include "taut/forces/wind.h"
+#include "taut/world/impl.h"
+#include "taut/spec/motion.h"
+#include "taut/advice/touch_doubts.h"
+
+namespace taut::world {
+namespace {
+
+constexpr double strongestStorm = 120;  // [m/s] the fastest gust measured near the ground had 113
+constexpr double mostStrain = 0.5;
+constexpr int mostSteps = 1000;  // a tick
+
+void doubtWinds(const WorldImpl& world, std::vector<std::string>& doubts) {
+    for (const WindSpec& wind : world.spec.forces.of<WindSpec>()) {
+        const double speed = std::sqrt(glm::dot(wind.velocity, wind.velocity)) + std::abs(wind.gustAmplitude);
+        if (!(speed > strongestStorm)) continue;
+        doubts.push_back(asWarning(at(wind.source)) +
+                         fmt::format("wind.{} blows at up to {:.4g} m/s, faster than any storm; a gale has 20 to 30",
+                                     wind.name, speed));
+    }
+}
+
+// Wherever keyframes lead cameras and colliders.
+void doubtCameras(WorldImpl& world, std::vector<std::string>& doubts) {
+    constexpr int moments = 100;
+    for (const CameraSpec& camera : world.spec.cameras)
+        for (int k = 0; k <= moments; ++k) {
+            const double t = world.spec.run.seconds * k / moments;
+            collision::Colliders all;
+            std::vector<const ColliderSpec*> specs;
+            world.registry.each<ColliderPart>([&](ecs::Entity, const ColliderPart& part) {
+                all.add(part.model->shape, {}, poseAt(part.spec, t));
+                specs.push_back(&part.spec);
+            });
+            const int found = all.inside(cameraAt(camera, t).eye).collider;
+            if (found < 0) continue;
+            doubts.push_back(asWarning(at(camera.source)) +
+                             fmt::format("camera.{} is inside collider.{} at {:.3g} s, and sees little else; move "
+                                         "one of them",
+                                         camera.name, specs[static_cast<std::size_t>(found)]->name, t));
+            break;
+        }
+}
+
+void doubtStrains(const Island& island, std::vector<std::string>& doubts) {
+    const IslandPlan& plan = island.plan();
+    struct Longest {
+        double strain = mostStrain, length = 0, restLength = 0;
+    };
+    std::vector<Longest> longest(plan.bodies.size());
+    for (std::size_t i = 0; i < plan.springs.size(); ++i) {
+        const mechanics::Spring& s = plan.springs[i];
+        if (plan.origins[i].body < 0 || s.kind == mechanics::SpringKind::bend || !(s.restLength > 0)) continue;
+        const double length = lengthOf(s, plan.positions), strain = length / s.restLength - 1;
+        Longest& of = longest[static_cast<std::size_t>(plan.origins[i].body)];
+        if (strain > of.strain) of = {strain, length, s.restLength};
+    }
+    for (std::size_t b = 0; b < longest.size(); ++b)
+        if (longest[b].length > 0 && plan.bodies[b]->kind() != NetSpec::kindName)  // says it of every spring
+            doubts.push_back(asWarning(at(plan.bodies[b]->spec->source)) +
+                             fmt::format("{} starts with a strain of {:.2g}: a spring of it is {:.3g} m long, and "
+                                         "{:.3g} m at rest; bring its ends together, or make it longer",
+                                         plan.bodies[b]->fullName(), longest[b].strain, longest[b].length,
+                                         longest[b].restLength));
+}
+
+void doubtSteps(const Island& island, double ticksPerSecond, std::vector<std::string>& doubts) {
+    if (island.substeps() <= mostSteps) return;
+    const Body& body = *island.plan().bodies.front();
+    doubts.push_back(
+        asWarning(at(body.spec->source)) +
+        fmt::format("{} needs {} steps a tick, {:.2g} million a second: take less stiffness or damping, larger cells "
+                    "or more mass, or an implicit method with a dt",
+                    body.fullName(), island.substeps(), 1e-6 * ticksPerSecond * island.substeps()));
+}
+
+}  // namespace
+
+std::vector<std::string> startDoubts(World& world) {
+    WorldImpl& w = WorldAccess::of(world);
+    std::vector<std::string> doubts = touchDoubts(world);
+    doubtWinds(w, doubts);
+    doubtCameras(w, doubts);
+    for (const auto& island : w.islands) {
+        doubtStrains(*island, doubts);
+        doubtSteps(*island, w.ticksPerSecond, doubts);
+    }
+    return doubts;
+}
+
+}  // namespace taut::world

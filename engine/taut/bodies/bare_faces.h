@@ -1,0 +1,15 @@
+// What cuts and tears bare of the inside of a block.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "taut/bodies/body.h"
+
+namespace taut::world {
+
+// (triangles) points of the model, counter-clockwise seen from outside: faces of whole tetrahedra that neither another
+// whole one nor the surface has. In the order of the model's cells. Expects damage that has been assessed.
+std::vector<std::array<int, 3>> bareFaces(const Body& body);
+
+}  // namespace taut::world

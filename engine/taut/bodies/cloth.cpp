@@ -1,0 +1,147 @@
+#include "taut/bodies/cloth.h"
+
+#include <cmath>
+
+#include "taut/core/error.h"
+#include "taut/fields/problems.h"
+#include "taut/mechanics/builders.h"
+#include "taut/spec/common_rows.h"
+#include "taut/spec/rotation.h"
+#include "taut/spec/spec.h"
+
+namespace taut::world {
+
+using fields::FieldList;
+using fields::Role;
+using fields::Section;
+
+namespace {
+
+dvec3 unit(const dvec3& v) {
+    return v / std::sqrt(glm::dot(v, v));
+}
+
+mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scene) {
+    const auto found = scene.materials.find(spec.material);
+    if (found == scene.materials.end() && !spec.material.empty())
+        throw core::Error(core::ErrorKind::badContent, at(spec.source) + "no [material." + spec.material + "]");
+    const MaterialSpec m = found == scene.materials.end() ? MaterialSpec{} : found->second;
+    return {.density = m.density,
+            .stretch = m.stretch,
+            .shear = m.shear.value_or(0.5 * m.stretch),
+            .bend = m.bend,
+            .dampingTime = m.dampingTime,
+            .dragRate = m.drag,
+            .lumping = m.lumping};
+}
+
+mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {
+    mechanics::MeshClothShape shape;
+    const glm::dquat turn = rotationOf(spec.rotation);
+    for (const dvec3& x : spec.meshData->positions)
+        shape.positions.push_back(spec.position + rotated(turn, spec.scale * x));
+    shape.uv = spec.meshData->uv;
+    shape.triangles = spec.meshData->triangles;
+    shape.groups = spec.meshData->groups;
+    shape.numbers = spec.meshData->numbers;
+    return shape;
+}
+
+}  // namespace
+
+Section ClothSpec::section() {
+    Section section;
+    section.help = "A cloth: a grid, or a mesh from an OBJ file.";
+    section.variant = [](const fields::Node& table) -> std::string {
+        return table.find("mesh") != nullptr ? "a cloth from a mesh" : "a cloth grid";
+    };
+    const std::vector<std::string> grid{"a cloth grid"}, mesh{"a cloth from a mesh"};
+    section.fields =
+        FieldList<ClothSpec>()
+            .text("material", &ClothSpec::material, Role::material, "Name of its material.")
+            .required()
+            .vector("size", &ClothSpec::size, "m", lengthRange, "Across and down.")
+            .only(grid)
+            .vector("cells", &ClothSpec::cells, "", countRange, "Number of cells across and down.")
+            .only(grid)
+            .vector("origin", &ClothSpec::origin, "m", placeRange, "Top left corner.")
+            .only(grid)
+            .direction("across", &ClothSpec::across, "Direction from left to right; any length.")
+            .only(grid)
+            .direction("down", &ClothSpec::down, "Direction from top to bottom; any length.")
+            .only(grid)
+            .text("mesh", &ClothSpec::mesh, Role::mesh, "OBJ file; its groups and objects (g, o) are names of points.")
+            .only(mesh)
+            .vector("position", &ClothSpec::position, "m", placeRange, "Where the file's origin lies.")
+            .only(mesh)
+            .rotation("rotation_deg", &ClothSpec::rotation, "About x, then y, then z.")
+            .only(mesh)
+            .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+            .only(mesh)
+            .take();
+    section.check = [](const fields::CheckInput& input, void* target) {
+        auto& cloth = *static_cast<ClothSpec*>(target);
+        if (input.table.find("across") == nullptr && input.table.find("down") == nullptr) return;
+        cloth.across /= std::sqrt(glm::dot(cloth.across, cloth.across));
+        cloth.down /= std::sqrt(glm::dot(cloth.down, cloth.down));
+        const double slant = glm::dot(cloth.across, cloth.down);
+        if (std::abs(slant) <= 1e-3) {
+            cloth.down -= slant * cloth.across;
+            cloth.down /= std::sqrt(glm::dot(cloth.down, cloth.down));
+            return;
+        }
+        const bool namesDown = input.table.find("down") != nullptr;
+        input.problems.addError(input.at(namesDown ? "down" : "across"), "across and down must be at right angles",
+                                namesDown ? "" : "give down too; it is [0, -1, 0] now");
+    };
+    return section;
+}
+
+mechanics::Model ClothSpec::build(const SceneSpec& scene) const {
+    const mechanics::ClothMaterial made = materialOf(*this, scene);
+    if (!meshData) {
+        const dvec3 u = unit(across);
+        const dvec3 v = unit(down - glm::dot(down, u) * u);
+        return mechanics::buildCloth({origin, u, v, size, cells, made});
+    }
+    mechanics::MeshClothShape shape = shapeOf(*this);
+    shape.material = made;
+    try {
+        return mechanics::buildMeshCloth(shape);
+    } catch (const mechanics::MeshFault& fault) {
+        const auto triangle = static_cast<std::size_t>(fault.triangle);  // of none: larger than any
+        const std::string line =
+            triangle < meshData->lines.size() ? ":" + std::to_string(meshData->lines[triangle]) : "";
+        throw core::Error(fault.kind(),
+                          at(source) + "cannot use this mesh: " + mesh + line + ": error: " + fault.what());
+    }
+}
+
+PlasticitySpec ClothSpec::plasticityIn(const SceneSpec& scene) const {
+    const auto found = scene.materials.find(material);
+    return found == scene.materials.end() ? PlasticitySpec{} : found->second.plasticity;
+}
+
+BodyOutline ClothSpec::outline(const SceneSpec&) const {
+    BodyOutline outline;
+    outline.hasSurface = true;
+    outline.isGrid = mesh.empty();
+    if (meshData) {
+        outline.points = static_cast<double>(meshData->positions.size());
+        outline.springs = 3.0 * static_cast<double>(meshData->triangles.size());
+    } else {
+        const double x = cells.x, y = cells.y;
+        outline.points = (x + 1) * (y + 1);
+        outline.springs = 6.0 * x * y + x + y;
+    }
+    outline.groups = outline.isGrid ? mechanics::clothGroups() : mechanics::meshClothGroups();
+    if (meshData)
+        for (const auto& group : meshData->groups) outline.groups.push_back(group.first);
+    return outline;
+}
+
+Kind<BodySpec> clothKind() {
+    return bodyKind<ClothSpec>();
+}
+
+}  // namespace taut::world

@@ -1,0 +1,242 @@
+#include "taut/bodies/drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "taut/core/srgb.h"
+#include "taut/view/tube.h"
+#include "taut/bodies/skin_pieces.h"
+
+namespace taut::world {
+namespace {
+
+constexpr int rodSides = 10;
+
+// The block's own axes, so that a pattern lies along its edges however it starts.
+struct BlockAxes {
+    BlockAxes() = default;
+    explicit BlockAxes(const mechanics::Model& model) {
+        const auto centre = [&](const char* group) {
+            glm::dvec3 sum(0.0);
+            for (int i : model.groups.at(group)) sum += model.positions[static_cast<std::size_t>(i)];
+            return sum / static_cast<double>(model.groups.at(group).size());
+        };
+        static constexpr const char* ends[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
+        for (int a = 0; a < 3; ++a) axes[a] = glm::normalize(centre(ends[a][1]) - centre(ends[a][0]));
+    }
+    // The two coordinates along a side of a place where it is before anything moves [m].
+    glm::vec2 across(const glm::dvec3& rest, int side) const {
+        const glm::dvec3 x = transpose(axes) * rest;
+        if (side < 2) return {x.z, x.y};
+        if (side < 4) return {x.x, x.z};
+        return {x.x, x.y};
+    }
+    // The side that a face with this normal is most like.
+    int sideLike(const glm::dvec3& normal) const {
+        const glm::dvec3 n = glm::abs(transpose(axes) * normal);
+        return n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 2 : 4;
+    }
+    glm::dmat3 axes{1.0};  // columns
+};
+
+Skin wholeSkin(const mechanics::Model& model) {
+    Skin skin;
+    for (int i = 0; i < model.pointCount(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        skin.vertices.push_back({{{i, 1.0F}}, model.positions[k], model.uv[k]});
+    }
+    for (std::size_t t = 0; t < model.triangles.size(); ++t)
+        skin.triangles.push_back({model.triangles[t], static_cast<int>(t)});
+    return skin;
+}
+
+// The vertices of a mesh file in its order, for who knows them by it; none if the body is made of none.
+std::vector<int> orderInFile(const BodySpec& spec) {
+    const MeshSource* source = spec.meshSource();
+    if (source == nullptr || source->meshData == nullptr) return {};
+    const std::vector<int>& numbers = source->meshData->numbers;
+    std::vector<int> order(numbers.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+        return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)];
+    });
+    return order;
+}
+
+// Cloth, and the skin of a block. A block's faces get vertices of their own, so that its edges stay edges.
+class SkinDrawing final : public BodyDrawing {
+  public:
+    SkinDrawing(const Body& body, bool twoSided)
+        : name_(body.fullName()),
+          twoSided_(twoSided),
+          hem_(twoSided ? static_cast<float>(body.spec->finish.hem) : 0.0F),
+          finish_(finishOf(body.spec->finish)) {
+        auto topology = std::make_shared<view::Topology>();
+        const mechanics::Model& model = body.model;
+        const Skin skin = body.damage.isEmpty() ? wholeSkin(model) : skinOf(body);
+        const BlockAxes axes = twoSided_ ? BlockAxes{} : BlockAxes(model);
+        std::map<std::pair<int, int>, std::uint32_t> vertexOf;  // (vertex of the skin, side of the block)
+        const auto vertexAt = [&](int v, int side) {
+            const SkinVertex& vertex = skin.vertices[static_cast<std::size_t>(v)];
+            const auto [entry, isNew] = vertexOf.try_emplace({v, side}, static_cast<std::uint32_t>(points_.size()));
+            if (isNew) {
+                if (vertex.terms.size() > 1) beyond_.push_back({points_.size(), vertex});
+                points_.push_back(vertex.terms.front().point);
+                topology->uv.push_back(twoSided_ ? along(model, vertex.uv)
+                                                 : axes.across(vertex.rest, side % sidesOfBlock));
+            }
+            return entry->second;
+        };
+        if (body.damage.isEmpty())
+            for (int v : orderInFile(*body.spec)) vertexAt(v, 0);
+        for (const SkinTriangle& triangle : skin.triangles) {
+            // The faces of cuts are sides of their own.
+            const bool isCut = triangle.source < 0;
+            const int side = twoSided_ ? 0
+                             : isCut   ? sidesOfBlock + axes.sideLike(normalOf(skin, triangle))
+                                       : sideOf(model, model.triangles[static_cast<std::size_t>(triangle.source)]);
+            for (int v : triangle.vertices) topology->triangles.push_back(vertexAt(v, side));
+        }
+        topology_ = topology;
+    }
+
+    void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
+        auto geometry = std::make_shared<view::Geometry>();
+        for (int point : points_) geometry->positions.push_back(positions[static_cast<std::size_t>(point)]);
+        for (const auto& [vertex, terms] : beyond_) geometry->positions[vertex] = terms.at(positions);
+        geometry->normals.resize(points_.size());
+        view::smoothNormals(geometry->positions, topology_->triangles, geometry->normals);
+        view::Surface surface;
+        surface.name = name_;
+        surface.topology = topology_;
+        surface.geometry = geometry;
+        surface.finish = finish_;
+        surface.twoSided = twoSided_;
+        surface.hem = hem_;
+        surfaces.push_back(std::move(surface));
+    }
+
+  private:
+    static constexpr int sidesOfBlock = 6;
+
+    static glm::dvec3 normalOf(const Skin& skin, const SkinTriangle& triangle) {
+        const auto at = [&](std::size_t i) {
+            return skin.vertices[static_cast<std::size_t>(triangle.vertices[i])].rest;
+        };
+        return glm::cross(at(1) - at(0), at(2) - at(0));
+    }
+    // Which of the six sides of a block a triangle lies on, by the groups of its corners.
+    static int sideOf(const mechanics::Model& model, const std::array<int, 3>& triangle) {
+        static constexpr const char* sides[] = {"left", "right", "bottom", "top", "back", "front"};
+        for (int side = 0; side < sidesOfBlock; ++side) {
+            const std::vector<int>& group = model.groups.at(sides[side]);
+            if (std::all_of(triangle.begin(), triangle.end(),
+                            [&](int p) { return std::binary_search(group.begin(), group.end(), p); }))
+                return side;
+        }
+        return 0;
+    }
+    // Pictures are laid with v upwards; a grid counts it downwards from its top.
+    static glm::vec2 along(const mechanics::Model& model, const glm::dvec2& material) {
+        const glm::vec2 uv(material);
+        return model.grid[0] > 0 ? glm::vec2(uv.x, -uv.y) : uv;
+    }
+
+    std::string name_;
+    bool twoSided_;
+    float hem_;  // [m]
+    std::shared_ptr<const view::Finish> finish_;
+    std::vector<int> points_;                                 // (vertices) point of the model
+    std::vector<std::pair<std::size_t, SkinVertex>> beyond_;  // vertices at a cut, beyond any point
+    std::shared_ptr<const view::Topology> topology_;
+};
+
+// Springs as rods, points as balls.
+class RodDrawing final : public BodyDrawing {
+  public:
+    RodDrawing(const Body& body, double radius, double ball)
+        : name_(body.fullName()), radius_(static_cast<float>(radius)), finish_(finishOf(body.spec->finish)) {
+        for (const mechanics::Spring& s : body.model.springs) {
+            if (body.damage.isSevered(s.a, s.b)) continue;
+            rods_.push_back({s.a, s.b});
+            rodTopology_.push_back(std::make_shared<view::Topology>(
+                view::tubeTopology(2, 1, rodSides, static_cast<float>(std::max(s.restLength, 1e-3)), radius_)));
+        }
+        FinishSpec ballFinish = body.spec->finish;
+        ballFinish.colour = body.spec->finish.accent;
+        ballFinish.pattern = view::Pattern::plain;
+        ballFinish_ = finishOf(ballFinish);
+        for (int i = 0; ball > 0 && i < body.model.pointCount(); ++i) {
+            // Balls grow with the cube root of their mass, so that a heavier one looks it.
+            const double size = ball * std::cbrt(body.model.masses[static_cast<std::size_t>(i)]);
+            balls_.push_back(view::sphereMesh(static_cast<float>(size)));
+        }
+    }
+    void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
+        for (std::size_t i = 0; i < rods_.size(); ++i) {
+            const std::array<glm::vec3, 2> line{positions[static_cast<std::size_t>(rods_[i].first)],
+                                                positions[static_cast<std::size_t>(rods_[i].second)]};
+            view::Surface rod;
+            rod.name = name_;
+            rod.topology = rodTopology_[i];
+            rod.geometry = std::make_shared<view::Geometry>(view::tubeGeometry(line, 1, rodSides, radius_));
+            rod.finish = finish_;
+            rod.tubeRadius = radius_;
+            surfaces.push_back(std::move(rod));
+        }
+        for (std::size_t i = 0; i < balls_.size(); ++i) {
+            view::Surface ball;
+            ball.name = name_;
+            ball.topology = balls_[i].topology;
+            ball.geometry = balls_[i].geometry;
+            ball.finish = ballFinish_;
+            ball.transform[3] = glm::vec4(positions[i], 1.0F);
+            surfaces.push_back(std::move(ball));
+        }
+    }
+
+  private:
+    std::string name_;
+    float radius_;
+    std::shared_ptr<const view::Finish> finish_, ballFinish_;
+    std::vector<std::pair<int, int>> rods_;
+    std::vector<std::shared_ptr<const view::Topology>> rodTopology_;
+    std::vector<view::Mesh> balls_;
+};
+
+}  // namespace
+
+glm::vec3 linearColour(const dvec3& srgb) {
+    return glm::vec3(dvec3(core::lightOf(srgb.x), core::lightOf(srgb.y), core::lightOf(srgb.z)));
+}
+
+std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec) {
+    auto finish = std::make_shared<view::Finish>();
+    finish->front = linearColour(spec.colour);
+    finish->back = spec.backColour ? linearColour(*spec.backColour) : glm::mix(finish->front, glm::vec3(0.5F), 0.5F);
+    finish->accent = linearColour(spec.accent);
+    finish->pattern = spec.pattern;
+    finish->repeat = static_cast<float>(spec.repeat);
+    finish->weave = static_cast<float>(spec.weave);
+    finish->thread = static_cast<float>(spec.thread);
+    finish->roughness = static_cast<float>(spec.roughness);
+    finish->sheen = static_cast<float>(spec.sheen);
+    finish->texture = spec.texture;
+    return finish;
+}
+
+std::unique_ptr<BodyDrawing> sheetDrawing(const Body& body) {
+    return std::make_unique<SkinDrawing>(body, true);
+}
+
+std::unique_ptr<BodyDrawing> rodDrawing(const Body& body, double radius, double ball) {
+    return std::make_unique<RodDrawing>(body, radius, ball);
+}
+
+std::unique_ptr<BodyDrawing> sidedDrawing(const Body& body) {
+    return std::make_unique<SkinDrawing>(body, false);
+}
+
+}  // namespace taut::world

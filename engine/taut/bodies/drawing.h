@@ -1,0 +1,55 @@
+// How bodies and colliders become surfaces of a picture.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "taut/collision/colliders.h"
+#include "taut/collision/shape_table.h"
+#include "taut/view/frame_view.h"
+#include "taut/view/primitives.h"
+#include "taut/bodies/body.h"
+#include "taut/spec/collider_spec.h"
+
+namespace taut::world {
+
+glm::vec3 linearColour(const dvec3& srgb);
+std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec);
+
+// Draws one body; what does not change is made once.
+class BodyDrawing {
+  public:
+    virtual ~BodyDrawing() = default;
+    // positions (points of the model) [m], in the order of authoring.
+    virtual void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const = 0;
+};
+// Of the triangles of the model: a sheet with a front and a back, or the skin of something with the groups left, right,
+// bottom, top, back and front, whose sides meet at sharp edges.
+std::unique_ptr<BodyDrawing> sheetDrawing(const Body& body);
+std::unique_ptr<BodyDrawing> sidedDrawing(const Body& body);
+// Springs as rods of this radius [m], points as balls of radius `ball` times the cube root of their mass; 0: none.
+std::unique_ptr<BodyDrawing> rodDrawing(const Body& body, double radius, double ball);
+
+// A collider's shape, for collision and for the eye.
+struct ColliderModel {
+    collision::Shape shape;
+    collision::Material material;
+    bool isGround = false;  // a level plane: drawn as the floor
+    struct Piece {
+        view::Mesh mesh;
+        glm::mat4 transform;  // from the piece to the collider
+        std::shared_ptr<const view::Finish> finish;
+    };
+    std::vector<Piece> pieces;
+};
+// A plane that mayTurn is drawn as a board, not as the floor. `all` are the scene's, on whose floors it may stand.
+// Throws core::Error(badContent) with file, line and column for a shape that cannot be built.
+std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, const collision::ShapeKinds& kinds,
+                                                       bool mayTurn, std::span<const ColliderSpec> all);
+
+glm::mat4 matrixOf(const collision::Pose& pose);
+
+}  // namespace taut::world

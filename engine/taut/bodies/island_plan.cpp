@@ -1,0 +1,399 @@
+#include "taut/bodies/island_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "taut/core/error.h"
+#include "taut/spec/spec.h"
+#include "taut/spec/targets.h"
+#include "taut/bodies/ties.h"
+
+namespace taut::world {
+namespace {
+
+using core::Error;
+using core::ErrorKind;
+
+// Disjoint sets with path halving; the smallest member stands for its set.
+class Sets {
+  public:
+    explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+    int find(int i) {
+        while (parent_[static_cast<std::size_t>(i)] != i) {
+            int& up = parent_[static_cast<std::size_t>(i)];
+            up = parent_[static_cast<std::size_t>(up)];
+            i = up;
+        }
+        return i;
+    }
+    void unite(int a, int b) {
+        a = find(a);
+        b = find(b);
+        parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+
+  private:
+    std::vector<int> parent_;
+};
+
+struct PointRef {
+    int body;
+    int point;
+};
+
+struct JointSpring {
+    PointRef a, b;
+    const JointSpec* spec;
+    double restLength;
+};
+
+class Planner {
+  public:
+    Planner(std::span<Body* const> bodies, const SceneSpec& spec)
+        : bodies_(bodies),
+          spec_(spec),
+          islands_(bodies.size()),
+          firstGlobal_(firsts(bodies)),
+          welds_(firstGlobalEnd()) {
+        for (const JointSpec& joint : spec.joints)
+            if (!isTie(joint)) addJoint(joint);
+    }
+
+    std::vector<IslandPlan> plans() {
+        std::vector<std::vector<int>> members(bodies_.size());  // by the body that stands for the set
+        for (int body = 0; body < static_cast<int>(bodies_.size()); ++body)
+            members[static_cast<std::size_t>(islands_.find(body))].push_back(body);
+        std::vector<std::vector<JointSpring>> joints(bodies_.size());
+        for (const JointSpring& joint : joints_)
+            joints[static_cast<std::size_t>(islands_.find(joint.a.body))].push_back(joint);
+        std::vector<int> numberOf(firstGlobalEnd(), -1);  // by the global point that stands for a weld
+        std::vector<IslandPlan> plans;
+        for (std::size_t root = 0; root < members.size(); ++root)
+            if (!members[root].empty()) plans.push_back(plan(members[root], joints[root], numberOf));
+        return plans;
+    }
+
+    const std::vector<JointReport>& reports() const { return reports_; }
+
+  private:
+    static std::vector<int> firsts(std::span<Body* const> bodies) {
+        std::vector<int> first;
+        int count = 0;
+        for (const Body* body : bodies) {
+            first.push_back(count);
+            count += body->model.pointCount();
+        }
+        return first;
+    }
+
+    int global(PointRef p) const { return firstGlobal_[static_cast<std::size_t>(p.body)] + p.point; }
+    Body& body(int i) const { return *bodies_[static_cast<std::size_t>(i)]; }
+    dvec3 position(PointRef p) const { return body(p.body).model.positions[static_cast<std::size_t>(p.point)]; }
+
+    std::vector<PointRef> points(const std::string& text, const Source& source) const {
+        std::vector<PointRef> found;
+        for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
+            if (names(text, body(number)))
+                for (int i : selectPoints(body(number).model, parseTarget(text).selector)) found.push_back({number, i});
+        if (found.empty()) throw Error(ErrorKind::badContent, at(source) + "\"" + text + "\" names no point");
+        return found;
+    }
+
+    void addJoint(const JointSpec& joint) {
+        const std::vector<PointRef> as = points(joint.a, joint.source);
+        std::vector<PointRef> bs = points(joint.b, joint.source);
+        const bool weld = joint.kind == JointSpec::Kind::weld;
+        JointReport& report = reports_.emplace_back();
+        report.spec = &joint;
+        std::map<std::pair<int, int>, int> pairs;  // bodies: points joined
+        std::map<int, double> reached;             // bodies on either side: how near they come to the other [m]
+        for (const PointRef& b : bs) reached.emplace(b.body, HUGE_VAL);
+        int made = 0;
+        double nearest = HUGE_VAL;
+        for (const PointRef& a : as) {
+            std::size_t best = bs.size();
+            double bestDistance = HUGE_VAL;
+            double& ownReach = reached.emplace(a.body, HUGE_VAL).first->second;
+            for (std::size_t i = 0; i < bs.size(); ++i) {
+                const dvec3 d = position(bs[i]) - position(a);
+                const double distance = std::sqrt(glm::dot(d, d));
+                if (bs[i].body == a.body) continue;
+                double& otherReach = reached.at(bs[i].body);
+                otherReach = std::min(otherReach, distance);
+                if (distance < bestDistance) {
+                    best = i;
+                    bestDistance = distance;
+                }
+            }
+            nearest = std::min(nearest, bestDistance);
+            ownReach = std::min(ownReach, bestDistance);
+            if (best == bs.size() || (weld && bestDistance > joint.reach)) continue;
+            islands_.unite(a.body, bs[best].body);
+            ++pairs[{a.body, bs[best].body}];
+            ++made;
+            if (weld) {
+                welds_.unite(global(a), global(bs[best]));
+                report.jump = std::max(report.jump, bestDistance);
+                bs.erase(bs.begin() + static_cast<std::ptrdiff_t>(best));
+            } else {
+                joints_.push_back({a, bs[best], &joint, bestDistance});
+            }
+        }
+        if (made == 0) {
+            const std::string why = std::isfinite(nearest)
+                                        ? "the nearest two points are " + std::to_string(nearest) +
+                                              " m apart, more than reach_m = " + std::to_string(joint.reach) +
+                                              "; move the bodies together, or use kind = \"spring\""
+                                        : "both sides are the same body";
+            throw Error(ErrorKind::badContent,
+                        at(joint.source) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" joins nothing: " + why);
+        }
+        for (const auto& [numbers, points] : pairs)
+            report.pairs.push_back({&body(numbers.first), &body(numbers.second), points});
+        for (const auto& [number, distance] : reached) {
+            const Body* named = &body(number);
+            if (std::none_of(report.pairs.begin(), report.pairs.end(),
+                             [&](const auto& pair) { return pair.a == named || pair.b == named; }))
+                report.loose.emplace_back(named, distance);
+        }
+    }
+
+    IslandPlan plan(const std::vector<int>& members, const std::vector<JointSpring>& joints,
+                    std::vector<int>& numberOf) {
+        IslandPlan plan;
+        for (int body : members) addBody(plan, body, numberOf);
+        for (const JointSpring& joint : joints)
+            plan.springs.push_back({pointOf(joint.a), pointOf(joint.b), joint.spec->stiffness, joint.restLength,
+                                    joint.spec->dampingTime, mechanics::SpringKind::joint});
+        plan.origins.resize(plan.springs.size());
+        plan.broken.resize(plan.springs.size(), false);
+        plan.solver = solverOf(plan);
+        return plan;
+    }
+
+    std::size_t firstGlobalEnd() const {
+        return static_cast<std::size_t>(firstGlobal_.back() + bodies_.back()->model.pointCount());
+    }
+    int pointOf(PointRef p) const { return body(p.body).pointOf[static_cast<std::size_t>(p.point)]; }
+
+    void addBody(IslandPlan& plan, int number, std::vector<int>& numberOf) {
+        Body& b = body(number);
+        const mechanics::Model& model = b.model;
+        b.firstPoint = static_cast<int>(plan.points.size());
+        b.pointOf.assign(model.positions.size(), -1);
+        bool whole = true;
+        for (int i : localOrder(model)) {
+            const auto k = static_cast<std::size_t>(i);
+            int& island = numberOf[static_cast<std::size_t>(welds_.find(global({number, i})))];
+            if (island < 0) {
+                island = static_cast<int>(plan.points.size());
+                plan.points.push_back({model.masses[k], model.dragRates[k], model.held[k]});
+                plan.positions.push_back(model.positions[k]);
+                plan.velocities.push_back(model.velocities[k]);
+            } else {
+                weldOnto(plan, island, model, k);
+                whole = false;
+            }
+            b.pointOf[k] = island;
+        }
+        b.lastPoint = static_cast<int>(plan.points.size());
+        const int row = model.grid[0] > 0 ? model.grid[0] + 1 : 0;
+        if (b.lastPoint > b.firstPoint) plan.ranges.push_back({b.firstPoint, whole ? row : 0});
+        for (std::size_t i = 0; i < model.springs.size(); ++i) {
+            mechanics::Spring spring = model.springs[i];
+            spring.a = b.pointOf[static_cast<std::size_t>(spring.a)];
+            spring.b = b.pointOf[static_cast<std::size_t>(spring.b)];
+            if (spring.a == spring.b) continue;
+            plan.springs.push_back(spring);
+            plan.origins.push_back({static_cast<int>(plan.bodies.size()), static_cast<int>(i)});
+        }
+        plan.bodies.push_back(&b);
+    }
+
+    // Two points become one: masses add, drag by mass, momentum is kept, held if either is.
+    static void weldOnto(IslandPlan& plan, int island, const mechanics::Model& model, std::size_t k) {
+        auto& point = plan.points[static_cast<std::size_t>(island)];
+        dvec3& velocity = plan.velocities[static_cast<std::size_t>(island)];
+        const double mass = point.mass + model.masses[k];
+        velocity = (point.mass * velocity + model.masses[k] * model.velocities[k]) / mass;
+        point.dragRate = (point.mass * point.dragRate + model.masses[k] * model.dragRates[k]) / mass;
+        point.mass = mass;
+        point.held = point.held || model.held[k];
+        if (point.held) velocity = dvec3(0.0);
+    }
+
+    // Grids and ropes are numbered well as they are. The points of a mesh are taken breadth first from one end of its
+    // longest side (Cuthill and McKee 1969), so that neighbours have near numbers.
+    static std::vector<int> localOrder(const mechanics::Model& model) {
+        std::vector<int> order(model.positions.size());
+        std::iota(order.begin(), order.end(), 0);
+        if (model.triangles.empty() || model.grid[0] > 0 || !model.cells.empty()) return order;
+        std::vector<std::vector<int>> neighbours(model.positions.size());
+        for (const mechanics::Spring& s : model.springs) {
+            neighbours[static_cast<std::size_t>(s.a)].push_back(s.b);
+            neighbours[static_cast<std::size_t>(s.b)].push_back(s.a);
+        }
+        dvec3 low = model.positions[0], high = low;
+        for (const dvec3& x : model.positions) {
+            low = glm::min(low, x);
+            high = glm::max(high, x);
+        }
+        const dvec3 size = high - low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+        std::vector<int> starts = order;
+        std::stable_sort(starts.begin(), starts.end(), [&](int a, int b) {
+            return model.positions[static_cast<std::size_t>(a)][axis] <
+                   model.positions[static_cast<std::size_t>(b)][axis];
+        });
+        std::vector<bool> seen(order.size(), false);
+        order.clear();
+        for (int start : starts) {
+            if (seen[static_cast<std::size_t>(start)]) continue;
+            seen[static_cast<std::size_t>(start)] = true;
+            order.push_back(start);
+            for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
+                std::vector<int>& around = neighbours[static_cast<std::size_t>(order[next])];
+                std::sort(around.begin(), around.end());
+                for (int i : around)
+                    if (!seen[static_cast<std::size_t>(i)]) {
+                        seen[static_cast<std::size_t>(i)] = true;
+                        order.push_back(i);
+                    }
+            }
+        }
+        return order;
+    }
+
+    SolverSpec solverOf(const IslandPlan& plan) const {
+        SolverSpec solver = spec_.solver;
+        const auto same = [&](const Body& a, const Body& b) { return a.spec->solver == b.spec->solver; };
+        const Body& first = *plan.bodies.front();
+        for (const Body* other : plan.bodies)
+            if (!same(first, *other))
+                throw Error(ErrorKind::badContent,
+                            at(other->spec->source) + other->fullName() + " and " + first.fullName() +
+                                " are joined but differ in their solver; give both the same `solver`");
+        solver.integrator = first.spec->solver.integrator.value_or(solver.integrator);
+        solver.safety = first.spec->solver.safety.value_or(solver.safety);
+        if (first.spec->solver.dt) solver.dt = first.spec->solver.dt;
+        solver.newtonSteps = first.spec->solver.newtonSteps.value_or(solver.newtonSteps);
+        solver.cgTolerance = first.spec->solver.cgTolerance.value_or(solver.cgTolerance);
+        solver.cgIterations = first.spec->solver.cgIterations.value_or(solver.cgIterations);
+        return solver;
+    }
+
+    std::span<Body* const> bodies_;
+    const SceneSpec& spec_;
+    Sets islands_;                  // (bodies)
+    std::vector<int> firstGlobal_;  // (bodies)
+    Sets welds_;                    // (points of all bodies)
+    std::vector<JointSpring> joints_;
+    std::vector<JointReport> reports_;  // (joints of the scene)
+};
+
+}  // namespace
+
+std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec,
+                                    std::vector<JointReport>* joints) {
+    if (bodies.empty()) return {};
+    Planner planner(bodies, spec);
+    if (joints != nullptr) *joints = planner.reports();
+    return planner.plans();
+}
+
+void takeSpringsFromModels(IslandPlan& plan) {
+    for (std::size_t s = 0; s < plan.springs.size(); ++s) {
+        const SpringOrigin& origin = plan.origins[s];
+        if (origin.body < 0 || plan.broken[s]) continue;
+        const mechanics::Model& model = plan.bodies[static_cast<std::size_t>(origin.body)]->model;
+        plan.springs[s].stiffness = model.springs[static_cast<std::size_t>(origin.spring)].stiffness;
+        plan.springs[s].dampingTime = model.springs[static_cast<std::size_t>(origin.spring)].dampingTime;
+    }
+    // Drag of welded points by mass, as the planner has it.
+    std::vector<double> mass(plan.points.size(), 0.0);
+    for (const Body* body : plan.bodies)
+        for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
+            const auto at = static_cast<std::size_t>(body->pointOf[i]);
+            const double more = body->model.masses[i];
+            double& drag = plan.points[at].dragRate;
+            drag = mass[at] == 0 ? body->model.dragRates[i]
+                                 : (mass[at] * drag + more * body->model.dragRates[i]) / (mass[at] + more);
+            mass[at] += more;
+        }
+}
+
+const ode::Methods& methodsOf(const SolverSpec& solver) {
+    return solver.methods != nullptr ? *solver.methods : ode::builtInMethods();
+}
+
+std::vector<double> inverseMassesOf(const IslandPlan& plan) {
+    std::vector<double> inverseMasses;
+    for (const mechanics::PointMass& p : plan.points) inverseMasses.push_back(p.held ? 0.0 : 1.0 / p.mass);
+    return inverseMasses;
+}
+
+std::vector<mechanics::VolumeCell> cellsOf(const Body& body) {
+    std::vector<mechanics::VolumeCell> cells;
+    for (std::size_t c = 0; c < body.model.cells.size(); ++c) {
+        if (body.damage.isCellGone(c)) continue;
+        cells.push_back(body.model.cells[c]);
+        for (int& i : cells.back().points) i = body.pointOf[static_cast<std::size_t>(i)];
+    }
+    return cells;
+}
+
+std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan) {
+    std::vector<mechanics::VolumeCell> all;
+    for (const Body* body : plan.bodies) {
+        const std::vector<mechanics::VolumeCell> cells = cellsOf(*body);
+        all.insert(all.end(), cells.begin(), cells.end());
+    }
+    return all;
+}
+
+std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
+    for (const Body* body : plan.bodies)
+        for (std::size_t i = 0; i < body->pointOf.size(); ++i)
+            if (body->pointOf[i] == point) return {body, static_cast<int>(i)};
+    return {nullptr, point};
+}
+
+std::vector<bool> heldPointsOf(const IslandPlan& plan) {
+    std::vector<bool> isHeld;
+    for (const mechanics::PointMass& p : plan.points) isHeld.push_back(p.held);
+    for (const Grip& grip : plan.grips)
+        if (grip.ofCollider && grip.rigid)
+            for (int i : grip.points) isHeld[static_cast<std::size_t>(i)] = true;
+    return isHeld;
+}
+
+bool isFree(const IslandPlan& plan, int point) {
+    return !plan.points[static_cast<std::size_t>(point)].held &&
+           std::none_of(
+               plan.grips.begin(), plan.grips.end(),
+               [&](const Grip& grip) {
+                   return grip.rigid && std::binary_search(grip.points.begin(), grip.points.end(), point);
+               });
+}
+
+double lengthOf(const mechanics::Spring& spring, std::span<const dvec3> x) {
+    const dvec3 d = x[static_cast<std::size_t>(spring.b)] - x[static_cast<std::size_t>(spring.a)];
+    return std::sqrt(glm::dot(d, d));
+}
+
+std::string describeSpring(const IslandPlan& plan, int spring) {
+    static constexpr const char* kinds[] = {"structural", "shear", "bend", "joint"};
+    const mechanics::Spring& s = plan.springs[static_cast<std::size_t>(spring)];
+    std::string text = std::string(kinds[static_cast<int>(s.kind)]) + " spring ";
+    const auto [bodyA, a] = authored(plan, s.a);
+    const auto [bodyB, b] = authored(plan, s.b);
+    text += std::to_string(a) + "–" + std::to_string(b);
+    if (bodyA != nullptr) text += " of " + bodyA->fullName();
+    if (bodyB != bodyA && bodyB != nullptr) text += " and " + bodyB->fullName();
+    return text;
+}
+
+}  // namespace taut::world

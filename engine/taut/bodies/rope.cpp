@@ -1,0 +1,167 @@
+#include "taut/bodies/rope.h"
+
+#include "taut/fields/problems.h"
+#include "taut/mechanics/builders.h"
+#include "taut/view/tube.h"
+#include "taut/bodies/body.h"
+#include "taut/spec/common_rows.h"
+#include "taut/bodies/drawing.h"
+
+namespace taut::world {
+
+using fields::Affects;
+using fields::FieldList;
+using fields::notNegative;
+using fields::positive;
+using fields::Range;
+using fields::Section;
+
+namespace {
+
+constexpr int tubeSides = 10;
+constexpr int tubeSubdivisions = 2;
+
+// A rope, or the pieces of one that has been cut. Each piece goes on straight beyond its last point up to the cut.
+class RopeDrawing final : public BodyDrawing {
+  public:
+    RopeDrawing(const RopeSpec& spec, const Body& body)
+        : name_(body.fullName()), radius_(static_cast<float>(spec.radius)), finish_(finishOf(spec.finish)) {
+        const mechanics::Model& model = body.model;
+        double length = 0;
+        for (const mechanics::Spring& s : model.springs)
+            if (s.kind == mechanics::SpringKind::structural) length += s.restLength;
+        const int last = model.pointCount() - 1;
+        const auto perSegment = static_cast<float>(length / last);
+        Piece piece;
+        for (int i = 0; i <= last; ++i) {
+            const bool isSevered = i < last && body.damage.isSevered(i, i + 1);
+            if (i < last && !isSevered) continue;
+            piece.last = i;
+            piece.after = isSevered ? static_cast<float>(body.damage.share(i, i + 1)) : 0.0F;
+            addPiece(piece, perSegment);
+            piece = {};
+            piece.first = i + 1;
+            piece.before = isSevered ? static_cast<float>(body.damage.share(i + 1, i)) : 0.0F;
+        }
+    }
+    void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
+        for (const Piece& piece : pieces_) {
+            std::vector<glm::vec3> line;
+            const auto at = [&](int i) { return positions[static_cast<std::size_t>(i)]; };
+            if (piece.before > 0)
+                line.push_back(at(piece.first) + piece.before * (at(piece.first) - at(piece.first + 1)));
+            for (int i = piece.first; i <= piece.last; ++i) line.push_back(at(i));
+            if (piece.after > 0) line.push_back(at(piece.last) + piece.after * (at(piece.last) - at(piece.last - 1)));
+            view::Surface surface;
+            surface.name = name_;
+            surface.topology = piece.topology;
+            surface.geometry =
+                std::make_shared<view::Geometry>(view::tubeGeometry(line, tubeSubdivisions, tubeSides, radius_));
+            surface.finish = finish_;
+            surface.tubeRadius = radius_;
+            surfaces.push_back(std::move(surface));
+        }
+    }
+
+  private:
+    struct Piece {
+        int first = 0, last = 0;      // points
+        float before = 0, after = 0;  // segments more at its ends
+        std::shared_ptr<const view::Topology> topology;
+    };
+    void addPiece(Piece piece, float perSegment) {
+        if (piece.last == piece.first) return;  // a point without a segment: it has no direction
+        const int points = piece.last - piece.first + 1 + (piece.before > 0 ? 1 : 0) + (piece.after > 0 ? 1 : 0);
+        const float segments = static_cast<float>(piece.last - piece.first) + piece.before + piece.after;
+        piece.topology = std::make_shared<view::Topology>(
+            view::tubeTopology(points, tubeSubdivisions, tubeSides, perSegment * segments, radius_));
+        pieces_.push_back(std::move(piece));
+    }
+
+    std::string name_;
+    float radius_;
+    std::shared_ptr<const view::Finish> finish_;
+    std::vector<Piece> pieces_;
+};
+
+Section ropePlaceSection() {
+    Section section;
+    section.fields = FieldList<RopePlaceSpec>()
+                         .vector("position", &RopePlaceSpec::position, "m", placeRange, "The place.")
+                         .required()
+                         .take();
+    return section;
+}
+
+}  // namespace
+
+Section RopeSpec::section() {
+    Section section;
+    section.help = "A rope between two points.";
+    FieldList<RopeSpec> list;
+    list.segment("ends", &RopeSpec::start, &RopeSpec::end, "Its two ends.")
+        .required()
+        .whole("segments", &RopeSpec::segments, "", countRange, "Number of segments.")
+        .number("length_m", &RopeSpec::length, "m", Range{0.0, 1e6},
+                "Natural length; 0 means the distance of the ends. A longer rope starts hanging on its catenary.")
+        .tables("through", &RopeSpec::through, ropePlaceSection(),
+                "Places that it is laid through on its way from one end to the other, in a curve, as long as that is.")
+        .number("mass_kg", &RopeSpec::mass, "kg", positive, "Mass of the whole rope.")
+        .number("stretch_N", &RopeSpec::stretch, "N", positive, "Stiffness EA: force that doubles its length.")
+        .ramps(Affects::springs)
+        .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
+        .ramps(Affects::springs);
+    section.fields = withPlasticity(withLosses(list))
+                         .number("radius", &RopeSpec::radius, "m", lengthRange,
+                                 "As it is drawn; its thickness too, if that is not given.")
+                         .choice("lumping", &RopeSpec::lumping, lumpingNames(),
+                                 "How mass is shared out: by length, or the same for every point.")
+                         .take();
+    section.check = [](const fields::CheckInput& input, void* target) {
+        auto& rope = *static_cast<RopeSpec*>(target);
+        keepRadius(input, rope.radius, rope);
+        if (!input.isClean) return;
+        if (rope.start == rope.end && rope.through.empty())
+            input.problems.addError(input.at("ends"), "the two ends are the same point");
+        if (rope.length > 0.0 && !rope.through.empty())
+            input.problems.addError(input.at("length_m"), "a rope with `through` is as long as its way",
+                                    "leave length_m out");
+    };
+    return section;
+}
+
+mechanics::Model RopeSpec::build(const SceneSpec&) const {
+    std::vector<dvec3> places;
+    for (const RopePlaceSpec& place : through) places.push_back(place.position);
+    return mechanics::buildRope({.start = start,
+                                 .end = end,
+                                 .segments = segments,
+                                 .length = length,
+                                 .through = std::move(places),
+                                 .mass = mass,
+                                 .stretch = stretch,
+                                 .bend = bend,
+                                 .dampingTime = dampingTime,
+                                 .dragRate = drag,
+                                 .lumping = lumping});
+}
+
+std::unique_ptr<BodyDrawing> RopeSpec::drawing(const Body& body) const {
+    return std::make_unique<RopeDrawing>(*this, body);
+}
+
+BodyOutline RopeSpec::outline(const SceneSpec&) const {
+    BodyOutline outline;
+    const double n = segments;
+    outline.points = n + 1;
+    outline.springs = bend > 0.0 ? 2.0 * n - 1 : n;
+    outline.isLine = true;
+    outline.groups = mechanics::ropeGroups();
+    return outline;
+}
+
+Kind<BodySpec> ropeKind() {
+    return bodyKind<RopeSpec>();
+}
+
+}  // namespace taut::world

@@ -1,0 +1,36 @@
+// A rope between two points.
+#pragma once
+
+#include "taut/spec/body_spec.h"
+#include "taut/spec/specs.h"
+
+namespace taut::world {
+
+struct RopePlaceSpec {
+    dvec3 position{0.0};  // [m]
+};
+
+struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
+    static constexpr const char* kindName = "rope";
+    dvec3 start{0.0}, end{1.0, 0.0, 0.0};  // ends = [[…], […]] in the file [m]
+    int segments = 40;
+    double length = 0.0;  // natural length [m]; 0: the distance of the ends
+    std::vector<RopePlaceSpec> through;
+    double mass = 1.0;          // [kg]
+    double stretch = 1e4;       // EA [N]
+    double bend = 0.0;          // EA of the span-2 springs [N]
+    double dampingTime = 1e-4;  // [s]
+    double drag = 0.3;          // [1/s]
+    double radius = 0.02;       // [m] drawn
+    mechanics::Lumping lumping = mechanics::Lumping::weighted;
+    PlasticitySpec plasticity{};
+
+    RopeSpec() { thickness = radius; }
+    static fields::Section section();
+    mechanics::Model build(const SceneSpec& scene) const override;
+    PlasticitySpec plasticityIn(const SceneSpec&) const override { return plasticity; }
+    BodyOutline outline(const SceneSpec&) const override;
+    std::unique_ptr<BodyDrawing> drawing(const Body& body) const override;
+};
+
+}  // namespace taut::world

@@ -1,0 +1,192 @@
+#include "taut/bodies/skin_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace taut::world {
+namespace {
+
+class Cutter {
+  public:
+    explicit Cutter(const Body& body) : model_(body.model), damage_(body.damage), fans_(model_.positions.size()) {
+        for (const mechanics::Spring& s : model_.springs)
+            if (s.kind != mechanics::SpringKind::bend && !damage_.isSevered(s.a, s.b)) held_.insert(edge(s.a, s.b));
+        for (std::size_t c = 0; c < model_.cells.size(); ++c)
+            if (!damage_.isCellGone(c)) addFan(model_.cells[c].points);
+        if (!model_.cells.empty()) return;
+        for (std::size_t t = 0; t < model_.triangles.size(); ++t)
+            if (!damage_.isTriangleGone(t)) addFan(model_.triangles[t]);
+    }
+
+    Skin cut() {
+        for (std::size_t t = 0; t < model_.triangles.size(); ++t) addTriangle(static_cast<int>(t));
+        for (std::size_t c = 0; c < model_.cells.size(); ++c)
+            if (damage_.isCellGone(c)) addCutFaces(model_.cells[c].points);
+        return std::move(skin_);
+    }
+
+  private:
+    using Corners = std::vector<int>;
+
+    static Damage::Edge edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+    const dvec3& rest(int point) const { return model_.positions[static_cast<std::size_t>(point)]; }
+
+    // The whole triangles or tetrahedra at a point, by their other corners: what the surface there is like.
+    template <std::size_t N>
+    void addFan(const std::array<int, N>& corners) {
+        for (int corner : corners) {
+            Corners others;
+            for (int other : corners)
+                if (other != corner) others.push_back(other);
+            fans_[static_cast<std::size_t>(corner)].push_back(others);
+        }
+    }
+
+    // Corners in the groups that springs still hold together, in their order.
+    template <std::size_t N>
+    std::vector<Corners> groupsOf(const std::array<int, N>& corners) const {
+        std::vector<Corners> groups;
+        for (int corner : corners) {
+            Corners merged;
+            std::erase_if(groups, [&](const Corners& group) {
+                if (std::none_of(group.begin(), group.end(), [&](int o) { return held_.count(edge(corner, o)) > 0; }))
+                    return false;
+                merged.insert(merged.end(), group.begin(), group.end());
+                return true;
+            });
+            merged.push_back(corner);
+            groups.push_back(merged);
+        }
+        return groups;
+    }
+
+    // The vertex at a point itself.
+    int vertexAt(int point) {
+        const auto [entry, isNew] = known_.try_emplace({point, -1}, static_cast<int>(skin_.vertices.size()));
+        if (isNew) skin_.vertices.push_back({{{point, 1.0F}}, rest(point), model_.uv[static_cast<std::size_t>(point)]});
+        return entry->second;
+    }
+
+    // Where the edge from a to b is severed, fastened to a.
+    int vertexBeyond(int a, int b) {
+        const auto [entry, isNew] = known_.try_emplace({a, b}, static_cast<int>(skin_.vertices.size()));
+        if (!isNew) return entry->second;
+        const double share = damage_.share(a, b);
+        const dvec2 from = model_.uv[static_cast<std::size_t>(a)], to = model_.uv[static_cast<std::size_t>(b)];
+        skin_.vertices.push_back({termsBeyond(a, share * (rest(b) - rest(a))), rest(a) + share * (rest(b) - rest(a)),
+                                  from + share * (to - from)});
+        return entry->second;
+    }
+
+    // The place at `way` [m] of the model from a, as the triangles or tetrahedra at a have carried it along: the mean
+    // over those that are whole, the more weight the less they have to be extended. Without any, a itself.
+    std::vector<SkinVertex::Term> termsBeyond(int a, const dvec3& way) const {
+        std::map<int, double> weights;
+        double sum = 0;
+        for (const Corners& others : fans_[static_cast<std::size_t>(a)]) {
+            std::vector<double> part = inCorners(a, others, way);
+            if (part.empty()) continue;
+            double size = 0;
+            for (double p : part) size += std::abs(p);
+            const double weight = 1 / (1e-3 + size);
+            sum += weight;
+            for (std::size_t i = 0; i < others.size(); ++i) {
+                weights[others[i]] += weight * part[i];
+                weights[a] -= weight * part[i];
+            }
+        }
+        std::vector<SkinVertex::Term> terms;
+        double ofA = 1;
+        for (const auto& [point, weight] : weights)
+            if (point == a)
+                ofA += weight / sum;
+            else
+                terms.push_back({point, static_cast<float>(weight / sum)});
+        terms.push_back({a, static_cast<float>(ofA)});
+        return terms;
+    }
+
+    // `way` as a combination of the edges from a to the others; least squares where they span a plane only.
+    std::vector<double> inCorners(int a, const Corners& others, const dvec3& way) const {
+        const dvec3 e = rest(others[0]) - rest(a), f = rest(others[1]) - rest(a);
+        if (others.size() == 3) {
+            const glm::dmat3 edges(e, f, rest(others[2]) - rest(a));
+            if (!(std::abs(glm::determinant(edges)) > 0)) return {};
+            const dvec3 parts = glm::inverse(edges) * way;
+            return {parts.x, parts.y, parts.z};
+        }
+        const double ee = glm::dot(e, e), ef = glm::dot(e, f), ff = glm::dot(f, f), det = ee * ff - ef * ef;
+        if (!(det > 0)) return {};
+        const double we = glm::dot(way, e), wf = glm::dot(way, f);
+        return {(ff * we - ef * wf) / det, (ee * wf - ef * we) / det};
+    }
+
+    void add(int a, int b, int c, int source) { skin_.triangles.push_back({{a, b, c}, source}); }
+
+    void addTriangle(int number) {
+        const std::array<int, 3>& t = model_.triangles[static_cast<std::size_t>(number)];
+        const std::vector<Corners> groups = damage_.isTriangleGone(static_cast<std::size_t>(number))
+                                                ? groupsOf(t)
+                                                : std::vector<Corners>{{t[0], t[1], t[2]}};
+        if (groups.size() == 1) return add(vertexAt(t[0]), vertexAt(t[1]), vertexAt(t[2]), number);
+        for (const Corners& group : groups) {
+            // The corner that stands for the group's place in the triangle's order: that alone, or that which is not in
+            // it.
+            std::size_t k = 0;
+            const auto isIn = [&](int corner) { return std::find(group.begin(), group.end(), corner) != group.end(); };
+            while (isIn(t[k]) != (group.size() == 1)) ++k;
+            const int a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+            if (group.size() == 1) {
+                add(vertexAt(a), vertexBeyond(a, b), vertexBeyond(a, c), number);
+            } else {
+                add(vertexAt(b), vertexAt(c), vertexBeyond(c, a), number);
+                add(vertexAt(b), vertexBeyond(c, a), vertexBeyond(b, a), number);
+            }
+        }
+    }
+
+    // What a cut through a tetrahedron bares of each part: a triangle, or a quadrangle between two pairs.
+    void addCutFaces(const std::array<int, 4>& corners) {
+        for (const Corners& group : groupsOf(corners)) {
+            Corners others;
+            for (int corner : corners)
+                if (std::find(group.begin(), group.end(), corner) == group.end()) others.push_back(corner);
+            std::vector<int> face;
+            if (group.size() == 2)
+                face = {vertexBeyond(group[0], others[0]), vertexBeyond(group[0], others[1]),
+                        vertexBeyond(group[1], others[1]), vertexBeyond(group[1], others[0])};
+            else
+                for (int a : group)
+                    for (int b : others) face.push_back(vertexBeyond(a, b));
+            if (face.size() < 3) continue;
+            const auto at = [&](std::size_t i) { return skin_.vertices[static_cast<std::size_t>(face[i])].rest; };
+            dvec3 inside(0.0);
+            for (int a : group) inside += rest(a) / static_cast<double>(group.size());
+            const bool isOutward = glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(0) - inside) > 0;
+            for (std::size_t i = 2; i < face.size(); ++i)
+                isOutward ? add(face[0], face[i - 1], face[i], -1) : add(face[0], face[i], face[i - 1], -1);
+        }
+    }
+
+    const mechanics::Model& model_;
+    const Damage& damage_;
+    std::vector<std::vector<Corners>> fans_;  // (points)
+    std::set<Damage::Edge> held_;             // edges with springs that are whole
+    std::map<std::pair<int, int>, int> known_;
+    Skin skin_;
+};
+
+}  // namespace
+
+glm::vec3 SkinVertex::at(std::span<const glm::vec3> positions) const {
+    glm::vec3 x(0.0F);
+    for (const Term& term : terms) x += term.weight * positions[static_cast<std::size_t>(term.point)];
+    return x;
+}
+
+Skin skinOf(const Body& body) {
+    return Cutter(body).cut();
+}
+
+}  // namespace taut::world

@@ -1,0 +1,49 @@
+// The surface of a damaged cloth or block: what is left of its triangles, and the parts of severed ones up to the
+// cut, each fastened to its own side. It knows no picture.
+//
+//      b
+//      |.          A triangle of which the edges ab and ac are severed is drawn as a, p, q and as b, c, q', p'.
+//      | .
+//   p' +  .        p and p' lie at the same share of the edge; p goes with the surface at a, p' with that at b, as if
+//   p  +   .       it went on beyond them as flat as it is there.
+//      |    .
+//      a-+-+-c
+//        q q'
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "taut/bodies/body.h"
+
+namespace taut::world {
+
+// Where a vertex is: a sum of points of the model with weights that add up to 1.
+struct SkinVertex {
+    struct Term {
+        int point;
+        float weight;
+    };
+    std::vector<Term> terms;
+    dvec3 rest{0.0};  // [m] where it is in the model
+    dvec2 uv{0.0};    // [m] along the material; of blocks unused
+    glm::vec3 at(std::span<const glm::vec3> positions) const;
+};
+
+struct SkinTriangle {
+    std::array<int, 3> vertices;
+    int source;  // triangle of the model that it is of, or -1 on the face of a cut through a block
+};
+
+struct Skin {
+    std::vector<SkinVertex> vertices;
+    std::vector<SkinTriangle> triangles;
+};
+
+// Expects damage that has been assessed.
+Skin skinOf(const Body& body);
+
+}  // namespace taut::world

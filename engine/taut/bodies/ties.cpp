@@ -1,0 +1,185 @@
+#include "taut/bodies/ties.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/core/error.h"
+#include "taut/spec/targets.h"
+
+namespace taut::world {
+namespace {
+
+[[noreturn]] void fail(const Source& source, const std::string& message) {
+    throw core::Error(core::ErrorKind::badContent, at(source) + message);
+}
+
+collision::Pose poseOf(const std::string& collider, const FindPose& find, const Source& source) {
+    const auto pose = find(collider);
+    if (!pose) fail(source, "there is no " + collider + " to tie points to; add a table [" + collider + "]");
+    return *pose;
+}
+
+// What the scene ties of one plan.
+class Tying {
+  public:
+    Tying(IslandPlan& plan, const FindPose& find) : plan_(plan), find_(find), holder_(plan.points.size()) {}
+
+    void hold(const Body& body) {
+        std::vector<int> points;
+        for (int i : body.carried) points.push_back(body.pointOf[static_cast<std::size_t>(i)]);
+        lead(body.spec->holdOn, std::move(points), body.spec->source);
+    }
+
+    void tie(const JointSpec& joint) {
+        std::vector<int> points;
+        for (const Body* body : plan_.bodies)
+            if (names(pointsOf(joint), *body))
+                for (int i : selectPoints(body->model, parseTarget(pointsOf(joint)).selector))
+                    points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
+        if (points.empty()) return;
+        if (joint.kind == JointSpec::Kind::weld) return lead(colliderOf(joint), std::move(points), joint.source);
+        sort(points);
+        Grip grip = tieTo(colliderOf(joint), poseOf(colliderOf(joint), find_, joint.source), points, plan_.positions);
+        grip.rigid = false;
+        grip.stiffness.assign(points.size(), joint.stiffness);
+        grip.damping.assign(points.size(), joint.stiffness * joint.dampingTime);
+        plan_.grips.push_back(std::move(grip));
+    }
+
+  private:
+    static void sort(std::vector<int>& points) {
+        std::sort(points.begin(), points.end());
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+    }
+
+    // Points that it has hold of already are left out.
+    void lead(const std::string& collider, std::vector<int> points, const Source& source) {
+        const collision::Pose pose = poseOf(collider, find_, source);
+        sort(points);
+        for (int i : points) {
+            const std::string& other = holder_[static_cast<std::size_t>(i)];
+            if (!other.empty() && other != collider)
+                fail(source, nameOf(i) + " is tied to " + other + " already and cannot go with " + collider +
+                                 " too; take different points");
+            if (plan_.points[static_cast<std::size_t>(i)].held)
+                fail(source, nameOf(i) + " is held in place and cannot go with " + collider +
+                                 " too; take it out of `hold`, or give the body hold_on = \"" + collider + "\"");
+        }
+        std::erase_if(points, [&](int i) { return !holder_[static_cast<std::size_t>(i)].empty(); });
+        if (points.empty()) return;
+        for (int i : points) holder_[static_cast<std::size_t>(i)] = collider;
+        plan_.grips.push_back(tieTo(collider, pose, std::move(points), plan_.positions));
+    }
+
+    std::string nameOf(int point) const {
+        const auto [body, number] = authored(plan_, point);
+        return "point #" + std::to_string(number) + " of " + body->fullName();
+    }
+
+    IslandPlan& plan_;
+    const FindPose& find_;
+    std::vector<std::string> holder_;  // (points) the collider that leads it; empty: none
+};
+
+double lengthOf(const dvec3& v) {
+    return std::sqrt(glm::dot(v, v));
+}
+
+}  // namespace
+
+bool isCollider(const std::string& target) {
+    return parseTarget(target).kind == "collider";
+}
+
+bool isTie(const JointSpec& joint) {
+    return isCollider(joint.a) || isCollider(joint.b);
+}
+const std::string& colliderOf(const JointSpec& joint) {
+    return isCollider(joint.a) ? joint.a : joint.b;
+}
+const std::string& pointsOf(const JointSpec& joint) {
+    return isCollider(joint.a) ? joint.b : joint.a;
+}
+
+void addTies(IslandPlan& plan, const SceneSpec& spec, const FindPose& find) {
+    Tying tying(plan, find);
+    for (const Body* body : plan.bodies)
+        if (!body->carried.empty()) tying.hold(*body);
+    for (const JointSpec& joint : spec.joints)
+        if (isTie(joint)) tying.tie(joint);
+}
+
+void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const FindPose& find) {
+    for (const JointSpec& joint : spec.joints) {
+        if (!isTie(joint)) continue;
+        if (isCollider(joint.a) && isCollider(joint.b))
+            fail(joint.source, "both sides of the joint \"" + joint.a + "\" – \"" + joint.b +
+                                   "\" are colliders; one has to be points of a body");
+        poseOf(colliderOf(joint), find, joint.source);
+        const std::vector<Body*> named = matchBodies(bodies, pointsOf(joint));
+        const std::string selector = parseTarget(pointsOf(joint)).selector;
+        if (std::all_of(named.begin(), named.end(),
+                        [&](const Body* body) { return selectPoints(body->model, selector).empty(); }))
+            fail(joint.source, "\"" + pointsOf(joint) + "\" names no point");
+    }
+}
+
+Grip tieTo(const std::string& collider, const collision::Pose& pose, std::vector<int> points,
+           std::span<const dvec3> x) {
+    Grip grip;
+    grip.holder = collider;
+    grip.ofCollider = true;
+    grip.rigid = true;
+    grip.points = std::move(points);
+    for (int i : grip.points)
+        grip.offsets.push_back(mechanics::PosePath::rotated(glm::conjugate(pose.rotation),
+                                                            x[static_cast<std::size_t>(i)] - pose.position));
+    grip.path = pathOf(pose, pose, 0.0, 1.0);
+    return grip;
+}
+
+bool untie(IslandPlan& plan, std::span<const int> points) {
+    bool any = false;
+    for (Grip& grip : plan.grips) {
+        if (!grip.ofCollider) continue;
+        Grip left = grip;
+        left.points.clear();
+        left.offsets.clear();
+        left.stiffness.clear();
+        left.damping.clear();
+        for (std::size_t i = 0; i < grip.points.size(); ++i) {
+            if (std::find(points.begin(), points.end(), grip.points[i]) != points.end()) continue;
+            left.points.push_back(grip.points[i]);
+            left.offsets.push_back(grip.offsets[i]);
+            if (grip.rigid) continue;
+            left.stiffness.push_back(grip.stiffness[i]);
+            left.damping.push_back(grip.damping[i]);
+        }
+        any = any || left.points.size() < grip.points.size();
+        grip = std::move(left);
+    }
+    std::erase_if(plan.grips, [](const Grip& grip) { return grip.points.empty(); });
+    return any;
+}
+
+mechanics::PosePath pathOf(const collision::Pose& from, const collision::Pose& to, double t0, double ticksPerSecond) {
+    const auto place =
+        from.position == to.position
+            ? mechanics::LinearPath{from.position, from.position}
+            : mechanics::LinearPath::line(from.position, (to.position - from.position) * ticksPerSecond, t0);
+    return {place, from.rotation, to.rotation, t0, t0 + 1.0 / ticksPerSecond};
+}
+
+bool isOther(const dvec3& a, const dvec3& b) {
+    return lengthOf(b - a) > 1e-9 * std::max(lengthOf(a), lengthOf(b));
+}
+
+bool goesOn(const mechanics::PosePath& before, const mechanics::PosePath& after, double t) {
+    constexpr double rounding = 1e-12;
+    const mechanics::PosePath::Frame a = before.at(t), b = after.at(t);
+    const glm::dquat turn = b.rotation * glm::conjugate(a.rotation);
+    return lengthOf(b.place - a.place) <= rounding * (1.0 + lengthOf(a.place)) && !isOther(a.velocity, b.velocity) &&
+           !isOther(a.spin, b.spin) && lengthOf({turn.x, turn.y, turn.z}) <= rounding;
+}
+
+}  // namespace taut::world

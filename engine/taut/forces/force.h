@@ -1,0 +1,107 @@
+// Something that acts on the points of bodies besides their springs: gravity, a wind, an anchor, one of the user's own.
+// It is told for the whole world; each island makes a generator of what it does to its own points. It knows no method.
+//
+// To add one: derive from ForceOf, give make<Real>(), and World::addForce() it; tests/unit/world_forces_test.cpp does.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "taut/mechanics/force_generator.h"
+#include "taut/bodies/island_plan.h"
+#include "taut/bodies/state_bytes.h"
+
+namespace taut::world {
+
+// A force as it is during one tick. It does not change; another takes its place.
+class Force {
+  public:
+    explicit Force(std::string name) : name_(std::move(name)) {}
+    virtual ~Force() = default;
+
+    // "wind.breeze": the same for the same force at all times, different for different ones.
+    const std::string& name() const { return name_; }
+
+    // What it does to the points of an island, numbered as in its plan; null where it does nothing. Of the plan only
+    // numbering, triangles and damage hold as long as the generator does: masses and pinned points come with Motion.
+    virtual std::unique_ptr<mechanics::ForceGenerator<float>> inSingle(const IslandPlan& plan) const = 0;
+    virtual std::unique_ptr<mechanics::ForceGenerator<double>> inDouble(const IslandPlan& plan) const = 0;
+
+    // The force during a tick from t0 to t1 [s], at whose ends it is `from` and `to` and in whose middle this. What may
+    // change evenly does; all else stays as it is in the middle. Expects the same kind.
+    virtual std::shared_ptr<const Force> during(const Force& from, const Force& to, double t0, double t1) const = 0;
+    // Whether it goes on from the one of the tick before without a jump, so that a method need not start again.
+    virtual bool goesOn(const Force& before) const = 0;
+    // Where it goes on: hands what has changed to the generator that the one before has made.
+    virtual void steer(mechanics::ForceGenerator<float>& generator) const = 0;
+    virtual void steer(mechanics::ForceGenerator<double>& generator) const = 0;
+
+    // Whether it asks a function of the program that runs this. The islands on which it acts go one after another then,
+    // in their order, and nobody promises that its bits are the same on every machine.
+    virtual bool isCallback() const { return false; }
+
+    // All that may differ from the force that the scene begins with, read or written. A copy to read into.
+    virtual void visit(StateBytes& bytes) = 0;
+    virtual std::shared_ptr<Force> copy() const = 0;
+
+  private:
+    std::string name_;
+};
+
+// Whether nothing that they save differs.
+bool hasSameBytes(const Force& a, const Force& b);
+
+// Writes what every force does alike. Of `Own` it needs
+//   template <class Real> std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan&) const;
+// the others are for forces that change while they act: visit() for all that a ramp or the force itself changes, the
+// rest for what is to change without a start anew.
+template <class Own>
+class ForceOf : public Force {
+  public:
+    using Force::Force;
+
+    std::unique_ptr<mechanics::ForceGenerator<float>> inSingle(const IslandPlan& plan) const final {
+        return own().template make<float>(plan);
+    }
+    std::unique_ptr<mechanics::ForceGenerator<double>> inDouble(const IslandPlan& plan) const final {
+        return own().template make<double>(plan);
+    }
+    std::shared_ptr<const Force> during(const Force& from, const Force& to, double t0, double t1) const final {
+        auto changing = std::make_shared<Own>(own());
+        changing->changeEvenly(dynamic_cast<const Own&>(from), dynamic_cast<const Own&>(to), t0, t1);
+        return changing;
+    }
+    bool goesOn(const Force& before) const final {
+        const Own* same = dynamic_cast<const Own*>(&before);
+        return same != nullptr && own().follows(*same);
+    }
+    void steer(mechanics::ForceGenerator<float>& generator) const final { own().template guide<float>(generator); }
+    void steer(mechanics::ForceGenerator<double>& generator) const final { own().template guide<double>(generator); }
+    void visit(StateBytes&) override {}
+    std::shared_ptr<Force> copy() const final { return std::make_shared<Own>(own()); }
+
+    // Of a force that stays as it is.
+    void changeEvenly(const Own&, const Own&, double, double) {}
+    bool follows(const Own& before) const { return hasSameBytes(*this, before); }
+    template <class Real>
+    void guide(mechanics::ForceGenerator<Real>&) const {}
+
+  private:
+    const Own& own() const { return static_cast<const Own&>(*this); }
+};
+
+// The forces of a world during a tick, in the order in which an island adds them.
+using ForceList = std::vector<std::shared_ptr<const Force>>;
+
+// Each of `middle`, changing evenly where all three have it.
+ForceList during(const ForceList& from, const ForceList& middle, const ForceList& to, double t0, double t1);
+
+// Whether all go on without a jump, none more and none less.
+bool goesOn(const ForceList& before, const ForceList& now);
+
+// Writes the forces, or reads them over those that the scene begins with: gravity, winds, anchors, then those that were
+// added, of which the world has compared the names. Throws core::Error(badContent) where the bytes have others.
+void visit(StateBytes& bytes, ForceList& forces);
+
+}  // namespace taut::world

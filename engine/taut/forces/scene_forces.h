@@ -1,0 +1,12 @@
+// The forces of a scene.
+#pragma once
+
+#include "taut/forces/force.h"
+#include "taut/spec/spec.h"
+
+namespace taut::world {
+
+// Gravity, winds, anchors, then those of other kinds: the order in which they are added up.
+ForceList sceneForces(const SceneSpec& spec);
+
+}  // namespace taut::world

@@ -1,0 +1,118 @@
+#include "taut/island/cutting.h"
+
+#include <algorithm>
+#include <set>
+
+namespace taut::world {
+namespace {
+
+// Signed distances, of any unit, from a cut to the points of a body; and whether an edge between two of them that
+// lie on different sides meets it, which for a plane it does.
+struct Knife {
+    std::vector<double> side;    // (points of the model)
+    std::vector<dvec2> place;    // (points of the model) in shares of the grid; empty for a plane
+    dvec2 from{0.0}, upTo{0.0};  // of a segment
+
+    std::optional<double> crossing(int a, int b) const {
+        const double sa = side[static_cast<std::size_t>(a)], sb = side[static_cast<std::size_t>(b)];
+        if ((sa >= 0) == (sb >= 0)) return std::nullopt;
+        const double share = sa / (sa - sb);
+        if (place.empty()) return share;
+        const dvec2 at = place[static_cast<std::size_t>(a)] +
+                         share * (place[static_cast<std::size_t>(b)] - place[static_cast<std::size_t>(a)]);
+        const dvec2 way = upTo - from;
+        const double along = glm::dot(at - from, way) / glm::dot(way, way);
+        if (along < 0 || along > 1) return std::nullopt;
+        return share;
+    }
+};
+
+Knife planeThrough(const CutAction& action, const Island& island, const Body& body) {
+    Knife knife;
+    for (int i : body.pointOf)
+        knife.side.push_back(glm::dot(island.position(i) - *action.planePoint, *action.planeNormal));
+    return knife;
+}
+
+Knife segmentOn(const CutAction& action, const Body& body) {
+    Knife knife;
+    knife.from = *action.from;
+    knife.upTo = *action.upTo;
+    const dvec2 way = knife.upTo - knife.from;
+    const int columns = body.model.grid[0] + 1;
+    for (int i = 0; i < body.model.pointCount(); ++i) {
+        const dvec2 at(static_cast<double>(i % columns) / body.model.grid[0],
+                       static_cast<double>(i / columns) / body.model.grid[1]);
+        knife.place.push_back(at);
+        knife.side.push_back(way.x * (at.y - knife.from.y) - way.y * (at.x - knife.from.x));
+    }
+    return knife;
+}
+
+// All edges of a model, each once.
+std::set<Damage::Edge> edgesOf(const mechanics::Model& model) {
+    std::set<Damage::Edge> edges;
+    const auto add = [&](int a, int b) { edges.insert({std::min(a, b), std::max(a, b)}); };
+    for (const mechanics::Spring& s : model.springs) add(s.a, s.b);
+    for (const auto& t : model.triangles)
+        for (std::size_t i = 0; i < 3; ++i) add(t[i], t[(i + 1) % 3]);
+    for (const auto& cell : model.cells)
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = i + 1; j < 4; ++j) add(cell.points[i], cell.points[j]);
+    return edges;
+}
+
+}  // namespace
+
+Crossing crossingOf(const CutAction& action, const Island& island, std::span<Body* const> bodies) {
+    Crossing crossing;
+    const IslandPlan& plan = island.plan();
+    const bool isPlane = action.planePoint.has_value() && action.planeNormal.has_value();
+    std::vector<double> side(plan.points.size(), 0.0);
+    std::vector<bool> isCut(plan.points.size(), false);
+    for (Body* body : plan.bodies) {
+        if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) continue;
+        if (!isPlane && (body->model.grid[0] == 0 || !action.from || !action.upTo)) continue;
+        const Knife knife = isPlane ? planeThrough(action, island, *body) : segmentOn(action, *body);
+        for (const auto& [a, b] : edgesOf(body->model)) {
+            if (body->damage.isSevered(a, b)) continue;
+            if (const auto share = knife.crossing(a, b)) crossing.edges.push_back({body, a, b, *share});
+        }
+        if (!isPlane) continue;
+        for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
+            const auto point = static_cast<std::size_t>(body->pointOf[i]);
+            isCut[point] = true;
+            side[point] = knife.side[i];
+        }
+    }
+    for (std::size_t s = 0; s < plan.springs.size(); ++s) {
+        const auto a = static_cast<std::size_t>(plan.springs[s].a), b = static_cast<std::size_t>(plan.springs[s].b);
+        if (plan.origins[s].body >= 0 || plan.broken[s] || !isCut[a] || !isCut[b]) continue;
+        if ((side[a] >= 0) != (side[b] >= 0)) crossing.joints.push_back(static_cast<int>(s));
+    }
+    return crossing;
+}
+
+void sever(const Crossing& crossing, IslandPlan& plan) {
+    for (const Crossing::Edge& edge : crossing.edges) edge.body->damage.sever(edge.a, edge.b, edge.share);
+    for (Body* body : plan.bodies) body->damage.assess(body->model);
+    for (int joint : crossing.joints) {
+        plan.broken[static_cast<std::size_t>(joint)] = true;
+        plan.springs[static_cast<std::size_t>(joint)].stiffness = 0;
+    }
+    breakSevered(plan);
+}
+
+void breakSevered(IslandPlan& plan) {
+    for (std::size_t s = 0; s < plan.springs.size(); ++s) {
+        const SpringOrigin& origin = plan.origins[s];
+        if (origin.body < 0 || plan.broken[s]) continue;
+        const Body& body = *plan.bodies[static_cast<std::size_t>(origin.body)];
+        const mechanics::Spring& spring = body.model.springs[static_cast<std::size_t>(origin.spring)];
+        if (!body.damage.isSevered(spring.a, spring.b)) continue;
+        plan.broken[s] = true;
+        plan.springs[s].stiffness = 0;
+    }
+}
+
+}  // namespace taut::world

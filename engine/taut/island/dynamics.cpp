@@ -1,0 +1,401 @@
+#include "taut/island/dynamics.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "taut/mechanics/anchor.h"
+#include "taut/island/island_contacts.h"
+#include "taut/island/rounding_watch.h"
+
+namespace taut::world {
+namespace {
+
+template <class Real>
+class DynamicsOf final : public Dynamics {
+  public:
+    DynamicsOf(const IslandPlan& plan, const ForceList& forces)
+        : plan_(plan),
+          system_(massesOf(plan), plan.ranges, plan.springs),
+          state_(system_.layout()),
+          bound_(system_.layout().count, system_.layout().stride),
+          contacts_(plan_, system_, state_) {
+        lead();
+        setForces(forces);
+        for (std::size_t i = 0; i < plan_.positions.size(); ++i) {
+            set(state_.x, static_cast<int>(i), plan_.positions[i]);
+            set(state_.v, static_cast<int>(i), plan_.velocities[i]);
+        }
+        velocity_ = core::AlignedArray<Real>(system_.layout().size());
+    }
+
+    void take(const Changes& changes, const ForceList& forces) override {
+        const bool isMaterial = changes.has(Change::material), isShape = changes.has(Change::shape);
+        bound_.forgetWeights();
+        if (isMaterial || isShape || changes.has(Change::lengths)) system_.setSprings(plan_.springs);
+        if (isMaterial || isShape || changes.has(Change::points) || changes.has(Change::grips)) {
+            system_.setPoints(massesOf(plan_));
+            lead();
+        }
+        if (isShape) return setForces(forces);
+        if (isMaterial) contacts_.rewatch();
+        if (isMaterial)
+            for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
+        if (isMaterial && !volumes_.empty()) bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
+        if (changes.has(Change::grips)) addGrips();
+    }
+
+    void changeSprings(std::span<const int> springs) override {
+        system_.changeSprings(springs, plan_.springs);
+        bound_.forgetWeights();
+    }
+    void watchLengths(std::span<const mechanics::LengthLimits> limits) override {
+        watch_.set(system_.network(), limits);
+    }
+    void watchLength(int spring, const mechanics::LengthLimits& limits) override {
+        watch_.change(system_.network(), spring, limits);
+    }
+    void findBeyond(std::vector<int>& springs) const override {
+        watch_.find(system_.network(), state_.layout.stride, state_.x.data(), springs);
+    }
+
+    void setForces(const ForceList& forces) override {
+        system_.removeGenerators();
+        volumes_.clear();
+        acting_.clear();
+        contacts_.rewatch();
+        for (std::size_t number = 0; number < forces.size(); ++number) {
+            if (number == 1) addVolumes();  // after gravity
+            std::unique_ptr<Generator> generator;
+            if constexpr (std::is_same_v<Real, float>)
+                generator = forces[number]->inSingle(plan_);
+            else
+                generator = forces[number]->inDouble(plan_);
+            if (!generator) continue;
+            acting_.emplace_back(number, generator.get());
+            system_.add(std::move(generator));
+        }
+        if (forces.size() < 2) addVolumes();
+        firstGrip_ = system_.generators().size();
+        addGrips();
+    }
+    bool callsBack(const ForceList& forces) const override {
+        return std::any_of(acting_.begin(), acting_.end(),
+                           [&](const auto& acting) { return forces[acting.first]->isCallback(); });
+    }
+    void steer(const ForceList& forces) override {
+        for (const auto& [number, generator] : acting_) forces[number]->steer(*generator);
+    }
+    void leadGrip(std::size_t grip) override {
+        if (anchors_[grip] != nullptr) anchors_[grip]->setPlace(plan_.grips[grip].path);
+    }
+
+    void start(double t, double h) override {
+        if (!method_) makeMethod();
+        step_ = h;
+        method_->start(system_, t, h, state_);
+        contacts_.drop();
+        std::size_t size = 0;
+        forEachPart([&](Real*, std::size_t n) { size += n; });
+        keptSize_ = size;
+    }
+    void step(double t) override {
+        time_ = t;
+        method_->step(system_, t, step_, state_);
+        speeds_ = leads_ ? ode::Speeds::unknown : method_->speeds();
+    }
+    void rememberPositions() override { contacts_.remember(); }
+    bool collide(const collision::Colliders& colliders, std::vector<collision::Contact>* contacts) override {
+        speeds_ = ode::Speeds::unknown;
+        return contacts_.collide(colliders, *method_, time_, step_, gravity(time_), contacts);
+    }
+    void place(const collision::Colliders* colliders, std::span<const int> points, std::span<dvec3> x,
+               std::span<dvec3> v) override {
+        speeds_ = ode::Speeds::unknown;
+        contacts_.place(colliders, *method_, step_, gravity(time_), points, x, v);
+    }
+    void watchContacts(bool isOn) override { contacts_.watch(isOn); }
+    ContactWork takeContactWork() override { return contacts_.takeWork(); }
+    dvec3 gravity(double t) const override {
+        dvec3 sum(0.0);
+        for (const auto& generator : system_.generators())
+            if (generator->isUniform()) sum += generator->uniformAcceleration(t);
+        return sum;
+    }
+    double freezingSpeed(double place) const override { return rounding_.freezingSpeed(place, step_); }
+    Lost lost(double seconds, double most) override {
+        return rounding_.find(state_, system_.inverseMasses(), step_, seconds, most);
+    }
+    void emerge(const collision::Colliders& colliders, std::vector<int>& inside) override {
+        contacts_.emerge(colliders, *method_, step_, emergingSpeed, inside);
+    }
+    void keep(Since moment) override {
+        std::vector<Real>& kept = kept_[static_cast<std::size_t>(moment)];
+        kept.resize(keptSize_);
+        Real* next = kept.data();
+        forEachPart([&](const Real* numbers, std::size_t n) { next = std::copy_n(numbers, n, next); });
+    }
+    void goBack(Since moment) override {
+        const Real* next = kept_[static_cast<std::size_t>(moment)].data();
+        forEachPart([&](Real* numbers, std::size_t n) {
+            std::copy_n(next, n, numbers);
+            next += n;
+        });
+        contacts_.drop();
+    }
+    void setStep(double h) override { step_ = h; }
+    mechanics::FastestNow fastestNow() override {
+        mechanics::FastestNow now = bound_(system_.network(), state_.x.data(), system_.inverseMasses());
+        now.pairs = system_.largestPairRate();
+        return now;
+    }
+    void split(bool splits) override {
+        splits_ = splits;
+        system_.split(splits);
+        method_.reset();
+    }
+    ode::Work work() const override { return method_->work(); }
+
+    std::vector<dvec3> velocities() const override { return list(state_.v); }
+    void velocities(std::span<dvec3> v) const override {
+        for (std::size_t i = 0; i < v.size(); ++i) v[i] = at(state_.v, static_cast<int>(i));
+    }
+    std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts,
+                                    std::span<const Pressed> pressed) override {
+        findVelocities(t, contacts, pressed);
+        return list(velocity_);
+    }
+    void synchronise(double t, std::span<const collision::Contact> contacts,
+                     std::span<const Pressed> pressed) override {
+        findVelocities(t, contacts, pressed);
+        std::copy(velocity_.begin(), velocity_.end(), state_.v.begin());
+    }
+    void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
+    bool isBounded() const override {
+        if (speeds_ != ode::Speeds::unknown) return speeds_ == ode::Speeds::within;
+        // Without their sign, numbers come in the order of their bits, infinity and NaN last. What is added carries
+        // those from the limit on into the sign's place. Written so, a line of the cache at a time, it takes a tenth of
+        // the time.
+        using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+        constexpr Bits sign = Bits{1} << (8 * sizeof(Real) - 1);
+        constexpr Bits room = sign - std::bit_cast<Bits>(static_cast<Real>(mechanics::speedLimit));
+        constexpr int line = static_cast<int>(core::cacheLine / sizeof(Real));
+        Bits beyond = 0;
+        for (int p = 0; p < 3; ++p) {
+            const Real* v = state_.v.data() + index(0, p);
+            for (int first = 0; first < state_.layout.count; first += line)
+                for (int i = first; i < first + line; ++i) beyond |= (std::bit_cast<Bits>(v[i]) & (sign - 1)) + room;
+        }
+        return (beyond & sign) == 0;
+    }
+    bool isTouchedBounded() const override {
+        const std::span<const int> touched = contacts_.touched();
+        // All are looked at sooner than a tenth of them is picked out.
+        if (touched.size() * 10 > static_cast<std::size_t>(state_.layout.count)) return isBounded();
+        const auto limit = static_cast<Real>(mechanics::speedLimit);
+        return std::all_of(touched.begin(), touched.end(), [&](int i) {
+            bool isBelow = true;
+            for (int p = 0; p < 3; ++p) isBelow = isBelow && std::abs(state_.v[index(i, p)]) < limit;
+            return isBelow;
+        });
+    }
+    dvec3 position(int point) const override { return at(state_.x, point); }
+    void positions(std::vector<dvec3>& x) const override {
+        x.resize(static_cast<std::size_t>(state_.layout.count));
+        positions(std::span(x));
+    }
+    void positions(std::span<dvec3> x) const override {
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = at(state_.x, static_cast<int>(i));
+    }
+
+    mechanics::StabilityShare stabilityShare(double t) const override {
+        mechanics::StabilityShare share{std::vector<double>(plan_.points.size(), 0.0),
+                                        std::vector<double>(plan_.points.size(), 0.0)};
+        for (const auto& generator : system_.generators()) generator->addStability(motion(t), share);
+        return share;
+    }
+    void addEnergies(double t, const std::vector<bool>& only, double& uniform, double& other) const override {
+        for (const auto& generator : system_.generators())
+            (generator->isUniform() ? uniform : other) += generator->potentialEnergy(motion(t), only);
+    }
+    void addStiffnessProduct(std::span<const dvec3> u, std::span<dvec3> out) const override {
+        core::AlignedArray<Real> in(state_.layout.size()), sum(state_.layout.size());
+        for (std::size_t i = 0; i < u.size(); ++i) set(in, static_cast<int>(i), u[i]);
+        for (const auto& generator : system_.generators())
+            generator->addStiffnessProduct(motion(0.0), in.data(), sum.data());
+        for (std::size_t i = 0; i < u.size(); ++i) out[i] += at(sum, static_cast<int>(i));
+    }
+    std::vector<std::pair<const Body*, mechanics::VolumeReport>> volumes(double t, bool stretches) const override {
+        std::vector<std::pair<const Body*, mechanics::VolumeReport>> all;
+        for (const auto& [body, volume] : volumes_) all.emplace_back(body, volume->inspect(motion(t), stretches));
+        return all;
+    }
+
+    void addToHash(std::span<const int> points, core::Hash& hash) const override {
+        for (const core::AlignedArray<Real>* array : {&state_.x, &state_.v})
+            for (int i : points)
+                for (int p = 0; p < 3; ++p) hash.add((*array)[index(i, p)]);
+    }
+    void visit(StateBytes& bytes) override {
+        bytes.planes(state_.x);
+        bytes.planes(state_.v);
+        auto memory = static_cast<std::uint64_t>(state_.memory.size());
+        bytes(memory);
+        bytes.require(memory == state_.memory.size());
+        for (auto& array : state_.memory) bytes.planes(array);
+        rounding_.visit(bytes, state_.x.size());
+        if (!bytes.isReading()) return;
+        contacts_.drop();
+        makeMethod();  // it has nothing of its own that the state does not have
+        for (const Since moment : {Since::tick, Since::step}) keep(moment);
+    }
+    void describe(IslandInfo& info) const override {
+        info.runs = static_cast<int>(system_.network().runs.size());
+        info.singles = system_.network().singles.size();
+        info.bytes = system_.bytes() + (3 + 2 * state_.memory.size()) * state_.layout.size() * sizeof(Real) * 2;
+    }
+
+  private:
+    using System = mechanics::MassSpringSystem<Real>;
+    using Generator = mechanics::ForceGenerator<Real>;
+    using Planes = core::AlignedArray<Real>;
+
+    static std::vector<mechanics::PointMass> massesOf(const IslandPlan& plan) {
+        std::vector<mechanics::PointMass> points = plan.points;
+        for (const Grip& grip : plan.grips)
+            if (grip.rigid)
+                for (int i : grip.points) points[static_cast<std::size_t>(i)].held = true;
+        return points;
+    }
+
+    // (points) [m]
+    static std::vector<dvec3> restPositionsOf(const IslandPlan& plan) {
+        std::vector<dvec3> rest(plan.points.size(), dvec3(0.0));
+        for (const Body* body : plan.bodies)
+            for (std::size_t i = 0; i < body->pointOf.size(); ++i)
+                rest[static_cast<std::size_t>(body->pointOf[i])] = body->model.positions[i];
+        return rest;
+    }
+
+    // Points in a rigid grip go where what holds them goes.
+    void lead() {
+        leads_ = std::any_of(plan_.grips.begin(), plan_.grips.end(), [](const Grip& grip) { return grip.rigid; });
+        for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
+            if (!plan_.grips[g].rigid) continue;
+            system_.lead({plan_.grips[g].points, [this, g](double t, std::span<dvec3> x, std::span<dvec3> v) {
+                              const Grip& grip = plan_.grips[g];
+                              const mechanics::PosePath::Frame frame = grip.path.at(t);
+                              for (std::size_t i = 0; i < x.size(); ++i) {
+                                  const dvec3 arm = frame.arm(grip.offsets[i]);
+                                  x[i] = frame.place + arm;
+                                  v[i] = frame.velocityOf(arm);
+                              }
+                          }});
+        }
+    }
+
+    // The anchors of the others, which are the last of the generators.
+    void addGrips() {
+        system_.removeGenerators(firstGrip_);
+        anchors_.clear();
+        for (const Grip& grip : plan_.grips) {
+            anchors_.push_back(nullptr);
+            if (grip.rigid) continue;
+            auto anchor = std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.place.from, grip.stiffness,
+                                                                    grip.damping, grip.offsets);
+            anchor->setPlace(grip.path);
+            anchors_.back() = anchor.get();
+            system_.add(std::move(anchor));
+        }
+    }
+
+    // What keeps the volume of each body that has cells.
+    void addVolumes() {
+        for (const Body* body : plan_.bodies) {
+            const std::vector<mechanics::VolumeCell> cells = cellsOf(*body);
+            if (cells.empty()) continue;
+            auto volume = std::make_unique<mechanics::VolumePreservation<Real>>(cells, plan_.positions,
+                                                                                body->model.workingStretch);
+            volumes_.emplace_back(body, volume.get());
+            system_.add(std::move(volume));
+        }
+        bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
+    }
+
+    void makeMethod() {
+        const SolverSpec& solver = plan_.solver;
+        method_ = methodsOf(solver).make<Real>(solver.integrator,
+                                               {solver.newtonSteps, solver.cgTolerance, solver.cgIterations, splits_});
+        method_->watch(static_cast<Real>(mechanics::speedLimit));
+    }
+
+    // Those at t into velocity_. Methods that store them have had them resolved.
+    void findVelocities(double t, std::span<const collision::Contact> contacts, std::span<const Pressed> pressed) {
+        method_->synchronise(system_, t, step_, state_, velocity_.data());
+        contacts_.bear(pressed, 0.5 * step_, velocity_);
+        contacts_.bear(contacts, velocity_);
+    }
+
+    mechanics::Motion<Real> motion(double t) const { return system_.motion(t, state_.x.data(), state_.v.data()); }
+    std::size_t index(int point, int plane) const { return Planar<Real>{state_.layout.stride}.index(point, plane); }
+    dvec3 at(const Planes& planes, int point) const { return Planar<Real>{state_.layout.stride}.at(planes, point); }
+    void set(Planes& planes, int point, const dvec3& value) const {
+        Planar<Real>{state_.layout.stride}.set(planes, point, value);
+    }
+    std::vector<dvec3> list(const Planes& planes) const {
+        std::vector<dvec3> all;
+        for (int i = 0; i < state_.layout.count; ++i) all.push_back(at(planes, i));
+        return all;
+    }
+    // Calls each(numbers, count) for all that is in use of the state.
+    template <class Each>
+    void forEachPart(Each&& each) {
+        const auto count = static_cast<std::size_t>(state_.layout.count);
+        const auto planes = [&](Planes& array) {
+            for (int p = 0; p < 3; ++p) each(array.data() + index(0, p), count);
+        };
+        planes(state_.x);
+        planes(state_.v);
+        for (Planes& array : state_.memory)
+            if (array.size() == state_.layout.size())
+                planes(array);
+            else
+                each(array.data(), array.size());
+    }
+
+    const IslandPlan& plan_;
+    System system_;
+    // Among the system's generators:
+    std::vector<std::pair<const Body*, mechanics::VolumePreservation<Real>*>> volumes_;
+    std::vector<std::pair<std::size_t, Generator*>> acting_;  // of the forces those that act here, by their number
+    std::size_t firstGrip_ = 0;
+    std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones
+
+    std::unique_ptr<ode::Method<Real>> method_;
+    double step_ = 0, time_ = 0;                 // [s] of the last step, when it began
+    bool splits_ = false;                        // the dashpots off
+    bool leads_ = false;                         // whether some grip is rigid
+    ode::Speeds speeds_ = ode::Speeds::unknown;  // of the state as it stands
+    ode::State<Real> state_;
+    // (moments) of the state, close together: of small islands a line of the cache or two
+    std::array<std::vector<Real>, 2> kept_;
+    std::size_t keptSize_ = 0;
+    mechanics::StateBound<Real> bound_;
+    mechanics::SpringWatch<Real> watch_;
+    IslandContacts<Real> contacts_;
+    Planes velocity_;  // scratch
+    RoundingWatch<Real> rounding_;
+};
+
+}  // namespace
+
+std::unique_ptr<Dynamics> makeDynamics(const IslandPlan& plan, const ForceList& forces) {
+    if (plan.solver.precision == Precision::single_) return std::make_unique<DynamicsOf<float>>(plan, forces);
+    return std::make_unique<DynamicsOf<double>>(plan, forces);
+}
+
+}  // namespace taut::world

@@ -1,0 +1,231 @@
+// An island as bytes. What is as the scene builds it is not written: of a plan that nothing has changed, nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "taut/island/cutting.h"
+#include "taut/island/island.h"
+
+namespace taut::world {
+namespace {
+
+// Before the bytes of a grip that a collider has, or that turns; no length of a name, with which all others begin.
+constexpr std::uint64_t poseMark = 0xfff8'7461'7574'0003ULL;
+
+void visitPart(StateBytes& bytes, Grip& grip, std::size_t pointCount) {
+    mechanics::PosePath& path = grip.path;
+    if (bytes.mark(poseMark, grip.ofCollider || path.isTurned())) {
+        bytes(grip.ofCollider);
+        for (glm::dquat* rotation : {&path.from, &path.to}) bytes(*rotation);
+        bytes(path.t0);
+        bytes(path.t1);
+        bytes.require(path.t0 < path.t1);
+    }
+    bytes(grip.holder);
+    bytes(grip.rigid);
+    bytes.list(grip.points);
+    bytes.list(grip.offsets);
+    bytes.list(grip.stiffness);
+    bytes.list(grip.damping);
+    bytes(path.place);
+    const std::size_t count = grip.points.size(), forces = grip.rigid ? 0 : count;
+    bytes.require(count > 0 && grip.offsets.size() == count && grip.stiffness.size() == forces &&
+                  grip.damping.size() == forces);
+    for (std::size_t i = 0; i < count; ++i)
+        bytes.require(grip.points[i] > (i == 0 ? -1 : grip.points[i - 1]) &&
+                      static_cast<std::size_t>(grip.points[i]) < pointCount);
+    for (const std::vector<double>* list : {&grip.stiffness, &grip.damping})
+        for (double number : *list) bytes.require(number >= 0 && std::isfinite(number));
+}
+
+void visitPart(StateBytes& bytes, Damage& damage, const mechanics::Model& model) {
+    struct Severed {
+        int a = 0, b = 0;
+        double share = 0;
+    };
+    std::vector<Severed> edges;
+    for (const auto& [edge, share] : damage.edges()) edges.push_back({edge.first, edge.second, share});
+    bytes.each(edges, [&](Severed& edge) {
+        bytes(edge.a);
+        bytes(edge.b);
+        bytes(edge.share);
+        bytes.require(edge.a >= 0 && edge.a < edge.b && edge.b < model.pointCount() && edge.share >= 0 &&
+                      edge.share <= 1);
+    });
+    if (!bytes.isReading()) return;
+    damage = {};
+    for (const Severed& edge : edges) damage.sever(edge.a, edge.b, edge.share);
+    damage.assess(model);
+}
+
+void visitPart(StateBytes& bytes, Body& body) {
+    visitPart(bytes, body.damage, body.model);
+    double bulk = body.model.cells.empty() ? 0.0 : body.model.cells.front().bulkModulus;
+    bytes.notNegative(bulk);
+    if (bytes.isReading())
+        for (mechanics::VolumeCell& cell : body.model.cells) cell.bulkModulus = bulk;
+    for (auto* limit : {&body.plasticity.yieldStrain, &body.plasticity.breakStrain}) {
+        bool has = limit->has_value();
+        double strain = limit->value_or(0.0);
+        bytes(has);
+        bytes.notNegative(strain);
+        *limit = has ? std::optional<double>(strain) : std::nullopt;
+    }
+    bytes.notNegative(body.plasticity.breakCell);
+}
+
+void visitPart(StateBytes& bytes, Divergence& d) {
+    bytes(d.tick);
+    bytes.raw(d.time);
+    bytes(d.body);
+    bytes(d.point);
+    bytes(d.spring);
+    for (double* number : {&d.omegaH, &d.limit, &d.safeStep}) bytes.raw(*number);
+    bytes(d.message);
+}
+
+// Before the bytes of an island with points that began inside a collider; no length of a name, with which all others
+// begin.
+constexpr std::uint64_t insideMark = 0xfff8'7461'7574'0002ULL;
+
+}  // namespace
+
+void Island::visitPlan(StateBytes& bytes) {
+    for (mechanics::Spring& spring : plan_.springs)
+        for (double* number : {&spring.stiffness, &spring.restLength, &spring.dampingTime}) bytes.notNegative(*number);
+    for (std::size_t s = 0; s < plan_.broken.size(); ++s) {
+        bool broken = plan_.broken[s];
+        bytes(broken);
+        plan_.broken[s] = broken;
+    }
+    for (auto& point : plan_.points) {
+        bytes.notNegative(point.mass);
+        bytes.require(plan_.solver.precision == Precision::double_ ? point.mass > 0
+                                                                   : static_cast<float>(point.mass) > 0);
+        bytes.notNegative(point.dragRate);
+        bytes(point.held);
+    }
+    for (Body* body : plan_.bodies) visitPart(bytes, *body);
+    bytes.each(plan_.grips, [&](Grip& grip) { visitPart(bytes, grip, plan_.points.size()); });
+    std::vector<bool> isLed(plan_.points.size(), false);
+    for (const Grip& grip : plan_.grips) {
+        if (!grip.rigid) continue;
+        for (int i : grip.points) {
+            bytes.require(!isLed[static_cast<std::size_t>(i)]);
+            isLed[static_cast<std::size_t>(i)] = true;
+        }
+    }
+}
+
+void Island::visitInside(StateBytes& bytes) {
+    const bool has = bytes.mark(insideMark, !insideWarnings_.empty() || !inside_.empty());
+    if (bytes.isReading()) {
+        inside_.clear();
+        insideWarnings_.clear();
+    }
+    if (!has) return;
+    bytes.list(inside_);
+    for (int i : inside_) bytes.require(i >= 0 && i < static_cast<int>(plan_.points.size()));
+    bytes.each(insideWarnings_, [&](std::string& warning) { bytes(warning); });
+}
+
+void Island::visitStep(StateBytes& bytes) {
+    bool follows = choice_.need.has_value();
+    int substeps = choice_.substeps;
+    bool splits = choice_.splits;
+    bytes(follows);
+    int own = ownSubsteps_;
+    bytes(own);
+    bytes(parts_);
+    bytes.require(parts_ > 0 && parts_ <= mostSubsteps);
+    bytes(splits);
+    bytes(substeps);
+    bytes(contactFactor_);
+    bytes(calmTicks_);
+    bytes.require(contactFactor_ >= 1 && contactFactor_ <= mostContactFactor && calmTicks_ >= 0);
+    // By contact they may have been more, and be about to be less again.
+    const bool isOwn = own == ownSubsteps_ && substeps > 0 && substeps <= mostSubsteps;
+    if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && !isOwn))
+        misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
+    bytes.each(stepChanges_, [&](StepChange& change) {
+        bytes(change.time);
+        bytes(change.from);
+        bytes(change.to);
+        bytes(change.isRepeated);
+        bytes.require(change.from > 0 && change.from <= mostSubsteps && change.to > 0 && change.to <= mostSubsteps);
+    });
+    for (double* number : {&contactWork_.added, &contactWork_.atTouch, &mostContactWork_, &mayLose_})
+        bytes.raw(*number);
+    bytes(ticksToLook_);
+    if (!follows) {
+        if (!bytes.isReading()) return;
+        choice_.substeps = substeps;
+        choice_.step = tickSeconds_ / substeps;
+        dynamics_->setStep(choice_.step);
+        return;
+    }
+    double safety = choice_.need->safety;
+    bytes(safety);
+    if (safety != choice_.need->safety)
+        misfit("the rule for the steps of " + plan_.bodies.front()->fullName() + " is another");
+    following_.visit([&](auto& number) { bytes(number); });
+    bytes.notNegative(choice_.need->moreOmega2);
+    bytes.notNegative(choice_.need->others.rate);
+    bytes.require(substeps > 0 && substeps <= mostSubsteps && following_.isSound());
+    if (!bytes.isReading()) return;
+    choice_.substeps = substeps;
+    choice_.step = choice_.need->tickSeconds / substeps;
+    // Decided when the island was made, of springs that may have been others then.
+    const bool isOther = splits != choice_.splits;
+    choice_.splits = choice_.need->splits = splits;
+    dynamics_->setStep(choice_.step);
+    if (!isOther) return;
+    bytes.require(plan_.solver.integrator == "leapfrog");
+    dynamics_->split(splits);
+    dynamics_->start(0.0, choice_.step);
+}
+
+void Island::visit(StateBytes& bytes) {
+    const std::string name = plan_.bodies.front()->fullName();
+    visitInside(bytes);
+    bytes.expect(name, "the bodies are others");
+    bytes.expect(plan_.solver.integrator, "the methods of its bodies are others");
+    visitStep(bytes);
+    auto springs = static_cast<std::uint64_t>(plan_.springs.size());
+    bytes(springs);
+    if (springs != plan_.springs.size()) misfit("the springs of " + name + " are others");
+    bytes(isChanged_);
+    if (isChanged_) visitPlan(bytes);
+    world::visit(bytes, forces_);
+    dynamics_->visit(bytes);
+    bool isPending = changes_.any();
+    for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);
+    bytes.list(contacts_);
+    for (const collision::Contact& contact : contacts_)
+        bytes.require(
+            contact.point >= 0 && contact.point < static_cast<int>(plan_.points.size()) && contact.friction >= 0 &&
+            std::isfinite(glm::dot(contact.normal, contact.normal) + glm::dot(contact.carried, contact.carried)));
+    bytes.list(pressed_);
+    for (const Pressed& one : pressed_)
+        bytes.require(one.point >= 0 && one.point < static_cast<int>(plan_.points.size()) &&
+                      std::isfinite(glm::dot(one.acceleration, one.acceleration)));
+    for (std::string* warning : {&stretchWarning_, &collapseWarning_, &limitWarning_, &freezingWarning_})
+        bytes(*warning);
+    ode::Work done = work();
+    for (std::int64_t* number : {&done.evaluations, &done.iterations, &done.unconverged}) bytes(*number);
+    bytes.optional(frozen_, [&](FrozenIsland& frozen) {
+        bytes.raw(frozen.time);
+        visitPart(bytes, frozen.divergence);
+    });
+    if (!bytes.isReading()) return;
+    workElsewhere_ = done;
+    bytes.require(!frozen_ || mayFreeze_);
+    if (frozen_) {
+        frozen_->name = name;
+        for (const Body* body : plan_.bodies) frozen_->bodies.push_back(body->fullName());
+    }
+    dynamics_->take(Changes{}.add(Change::shape), forces_);
+    if (isPending) changes_.add(Change::shape);
+    watchPlasticity();
+}
+
+}  // namespace taut::world

@@ -1,0 +1,234 @@
+#include "taut/live/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "taut/core/error.h"
+#include "taut/world/components.h"
+#include "taut/spec/ticks.h"
+
+namespace taut::live {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t mostWatched = 12;  // bodies whose strain is kept for proposed checks
+
+world::SceneSpec withHands(world::SceneSpec spec) {
+    spec.hand.anywhere = true;
+    return spec;
+}
+
+// A name that no hand of the scene's own timeline has.
+std::string freeId(const world::SceneSpec& spec) {
+    std::string id = world::liveHand;
+    const auto isTaken = [&] {
+        return world::anyForeseen<world::GrabAction>(spec.actions,
+                                                     [&](const world::GrabAction& grab) { return grab.id == id; });
+    };
+    while (isTaken()) id += "-2";
+    return id;
+}
+
+}  // namespace
+
+struct Session::Impl {
+    world::World world;
+    double ticksPerSecond;
+    Hand hand;
+    world::Specs<world::ActionSpec> deeds;
+    std::vector<std::pair<std::string, double>> strains;
+    view::FrameView before, now;
+    world::Metrics metrics;
+    bool marks = false;
+    std::optional<world::Divergence> divergence;
+    std::vector<std::string> faults;
+
+    // The thread, and what it is to do.
+    std::mutex mutex;
+    std::condition_variable changed;
+    int asked = 0;
+    double budget = 0.0;
+    bool isBusy = false, isOver = false;
+    std::exception_ptr failure;
+    std::jthread thread;
+
+    Impl(const world::SceneSpec& spec, int threads)
+        : world(spec, {.threads = threads}),
+          ticksPerSecond(spec.run.fps * world.ticksPerFrame()),
+          hand(freeId(spec), ticksPerSecond) {
+        world.registry().each<world::BodyPart>([&](ecs::Entity, const world::BodyPart& part) {
+            if (strains.size() < mostWatched) strains.emplace_back(part.body->fullName(), 0.0);
+        });
+        before = now = look();
+        measure();
+        thread = std::jthread([this] { loop(); });
+    }
+
+    ~Impl() {
+        const std::lock_guard lock(mutex);
+        isOver = true;
+        changed.notify_all();
+    }
+
+    view::FrameView look() const {
+        view::FrameView view = world.view(marks);
+        view.frame = world.tick() / world.ticksPerFrame();
+        view.time = world.time();
+        return view;
+    }
+
+    void measure() {
+        metrics = world.metrics();
+        for (auto& [body, strain] : strains) {
+            const double of = strains.size() == 1 ? metrics.maxStrain : world.metrics(body).maxStrain;
+            strain = std::max(strain, of);
+        }
+    }
+
+    void tickOnce() {
+        for (const world::ActionSpec& action : hand.deedsAt(world.tick())) {
+            try {
+                world.apply(action);
+            } catch (const core::Error& error) {
+                faults.emplace_back(error.what());
+                continue;
+            }
+            deeds.add(action.copy());
+        }
+        divergence = world.advance();
+    }
+
+    void work(int ticks, double seconds) {
+        const auto start = Clock::now();
+        for (int done = 0; done < ticks && !divergence;) {
+            tickOnce();
+            ++done;
+            // Another tick as long as those before would pass the budget.
+            const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+            const bool isLate = spent + spent / done > seconds;
+            if (done + 2 > ticks || isLate || divergence) before = std::exchange(now, look());
+            if (isLate) break;
+        }
+        measure();
+    }
+
+    void loop() {
+        std::unique_lock lock(mutex);
+        while (true) {
+            changed.wait(lock, [&] { return isOver || isBusy; });
+            if (isOver) return;
+            lock.unlock();
+            try {
+                work(asked, budget);
+            } catch (...) {
+                failure = std::current_exception();
+            }
+            lock.lock();
+            isBusy = false;
+            changed.notify_all();
+        }
+    }
+};
+
+Session::Session(world::SceneSpec spec, int threads)
+    : spec_(withHands(std::move(spec))), impl_(std::make_unique<Impl>(spec_, threads)) {}
+Session::~Session() = default;
+
+void Session::begin(int ticks, double budget) {
+    const std::lock_guard lock(impl_->mutex);
+    TAUT_EXPECTS(!impl_->isBusy);
+    if (ticks <= 0 || impl_->divergence) return;
+    impl_->asked = ticks;
+    impl_->budget = budget;
+    impl_->isBusy = true;
+    impl_->changed.notify_all();
+}
+
+void Session::wait() {
+    std::unique_lock lock(impl_->mutex);
+    impl_->changed.wait(lock, [&] { return !impl_->isBusy; });
+    if (impl_->failure) std::rethrow_exception(std::exchange(impl_->failure, nullptr));
+}
+
+const world::World& Session::world() const {
+    return impl_->world;
+}
+std::int64_t Session::tick() const {
+    return impl_->world.tick();
+}
+const world::Metrics& Session::metrics() const {
+    return impl_->metrics;
+}
+const view::FrameView& Session::before() const {
+    return impl_->before;
+}
+const view::FrameView& Session::now() const {
+    return impl_->now;
+}
+Hand& Session::hand() {
+    return impl_->hand;
+}
+const world::Specs<world::ActionSpec>& Session::deeds() const {
+    return impl_->deeds;
+}
+const std::optional<world::Divergence>& Session::divergence() const {
+    return impl_->divergence;
+}
+std::vector<std::string> Session::takeFaults() {
+    return std::exchange(impl_->faults, {});
+}
+
+void Session::showMarks(bool shown) {
+    impl_->marks = shown;
+    impl_->before = impl_->now = impl_->look();
+}
+
+std::vector<BodyPoints> Session::bodies() const {
+    std::vector<BodyPoints> all;
+    impl_->world.registry().each<world::BodyPart>([&](ecs::Entity entity, const world::BodyPart& part) {
+        BodyPoints body{part.body->fullName(), {}, {}};
+        const std::vector<glm::dvec3> positions = impl_->world.positions(entity);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            if (part.body->model.held[i]) continue;
+            body.points.push_back(static_cast<int>(i));
+            body.positions.push_back(positions[i]);
+        }
+        all.push_back(std::move(body));
+    });
+    return all;
+}
+
+Recording Session::record() {
+    Impl& w = *impl_;
+    const auto isWhole = [&] {
+        const bool isFollowed =
+            w.deeds.empty() || world::Ticks(spec_.run).at(w.deeds[w.deeds.size() - 1].t) < w.world.tick();
+        return isFollowed && w.world.tick() % w.world.ticksPerFrame() == 0;
+    };
+    if (w.hand.isHolding()) w.hand.release();
+    w.tickOnce();
+    while (!isWhole() && !w.divergence) w.tickOnce();
+    w.before = w.now = w.look();
+    w.measure();
+
+    Recording recording;
+    recording.run = spec_.run;
+    recording.ticksPerSecond = w.ticksPerSecond;
+    recording.ticksPerFrame = w.world.ticksPerFrame();
+    recording.endTick = w.world.tick();
+    recording.hash = w.world.stateHash();
+    recording.timeline = spec_.actions;
+    recording.actionKinds = spec_.actionKinds;
+    recording.deeds = w.deeds;
+    recording.hasClaims = !spec_.checks.empty() || !spec_.goldens.empty();
+    recording.strains = w.strains;
+    return recording;
+}
+
+}  // namespace taut::live

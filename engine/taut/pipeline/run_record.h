@@ -1,0 +1,54 @@
+// The record of a run as text: run.json and metrics.csv. It knows neither where they go nor how the run was started.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "taut/pipeline/machine.h"
+#include "taut/pipeline/run.h"
+#include "taut/render/renderer.h"
+#include "taut/spec/spec.h"
+#include "taut/world/world.h"
+
+namespace taut::pipeline {
+
+// What pictures have besides colours.
+struct PictureLayers {
+    bool alpha = false;
+    double depthUnit = 0.0;                              // [m] a step of depth; 0: none
+    std::map<std::string, std::uint32_t> maskColours{};  // 0xRRGGBB by the name of a surface; empty: no mask
+};
+
+// What was asked for, besides the scene itself.
+struct RunRequest {
+    std::string output;                  // as given on the command line; empty: none
+    std::vector<std::string> overrides;  // "key=value"
+    int threads = 0;                     // 0: all of the machine
+    RunOptions options;
+    PictureLayers layers{};
+    std::uint64_t key = 0;                  // of the whole run, of which this may be a part
+    std::int64_t firstFrame = 0;            // that was asked for; where a run goes on, its options begin later
+    std::int64_t frames = 1;                // of the whole run
+    bool isBegun = false;                   // nothing of it has been done yet
+    std::vector<std::uint32_t> pictures{};  // checksums of the files of frames firstFrame, …
+};
+
+// Takes the text piece by piece.
+using Write = std::function<void(std::string_view)>;
+
+// Everything that is needed to tell what was computed, how, and on what; state hashes as 16 hexadecimal digits.
+void writeRunJson(const Write& write, const world::SceneSpec& spec, const world::World& world,
+                  const RunRequest& request, const Machine& machine,
+                  const std::optional<render::RendererInfo>& renderer, const RunResult& result);
+
+// A line a frame that has metrics, with a heading that names the units; and the figures under their names, to 17
+// digits. Empty where they were not measured or are no numbers, and of contact where no body of the scene has any.
+void writeMetricsCsv(const Write& write, const world::SceneSpec& spec, const RunResult& result,
+                     const std::vector<std::string>& figures = {});
+
+}  // namespace taut::pipeline

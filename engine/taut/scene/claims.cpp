@@ -1,0 +1,144 @@
+#include "taut/scene/claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "taut/check/check.h"
+#include "taut/check/function_table.h"
+#include "taut/scene/body_index.h"
+#include "taut/scene/timeline.h"
+#include "taut/spec/actions.h"
+#include "taut/spec/ticks.h"
+
+namespace taut::scene {
+
+namespace {
+
+class Claims {
+  public:
+    Claims(const Node& root, const BodyIndex& bodies, ReadScene& scene, Problems& problems)
+        : root_(root), scene_(scene), problems_(problems), bodies_(bodies), ticks_(scene.spec.run) {}
+
+    void check() {
+        for (std::size_t i = 0; i < scene_.spec.checks.size(); ++i) {
+            if (scene_.faulty.contains(fmt::format("check[{}]", i))) continue;
+            const Node& item = root_.find("check")->value.items[i];
+            checkTimes(item);
+            checkClaim(scene_.spec.checks[i], item.find("that")->value);
+        }
+    }
+
+  private:
+    void checkTimes(const Node& item) {
+        for (const char* key : {"at", "from", "to"}) {
+            const Member* member = item.find(key);
+            if (member == nullptr || ticks_.at(member->value.number) <= ticks_.last() || isLengthOverridden(root_))
+                continue;
+            problems_.addError(member->value.place,
+                               fmt::format("{} s is past the end: the last frame shows {:.6g} s", member->value.number,
+                                           ticks_.secondsOf(ticks_.last())),
+                               "set seconds in [run]");
+        }
+    }
+
+    void checkClaim(world::CheckSpec& spec, const Node& that) {
+        const Place first = problems_.placeInside(that.place, that.text, 0);
+        spec.source = {problems_.fileOf(first), std::max(first.line, 0), std::max(first.column, 0)};
+        if (first.origin > 0) spec.source = {problems_.fileOf(first), 0, 0};
+        try {
+            spec.parsed = std::make_shared<const check::Check>(check::Check::parse(spec.that));
+            for (const check::Mention& mention : spec.parsed->mentions()) checkMention(spec, that, mention);
+            for (const check::Call& call : spec.parsed->calls()) doubtCall(that, call);
+        } catch (const check::Fault& fault) {
+            problems_.addError(problems_.placeInside(that.place, that.text, fault.at), fault.what(), fault.remedy);
+        }
+    }
+
+    void checkMention(const world::CheckSpec& spec, const Node& that, const check::Mention& mention) {
+        const Place place = problems_.placeInside(that.place, that.text, mention.at);
+        const auto fault = mention.hasPoints ? bodies_.targetFault(mention.target) : bodies_.bodyFault(mention.target);
+        if (fault) return problems_.addError(place, fault->message, fault->remedy);
+        if (!mention.against.empty())
+            if (const auto same = bodies_.betweenFault(mention.against, mention.target))
+                return problems_.addError(place, same->message, same->remedy);
+        if (!mention.isNeeded) return;
+        // They must be there whenever they are asked for.
+        const double begin = spec.at ? *spec.at : spec.from.value_or(0.0);
+        std::optional<double> birth;
+        for (const std::string& name : bodies_.names(mention.target)) {
+            const std::optional<double> t = birthOf(name);
+            if (!t) return;
+            birth = birth ? std::min(*birth, *t) : *t;
+        }
+        if (!birth || ticks_.at(*birth) < ticks_.at(begin)) return;
+        problems_.addError(place,
+                           fmt::format("{} is not there at {} s: it is spawned at {} s", mention.target, begin, *birth),
+                           "give the check a later from");
+    }
+
+    // What a function never finds anything of, it is hardly asked for.
+    void doubtCall(const Node& that, const check::Call& call) {
+        if (call.function->counts == world::Counts::everyBody) return;
+        const bool isOfFaces = call.function->counts == world::Counts::whatMeetsFaces;
+        const auto countsAny = [&](const std::string& target) {
+            const std::vector<const BodyEntry*> named = bodies_.matches(target);
+            return std::any_of(scene_.spec.bodies.begin(), scene_.spec.bodies.end(), [&](const world::BodySpec& body) {
+                const auto isIt = [&](const BodyEntry* entry) { return entry->title() == body.fullName(); };
+                return world::isCounted(call.function->counts, body) &&
+                       (target.empty() || std::any_of(named.begin(), named.end(), isIt));
+            });
+        };
+        const auto doubt = [&](std::size_t at, const std::string& lack) {
+            const std::string what = isOfFaces ? lack + " corners or edges of colliders" : lack;
+            problems_.addWarning(
+                problems_.placeInside(that.place, that.text, at),
+                fmt::format("{}: {}", what,
+                            call.function->isBetween() ? "however near they are, they go through each other"
+                                                       : call.function->name + " is always 0"),
+                isOfFaces ? "give it collide = \"faces\", or touch" : "give it touch = \"others\" or \"all\"");
+        };
+        for (const check::Mention& mention : call.targets)
+            if (!countsAny(mention.target))
+                doubt(mention.at, mention.target + (isOfFaces ? " meets no" : " touches nothing"));
+        if (call.targets.empty() && !countsAny(""))
+            doubt(call.at, isOfFaces ? "no body meets" : "no body touches anything");
+    }
+
+    // When a body is spawned; nothing if it is there from the start.
+    std::optional<double> birthOf(const std::string& body) const {
+        for (const auto& spawn : scene_.spec.actions.of<world::SpawnAction>()) {
+            const std::vector<std::string> names = bodies_.names(spawn.target);
+            if (std::find(names.begin(), names.end(), body) != names.end()) return spawn.t;
+        }
+        return std::nullopt;
+    }
+
+    const Node& root_;
+    ReadScene& scene_;
+    Problems& problems_;
+    const BodyIndex& bodies_;
+    world::Ticks ticks_;
+};
+
+void checkGoldens(const Node& root, const ReadScene& scene, Problems& problems) {
+    const std::int64_t last = world::Ticks(scene.spec.run).lastFrame;
+    for (std::size_t i = 0; i < scene.spec.goldens.size(); ++i) {
+        if (scene.faulty.contains(fmt::format("golden[{}]", i))) continue;
+        const Node& frames = root.find("golden")->value.items[i].find("frames")->value;
+        for (const Node& frame : frames.items) {
+            if (frame.whole <= last || isLengthOverridden(root)) continue;
+            problems.addError(frame.place, fmt::format("frame {} is past the end: the last is {}", frame.whole, last));
+        }
+    }
+}
+
+}  // namespace
+
+void checkClaims(const Node& root, const BodyIndex& bodies, ReadScene& scene, Problems& problems) {
+    Claims(root, bodies, scene, problems).check();
+    checkGoldens(root, scene, problems);
+}
+
+}  // namespace taut::scene

@@ -1,0 +1,208 @@
+// The field table, part three: joints, masses and colliders.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/collision/shape_table.h"
+#include "taut/fields/field_list.h"
+#include "taut/fields/problems.h"
+#include "taut/scene/sections.h"
+#include "taut/bodies/ties.h"
+
+namespace taut::scene {
+
+using namespace world;
+
+namespace {
+
+// The names of the shapes that have a use for this field.
+std::vector<std::string> shapesWith(const collision::ShapeKinds& shapes, std::string_view field) {
+    std::vector<std::string> names;
+    for (const collision::ShapeKind& kind : shapes.all())
+        if (std::find(kind.fields.begin(), kind.fields.end(), field) != kind.fields.end())
+            names.emplace_back(kind.name);
+    return names;
+}
+
+enum class In { collider, compound };
+
+std::vector<std::string> shapeNames(const collision::ShapeKinds& shapes, In where) {
+    std::vector<std::string> names;
+    for (const collision::ShapeKind& kind : shapes.all())
+        if (where == In::collider || kind.isBounded) names.emplace_back(kind.name);
+    if (where == In::collider) names.emplace_back("compound");
+    return names;
+}
+
+// The sizes and the place of a shape: what a collider and a part of a compound have in common.
+FieldList<ColliderSpec> shapeFields(const collision::ShapeKinds& shapes, In where) {
+    FieldList<ColliderSpec> list;
+    list.choice("shape", &ColliderSpec::shape, shapeNames(shapes, where), "Its shape.")
+        .required()
+        .vector("position", &ColliderSpec::position, "m", placeRange, "Its centre.")
+        .rotation("rotation_deg", &ColliderSpec::rotation, "About x, then y, then z.")
+        .vector("size", &ColliderSpec::size, "m", lengthRange, "Its three edges.")
+        .only(shapesWith(shapes, "size"))
+        .number("radius", &ColliderSpec::radius, "m", lengthRange, "Its radius.")
+        .only(shapesWith(shapes, "radius"))
+        .number("height", &ColliderSpec::height, "m", lengthRange,
+                "Whole height along y; of a capsule between the centres of its half spheres.")
+        .only(shapesWith(shapes, "height"))
+        .text("mesh", &ColliderSpec::mesh, Role::mesh, "OBJ file.")
+        .required()
+        .only(shapesWith(shapes, "mesh"))
+        .number("scale", &ColliderSpec::scale, "", lengthRange, "Metres of a unit of the file.")
+        .only(shapesWith(shapes, "scale"));
+    for (const collision::ShapeKind& kind : shapes.all())
+        for (const collision::OwnSize& own : kind.own)
+            list.entry(own.key, &ColliderSpec::sizes, own.unit, Range{own.least, own.most}, own.standard, own.help)
+                .only({std::string(kind.name)});
+    return list;
+}
+
+std::string shapeOf(const Node& table) {
+    const Member* shape = table.find("shape");
+    return shape != nullptr && shape->value.kind == NodeKind::text ? shape->value.text : "";
+}
+
+Section poseKeySection() {
+    Section section;
+    section.fields = FieldList<PoseKey>()
+                         .number("t", &PoseKey::t, "s", Range{0.0, 1e6}, "Moment.")
+                         .required()
+                         .role(Role::time)
+                         .vector("position", &PoseKey::position, "m", placeRange, "Where its centre is then.")
+                         .rotation("rotation_deg", &PoseKey::rotation, "About x, then y, then z.")
+                         .choice("ease", &PoseKey::ease, easeNames(), "Way from the key before to this one.")
+                         .take();
+    return section;
+}
+
+Section partSection(const collision::ShapeKinds& shapes) {
+    Section section;
+    section.variant = shapeOf;
+    section.variantKey = "shape";
+    section.fields = shapeFields(shapes, In::compound).take();
+    return section;
+}
+
+void checkCollider(const CheckInput& input, ColliderSpec& collider) {
+    checkAscending(input);
+    collider.normal /= std::sqrt(glm::dot(collider.normal, collider.normal));
+    if (input.isClean && collider.shape == "compound" && collider.parts.empty())
+        input.problems.addError(input.at("parts"), "a compound needs parts");
+    if (input.table.find("keys") == nullptr) return;
+    for (const char* key : {"position", "rotation_deg"}) {
+        const Member* member = input.table.find(key);
+        if (member == nullptr) continue;
+        input.problems.addError(member->place, fmt::format("a collider with keys has no {} of its own", key),
+                                "write it into the keys");
+    }
+}
+
+}  // namespace
+
+void checkAscending(const CheckInput& input) {
+    const Member* keys = input.table.find("keys");
+    if (keys == nullptr) return;
+    bool isFirst = true;
+    double before = 0;
+    for (const Node& item : keys->value.items) {
+        const Member* t = item.find("t");
+        if (t == nullptr || (t->value.kind != NodeKind::number && t->value.kind != NodeKind::whole)) continue;
+        if (!isFirst && t->value.number <= before) {
+            input.problems.addError(t->value.place,
+                                    fmt::format("keys must ascend in t: {} follows {}", t->value.number, before));
+        }
+        isFirst = false;
+        before = t->value.number;
+    }
+}
+
+SceneSection jointSection() {
+    SceneSection section;
+    section.name = "joint";
+    section.layout = Layout::list;
+    section.help = "Ties points of a body to points of another, or to a collider that carries them.";
+    section.enter = enterNamed(&SceneSpec::joints);
+    section.variant = [](const Node& table) -> std::string {
+        const Member* kind = table.find("kind");
+        if (kind != nullptr && kind->value.text == "spring") return "a spring joint";
+        const auto isOn = [&](const char* key) {
+            const Member* side = table.find(key);
+            return side != nullptr && isCollider(side->value.text);
+        };
+        return isOn("a") || isOn("b") ? "a weld to a collider" : "a weld";
+    };
+    section.fields =
+        FieldList<JointSpec>()
+            .text("a", &JointSpec::a, Role::tieable, "Points of one body: KIND.NAME@SELECTOR.")
+            .required()
+            .text("b", &JointSpec::b, Role::tieable, "Points of the other; or collider.NAME, on either side.")
+            .required()
+            .choice("kind", &JointSpec::kind, {"weld", "spring"},
+                    "Points made one, or springs. A collider carries all points that are welded to it as "
+                    "they lie when the scene starts; springs draw each to that place on it.")
+            .number("stiffness_N_per_m", &JointSpec::stiffness, "N/m", positive, "Of each spring.")
+            .only({"a spring joint"})
+            .number("damping_time_s", &JointSpec::dampingTime, "s", Range{0.0, 1e3}, "Of each spring.")
+            .only({"a spring joint"})
+            .number("reach_m", &JointSpec::reach, "m", Range{0.0, 1e3},
+                    "Largest distance of two points that a weld makes one.")
+            .only({"a weld"})
+            .take();
+    return section;
+}
+
+SceneSection massSection() {
+    SceneSection section;
+    section.name = "mass";
+    section.layout = Layout::list;
+    section.help = "Adds mass to points.";
+    section.enter = enterNamed(&SceneSpec::masses);
+    section.fields = FieldList<MassSpec>()
+                         .text("target", &MassSpec::target, Role::points, "The points: KIND.NAME@SELECTOR.")
+                         .required()
+                         .number("mass_kg", &MassSpec::mass, "kg", positive, "Shared evenly among the points.")
+                         .required()
+                         .take();
+    return section;
+}
+
+SceneSection colliderSection(const collision::ShapeKinds& shapes) {
+    SceneSection section;
+    section.name = "collider";
+    section.layout = Layout::named;
+    section.help = "A rigid thing that stops bodies, still or moved by keys.";
+    section.enter = enterNamed(&SceneSpec::colliders);
+    section.existing = findNamed(&SceneSpec::colliders);
+    section.variant = shapeOf;
+    section.variantKey = "shape";
+    std::vector<std::string> edged = shapesWith(shapes, "edge");  // and what may have such parts
+    edged.emplace_back("compound");
+    section.fields =
+        shapeFields(shapes, In::collider)
+            .direction("normal", &ColliderSpec::normal, "Away from the solid; any length.")
+            .only(shapesWith(shapes, "normal"))
+            .tables("parts", &ColliderSpec::parts, partSection(shapes), "Shapes joined into one.")
+            .required()
+            .only({"compound"})
+            .number("friction", &ColliderSpec::friction, "", Range{0.0, 100.0}, "Coulomb's coefficient.")
+            .ramps(Affects::colliders)
+            .number("restitution", &ColliderSpec::restitution, "", share, "Speed after a bounce over speed before.")
+            .ramps(Affects::colliders)
+            .tables("keys", &ColliderSpec::keys, poseKeySection(), "Keyframes, in the order of time.")
+            .flag("visible", &ColliderSpec::visible, "Whether it is drawn.")
+            .number("edge", &ColliderSpec::edge, "m", Range{0.0, 1e3},
+                    "Rounding of a drawn box's edges, but for its foot on the ground.")
+            .only(edged)
+            .table("finish", &ColliderSpec::finish, finishSection(), "How it looks.")
+            .take();
+    section.check = [](const CheckInput& input, void* target) {
+        checkCollider(input, *static_cast<ColliderSpec*>(target));
+    };
+    return section;
+}
+
+}  // namespace taut::scene

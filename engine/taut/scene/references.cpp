@@ -1,0 +1,112 @@
+#include "taut/scene/references.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "taut/bodies/ties.h"
+
+namespace taut::scene {
+
+namespace {
+
+void report(const Reference& reference, const std::optional<TargetFault>& fault, Problems& problems) {
+    if (fault) problems.addError(reference.place, fault->message, fault->remedy);
+}
+
+void checkName(const Reference& reference, const std::string& kind, const std::vector<std::string>& names,
+               Problems& problems) {
+    for (const std::string& name : names)
+        if (name == reference.text) return;
+    std::string remedy = suggestion(reference.text, names);
+    if (remedy.empty()) remedy = fmt::format("add a table [{}.{}]", kind, reference.text);
+    if (reference.text.empty()) remedy = "give a name";
+    problems.addError(reference.place, fmt::format("there is no {} \"{}\"", kind, reference.text), remedy);
+}
+
+void checkCollider(const Reference& reference, const std::vector<std::string>& colliders, Problems& problems) {
+    if (std::find(colliders.begin(), colliders.end(), reference.text) != colliders.end()) return;
+    const auto say = [&](const std::string& message, const std::string& remedy) {
+        problems.addError(reference.place, message, remedy);
+    };
+    if (!world::isCollider(reference.text))
+        return say(fmt::format("\"{}\" names no collider", reference.text), "write collider.NAME");
+    if (const std::size_t selector = reference.text.find('@'); selector != std::string::npos)
+        return say("a collider has no points to choose from",
+                   fmt::format("write {}", reference.text.substr(0, selector)));
+    std::string remedy = suggestion(reference.text, colliders);
+    if (remedy.empty()) remedy = fmt::format("add a table [{}]", reference.text);
+    say(fmt::format("there is no {}", reference.text), remedy);
+}
+
+void checkHoldOn(const Reference& reference, const world::SceneSpec& scene, Problems& problems) {
+    for (const world::BodySpec& body : scene.bodies)
+        if (body.fullName() == reference.owner && body.hold.empty())
+            problems.addError(reference.place, "hold_on carries the points of hold, and there is no hold",
+                              "say which points, e.g. hold = [\"top\"]");
+}
+
+// The first thing in which two overrides differ, or nothing.
+const char* difference(const world::SolverOverride& a, const world::SolverOverride& b) {
+    return a.integrator != b.integrator ? "integrator"
+           : a.dt != b.dt               ? "dt"
+           : a.safety != b.safety       ? "safety"
+           : a == b                     ? nullptr
+                                        : "newton_steps, cg_tolerance or cg_iterations";
+}
+
+// A joint makes one island of its bodies, and an island has one method and one step.
+void checkJoint(const world::JointSpec& joint, Place place, const BodyIndex& bodies, Problems& problems) {
+    std::vector<const BodyEntry*> tied = bodies.matches(joint.a);
+    for (const BodyEntry* body : bodies.matches(joint.b)) tied.push_back(body);
+    if (world::isCollider(joint.a) && world::isCollider(joint.b))
+        problems.addError(place, "both sides of this joint are colliders",
+                          "one of them has to be points of a body: KIND.NAME@SELECTOR");
+    if (world::isTie(joint)) return;  // each body stays an island of its own
+    for (const BodyEntry* body : tied) {
+        const char* what = difference(tied.front()->solver, body->solver);
+        if (what == nullptr) continue;
+        problems.addError(place,
+                          fmt::format("this joint ties {} and {}, whose solver overrides differ in {}",
+                                      tied.front()->title(), body->title(), what),
+                          "give both the same");
+        return;
+    }
+}
+
+}  // namespace
+
+void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& problems) {
+    std::vector<std::string> materials, cameras, colliders;
+    for (const auto& [name, material] : scene.spec.materials) materials.push_back(name);
+    for (const auto& camera : scene.spec.cameras) cameras.push_back(camera.name);
+    for (const auto& collider : scene.spec.colliders) colliders.push_back("collider." + collider.name);
+
+    for (const Reference& reference : scene.references) {
+        switch (reference.role) {
+            case Role::material: checkName(reference, "material", materials, problems); break;
+            case Role::camera: checkName(reference, "camera", cameras, problems); break;
+            case Role::points: report(reference, bodies.pointsFault(reference.text), problems); break;
+            case Role::tieable:
+                if (world::isCollider(reference.text))
+                    checkCollider(reference, colliders, problems);
+                else
+                    report(reference, bodies.pointsFault(reference.text), problems);
+                break;
+            case Role::collider:
+                checkCollider(reference, colliders, problems);
+                checkHoldOn(reference, scene.spec, problems);
+                break;
+            case Role::bodies: report(reference, bodies.surfaceFault(reference.text), problems); break;
+            case Role::anyBodies: report(reference, bodies.bodyFault(reference.text), problems); break;
+            case Role::selector:
+                report(reference, bodies.selectorFault(reference.owner, reference.text), problems);
+                break;
+            default: break;
+        }
+    }
+    for (std::size_t i = 0; i < scene.spec.joints.size(); ++i)
+        checkJoint(scene.spec.joints[i], scene.owners.at(fmt::format("joint[{}]", i)), bodies, problems);
+}
+
+}  // namespace taut::scene

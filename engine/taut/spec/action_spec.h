@@ -1,0 +1,58 @@
+// What happens in a scene at a moment: the timeline of a scenario, as plain data, whatever its kind. It knows neither
+// files nor the kinds, which are in actions/; a hand at a mouse makes the same actions.
+//
+// To add a kind: derive from SpecOf<Own, ActionSpec>, give it a `kindName` and perform(), and add its rows to a table
+// of kinds (actionKind() in common_rows.h, Kinds::actions); tests/unit/world_own_action_test.cpp does.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "taut/spec/source.h"
+#include "taut/spec/specs.h"
+
+namespace taut::world {
+
+class World;
+
+// Happens at the start of tick ⌊t · ticks per second + ½⌋, those of one tick in the order of the list.
+struct ActionSpec {
+    Source source;
+    double t = 0.0;  // [s]
+
+    ActionSpec() = default;
+    ActionSpec(const ActionSpec&) = default;
+    ActionSpec& operator=(const ActionSpec&) = default;
+    virtual ~ActionSpec() = default;
+    virtual std::string_view kind() const = 0;  // "push"
+    virtual std::unique_ptr<ActionSpec> copy() const = 0;
+
+    // Does it now, with what a world offers, such as apply() of other actions. Throws core::Error(badContent), with the
+    // source, where it finds nothing to act on.
+    virtual void perform(World& world) const = 0;
+    // How long it goes on after t [s], finite: a timeline performs it at every tick up to then.
+    virtual double lasts() const { return 0.0; }
+
+    // Calls visit for itself; an action that applies others, for those. So steps allow for what they will do, and
+    // bodies that they spawn wait.
+    using Visit = std::function<void(const ActionSpec&)>;
+    virtual void foresee(const Visit& visit) const { visit(*this); }
+};
+
+// Calls visit for each action of that kind that the timeline has, or that one of it will apply.
+template <class Own>
+void foreseen(const Specs<ActionSpec>& timeline, const std::function<void(const Own&)>& visit) {
+    for (const ActionSpec& action : timeline)
+        action.foresee([&](const ActionSpec& part) {
+            if (const auto* own = dynamic_cast<const Own*>(&part)) visit(*own);
+        });
+}
+template <class Own>
+bool anyForeseen(const Specs<ActionSpec>& timeline, const std::function<bool(const Own&)>& is) {
+    bool any = false;
+    foreseen<Own>(timeline, [&](const Own& action) { any = any || is(action); });
+    return any;
+}
+
+}  // namespace taut::world

@@ -1,0 +1,129 @@
+// The actions that the engine knows. Each does what it says at its moment, see action_spec.h; how is in actions/.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "taut/spec/action_spec.h"
+
+namespace taut::world {
+
+struct SceneSpec;
+
+// How hands of somebody who plays live are called, from its first letter on; HandSpec::anywhere allows for them.
+inline constexpr const char* liveHand = "mouse";
+
+// An action on points of bodies.
+struct PointsAction : ActionSpec {
+    std::string target;  // KIND.NAME@SELECTOR; without @ all points
+    // Only the point of them that is nearest to this place when it happens.
+    std::optional<glm::dvec3> near;  // [m]
+};
+
+// A hand takes hold of points where they are.
+struct GrabAction final : SpecOf<GrabAction, PointsAction> {
+    static constexpr std::string_view kindName = "grab";
+    void perform(World& world) const override;
+
+    std::string id;             // of the hand
+    double radius = 0.0;        // [m] points of the target's bodies this near to a point of the target too
+    bool rigid = false;         // led exactly; else drawn by springs
+    double strength = 200.0;    // [N/m] of the whole hand, shared by mass
+    double dampingRatio = 0.3;  // of the grabbed mass on the hand's spring [-]
+};
+
+// A hand, or a collider, goes from where it is to somewhere.
+struct MoveAction final : SpecOf<MoveAction, ActionSpec> {
+    static constexpr std::string_view kindName = "move";
+    void perform(World& world) const override;
+
+    std::string id;                // of the hand; empty: a collider
+    std::string target;            // "collider.NAME"
+    std::optional<glm::dvec3> to;  // [m]
+    // [rad] about x, then y, then z. A collider takes the short way; a hand turns by the angles, since its grab.
+    std::optional<glm::dvec3> rotation;
+    double over = 0.0;  // [s]; 0: at once
+    Ease ease = Ease::smooth;
+};
+
+struct ReleaseAction final : SpecOf<ReleaseAction, ActionSpec> {
+    static constexpr std::string_view kindName = "release";
+    void perform(World& world) const override;
+
+    std::string id;  // of the hand
+};
+
+struct PushAction final : SpecOf<PushAction, PointsAction> {
+    static constexpr std::string_view kindName = "push";
+    void perform(World& world) const override;
+
+    glm::dvec3 impulse{0.0};  // [N s] of the whole target, shared by mass: every point changes its velocity alike
+};
+
+// From then on the points stay where they are, or go with a collider, or are free to move.
+struct HoldAction final : SpecOf<HoldAction, PointsAction> {
+    static constexpr std::string_view kindName = "hold";
+    void perform(World& world) const override;
+
+    std::string holdOn;  // "collider.pole"; empty: they stay
+};
+struct FreeAction final : SpecOf<FreeAction, PointsAction> {
+    static constexpr std::string_view kindName = "free";
+    void perform(World& world) const override;
+};
+
+// Cuts the springs of bodies that cross …
+struct CutAction final : SpecOf<CutAction, ActionSpec> {
+    static constexpr std::string_view kindName = "cut";
+    void perform(World& world) const override;
+
+    std::string target;                                 // KIND.NAME
+    std::optional<glm::dvec3> planePoint, planeNormal;  // … a plane of the world [m], or
+    std::optional<glm::dvec2> from,
+        upTo;  // … a segment on a grid cloth, in shares of width and height from the top left
+};
+
+// The points keep their velocities.
+struct AddMassAction final : SpecOf<AddMassAction, PointsAction> {
+    static constexpr std::string_view kindName = "add-mass";
+    void perform(World& world) const override;
+
+    double mass = 1.0;  // [kg] of the whole target, shared evenly
+};
+
+// A number or a vector of the scene that a ramp changes while it runs.
+struct RampField {
+    fields::Affects affects = fields::Affects::forces;
+    std::string owner;  // "material.nylon", "rope.rail", "wind.breeze", "world", …
+
+    virtual ~RampField() = default;
+    virtual std::vector<double> read(
+        const SceneSpec& scene) const = 0;  // in the units of the file, as write takes them
+    virtual void write(SceneSpec& scene, const std::vector<double>& value) const = 0;
+};
+
+// A field goes from its value at that moment to another. One that is on its way already takes over where that is.
+struct RampAction final : SpecOf<RampAction, ActionSpec> {
+    static constexpr std::string_view kindName = "ramp";
+    void perform(World& world) const override;
+
+    std::string key;            // "wind.breeze.velocity"
+    std::vector<double> value;  // in the units of the file
+    double over = 0.0;          // [s]; 0: at once
+    Ease ease = Ease::smooth;
+    std::shared_ptr<const RampField> field;  // what the key names
+};
+
+// A body appears that was not there from the start.
+struct SpawnAction final : SpecOf<SpawnAction, ActionSpec> {
+    static constexpr std::string_view kindName = "spawn";
+    void perform(World& world) const override;
+
+    std::string target;  // KIND.NAME
+};
+
+}  // namespace taut::world

@@ -1,0 +1,100 @@
+// What moves by its own laws: what every body has, and what its kind says of it. The kinds are in bodies/.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "taut/mechanics/model.h"
+#include "taut/spec/finish_spec.h"
+#include "taut/spec/mesh_data.h"
+#include "taut/spec/solver_spec.h"
+#include "taut/spec/source.h"
+
+namespace taut::world {
+
+struct Body;
+struct SceneSpec;
+class BodyDrawing;
+
+// When a material stops being elastic.
+struct PlasticitySpec {
+    std::optional<double> yieldStrain;  // |l - L|/L beyond which a spring's rest length gives way; none: never
+    std::optional<double> breakStrain;  // (l - L)/L beyond which a spring is gone; none: never
+    double breakCell = 0.02;            // [m] cell for which that is stated, where it matters: at the tip of a tear
+};
+
+struct MaterialSpec {             // of cloth, per metre of material
+    double density = 0.2;         // [kg/m²]
+    double stretch = 900.0;       // k_s [N/m]
+    std::optional<double> shear;  // k_d [N/m]; none: stretch / 2, isotropic
+    double bend = 1.0;            // k_b [N/m]
+    double dampingTime = 1e-4;    // τ [s]
+    double drag = 0.3;            // γ/m [1/s]
+    mechanics::Lumping lumping = mechanics::Lumping::weighted;
+    PlasticitySpec plasticity{};
+};
+
+// Which surfaces of bodies keep off each other: none, those of different bodies, or all, a body's own parts among them.
+enum class Touch { nothing, others, all };
+
+struct ArraySpec {  // copies of a body along three directions, named NAME.0, NAME.1, …
+    ivec3 count{1, 1, 1};
+    dvec3 stepX{0.0}, stepY{0.0}, stepZ{0.0};  // [m] from one copy to the next
+};
+
+// What is known of a body before it is built. Counts as doubles: they may be far beyond any integer.
+struct BodyOutline {
+    double points = 0, springs = 0, volumes = 0;
+    std::vector<std::string> groups;  // names of its points, as its builder gives them
+    bool isGrid = false;              // has "(u,v)"
+    bool isLine = false;              // has "50%"
+    bool hasSurface = false;          // that a wind acts on
+};
+
+struct BodySpec {
+    std::string name;  // without the kind: "flag"
+    Source source;
+    std::vector<std::string> hold;  // selectors, see mechanics: a group, "(u,v)", "50%", "#index"
+    std::string holdOn;             // "collider.pole": what carries those; empty: they stay where they are
+    dvec3 velocity{0.0};            // [m/s] at the start
+    dvec3 spin{0.0};                // [rad/s] at the start, about the centre of mass
+    double jitter = 0.0;            // [m] random offset of free points at the start: breaks symmetry
+    std::int64_t seed = 1;          // of the jitter
+    double friction = 1.0;          // factor on the collider's friction
+    double thickness = 0.005;       // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
+    bool collide = true;
+    bool meetsFaces = false;  // of colliders with its own, where `touch` does not say so
+    Touch touch = Touch::nothing;
+    FinishSpec finish;
+    SolverOverride solver;
+    ArraySpec array;
+
+    BodySpec() = default;
+    BodySpec(const BodySpec&) = default;
+    BodySpec& operator=(const BodySpec&) = default;
+    virtual ~BodySpec() = default;
+    virtual std::string_view kind() const = 0;  // "cloth"
+    virtual std::unique_ptr<BodySpec> copy() const = 0;
+    std::string fullName() const { return std::string(kind()) + "." + name; }
+
+    // At rest and free, one of an array. Throws core::Error(badContent) with file, line and column.
+    virtual mechanics::Model build(const SceneSpec& scene) const = 0;
+    virtual PlasticitySpec plasticityIn(const SceneSpec&) const { return {}; }
+    // The material that it takes numbers from; empty: none.
+    virtual std::string_view materialName() const { return {}; }
+
+    // How a body that was made of it is drawn: by default the triangles of its model, if there are any.
+    virtual std::unique_ptr<BodyDrawing> drawing(const Body& body) const;
+    // What it will hold. By default it is built to find out.
+    virtual BodyOutline outline(const SceneSpec& scene) const;
+    // The mesh file that it is made from, or null.
+    virtual const MeshSource* meshSource() const { return nullptr; }
+    MeshSource* meshSource() { return const_cast<MeshSource*>(std::as_const(*this).meshSource()); }
+};
+
+}  // namespace taut::world

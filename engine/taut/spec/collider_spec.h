@@ -1,0 +1,43 @@
+// Rigid things that stop bodies.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "taut/spec/finish_spec.h"
+#include "taut/spec/mesh_data.h"
+#include "taut/spec/source.h"
+
+namespace taut::world {
+
+struct PoseKey {
+    double t = 0.0;            // [s]
+    dvec3 position{0.0};       // [m]
+    dvec3 rotation{0.0};       // [rad]
+    Ease ease = Ease::smooth;  // from the key before to this one
+};
+
+struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh
+    std::string name;
+    Source source;
+    std::string shape = "sphere";  // a name from the table of shapes (collision/shape_table.h), or compound
+    dvec3 position{0.0};           // [m]
+    dvec3 rotation{0.0};           // [rad]
+    dvec3 normal{0.0, 1.0, 0.0};   // plane
+    dvec3 size{1.0};               // box: whole edges [m]
+    double radius = 0.5;           // [m]
+    double height = 1.0;           // [m] cylinder, cone: whole; capsule: between the centres of its half spheres
+    std::map<std::string, double, std::less<>> sizes;  // what the shape adds to these, by its key
+    double scale = 1.0;
+    std::vector<ColliderSpec> parts;  // compound
+    double friction = 0.3;            // Coulomb's μ [-]
+    double restitution = 0.0;         // 0 … 1: speed after a bounce / speed before [-]
+    std::vector<PoseKey> keys;        // keyframes; then position and rotation are not used
+    bool visible = true;
+    double edge = 0.01;  // [m] rounding of a drawn box's edges
+    FinishSpec finish;
+};
+
+}  // namespace taut::world

@@ -1,0 +1,119 @@
+#include "taut/spec/common_rows.h"
+
+#include <fmt/format.h>
+
+#include "taut/fields/problems.h"
+#include "taut/ode/method_table.h"
+
+namespace taut::world {
+
+using fields::FieldList;
+using fields::Range;
+using fields::Role;
+using fields::Section;
+
+namespace {
+
+constexpr Range copies{1.0, 100000.0};
+constexpr double maxCopies = 100000;
+
+}  // namespace
+
+Section arraySection() {
+    Section section;
+    section.fields =
+        FieldList<ArraySpec>()
+            .vector("count", &ArraySpec::count, "", copies, "Copies along the three directions.")
+            .required()
+            .vector("step_x", &ArraySpec::stepX, "m", placeRange, "From one copy to the next, first direction.")
+            .vector("step_y", &ArraySpec::stepY, "m", placeRange, "The same, second direction.")
+            .vector("step_z", &ArraySpec::stepZ, "m", placeRange, "The same, third direction.")
+            .take();
+    section.check = [](const fields::CheckInput& input, void* target) {
+        auto& array = *static_cast<ArraySpec*>(target);
+        const dvec3 steps[] = {array.stepX, array.stepY, array.stepZ};
+        const char* names[] = {"step_x", "step_y", "step_z"};
+        for (int i = 0; i < 3; ++i) {
+            if (array.count[i] > 1 && steps[i] == dvec3(0.0) && input.isClean) {
+                input.problems.addError(input.at("count"),
+                                        fmt::format("the {} copies lie in the same place", array.count[i]),
+                                        fmt::format("give {}", names[i]));
+            }
+        }
+        const dvec3 counts(array.count);
+        if (counts.x * counts.y * counts.z > maxCopies) {
+            input.problems.addError(input.at("count"), fmt::format("an array has at most {} copies", maxCopies));
+            array.count = ivec3(1);
+        }
+    };
+    return section;
+}
+
+Section overrideSection() {
+    Section section;
+    section.fields = FieldList<SolverOverride>()
+                         .choice("integrator", &SolverOverride::integrator, methodNames(), "As in [solver].")
+                         .role(Role::method)
+                         .number("dt", &SolverOverride::dt, "s", Range{1e-9, 1.0}, "As in [solver].")
+                         .number("safety", &SolverOverride::safety, "", Range{0.01, 1.0}, "As in [solver].")
+                         .whole("newton_steps", &SolverOverride::newtonSteps, "", Range{1, 100}, "As in [solver].")
+                         .number("cg_tolerance", &SolverOverride::cgTolerance, "", Range{1e-12, 0.1}, "As in [solver].")
+                         .whole("cg_iterations", &SolverOverride::cgIterations, "", Range{1, 1e6}, "As in [solver].")
+                         .take();
+    return section;
+}
+
+Section finishSection() {
+    Section section;
+    section.variant = [](const fields::Node& table) -> std::string {
+        const fields::Member* pattern = table.find("pattern");
+        return pattern != nullptr && pattern->value.text == "image" ? "the pattern image" : "a painted pattern";
+    };
+    section.fields =
+        FieldList<FinishSpec>()
+            .colour("colour", &FinishSpec::colour, "Colour of the front.")
+            .colour("back_colour", &FinishSpec::backColour, "Colour of the back; paler than the front if not given.")
+            .colour("accent", &FinishSpec::accent, "Second colour of a pattern.")
+            .choice("pattern", &FinishSpec::pattern, {"plain", "checker", "stripes", "tartan", "image"}, "Pattern.")
+            .number("repeat_m", &FinishSpec::repeat, "m", lengthRange, "Length after which the pattern repeats.")
+            .number("weave", &FinishSpec::weave, "", fields::share,
+                    "Depth of the weave: 0 smooth, 1 coarse linen. A mesh without texture coordinates has none.")
+            .number("thread_m", &FinishSpec::thread, "m", lengthRange, "Distance of two threads.")
+            .number("roughness", &FinishSpec::roughness, "", fields::share, "0 a mirror, 1 chalk.")
+            .number("sheen", &FinishSpec::sheen, "", fields::share, "Bright rim of fabric.")
+            .number("hem_m", &FinishSpec::hem, "m", Range{0.0, 1.0},
+                    "Thickness of a cloth as its free edges show it where that is more than a pixel; nothing else "
+                    "knows of it.")
+            .text("texture", &FinishSpec::texture, Role::texture, "Picture file, PNG or JPEG.")
+            .required()
+            .only({"the pattern image"})
+            .take();
+    return section;
+}
+
+void keepRadius(const fields::CheckInput& input, double radius, BodySpec& body) {
+    constexpr double far = 0.5;
+    if (input.table.find("thickness") == nullptr)
+        body.thickness = radius;
+    else if (body.thickness < far * radius && (body.collide || body.touch != Touch::nothing))
+        input.problems.addWarning(input.at("thickness"),
+                                  fmt::format("drawn with a radius of {} m, it sinks {:.3g} m into what it touches",
+                                              radius, radius - body.thickness),
+                                  "leave thickness out");
+}
+
+std::vector<std::string> easeNames() {
+    return {"linear", "smooth", "in", "out", "hold"};
+}
+
+std::vector<std::string> methodNames() {
+    std::vector<std::string> names;
+    for (const ode::MethodInfo& method : ode::methods()) names.emplace_back(method.name);
+    return names;
+}
+
+std::vector<std::string> lumpingNames() {
+    return {"weighted", "uniform"};
+}
+
+}  // namespace taut::world

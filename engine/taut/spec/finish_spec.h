@@ -1,0 +1,27 @@
+// How a thing looks.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "taut/view/frame_view.h"
+#include "taut/spec/source.h"
+
+namespace taut::world {
+
+// How a thing looks; see view::Finish.
+struct FinishSpec {
+    dvec3 colour{0.75, 0.72, 0.68};
+    std::optional<dvec3> backColour;  // none: a paler colour
+    dvec3 accent{0.95, 0.93, 0.88};
+    view::Pattern pattern = view::Pattern::plain;
+    double repeat = 0.25;    // [m]
+    double weave = 0.0;      // 0 … 1
+    double thread = 0.012;   // [m]
+    double roughness = 0.7;  // 0 … 1
+    double sheen = 0.0;      // 0 … 1
+    double hem = 0.001;      // [m] thickness of a cloth at its free edges
+    std::string texture;     // path, resolved by the loader
+};
+
+}  // namespace taut::world

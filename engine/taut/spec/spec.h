@@ -1,0 +1,105 @@
+// What a scene asks for, as plain data with defaults. The loader fills it, the world is built from it; it knows
+// neither files nor pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
+//
+// The loader refuses what is out of range (scene::manual() has every range). Who fills a scene in code keeps to the
+// same ranges and words, which the world does not check again; that targets and materials exist it does.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "taut/spec/action_spec.h"
+#include "taut/spec/body_spec.h"
+#include "taut/spec/claim_spec.h"
+#include "taut/spec/collider_spec.h"
+#include "taut/spec/force_spec.h"
+#include "taut/spec/picture_spec.h"
+#include "taut/spec/solver_spec.h"
+#include "taut/spec/specs.h"
+
+namespace taut::collision {
+class ShapeKinds;
+}
+
+namespace taut::world {
+
+template <class Base>
+class KindTable;
+
+struct WorldSpec {
+    dvec3 gravity{0.0, -9.81, 0.0};  // [m/s²]
+    double airDensity = 1.2;         // [kg/m³]
+};
+
+// Of bodies that touch each other, or themselves.
+struct ContactSpec {
+    double friction = 0.3;        // Coulomb's μ between two bodies, times the factors of both [-]
+    std::optional<int> instants;  // a tick, at which contacts are looked at; none: as many as their speed asks for
+};
+
+struct RunSpec {
+    double fps = 60.0;     // pictures a second of scene time
+    double seconds = 5.0;  // length
+};
+
+// What hands may do while the scene runs. A timeline's own grabs are allowed for without it.
+struct HandSpec {
+    bool anywhere = false;      // any point of any body may be grabbed: every step allows for it
+    double strength = 200.0;    // [N/m] at most, of a hand
+    double dampingRatio = 0.3;  // at most
+};
+
+// Targets are written KIND.NAME@SELECTOR, e.g. "cloth.flag@left"; NAME may have the wildcard *.
+struct JointSpec {
+    enum class Kind { weld, spring };
+    std::string a, b;
+    Kind kind = Kind::weld;
+    double stiffness = 1e4;     // [N/m] of each spring
+    double dampingTime = 1e-4;  // [s]
+    double reach = 0.02;        // [m] a weld joins points at most this far apart
+    Source source;
+};
+
+struct MassSpec {  // mass added to points
+    std::string target;
+    double mass = 1.0;  // [kg] shared evenly among the target's points
+    Source source;
+};
+
+struct SceneSpec {
+    std::string file;
+    std::string base;  // the file that it builds on; empty: none
+    std::string title;
+    WorldSpec world;
+    ContactSpec contact;
+    SolverSpec solver;
+    RunSpec run;
+    NeedSpec need;
+    PictureSpec picture;
+    LightSpec light;
+    EnvironmentSpec environment;
+    std::vector<LampSpec> lamps;
+    BackgroundSpec background;
+    std::map<std::string, MaterialSpec> materials;
+    Specs<BodySpec> bodies;
+    std::vector<JointSpec> joints;  // in the order of the file
+    std::vector<MassSpec> masses;   // in the order of the file
+    std::vector<ColliderSpec> colliders;
+    std::shared_ptr<const collision::ShapeKinds> shapes;  // that colliders may have; none: the engine's own
+    Specs<ForceSpec> forces;                              // in the order in which they are added up
+    std::vector<CameraSpec> cameras;
+    std::vector<LabelSpec> labels;
+    HandSpec hand;
+    Specs<ActionSpec> actions;                                 // by time, those of one moment in the order of the file
+    std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // of which they are; none: the engine's own
+    std::vector<CheckSpec> checks;                             // in the order of the file
+    std::vector<GoldenSpec> goldens;
+};
+
+// Whether any body of it touches others or itself.
+bool bodiesTouch(const SceneSpec& spec);
+
+}  // namespace taut::world

@@ -1,0 +1,28 @@
+// The moments that a run has: ticks and frames, from the numbers in [run].
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "taut/spec/spec.h"
+
+namespace taut::world {
+
+struct Ticks {
+    int perFrame = 1;
+    double perSecond = 60.0;
+    std::int64_t lastFrame = 0;
+
+    explicit Ticks(const RunSpec& run)
+        : perFrame(static_cast<int>(std::ceil(60.0 / run.fps))),
+          perSecond(run.fps * perFrame),
+          lastFrame(std::max<std::int64_t>(1, std::llround(run.seconds * run.fps)) - 1) {}
+
+    // The tick at whose start something at t [s] happens, and whose state is the one at t.
+    std::int64_t at(double t) const { return static_cast<std::int64_t>(std::floor(t * perSecond + 0.5)); }
+    std::int64_t last() const { return lastFrame * perFrame; }
+    double secondsOf(std::int64_t tick) const { return static_cast<double>(tick) / perSecond; }  // [s]
+};
+
+}  // namespace taut::world

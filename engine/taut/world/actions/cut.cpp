@@ -1,0 +1,46 @@
+// Bodies are cut along a plane or a line.
+#include "taut/fields/problems.h"
+#include "taut/world/actions/rows.h"
+#include "taut/island/cutting.h"
+#include "taut/world/impl.h"
+
+namespace taut::world {
+
+Kind<ActionSpec> cutKind() {
+    const auto check = [](const fields::CheckInput& input, const CutAction& cut) {
+        needsTarget(input, cut);
+        if (!input.isClean) return;
+        if (cut.planePoint.has_value() == cut.from.has_value())
+            reportLack(input, "either plane or segment",
+                       "write plane = [[point], [normal]] in metres or segment = [[u, v], [u, v]] on a cloth grid");
+        if (cut.from && *cut.from == *cut.upTo)
+            input.problems.addError(input.at("segment"), "the two ends of the cut are the same point");
+        if (cut.planeNormal && glm::dot(*cut.planeNormal, *cut.planeNormal) < fields::smallest * fields::smallest)
+            input.problems.addError(input.at("plane"), "the normal of the plane must not be [0, 0, 0]");
+    };
+    return actionKind<CutAction>(
+        withTarget<CutAction>()
+            .segment("plane", &CutAction::planePoint, &CutAction::planeNormal, "m", placeRange,
+                     "A point and a normal: springs that cross the plane are cut.")
+            .segment("segment", &CutAction::from, &CutAction::upTo, "", fields::share,
+                     "From where to where a cloth grid is cut, as shares of its width and height from the top left."),
+        check);
+}
+
+void CutAction::perform(World& world) const {
+    WorldImpl& w = WorldAccess::of(world);
+    const std::vector<Body*> all = w.allBodies();
+    const std::vector<Body*> bodies = matchBodies(all, target);
+    if (bodies.empty()) failAction(*this, "target = \"" + target + "\" names no body");
+    bool any = false;
+    for (const auto& island : w.islands) {
+        const Crossing crossing = crossingOf(*this, *island, bodies);
+        if (crossing.isEmpty()) continue;
+        any = true;
+        if (island->frozen() == nullptr) sever(crossing, island->change(w.now(), Change::shape));
+    }
+    if (!any) failAction(*this, "there is nothing of \"" + target + "\" where this cuts; put it where the body is");
+    w.redrawDamage();
+}
+
+}  // namespace taut::world

@@ -1,0 +1,67 @@
+// Points are pinned where they are, or to a collider, or free to move.
+#include <algorithm>
+
+#include "taut/fields/problems.h"
+#include "taut/world/actions/rows.h"
+#include "taut/world/impl.h"
+#include "taut/bodies/ties.h"
+
+namespace taut::world {
+
+Kind<ActionSpec> holdKind() {
+    return actionKind<HoldAction>(
+        withPoints<HoldAction>().text("hold_on", &HoldAction::holdOn, fields::Role::collider, holdOnHelp), needsTarget);
+}
+Kind<ActionSpec> freeKind() {
+    return actionKind<FreeAction>(withPoints<FreeAction>(), needsTarget);
+}
+
+namespace {
+
+bool isInHand(const IslandPlan& plan, int point) {
+    return std::any_of(
+        plan.grips.begin(), plan.grips.end(),
+        [&](const Grip& grip) {
+            return grip.rigid && !grip.ofCollider && std::binary_search(grip.points.begin(), grip.points.end(), point);
+        });
+}
+
+IslandPlan& untied(Island& island, const TickTime& time, std::span<const int> points) {
+    IslandPlan& plan = island.change(time, Change::points);
+    if (untie(plan, points)) island.change(time, Change::grips);
+    return plan;
+}
+
+void pin(const PointsAction& action, WorldImpl& w, bool isHeld) {
+    for (const auto& [island, numbers] : byIsland(w.pick(action))) {
+        IslandPlan& plan = untied(*island, w.now(), numbers);
+        for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = isHeld;
+        if (isHeld) island->stop(w.now(), numbers);
+    }
+}
+
+}  // namespace
+
+void HoldAction::perform(World& world) const {
+    WorldImpl& w = WorldAccess::of(world);
+    if (holdOn.empty()) return pin(*this, w, true);
+    const auto pose = w.poseOf(holdOn);
+    if (!pose) failAction(*this, "there is no " + holdOn + " to hold points on");
+    std::vector<Picked> points = w.pick(*this);
+    std::erase_if(points, [](const Picked& p) { return isInHand(p.island->plan(), p.point); });
+    if (points.empty()) failAction(*this, "a hand leads every point of \"" + target + "\"; release them first");
+    std::vector<dvec3> x;
+    for (const auto& [island, numbers] : byIsland(points)) {
+        IslandPlan& plan = untied(*island, w.now(), numbers);
+        for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = false;
+        x.clear();
+        for (std::size_t i = 0; i < plan.points.size(); ++i) x.push_back(island->position(static_cast<int>(i)));
+        island->change(w.now(), Change::grips).grips.push_back(tieTo(holdOn, *pose, numbers, x));
+        island->stop(w.now(), numbers);
+    }
+}
+void FreeAction::perform(World& world) const {
+    pin(*this, WorldAccess::of(world), false);
+}
+
+}  // namespace taut::world

@@ -1,0 +1,52 @@
+// What an entity of the world can have.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "taut/collision/colliders.h"
+#include "taut/bodies/body.h"
+#include "taut/spec/collider_spec.h"
+#include "taut/bodies/drawing.h"
+#include "taut/spec/picture_spec.h"
+
+namespace taut::world {
+
+struct Identity {
+    std::string kind;  // "cloth", "collider", "camera", …
+    std::string name;
+    std::string fullName() const { return kind + "." + name; }
+};
+
+// What moves by its own laws.
+struct BodyPart {
+    std::unique_ptr<Body> body;
+    std::unique_ptr<BodyDrawing> drawing;
+    std::size_t drawnDamage = 0;  // severed edges that the drawing knows of
+};
+
+// Where a rigid thing is at the start and the end of the current tick. A system that moves it writes `to`.
+struct Placement {
+    collision::Pose from, to;
+    bool moved = false;  // in the tick before
+};
+
+// The way that an action sends a collider, in ticks.
+struct PoseMove {
+    collision::Pose from, to;
+    std::int64_t start = 0, length = 1;
+    Ease ease = Ease::smooth;
+};
+
+struct ColliderPart {
+    ColliderSpec spec;
+    std::shared_ptr<const ColliderModel> model;
+    std::optional<PoseMove> move{};  // the last; where there is one, keyframes do not count any more
+};
+
+struct CameraPart {
+    CameraSpec spec;
+};
+
+}  // namespace taut::world

@@ -1,0 +1,169 @@
+// The one hand-over from simulation to pictures.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "taut/world/impl.h"
+#include "taut/world/labels.h"
+#include "taut/spec/motion.h"
+
+namespace taut::world {
+namespace {
+
+constexpr float frozenDullness = 0.93F;
+constexpr double fullStrain = 0.02;  // strain that the debug view draws in full colour
+
+// Blue when compressed, grey at rest, red when stretched.
+glm::vec3 strainColour(double strain) {
+    const auto share = static_cast<float>(std::clamp(strain / fullStrain, -1.0, 1.0));
+    const glm::vec3 rest(0.55F), stretched(1.0F, 0.12F, 0.05F), compressed(0.05F, 0.25F, 1.0F);
+    return share >= 0 ? glm::mix(rest, stretched, share) : glm::mix(rest, compressed, -share);
+}
+
+void addMarks(const Island& island, view::Marks& marks) {
+    const IslandPlan& plan = island.plan();
+    for (std::size_t i = 0; i < plan.springs.size(); ++i) {
+        const mechanics::Spring& s = plan.springs[i];
+        if (s.kind == mechanics::SpringKind::bend || plan.broken[i]) continue;  // bend: on top of the structural ones
+        const dvec3 a = island.position(s.a), b = island.position(s.b);
+        const double l = std::sqrt(glm::dot(b - a, b - a));
+        marks.lines.push_back(
+            {glm::vec3(a), glm::vec3(b), strainColour(s.restLength > 0 ? l / s.restLength - 1.0 : 0.0)});
+    }
+    const std::vector<bool> isHeld = heldPointsOf(plan);
+    for (std::size_t i = 0; i < plan.points.size(); ++i) {
+        const glm::vec3 at(island.position(static_cast<int>(i)));
+        if (isHeld[i])
+            marks.dots.push_back({at, glm::vec3(0.95F, 0.75F, 0.05F), 3.0F});
+        else
+            marks.dots.push_back({at, glm::vec3(0.02F), 0.8F});
+    }
+    for (const collision::Contact& contact : island.contacts())
+        marks.dots.push_back({glm::vec3(contact.position), glm::vec3(0.1F, 0.85F, 0.2F), 2.5F});
+}
+
+// Between bodies: what presses, with a line as long as both keep apart, and what goes through what.
+void addTouchMarks(WorldImpl& w, view::Marks& marks) {
+    const glm::vec3 pressing(0.05F, 0.75F, 0.95F), crossing(1.0F, 0.0F, 0.1F);
+    for (const BodyContact& c : w.touchWatch.contacts()) {
+        const dvec3 way = 0.5 * (c.first->spec->thickness + c.second->spec->thickness) * c.normal;
+        marks.lines.push_back({glm::vec3(c.place - way), glm::vec3(c.place + way), pressing});
+        marks.dots.push_back({glm::vec3(c.place), pressing, 2.5F});
+    }
+    if (!w.touchesAny()) return;
+    for (const BodyCrossing& c : w.crossings()) marks.dots.push_back({glm::vec3(c.place), crossing, 4.0F});
+}
+
+view::Light lightOf(const LightSpec& spec) {
+    view::Light light;
+    light.direction = glm::normalize(glm::vec3(spec.direction));
+    light.colour = static_cast<float>(spec.intensity) * linearColour(spec.colour);
+    light.sky = static_cast<float>(spec.ambient) * linearColour(spec.sky);
+    light.ground = static_cast<float>(spec.ambient) * linearColour(spec.ground);
+    light.softness = static_cast<float>(spec.softness);
+    return light;
+}
+
+view::Lamp lampOf(const LampSpec& spec) {
+    return {spec.name, glm::normalize(glm::vec3(spec.direction)),
+            static_cast<float>(spec.intensity) * linearColour(spec.colour), static_cast<float>(spec.softness),
+            spec.shadow};
+}
+
+// Where it will be if it goes on as in the tick before.
+collision::Pose poseAhead(const Placement& placement, double ticks) {
+    const auto& [from, to, moved] = placement;
+    if (ticks == 0.0 || (from.position == to.position && from.rotation == to.rotation)) return to;
+    const glm::dquat near = glm::dot(from.rotation, to.rotation) < 0.0 ? -from.rotation : from.rotation;
+    return {to.position + ticks * (to.position - from.position),
+            glm::normalize(to.rotation * (1.0 + ticks) + near * -ticks)};
+}
+
+// (points of the island) [m]
+std::vector<dvec3> placesAhead(const Island& island, double ahead) {
+    std::vector<dvec3> x(island.plan().points.size()), v(x.size());
+    island.read(x, v);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::isfinite(glm::dot(v[i], v[i]))) x[i] += ahead * v[i];  // not of what is held, whose mass is infinite
+    return x;
+}
+
+// What a picture is made of but labels and marks. Bodies go into `drawn`, in order.
+view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& drawn) {
+    const double time = w.seconds() + ahead;
+    view::FrameView view;
+    view.frame = w.tick / w.ticksPerFrame;
+    view.time = time;
+    view.light = lightOf(w.spec.light);
+    if (const EnvironmentSpec& around = w.spec.environment; !around.image.empty())
+        view.environment = view::Environment{around.image, static_cast<float>(around.strength),
+                                             static_cast<float>(around.turn), around.visible};
+    for (const LampSpec& lamp : w.spec.lamps) view.lamps.push_back(lampOf(lamp));
+    view.background = {linearColour(w.spec.background.top), linearColour(w.spec.background.horizon),
+                       static_cast<float>(w.spec.background.fadeStart), static_cast<float>(w.spec.background.fadeEnd),
+                       w.spec.background.fadesWithCamera};
+    bool chosen = false;
+    w.registry.each<CameraPart>([&](ecs::Entity, const CameraPart& part) {
+        if (chosen || (!w.spec.picture.camera.empty() && part.spec.name != w.spec.picture.camera)) return;
+        view.camera = cameraAt(part.spec, time);
+        chosen = true;
+    });
+    w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        const collision::Pose pose = poseAhead(placement, ahead * w.ticksPerSecond);
+        if (part.spec.visible && part.model->isGround && !view.ground) {
+            view.ground = view::Ground{};
+            view.ground->height = static_cast<float>(pose.position.y);
+            view.ground->colour = linearColour(part.spec.finish.colour);
+        }
+        for (const ColliderModel::Piece& piece : part.model->pieces)
+            view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
+                                     matrixOf(pose) * piece.transform, part.spec.shape == "plane"});
+    });
+    std::map<const Island*, std::vector<dvec3>> places;  // of islands that have been met, where they are asked for
+    for (const WorldImpl::Member& member : w.bodies) {
+        const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
+        const Island& island = w.islandOf(*part.body);
+        drawn.push_back(part.body.get());
+        std::vector<glm::vec3> positions;
+        positions.reserve(part.body->pointOf.size());
+        if (ahead == 0.0) {
+            for (int i : part.body->pointOf) positions.emplace_back(island.position(i));
+        } else {
+            auto known = places.find(&island);
+            if (known == places.end()) known = places.emplace(&island, placesAhead(island, ahead)).first;
+            for (int i : part.body->pointOf) positions.emplace_back(known->second[static_cast<std::size_t>(i)]);
+        }
+        const std::size_t first = view.surfaces.size();
+        part.drawing->addSurfaces(positions, view.surfaces);
+        if (island.frozen() == nullptr) continue;
+        for (std::size_t i = first; i < view.surfaces.size(); ++i) view.surfaces[i].dulled = frozenDullness;
+    }
+    return view;
+}
+
+}  // namespace
+
+view::FrameView World::viewAhead(double ahead) const {
+    std::vector<Body*> ignored;
+    return sceneOf(*impl_, ahead, ignored);
+}
+
+view::FrameView World::view(bool debug) const {
+    const Impl& w = *impl_;
+    std::vector<Body*> bodies;
+    view::FrameView view = sceneOf(w, 0.0, bodies);
+    for (const LabelSpec& label : w.spec.labels) {
+        std::vector<LabelSubject> subjects;
+        for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &w.islandOf(*body)});
+        addLabels(label, subjects, view.labels);
+    }
+    view.showMarks = debug;
+    if (!debug) return view;
+    for (const auto& island : w.islands) addMarks(*island, view.marks);
+    addTouchMarks(*impl_, view.marks);
+    for (const Hand& hand : w.hands)
+        view.marks.dots.push_back({glm::vec3(hand.placeAt(w.tick)), glm::vec3(1.0F, 0.35F, 0.05F), 5.0F});
+    return view;
+}
+
+}  // namespace taut::world

@@ -1,0 +1,164 @@
+// What is asked of a world while it stands still between two ticks.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "taut/core/hash.h"
+#include "taut/world/impl.h"
+#include "taut/spec/targets.h"
+
+namespace taut::world {
+
+bool World::Impl::touchesAny() const {
+    return std::any_of(
+        islands.begin(), islands.end(), [](const auto& island) { return touches(island->plan()); });
+}
+
+std::vector<BodyCrossing> World::Impl::crossings() {
+    findTouching();
+    return crossingsOf(*touching);
+}
+
+Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted, Measures what) {
+    Metrics metrics;
+    metrics.time = seconds();
+    for (const auto& island : islands) island->addMetrics(now(), wanted, metrics);
+    const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
+    for (const BodyContact& contact : touchWatch.contacts())
+        metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
+    if (what == Measures::butCrossings || !touchesAny()) return metrics;
+    for (const BodyCrossing& crossing : crossings())
+        metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
+    metrics.facePenetration = touching->facePenetration(wanted);
+    return metrics;
+}
+
+std::vector<MetCollider> World::Impl::met() const {
+    std::vector<MetCollider> all;
+    registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
+        all.push_back({collision::outlinesOf(part.model->shape), part.spec.friction, placement.to});
+    });
+    return all;
+}
+
+Metrics World::metrics(Measures what) const {
+    return impl_->metricsOf([](const Body&) { return true; }, what);
+}
+
+Metrics World::metrics(const std::string& bodies) const {
+    return metrics(select(bodies));
+}
+
+PointsNow World::points(const std::string& target) const {
+    return points(select(target));
+}
+
+Selection World::select(const std::string& target) const {
+    Selection selection;
+    selection.generation = impl_->generation;
+    const std::string selector = parseTarget(target).selector;
+    for (const Body* body : matchBodies(impl_->allBodies(), target))
+        selection.parts.push_back({body, selectPoints(body->model, selector)});
+    return selection;
+}
+
+bool World::isCurrent(const Selection& selection) const {
+    return selection.generation == impl_->generation;
+}
+
+Metrics World::metrics(const Selection& selection, Measures what) const {
+    TAUT_EXPECTS(isCurrent(selection));
+    std::set<const Body*> bodies;
+    for (const Selection::Part& part : selection.parts) bodies.insert(part.body);
+    return impl_->metricsOf([&](const Body& body) { return bodies.contains(&body); }, what);
+}
+
+PointsNow World::points(const Selection& selection) const {
+    TAUT_EXPECTS(isCurrent(selection));
+    PointsNow points;
+    std::map<const Island*, std::vector<dvec3>> velocities;  // of the islands asked so far
+    for (const auto& [body, numbers] : selection.parts) {
+        Island& island = impl_->islandOf(*body);
+        auto known = velocities.find(&island);
+        if (known == velocities.end()) known = velocities.emplace(&island, island.velocities(impl_->now())).first;
+        for (int i : numbers) {
+            const int point = body->pointOf[static_cast<std::size_t>(i)];
+            points.x.push_back(island.position(point));
+            points.v.push_back(known->second[static_cast<std::size_t>(point)]);
+            points.mass.push_back(island.plan().points[static_cast<std::size_t>(point)].mass);
+        }
+    }
+    return points;
+}
+
+std::vector<glm::dvec3> World::positions(const Selection& selection) const {
+    TAUT_EXPECTS(isCurrent(selection));
+    std::vector<glm::dvec3> positions;
+    for (const auto& [body, numbers] : selection.parts) {
+        const Island& island = impl_->islandOf(*body);
+        for (int i : numbers) positions.push_back(island.position(body->pointOf[static_cast<std::size_t>(i)]));
+    }
+    return positions;
+}
+
+std::vector<glm::dvec3> World::positions(ecs::Entity entity) const {
+    const BodyPart* part = impl_->registry.find<BodyPart>(entity);
+    TAUT_EXPECTS(part != nullptr);
+    const Island& island = impl_->islandOf(*part->body);
+    std::vector<glm::dvec3> positions;
+    for (int i : part->body->pointOf) positions.push_back(island.position(i));
+    return positions;
+}
+
+ContactInfo World::contact() const {
+    impl_->findTouching();
+    return impl_->touching->info();
+}
+
+bool World::hasTouched() const {
+    return impl_->touchWatch.hasMet() ||
+           std::any_of(
+               impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
+}
+
+std::vector<std::string> World::warnings() const {
+    std::vector<std::string> all = impl_->jointWarnings;
+    for (const auto& island : impl_->islands)
+        for (const std::string& warning : island->warnings()) all.push_back(warning);
+    for (const std::string& warning : impl_->touchWatch.warnings()) all.push_back(warning);
+    for (const std::string& name : callbacks())
+        all.push_back(name + " is a callback: from here on nobody promises that bits are the same on every machine");
+    return all;
+}
+
+std::vector<std::string> World::callbacks() const {
+    std::vector<std::string> names = impl_->callbackSystems;
+    for (const auto& force : impl_->added)
+        if (force->isCallback()) names.push_back(force->name());
+    return names;
+}
+
+std::vector<BodyHash> World::bodyHashes() const {
+    std::vector<BodyHash> hashes;
+    for (const Body* body : impl_->allBodies()) {
+        core::Hash hash;
+        impl_->islandOf(*body).addToHash(*body, hash);
+        hashes.push_back({body->fullName(), hash.value()});
+    }
+    return hashes;
+}
+
+std::vector<std::uint64_t> World::pointHashes(ecs::Entity entity) const {
+    const BodyPart* part = impl_->registry.find<BodyPart>(entity);
+    TAUT_EXPECTS(part != nullptr);
+    const Island& island = impl_->islandOf(*part->body);
+    std::vector<std::uint64_t> hashes;
+    for (int i : part->body->pointOf) {
+        core::Hash hash;
+        island.addPointToHash(i, hash);
+        hashes.push_back(hash.value());
+    }
+    return hashes;
+}
+
+}  // namespace taut::world

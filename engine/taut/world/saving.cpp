@@ -1,0 +1,206 @@
+// A world as bytes: what its ticks have changed. The scene is not among them; it makes the world that they go into.
+#include <algorithm>
+
+#include "taut/world/impl.h"
+#include "taut/spec/kinds.h"
+#include "taut/world/result_bits.h"
+#include "taut/bodies/state_bytes.h"
+#include "taut/spec/ticks.h"
+
+namespace taut::world {
+namespace {
+
+// Ways in ticks: none takes longer than any run.
+constexpr std::int64_t longestWay = std::int64_t{1} << 40;
+
+void visitWay(StateBytes& bytes, std::int64_t& start, std::int64_t& length, Ease& ease) {
+    bytes.atLeast(start, 0, longestWay);
+    bytes.atLeast(length, 1, longestWay);
+    bytes.choice(ease, Ease::hold);
+}
+
+// Before the bytes of a hand that is turned; no length of a name, with which all others begin.
+constexpr std::uint64_t turnMark = 0xfff8'7461'7574'0003ULL;
+
+void visitPart(StateBytes& bytes, Hand& hand) {
+    if (bytes.mark(turnMark, hand.isTurned()))
+        for (dvec3* v : {&hand.turnedFrom, &hand.turnedTo, &hand.spin}) bytes(*v);
+    bytes(hand.id);
+    bytes(hand.rigid);
+    for (dvec3* v : {&hand.from, &hand.to, &hand.rate}) bytes(*v);
+    visitWay(bytes, hand.start, hand.length, hand.ease);
+}
+
+void visitPart(StateBytes& bytes, PoseMove& move) {
+    bytes(move.from);
+    bytes(move.to);
+    visitWay(bytes, move.start, move.length, move.ease);
+}
+
+// As many numbers as the field has.
+void visitValue(StateBytes& bytes, std::vector<double>& value, std::size_t size) {
+    bytes.list(value);
+    bytes.require(value.size() == size &&
+                  std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
+}
+
+// Its field is that of any action of the scene with the same key. Reading writes the value as it was into the scene.
+void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, std::span<const RampAction> applied,
+               SceneSpec& spec) {
+    std::string key = ramp.action.key;
+    bytes(key);
+    if (bytes.isReading()) {
+        foreseen<RampAction>(start.actions, [&](const RampAction& like) {
+            if (like.key == key) ramp.action = like;
+        });
+        for (const RampAction& like : applied)
+            if (like.key == key) ramp.action = like;
+        if (ramp.action.field == nullptr) misfit("it has no ramp of \"" + key + "\"");
+    }
+    std::vector<double> now = ramp.action.field->read(spec);
+    const std::size_t size = now.size();
+    visitValue(bytes, ramp.action.value, size);
+    bytes.choice(ramp.action.ease, Ease::hold);
+    visitValue(bytes, ramp.from, size);
+    bytes.atLeast(ramp.start, 0, longestWay);
+    bytes.atLeast(ramp.length, 0, longestWay);
+    visitValue(bytes, now, size);
+    if (bytes.isReading()) ramp.action.field->write(spec, now);
+}
+
+// Before the number of bits; no frame rate either.
+constexpr std::uint64_t bitsMark = 0xfff8'7461'7574'0002ULL;  // a NaN
+
+void visitBits(StateBytes& bytes) {
+    int number = bytes.isReading() ? 1 : resultBits;
+    if (bytes.mark(bitsMark, true)) bytes(number);
+    bytes.require(areBits(number));
+    if (number != resultBits) throw core::Error(core::ErrorKind::badContent, "this state was " + recordedBy(number));
+}
+
+// Before the bytes of a world with kinds of its own; no frame rate, with which all others begin.
+constexpr std::uint64_t ownKindsMark = 0xfff8'7461'7574'0001ULL;  // a NaN
+
+// Before what bodies that touch were seen to do; no number of islands, which comes without it.
+constexpr std::uint64_t touchMark = 0xfff8'7461'7574'0004ULL;
+
+// The kinds of actions that are not of the engine, of those that begin before the tick: "action shake".
+std::vector<std::string> ownActions(const SceneSpec& scene, std::int64_t tick) {
+    const Ticks ticks(scene.run);
+    std::vector<std::string> names;
+    for (const ActionSpec& action : scene.actions)
+        if (ticks.at(action.t) < tick && builtInActions().find(action.kind()) == nullptr)
+            names.push_back("action " + std::string(action.kind()));
+    return names;
+}
+
+// What a world has that is not of the engine: "force attraction.well", "body ring.hoop", "method mine", "shape torus",
+// and of actions those until now.
+std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added,
+                                  const std::vector<std::unique_ptr<Island>>& islands, std::int64_t tick) {
+    static const Kinds known = builtIn();
+    std::vector<std::string> names;
+    const auto need = [&](const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    for (const auto& force : added) need("force " + force->name());
+    for (const ForceSpec& force : scene.forces)
+        if (known.forces.find(force.kind()) == nullptr) need("force " + force.fullName());
+    for (const BodySpec& body : scene.bodies)
+        if (known.bodies.find(body.kind()) == nullptr) need("body " + body.fullName());
+    for (const ColliderSpec& collider : scene.colliders)
+        if (collider.shape != "compound" && known.shapes.find(collider.shape) == nullptr)
+            need("shape " + collider.shape);
+    for (const auto& island : islands)
+        if (known.methods.find(island->plan().solver.integrator) == nullptr)
+            need("method " + island->plan().solver.integrator);
+    for (const std::string& action : ownActions(scene, tick)) need(action);
+    return names;
+}
+
+// So that a world without them refuses the bytes by name; `actions` are all that its timeline has.
+void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const std::vector<std::string>& actions) {
+    std::vector<std::string> names;
+    if (bytes.mark(ownKindsMark, !own.empty())) {
+        names = own;
+        bytes.each(names, [&](std::string& name) { bytes(name); });
+    }
+    if (bytes.isReading())
+        std::erase_if(names,
+                      [&](const std::string& name) { return std::count(actions.begin(), actions.end(), name) > 0; });
+    for (std::size_t i = 0; i < std::max(names.size(), own.size()); ++i) {
+        if (i >= own.size() || (i < names.size() && names[i] != own[i]))
+            misfit("they need the " + names[i] + ", which this world has not, or not in this place");
+        if (i >= names.size()) misfit("they know nothing of the " + own[i]);
+    }
+}
+
+}  // namespace
+
+void World::Impl::visit(StateBytes& bytes, std::span<const RampAction> applied) {
+    visitBits(bytes);
+    visitKinds(bytes, ownKinds(spec, added, islands, tick), ownActions(spec, longestWay));
+    double rate = ticksPerSecond;
+    bytes(rate);
+    if (rate != ticksPerSecond) misfit("its frame rate is another");
+    bytes.atLeast(tick, 0, longestWay);
+    bytes(hash);
+    bytes.each(ramps, [&](Ramp& ramp) { visitPart(bytes, ramp, *start, applied, spec); });
+    if (bytes.isReading()) takeRampedParts();
+    std::vector<std::string> targets = spawned;
+    bytes.each(targets, [&](std::string& target) { bytes(target); });
+    if (bytes.isReading())
+        for (const std::string& target : targets)
+            if (!spawnWaiting(target)) misfit("no body \"" + target + "\" waits to be spawned");
+    bytes.each(
+        hands, [&](Hand& hand) { visitPart(bytes, hand); });
+    registry.each<ColliderPart, Placement>([&](ecs::Entity, ColliderPart& part, Placement& placement) {
+        bytes.expect(part.spec.name, "its colliders are others");
+        bytes(placement.from);
+        bytes(placement.to);
+        bytes(placement.moved);
+        bytes.optional(part.move, [&](PoseMove& move) { visitPart(bytes, move); });
+    });
+    if (bytes.mark(touchMark, touchWatch.isWorthSaving())) {
+        const std::vector<Body*> all = allBodies();
+        touchWatch.visit(bytes, std::vector<const Body*>(all.begin(), all.end()));
+    }
+    if (touchesAny()) {
+        contactPace.visit([&](auto& number) { bytes(number); });
+        bytes.require(contactPace.isSound());
+    }
+    auto count = static_cast<std::uint64_t>(islands.size());
+    bytes(count);
+    if (count != islands.size()) misfit("its bodies hang together in another way");
+    // What ramps have made of the bodies, for the next one that takes an island's springs from them.
+    const bool ramped = std::any_of(ramps.begin(), ramps.end(), [](const Ramp& ramp) {
+        return ramp.action.field->affects == fields::Affects::springs;
+    });
+    if (bytes.isReading() && ramped)
+        for (const Member& member : bodies) takeSprings(*member.body);
+    if (bytes.isReading()) {
+        const ForceList current = forces();
+        for (const auto& island : islands) island->setForces(now(), current);
+    }
+    for (const auto& island : islands) island->visit(bytes);
+}
+
+std::vector<std::byte> World::save() const {
+    core::ByteWriter writer;
+    StateBytes bytes(writer);
+    impl_->visit(bytes);
+    return writer.take();
+}
+
+void World::restore(std::span<const std::byte> content, std::span<const RampAction> applied) {
+    TAUT_EXPECTS(impl_->tick == 0);
+    core::ByteReader reader(content);
+    StateBytes bytes(reader);
+    impl_->visit(bytes, applied);
+    if (!reader.isAtEnd()) misfit("there is more in them than it has");
+    impl_->rebuildColliders();
+    impl_->redrawDamage();
+    impl_->touching.reset();
+}
+
+}  // namespace taut::world

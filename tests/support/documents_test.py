@@ -95,10 +95,10 @@ def play(name):
             elif info == "sh" or (info == "sh long" and LONG):
                 shown, done = text.strip(), run("sh", "-eu", "-c", text, folder=folder)
             elif info == "python":
-                if run("/usr/bin/python3", "-c", "import taut").returncode != 0:
+                if run(sys.executable, "-c", "import taut").returncode != 0:
                     ran.append(f"{name}: not run, no module: python")
                     continue
-                shown, done = info, run("/usr/bin/python3", "-B", "-c", text, folder=folder)
+                shown, done = info, run(sys.executable, "-B", "-c", text, folder=folder)
             elif info in ELSEWHERE or info == "sh long":
                 continue
             else:

@@ -27,11 +27,15 @@ ELSEWHERE = {"sh farm", "sh build", "sh display", "cmake", "cpp"}
 MOST_LINES = {"README.md": 180, "engine/README.md": 120}  # of other README.md: 40
 ENV = os.environ | {"PATH": f"{os.path.dirname(TAUT)}:{os.environ['PATH']}"}
 
-FILES = [os.path.relpath(os.path.join(folder, name), ROOT)
-         for folder, folders, names in os.walk(ROOT)
-         if not folders.__setitem__(slice(None), [f for f in folders if f[0] != "." and not re.match("build|out$", f)])
-         for name in names]
-PAGES = {name: (ROOT / name).read_text() for name in sorted(FILES) if name.endswith(".md")}
+
+def files():
+    for folder, folders, names in os.walk(ROOT):
+        folders[:] = [name for name in folders if not re.match(r"\.|build|out$", name)]
+        yield from (os.path.relpath(os.path.join(folder, name), ROOT) for name in names)
+
+
+FILES = sorted(files())
+PAGES = {name: (ROOT / name).read_text() for name in FILES if name.endswith(".md")}
 FENCE = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.M | re.S)
 
 

@@ -10,26 +10,31 @@
 namespace taut::game {
 namespace {
 
-std::filesystem::path found(const char* variable, const char* name) {
+// `installed` in share/taut beside the program's folder, else `source` in the checkout.
+std::filesystem::path installedOr(const char* installed, const char* source) {
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    for (const std::filesystem::path& folder : {program.parent_path().parent_path() / "share/taut" / installed,
+                                                std::filesystem::path(TAUT_SOURCE_FOLDER) / source})
+        if (std::filesystem::is_directory(folder, error)) return folder;
+    return {};
+}
+
+std::filesystem::path wishedOrInstalled(const char* variable, const char* name) {
     if (const char* wish = std::getenv(variable); wish != nullptr && *wish != '\0') {
         if (!std::filesystem::is_directory(wish))
             throw core::Error(core::ErrorKind::inputOutput, std::string(variable) + " names no folder: " + wish);
         return wish;
     }
-    std::error_code error;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    const std::filesystem::path installed = program.parent_path().parent_path() / "share/taut" / name;
-    const std::filesystem::path checkout = std::filesystem::path(TAUT_SOURCE_FOLDER) / name;
-    for (const std::filesystem::path& folder : {installed, checkout})
-        if (std::filesystem::is_directory(folder, error)) return folder;
-    return {};
+    return installedOr(name, name);
 }
 
-std::vector<std::string> shippedIn(const char* folder) {
+// The names, without the extension and sorted, of what has this extension there.
+std::vector<std::string> namesIn(const std::filesystem::path& folder, const char* extension) {
     std::vector<std::string> names;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(assetFolder() / folder, error))
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        if (entry.path().extension() == extension) names.push_back(entry.path().stem().string());
     std::sort(names.begin(), names.end());
     return names;
 }
@@ -37,10 +42,13 @@ std::vector<std::string> shippedIn(const char* folder) {
 }  // namespace
 
 std::filesystem::path assetFolder() {
-    return found("TAUT_ASSETS", "assets");
+    return wishedOrInstalled("TAUT_ASSETS", "assets");
 }
 std::filesystem::path shaderFolder() {
-    return found("TAUT_SHADERS", "shaders");
+    return wishedOrInstalled("TAUT_SHADERS", "shaders");
+}
+std::filesystem::path manualFolder() {
+    return installedOr("manual", "game/manual");
 }
 
 std::filesystem::path fontFile() {
@@ -49,10 +57,13 @@ std::filesystem::path fontFile() {
 }
 
 std::vector<std::string> shippedScenes() {
-    return shippedIn("scenes");
+    return namesIn(assetFolder() / "scenes", ".toml");
 }
 std::vector<std::string> shippedScenarios() {
-    return shippedIn("scenarios");
+    return namesIn(assetFolder() / "scenarios", ".toml");
+}
+std::vector<std::string> manualPages() {
+    return namesIn(manualFolder(), ".md");
 }
 
 }  // namespace taut::game

@@ -1,4 +1,4 @@
-// Where the program finds what it reads: assets and shaders, installed or in the source checkout.
+// Where the program finds what it reads: assets, shaders and the manual, installed or in the source checkout.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,15 @@ namespace taut::game {
 std::filesystem::path assetFolder();
 std::filesystem::path shaderFolder();
 
+// The pages of the manual: share/taut/manual of the prefix, else game/manual of the checkout; empty when there is none.
+std::filesystem::path manualFolder();
+
 // The font for labels: $TAUT_FONT, or the one that Debian installs; empty when there is none.
 std::filesystem::path fontFile();
 
 // Names of the scenes in the asset folder, without ".toml", sorted.
 std::vector<std::string> shippedScenes();
 std::vector<std::string> shippedScenarios();  // which are found by name too
+std::vector<std::string> manualPages();       // without ".md", sorted
 
 }  // namespace taut::game

@@ -1,10 +1,10 @@
 #!/bin/sh
-# parallel_test.sh TAUT CHECKOUT: GNU parallel runs the README's lines for it, with a stand-in for ssh, so that both
+# parallel_test.sh TAUT CHECKOUT: GNU parallel runs the manual's lines for it, with a stand-in for ssh, so that both
 # hosts are this one. The second host dies in the middle of its first shard. Frames and video are the bytes of a run on one machine.
 set -eu
 taut=$1
 root=$2
-. "$root/tests/farm/readme.sh"
+. "$root/tests/farm/manual.sh"
 command -v parallel >/dev/null || { echo "skipped: no parallel; tests/run.sh --long installs it"; exit 77; }
 D=$(mktemp -d)
 trap 'rm -rf "$D"' EXIT
@@ -34,8 +34,8 @@ chmod +x "$D/ssh"
 export PARALLEL_SSH="$D/ssh" HOME="$D/home" PARALLEL_HOME="$D/home"
 PATH="$(dirname "$taut"):$PATH"
 export PATH
-readme_block 2 >"$D/lines"
-[ -s "$D/lines" ] || { echo "no lines for GNU parallel in the README"; exit 1; }
+manual_block 2 >"$D/lines"
+[ -s "$D/lines" ] || { echo "no lines for GNU parallel in the manual"; exit 1; }
 (cd "$D/farm" && sh -eu "$D/lines")
 [ -s "$D/killed" ] || { echo "nothing was killed"; exit 1; }
 echo "n2 was killed $(cat "$D/killed")"

@@ -1,11 +1,11 @@
 #!/bin/sh
-# slurm_test.sh TAUT CHECKOUT: a real Slurm with two nodes on this host runs the README's lines for it. While the array
+# slurm_test.sh TAUT CHECKOUT: a real Slurm with two nodes on this host runs the manual's lines for it. While the array
 # is at work one of the nodes is killed with everything on it. Frames and video are the bytes of a run on one machine.
 # Takes minutes: Slurm notices the dead node after half a minute, and lets a requeued job wait for two.
 set -eu
 taut=$1
 root=$2
-. "$root/tests/farm/readme.sh"
+. "$root/tests/farm/manual.sh"
 [ "$(id -u)" -eq 0 ] || { echo "skipped: only root may run Slurm's nodes here"; exit 77; }
 for tool in munged slurmctld slurmd sbatch setpriv; do
     command -v $tool >/dev/null || { echo "skipped: no $tool; tests/run.sh --long installs it"; exit 77; }
@@ -100,9 +100,9 @@ until_true() {
 are_idle() { [ "$(sinfo -h -t idle -o %D 2>/dev/null)" = 2 ]; }
 until_true 30 are_idle
 
-# The README's lines, word for word.
-readme_block 1 >"$D/lines"
-[ -s "$D/lines" ] || { echo "no lines for Slurm in the README"; exit 1; }
+# The manual's lines, word for word.
+manual_block 1 >"$D/lines"
+[ -s "$D/lines" ] || { echo "no lines for Slurm in the manual"; exit 1; }
 PATH="$(dirname "$taut"):$PATH"
 export PATH
 (cd "$D/farm" && sh -eu "$D/lines")

@@ -12,6 +12,7 @@ grep -q "^assets *$folder/prefix/share/taut/assets" said || { cat said; exit 1; 
 prefix/bin/taut render flag -o pictures/frame_######.png --frames 0-1 --size 320x180 --quiet
 test -s pictures/frame_000001.png
 test -s pictures/run_0-1.json
+prefix/bin/taut manual contact | cmp - prefix/share/taut/manual/contact.md
 
 # As `import taut` finds it with the prefix's folder in PYTHONPATH.
 module=$(ls -d prefix/lib/python3*/dist-packages 2>/dev/null || true)

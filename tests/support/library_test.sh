@@ -1,6 +1,6 @@
 #!/bin/sh
 # sh library_test.sh BUILD CHECKOUT: the engine, installed in a fresh folder, is found by CMake and by pkg-config, and
-# what is built with it works: the samples, and what the README says to write.
+# what is built with it works: the samples, and what the README and the manual say to write.
 set -eu
 build=$1
 root=$2
@@ -16,11 +16,11 @@ quietly cmake -G Ninja -S "$root/game/samples" -B samples
 quietly cmake --build samples
 sh "$root/tests/support/samples_test.sh" "$folder/samples"
 
-# The README's scene, CMake lines and program, word for word.
+# The README's scene, the manual's CMake lines and program, word for word.
 mkdir readme
 awk '/^```$/ { to = "" } to { print > to }
     /^```toml/ && !scenes++ { to = "readme/my.toml" } /^```cmake/ { to = "readme/lines.cmake" } /^```cpp/ { to = "readme/main.cpp" }' \
-    "$root/README.md"
+    "$root/README.md" "$root/game/manual/cpp.md"
 {
     printf 'cmake_minimum_required(VERSION 3.25)\nproject(game LANGUAGES CXX)\nadd_executable(game main.cpp)\n'
     cat readme/lines.cmake

@@ -27,6 +27,7 @@ taut=$folder/installed/usr/bin/taut
 grep -q "^shaders *$folder/installed/usr/share/taut/shaders" said || fail "$(cat said)"
 grep -q "^program *taut $version, commit " said || fail "$(cat said)"
 quietly "$taut" check flag torn-banner
+"$taut" manual contact | cmp - "$root/game/manual/contact.md"
 quietly "$taut" render flag -o pictures/frame_######.png --frames 0-1 --size 320x180
 test -s pictures/frame_000001.png
 gzip -dc installed/usr/share/man/man1/taut.1.gz | grep -q '^\.SS render$' || fail "no manual page"

@@ -54,6 +54,7 @@ TEST(Completion, BashOffersCommandsFlagsTheirWordsScenesFilesAndFolders) {
     EXPECT_EQ(offered(folder, "render --metr"), (Words{"--metrics", "--metrics-of"}));
     EXPECT_EQ(offered(folder, "render fl"), (Words{"flag", "flare.toml"}));
     EXPECT_EQ(offered(folder, "test torn-"), (Words{"torn-banner"}));
+    EXPECT_EQ(offered(folder, "manual many"), (Words{"many-machines"}));
     EXPECT_EQ(offered(folder, "render flag --hash-every ''"), (Words{"frame", "tick"}));
     EXPECT_EQ(offered(folder, "render flag --hash-every = t"), (Words{"tick"}));
     EXPECT_EQ(offered(folder, "render flag -o f"), (Words{"films", "flare.toml", "flute.txt"}));

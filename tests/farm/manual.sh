@@ -1,13 +1,12 @@
 # Sourced by the tests beside it: what they share. Expects `taut`, the program, and `root`, the checkout.
 # shellcheck shell=sh disable=SC2154
 
-# readme_block N: the N-th block of commands in the README's section on many machines, as a reader would copy it.
-readme_block() {
+# manual_block N: the N-th block of commands on the manual's page on many machines, as a reader would copy it.
+manual_block() {
     awk -v wanted="$1" '
-        /^## / { inside = ($0 == "## Many machines"); next }
-        !inside { next }
-        /^    / { if (!block) { block = 1; ++n } if (n == wanted) print substr($0, 5); next }
-        { block = 0 }' "$root/README.md"
+        /^```$/ { inside = 0 }
+        inside && n == wanted
+        /^```sh farm$/ { inside = 1; ++n }' "$root/game/manual/many-machines.md"
 }
 
 # frames_in FOLDER: how many are there.
@@ -15,7 +14,7 @@ frames_in() {
     find "$1" -name 'frame_*.png' 2>/dev/null | wc -l
 }
 
-# serial FOLDER: what one machine makes of the README's scene: frames in FOLDER/out/show and FOLDER/show.mp4.
+# serial FOLDER: what one machine makes of the same scene: frames in FOLDER/out/show and FOLDER/show.mp4.
 serial() {
     (cd "$1" && "$taut" render show -o out/show --video show.mp4 --quiet)
 }

@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-TESTS = [("unit", "*ontact*:*ouch*"), ("physics", "*Touch*")]  # programs, and the tests of them that concern contact
+TESTS = [("unit", "*ontact*:*ouch*"), ("physics", "*Touch*:StiffContact*:Incline*")]  # and those of contact
 
 GROUP, GUARD, LOCATING, PRESSING, DESCENT, RIGID, NEAR = (
     f"engine/contact/{name}.cpp" for name in

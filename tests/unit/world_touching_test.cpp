@@ -74,6 +74,27 @@ TEST(TouchingWorld, TakesATickAgainInWhichSomethingMeetsUnforeseen) {
     EXPECT_NEAR(positionsOf(world, "net.ball")[0].y, keep, 1e-12);
 }
 
+// A heavy ball that comes at 2 m/s, 33 mm a tick of one instant, at a square 5 mm below it, which is 5 mm above the ground
+// that it thereby is pushed to.
+TEST(TouchingWorld, LeavesNothingInAColliderThatItPushesThere) {
+    const double height = thickness + 5e-3;
+    SceneSpec scene = sceneOf(square(height, {}), ball({0.6, height + keep + 5e-3, 0.3}, {0.0, -2.0, 0.0}, 20.0));
+    scene.world.gravity = dvec3(0.0);
+    scene.contact.instants = 1;
+    ColliderSpec ground;
+    ground.name = "ground";
+    ground.shape = "plane";
+    scene.colliders = {ground};
+    World world(scene);
+    EXPECT_FALSE(world.advance());
+    int lying = 0;
+    for (const dvec3& x : positionsOf(world, "cloth.square")) {
+        EXPECT_GE(x.y, thickness - 1e-12);
+        lying += x.y < thickness + 1e-12 ? 1 : 0;
+    }
+    EXPECT_GT(lying, 0);
+}
+
 // A belt, or a lift, with a light square on it and a heavy ball on that, all of one speed: they keep it.
 TEST(TouchingWorld, LiesOnAColliderThatMovesAsOnOneThatRests) {
     for (const dvec3& speed : {dvec3(2, 0, 0), dvec3(0, 2, 0), dvec3(0, -2, 0)}) {

@@ -163,7 +163,7 @@ MUTANTS = {
         "return separatesOnTheWay(pair, before, after, 0.0, 2.0);", "return false;"),
     "slides-into-held": (
         "what is slid apart goes into what holds it", GUARD,
-        "if (glm::dot(own.normal, way) < into) return 0.0;", "if (glm::dot(own.normal, way) < 4 * into) return 0.0;"),
+        "if (glm::dot(own->normal, way) < into) return 0.0;", "if (glm::dot(own->normal, way) < 4 * into) return 0.0;"),
     "slides-unshared": (
         "both sides of what is slid apart go as far", GUARD,
         "const double shareA = inverseA / inverse, shareB = inverseB / inverse;",

@@ -113,6 +113,35 @@ TEST(TouchingWorld, LiesOnAColliderThatMovesAsOnOneThatRests) {
     }
 }
 
+// A box that jumps by 50 m in the third tick, in which a square comes down on its corners, far from the square's own:
+// bit for bit as if it had been there before.
+TEST(TouchingWorld, MeetsAColliderWhereItHasJumpedTo) {
+    std::vector<std::vector<dvec3>> found;
+    for (const double before : {0.0, 50.0}) {
+        constexpr double speed = 0.5, tick = 1.0 / 60;
+        ClothSpec cloth = square(thickness + 2.5 * speed * tick, {});
+        cloth.velocity = {0.0, -speed, 0.0};
+        SceneSpec scene = sceneOf(cloth, ball({10.0, 10.0, 10.0}, dvec3(0.0), 1.0));
+        scene.world.gravity = dvec3(0.0);
+        ColliderSpec box;
+        box.name = "box";
+        box.shape = "box";
+        box.size = dvec3(0.2);
+        const dvec3 there(0.5, -0.1, 0.5), far = there + dvec3(before, 0.0, 0.0);
+        box.keys = {{0.0, far, dvec3(0.0), Ease::linear},
+                    {2 * tick, far, dvec3(0.0), Ease::linear},
+                    {3 * tick, there, dvec3(0.0), Ease::linear}};
+        scene.colliders = {box};
+        World world(scene);
+        EXPECT_FALSE(test::advance(world, 2));
+        const double coming = world.metrics("cloth.square").momentum.y;
+        EXPECT_FALSE(world.advance());
+        EXPECT_GT(world.metrics("cloth.square").momentum.y, 0.9 * coming);  // it is less than none
+        found.push_back(positionsOf(world, "cloth.square"));
+    }
+    EXPECT_EQ(found[0], found[1]);
+}
+
 // A square, held at one side, that is torn out of its strain in the first tick, and a ball of a hundred times its mass
 // that is at it then, or comes later: it stops there, and the square stays bit for bit where it froze.
 TEST(TouchingWorld, WhatIsFrozenStopsWhatComesAndStays) {

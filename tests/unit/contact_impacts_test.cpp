@@ -348,6 +348,23 @@ MeetingPair restingPair(int point, std::array<int, 3> corners) {
     return pair;
 }
 
+// Of two points, 5 mm too near each other, the lower is on the ground: the upper alone goes, by all of the 1 mm.
+TEST(ContactImpact, TakesOverlapBackNotIntoWhatHoldsIt) {
+    MeetingPair pair = restingPair(0, {1, 2, 3});
+    pair.weights = {1.0, -1.0, 0.0, 0.0};
+    pair.apart = pair.keep - 0.005;
+    const Held held{1, {0.0, 1.0, 0.0}, 0.0};
+    const std::vector<double> inverseMass{1.0, 1.0, 0.0, 0.0};
+    std::vector<dvec3> u(4, dvec3(0.0)), v = u, shift = u;
+    PressingOptions options;
+    options.sweeps = 100;
+    Pressing pressing;
+    pressing.solve(std::span(&pair, 1), std::span(&held, 1), inverseMass, 1.0, options, u, v, shift);
+    EXPECT_NEAR(shift[0].y, 1e-3, 2e-8);  // where sweeps end
+    EXPECT_NEAR(shift[1].y, 0.0, 2e-8);
+    EXPECT_EQ(u[0], dvec3(0.0));
+}
+
 // What a method stores need not be the mean of the instant: each bounces as it arrives.
 TEST(ContactImpact, BouncesVelocitiesAsTheyArriveThemselves) {
     const MeetingPair pair = restingPair(0, {1, 2, 3});

@@ -106,8 +106,7 @@ TEST(ContactGroup, MeetsWhatAnImpulseLeadsFarInOneInstant) {
         flight.options.friction = 0;
         flight.addBall({0.0, 0.02, 0.0}, dvec3(0.0), 0.01, 0.001);
         flight.addBall({-std::sqrt(2e-6), 0.02 + std::sqrt(2e-6), 0.0}, {100.0, 0.0, 0.0}, 0.01, 0.001);
-        if (hasGround)
-            flight.addTriangle({dvec3(-1, 0, -1), dvec3(1, 0, -1), dvec3(0, 0, 2)}, dvec3(0.0), 0.0, 0.001);
+        if (hasGround) flight.addTriangle({dvec3(-1, 0, -1), dvec3(1, 0, -1), dvec3(0, 0, 2)}, dvec3(0.0), 0.0, 0.001);
         flight.fly(1e-3);
         // Of the 20 mm at the start a fifth is left.
         EXPECT_NEAR(flight.x[0].y, hasGround ? 0.004 : -0.005, 1e-9);

@@ -78,6 +78,34 @@ TEST(ContactFaces, ATriangleIsStoppedByATipAsItsWholeMass) {
     for (std::size_t i = 3; i < x1.size(); ++i) EXPECT_EQ(x1[i], before[i]);
 }
 
+// Of 2 m/s that it comes down with, μ 2 m/s of what it slides with; μ is the product of the two factors alone, whatever
+// the bodies of the group have between themselves.
+TEST(ContactFaces, ATipHasTheFrictionOfItselfAndTheBody) {
+    constexpr double h = 1e-4, speed = 2.0, slide = 3.0;
+    Scene scene;
+    scene.addTip({0, -0.01, -1.0 / 3});
+    scene.sheet.friction = 0.5;
+    scene.rigid.friction = 0.4;
+    GroupOptions options;
+    options.friction = 0.7;
+    Group group({scene.sheet, scene.rigid}, scene.x, options);
+    std::vector<dvec3> x1 = scene.x, v(x1.size(), dvec3(0.0));
+    for (std::size_t i = 0; i < 3; ++i) {
+        v[i] = {slide, -speed, 0};
+        x1[i] += h * v[i];
+    }
+    const std::vector<double> inverse = masses(scene);
+    Instant instant;
+    instant.h = h;
+    instant.x0 = scene.x;
+    instant.x1 = x1;
+    instant.v = v;
+    instant.inverseMass = inverse;
+    group.begin(scene.x);
+    EXPECT_EQ(group.meet(instant).pressing, 1);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(v[i].x, slide - 0.5 * 0.4 * speed, 1e-12);
+}
+
 TEST(ContactFaces, ATipStandsOutByItsHeightOverTheTriangle) {
     constexpr double height = 0.03;
     Scene scene;

@@ -59,6 +59,42 @@ TEST(TouchingWorld, LetsThroughWhereACutTakesTrianglesAway) {
     }
 }
 
+// A ball comes at 0.3 m/s, 5 mm a tick, and is out of reach by 6.5 mm and then by 1.5 mm. The second tick is tried as
+// one step, which finds it in contact, and is taken again. Whatever touches does so in instants of 1.1 ms at most.
+TEST(TouchingWorld, TakesATickAgainInWhichSomethingMeetsUnforeseen) {
+    constexpr double reach = 1.05 * keep;
+    SceneSpec scene = sceneOf(square(0.0, {"all"}), ball({0.7, reach + 6.5e-3, 0.3}, {0.0, -0.3, 0.0}, 0.1));
+    scene.world.gravity = dvec3(0.0);
+    scene.solver.dt = 1.0 / 60;
+    World world(scene);
+    EXPECT_FALSE(world.advance());
+    EXPECT_EQ(world.contact().lastInstants, 1);
+    EXPECT_FALSE(world.advance());
+    EXPECT_LT(world.tickSeconds() / world.contact().lastInstants, 1.1e-3);
+    EXPECT_NEAR(positionsOf(world, "net.ball")[0].y, keep, 1e-12);
+}
+
+// A heavy ball comes at 2 m/s, 33 mm a tick of one instant. It pushes a square 5 mm below it to the ground, which is
+// another 5 mm below that.
+TEST(TouchingWorld, LeavesNothingInAColliderThatItPushesThere) {
+    const double height = thickness + 5e-3;
+    SceneSpec scene = sceneOf(square(height, {}), ball({0.6, height + keep + 5e-3, 0.3}, {0.0, -2.0, 0.0}, 20.0));
+    scene.world.gravity = dvec3(0.0);
+    scene.contact.instants = 1;
+    ColliderSpec ground;
+    ground.name = "ground";
+    ground.shape = "plane";
+    scene.colliders = {ground};
+    World world(scene);
+    EXPECT_FALSE(world.advance());
+    int lying = 0;
+    for (const dvec3& x : positionsOf(world, "cloth.square")) {
+        EXPECT_GE(x.y, thickness - 1e-12);
+        lying += x.y < thickness + 1e-12 ? 1 : 0;
+    }
+    EXPECT_GT(lying, 0);
+}
+
 // A belt, or a lift, with a light square on it and a heavy ball on that, all of one speed: they keep it.
 TEST(TouchingWorld, LiesOnAColliderThatMovesAsOnOneThatRests) {
     for (const dvec3& speed : {dvec3(2, 0, 0), dvec3(0, 2, 0), dvec3(0, -2, 0)}) {
@@ -75,6 +111,35 @@ TEST(TouchingWorld, LiesOnAColliderThatMovesAsOnOneThatRests) {
         const dvec3 ought = dvec3(0.6, thickness + keep, 0.3) + world.time() * speed;
         EXPECT_LT(glm::distance(positionsOf(world, "net.ball")[0], ought), 0.05 * keep) << speed.x << ", " << speed.y;
     }
+}
+
+// A box that jumps by 50 m in the third tick, in which a square comes down on its corners, far from the square's own:
+// bit for bit as if it had been there before.
+TEST(TouchingWorld, MeetsAColliderWhereItHasJumpedTo) {
+    std::vector<std::vector<dvec3>> found;
+    for (const double before : {0.0, 50.0}) {
+        constexpr double speed = 0.5, tick = 1.0 / 60;
+        ClothSpec cloth = square(thickness + 2.5 * speed * tick, {});
+        cloth.velocity = {0.0, -speed, 0.0};
+        SceneSpec scene = sceneOf(cloth, ball({10.0, 10.0, 10.0}, dvec3(0.0), 1.0));
+        scene.world.gravity = dvec3(0.0);
+        ColliderSpec box;
+        box.name = "box";
+        box.shape = "box";
+        box.size = dvec3(0.2);
+        const dvec3 there(0.5, -0.1, 0.5), far = there + dvec3(before, 0.0, 0.0);
+        box.keys = {{0.0, far, dvec3(0.0), Ease::linear},
+                    {2 * tick, far, dvec3(0.0), Ease::linear},
+                    {3 * tick, there, dvec3(0.0), Ease::linear}};
+        scene.colliders = {box};
+        World world(scene);
+        EXPECT_FALSE(test::advance(world, 2));
+        const double coming = world.metrics("cloth.square").momentum.y;
+        EXPECT_FALSE(world.advance());
+        EXPECT_GT(world.metrics("cloth.square").momentum.y, 0.9 * coming);  // it is less than none
+        found.push_back(positionsOf(world, "cloth.square"));
+    }
+    EXPECT_EQ(found[0], found[1]);
 }
 
 // A square, held at one side, that is torn out of its strain in the first tick, and a ball of a hundred times its mass

@@ -139,7 +139,7 @@ Json jointJson(const world::JointInfo& joint) {
     for (const auto& pair : joint.pairs) pairs.push_back({{"a", pair.a}, {"b", pair.b}, {"points", pair.points}});
     return {{"a", joint.a},
             {"b", joint.b},
-            {"kind", joint.isWeld ? "weld" : "spring"},
+            {"kind", joint.kind},
             {"pairs", std::move(pairs)},
             {"largest_jump_m", joint.jump},
             {"loose", joint.loose}};
@@ -219,7 +219,7 @@ std::string lengthText(double metres) {
 void printJoint(const world::JointInfo& joint) {
     int points = 0;
     for (const auto& pair : joint.pairs) points += pair.points;
-    printResult("\n{} {} – {}: {} point{}{}\n", joint.isWeld ? "weld" : "spring joint", joint.a, joint.b, points,
+    printResult("\n{} {} – {}: {} point{}{}\n", joint.kind == "spring" ? "spring joint" : joint.kind, joint.a, joint.b, points,
                 points == 1 ? "" : "s",
                 joint.jump > 0 ? fmt::format(", moved together by up to {}", lengthText(joint.jump)) : "");
     for (const auto& pair : joint.pairs) printResult("  {} – {}  {}\n", pair.a, pair.b, pair.points);

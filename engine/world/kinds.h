@@ -13,6 +13,7 @@
 #include "taut/world/body_spec.h"
 #include "taut/world/common_rows.h"
 #include "taut/world/force_spec.h"
+#include "taut/world/joint_spec.h"
 #include "taut/world/specs.h"
 
 namespace taut::world {
@@ -31,6 +32,7 @@ class KindTable : public core::Table<Kind<Base>> {
 
 struct Kinds {
     KindTable<BodySpec> bodies;
+    KindTable<JointSpec> joints;  // the first is that of a joint which names none
     KindTable<ForceSpec> forces;
     KindTable<ActionSpec> actions;
     ode::Methods methods;

@@ -11,6 +11,7 @@
 #include "taut/world/bodies/rope.h"
 #include "taut/world/forces/anchor.h"
 #include "taut/world/forces/wind.h"
+#include "taut/world/joints/joints.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 
@@ -239,11 +240,10 @@ TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     ASSERT_EQ(scene.joints.size(), 2U);
     EXPECT_EQ(scene.joints[0].a, "rope.rail@end");
     EXPECT_EQ(scene.joints[0].b, "net.cradle@b");
-    EXPECT_EQ(scene.joints[0].kind, world::JointSpec::Kind::spring);
-    EXPECT_EQ(scene.joints[0].stiffness, 50.0);
-    EXPECT_EQ(scene.joints[0].dampingTime, 7e-4);
-    EXPECT_EQ(scene.joints[1].kind, world::JointSpec::Kind::weld);
-    EXPECT_EQ(scene.joints[1].reach, 0.05);
+    EXPECT_EQ(scene.joints.of<world::SpringJoint>().at(0).stiffness, 50.0);
+    EXPECT_EQ(scene.joints.of<world::SpringJoint>().at(0).dampingTime, 7e-4);
+    EXPECT_EQ(scene.joints[1].kind(), "weld");
+    EXPECT_EQ(scene.joints[1].reach(), 0.05);
     ASSERT_EQ(scene.masses.size(), 1U);
     EXPECT_EQ(scene.masses[0].target, "block.*@corners");
     EXPECT_EQ(scene.masses[0].mass, 1.5);

@@ -1,0 +1,32 @@
+// The joints of the engine.
+#pragma once
+
+#include "taut/world/joint_spec.h"
+#include "taut/world/specs.h"
+
+namespace taut::world {
+
+// Points made one.
+struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
+    static constexpr std::string_view kindName = "weld";
+    double furthest = 0.02;  // [m] apart that points may be
+
+    std::string_view title() const override { return "a weld"; }
+    double reach() const override { return furthest; }
+    bool isWeld() const override { return true; }
+    void tie(IslandPlan&, int, int, double) const override {}
+    void carry(IslandPlan&, Grip) const override;
+};
+
+// Springs as long as points are apart.
+struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
+    static constexpr std::string_view kindName = "spring";
+    double stiffness = 1e4;     // [N/m] of each spring
+    double dampingTime = 1e-4;  // [s]
+
+    std::string_view title() const override { return "a spring joint"; }
+    void tie(IslandPlan& plan, int a, int b, double distance) const override;
+    void carry(IslandPlan& plan, Grip grip) const override;
+};
+
+}  // namespace taut::world

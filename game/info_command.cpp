@@ -119,6 +119,7 @@ Json islandJson(const world::IslandInfo& i) {
             {"runs", i.runs},
             {"single_springs", i.singles},
             {"cells", i.cells},
+            {"constraints", i.constraints},
             {"mass_kg", i.mass},
             {"method", i.method},
             {"omega_B1_per_s", i.omegaBound},
@@ -199,6 +200,7 @@ void printIsland(const world::IslandInfo& i) {
     printResult("  points      {} ({} held), {:.4g} kg\n", i.points, i.heldPoints, i.mass);
     printResult("  springs     {} ({} runs, {} single){}\n", i.springs, i.runs, i.singles,
                 i.cells > 0 ? fmt::format(", {} volume cells", i.cells) : "");
+    if (i.constraints > 0) printResult("  constraints {}\n", i.constraints);
     printResult("  omega       {:.4g} /s bound of any shape, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
                 i.omegaBound, i.omegaNow, i.omegaEstimate);
     if (std::isfinite(i.stepLimit))

@@ -303,6 +303,12 @@ std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSp
     return planner.plans();
 }
 
+void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::PosePath& path) {
+    const bool isThere = std::any_of(plan.carriers.begin(), plan.carriers.end(),
+                                     [&](const Carrier& carrier) { return carrier.collider == collider; });
+    if (!isThere) plan.carriers.push_back({collider, path});
+}
+
 void takeSpringsFromModels(IslandPlan& plan) {
     for (std::size_t s = 0; s < plan.springs.size(); ++s) {
         const SpringOrigin& origin = plan.origins[s];

@@ -8,7 +8,8 @@
     KIND(netKind)
 #define TAUT_JOINTS(KIND) \
     KIND(weldKind)        \
-    KIND(springKind)
+    KIND(springKind)      \
+    KIND(rodKind)
 #define TAUT_FORCES(KIND) \
     KIND(anchorKind)      \
     KIND(windKind)

@@ -7,6 +7,7 @@
 #include "taut/core/hash.h"
 #include "taut/world/forces/scene_forces.h"
 #include "taut/world/impl.h"
+#include "taut/world/joints/constraint.h"
 #include "taut/world/motion.h"
 #include "taut/world/targets.h"
 #include "taut/world/ticks.h"
@@ -102,6 +103,7 @@ void World::Impl::checkForces() const {
 void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints) {
     plan.solver.precision = spec.solver.precision;
     addTies(plan, spec, [this](const std::string& collider) { return poseOf(collider); });
+    for (const auto& constraint : plan.constraints) constraint->check();
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
     const int parts = touches(plan) ? fewestInstants(1.0 / ticksPerSecond) : 1;

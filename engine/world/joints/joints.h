@@ -1,6 +1,9 @@
 // The joints of the engine.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <optional>
+
 #include "taut/world/joint_spec.h"
 #include "taut/world/specs.h"
 
@@ -25,6 +28,17 @@ struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
     double dampingTime = 1e-4;  // [s]
 
     std::string_view title() const override { return "a spring joint"; }
+    void tie(IslandPlan& plan, int a, int b, double distance) const override;
+    void carry(IslandPlan& plan, Grip grip) const override;
+};
+
+// A distance that stays, between points or from a place on a collider.
+struct RodJoint final : SpecOf<RodJoint, JointSpec> {
+    static constexpr std::string_view kindName = "rod";
+    std::optional<glm::dvec3> at;  // [m] on the collider as the scene starts; none: its centre
+
+    std::string_view title() const override { return "a rod"; }
+    bool tiesWithin() const override { return true; }
     void tie(IslandPlan& plan, int a, int b, double distance) const override;
     void carry(IslandPlan& plan, Grip grip) const override;
 };

@@ -4,6 +4,7 @@
 
 #include "taut/world/divergence.h"
 #include "taut/world/island.h"
+#include "taut/world/joints/constraint.h"
 
 namespace taut::world {
 

@@ -21,7 +21,7 @@ SceneSpec sceneOf(const std::string& text) {
 }
 
 std::string head(const std::string& method, const std::string& dt, const std::string& precision = "double") {
-    return "schema = 1\n[run]\nfps = 50\nseconds = 1\n[solver]\nintegrator = \"" + method + "\"\ndt = " + dt +
+    return "schema = 1\n[run]\nfps = 100\nseconds = 1\n[solver]\nintegrator = \"" + method + "\"\ndt = " + dt +
            "\nprecision = \"" + precision + "\"\n";
 }
 
@@ -55,14 +55,13 @@ TEST(Rods, APendulumKeepsItsEnergyForAHundredPeriods) {
     const double start = world.metrics().energy(), swing = 2.0 * g * 0.25 * (1 - std::cos(1.0));
     double most = 0, strain = 0;
     // 1.07 s a period at that angle.
-    for (int tick = 0; tick < 107 * 50; ++tick) {
+    for (int tick = 0; tick < 107 * 100; ++tick) {
         run(world, 1);
         const Metrics now = world.metrics();
         most = std::max(most, std::abs(now.energy() - start) / swing);
         strain = std::max(strain, now.maxStrain);
     }
-    RecordProperty("energy", std::to_string(most));
-    EXPECT_LT(most, 1e-3) << most;
+    EXPECT_LT(most, 1e-4) << most;  // measured 4.8e-5, (ω h)²/8 of it; it goes on as it is
     EXPECT_LT(strain, 1e-12) << strain;  // to which they are solved: 1e-13, and rounding
 }
 
@@ -101,20 +100,19 @@ double errorOfDoublePendulum(const std::string& method, const std::string& dt, d
     const double angles[] = {1.0, 1.6}, lengths[] = {0.6, 0.4}, masses[] = {1.0, 0.7};
     const DoublePendulum exact{1.0, 0.7, 0.6, 0.4};
     World world(sceneOf(head(method, dt) + pendulum(angles, lengths, masses)));
-    run(world, static_cast<int>(std::lround(seconds * 50)));
+    run(world, static_cast<int>(std::lround(seconds * 100)));
     return lengthOf(world.points("net.n@p2").x[0] - exact.end(exact.after({1.0, 1.6, 0, 0}, seconds, 200000)));
 }
 
 TEST(Rods, ADoublePendulumFollowsItsEquations) {
     const double error = errorOfDoublePendulum("leapfrog", "0.001", 2.0);
-    RecordProperty("error", std::to_string(error));
-    EXPECT_LT(error, 1e-4) << error;  // of the 1 m that it is long
+    EXPECT_LT(error, 2e-5) << error;  // measured 9e-6 m, of the 1 m that it is long
 }
 
 // Halved steps leave a quarter of the error.
 TEST(Rods, LeapfrogAndVerletKeepTheirOrder) {
     for (const char* method : {"leapfrog", "velocity-verlet"}) {
-        const double ratio = errorOfDoublePendulum(method, "0.004", 1.0) / errorOfDoublePendulum(method, "0.002", 1.0);
+        const double ratio = errorOfDoublePendulum(method, "0.005", 1.0) / errorOfDoublePendulum(method, "0.0025", 1.0);
         EXPECT_GT(ratio, 3.5) << method;
         EXPECT_LT(ratio, 4.5) << method;
     }
@@ -133,7 +131,7 @@ TEST(Rods, EveryMethodKeepsLengthAndMomentaOfAFreePair) {
             const Metrics before = world.metrics();
             run(world, 50);
             const Metrics after = world.metrics();
-            const double rounding = isDouble ? 1e-12 : 2e-4;  // of a thousand steps: 1e-16, 6e-8 each, and times 1/h
+            const double rounding = isDouble ? 1e-11 : 5e-3;  // 500 steps, of places over h: 1e-16 / 1e-3 each; 1e-7
             EXPECT_LT(after.maxStrain, isDouble ? 1e-12 : 1e-6) << name;
             EXPECT_LT(lengthOf(after.momentum - before.momentum), rounding) << name;
             EXPECT_LT(lengthOf(after.angularMomentum - before.angularMomentum), rounding) << name;
@@ -175,7 +173,7 @@ TEST(Rods, AColliderLeadsThePlaceOfARod) {
                         "{ t = 1, position = [1, 0, 0], rotation_deg = [0, 0, 90] }]\n" +
                         swing));
     EXPECT_EQ(world.joints()[1].kind, "rod");
-    for (int tick = 0; tick < 50; ++tick) {
+    for (int tick = 0; tick < 100; ++tick) {
         run(world, 1);
         ASSERT_LT(world.metrics().maxStrain, 1e-12) << tick;
     }
@@ -195,7 +193,7 @@ TEST(Rods, AreSavedCutAndLetGo) {
     scene.actions = {cut};
     World world(scene);
     EXPECT_EQ(world.islands()[0].constraints, 2);
-    for (const int ticks : {5, 10}) {  // before the cut and after it
+    for (const int ticks : {10, 20}) {  // before the cut and after it
         run(world, ticks);
         World other(scene);
         other.restore(world.save());
@@ -218,16 +216,19 @@ TEST(Rods, HoldInContact) {
     World world(sceneOf(head("leapfrog", "0.001") +
                         "[collider.floor]\nshape = \"plane\"\n[net.n]\ntouch = \"others\"\npoints = [{ name = \"a\", "
                         "position = [0, 0.3, 0] }, { name = \"b\", position = [0.5, 0.5, 0] }]\nsprings = [{ a = "
-                        "\"a\", b = \"b\", stiffness_N_per_m = 1 }]\n[rope.r]\nends = [[0.25, 0.2, -0.5], [0.25, 0.2, "
+                        "\"a\", b = \"b\", stiffness_N_per_m = 1 }]\n[rope.r]\nstretch_N = 200\nsegments = 4\nends = [[0.25, 0.2, -0.5], [0.25, 0.2, "
                         "0.5]]\nhold = [\"ends\"]\ntouch = \"others\"\n" +
                         rod("net.n@a", "net.n@b")));
-    for (int tick = 0; tick < 100; ++tick) {
+    int pressed = 0, contacts = 0;
+    for (int tick = 0; tick < 200; ++tick) {
         run(world, 1);
-        ASSERT_LT(world.metrics().maxStrain, 1.0) << tick;
+        pressed += world.metrics().bodyContacts;
+        contacts += world.metrics("net.n").contacts;
         const PointsNow net = world.points("net.n");
         ASSERT_NEAR(lengthOf(net.x[1] - net.x[0]), std::sqrt(0.29), 1e-12) << tick;
     }
-    EXPECT_TRUE(world.hasTouched());
+    EXPECT_GT(pressed, 0);
+    EXPECT_GT(contacts, 0);
     EXPECT_LT(world.metrics("net.n").kinetic, 0.05);  // it lies there
 }
 

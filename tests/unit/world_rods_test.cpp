@@ -164,7 +164,7 @@ TEST(Rods, ChainsAndTrussesHold) {
 const std::string swing =
     "[net.n]\ndrag_per_s = 0\npoints = [{ name = \"a\", position = [0, -1, 0] }, { name = \"b\", position = [0.4, "
     "-1.2, 0], mass_kg = 2 }]\n" +
-    rod("net.n@a", "net.n@b") + rod("collider.arm", "net.n@a") + "at = [0.3, 0, 0]\n";
+    rod("net.n@a", "net.n@b") + rod("collider.arm", "net.n@a") + "place = [0.3, 0, 0]\n";
 
 // It moves and turns about z: the place goes where the collider has it.
 TEST(Rods, AColliderLeadsThePlaceOfARod) {
@@ -239,9 +239,9 @@ TEST(Rods, WhatTheyDoNotHaveIsRefusedByName) {
         "}]\n";
     const std::string reach = folder.messageOf(two + rod("net.n@a", "net.n@b") + "reach_m = 1\n");
     EXPECT_NE(reach.find("reach_m does not go with a rod\n"), std::string::npos) << reach;
-    const std::string at = folder.messageOf(two + rod("net.n@a", "net.n@b") + "at = [0, 0, 0]\n");
-    EXPECT_NE(at.find("at does not go with a rod\n"), std::string::npos) << at;
-    EXPECT_NE(at.find("it belongs to a rod to a collider"), std::string::npos) << at;
+    const std::string place = folder.messageOf(two + rod("net.n@a", "net.n@b") + "place = [0, 0, 0]\n");
+    EXPECT_NE(place.find("place does not go with a rod\n"), std::string::npos) << place;
+    EXPECT_NE(place.find("it belongs to a rod to a collider"), std::string::npos) << place;
     try {
         World{sceneOf(two + rod("net.n@a", "net.n@b"))};
         ADD_FAILURE() << "was made";

@@ -35,7 +35,7 @@ struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
 // A distance that stays, between points or from a place on a collider.
 struct RodJoint final : SpecOf<RodJoint, JointSpec> {
     static constexpr std::string_view kindName = "rod";
-    std::optional<glm::dvec3> at;  // [m] on the collider as the scene starts; none: its centre
+    std::optional<glm::dvec3> place;  // [m] on the collider as the scene starts; none: its centre
 
     std::string_view title() const override { return "a rod"; }
     bool tiesWithin() const override { return true; }

@@ -41,12 +41,12 @@ void RodJoint::tie(IslandPlan& plan, int first, int second, double) const {
 
 void RodJoint::carry(IslandPlan& plan, Grip grip) const {
     const mechanics::PosePath::Frame frame = grip.path.at(0.0);
-    const dvec3 place = at.value_or(frame.place);
-    const dvec3 offset = mechanics::PosePath::rotated(glm::conjugate(frame.rotation), place - frame.place);
+    const dvec3 end = place.value_or(frame.place);
+    const dvec3 offset = mechanics::PosePath::rotated(glm::conjugate(frame.rotation), end - frame.place);
     changeRods(plan, [&](Rods& rods) {
         for (const int point : grip.points)
             rods.tie(point, Constraint::Place{grip.holder, offset},
-                     distance(plan.positions[static_cast<std::size_t>(point)], place), source);
+                     distance(plan.positions[static_cast<std::size_t>(point)], end), source);
     });
     carryBy(plan, grip.holder, grip.path);
 }
@@ -56,7 +56,7 @@ Kind<JointSpec> rodKind() {
         "Rods keep the distance that points have as the scene starts, from each other, which may be of one body, or "
         "from a place on a collider.",
         fields::FieldList<RodJoint>()
-            .vector("at", &RodJoint::at, "m", placeRange,
+            .vector("place", &RodJoint::place, "m", placeRange,
                     "Where on the collider a rod is fixed, as the scene starts; its centre if not given.")
             .only({"a rod to a collider"}));
 }

@@ -10,7 +10,7 @@ namespace taut::world {
 namespace {
 
 constexpr double relativeTolerance = 1e-13;  // of a length
-constexpr double rounding = 1e-15;           // of a coordinate
+constexpr double roundingShare = 1e-15;      // of a coordinate
 constexpr double leastPivot = 1e-10;         // of what stood on the diagonal
 constexpr int oldPasses = 10;                // along the directions when the step began
 constexpr int mostPasses = 40;               // after those along what they have become, as Gauss and Newton
@@ -218,7 +218,7 @@ bool Rods::projectPositions(const Moment& moment) {
                 rod.isBroken ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
             const double size = norm(moment.x[static_cast<std::size_t>(end(rod.a))]) +
                                 norm(moment.x[static_cast<std::size_t>(end(rod.b))]);
-            holds = holds && std::abs(g) <= relativeTolerance * rod.length + rounding * size;
+            holds = holds && std::abs(g) <= relativeTolerance * rod.length + roundingShare * size;
             impulse_[i] = g;
         }
         if (holds) return pass > 0;
@@ -238,7 +238,7 @@ bool Rods::projectVelocities(const Moment& moment) {
         impulse_[i] = glm::dot(direction_[i], between(rod, moment.v));
         const double size = norm(moment.v[static_cast<std::size_t>(end(rod.a))]) +
                             norm(moment.v[static_cast<std::size_t>(end(rod.b))]);
-        holds = holds && std::abs(impulse_[i]) <= rounding * size;
+        holds = holds && std::abs(impulse_[i]) <= roundingShare * size;
     }
     if (holds) return false;
     solve();

@@ -84,10 +84,10 @@ struct LeashJoint final : SpecOf<LeashJoint, JointSpec> {
 
 std::shared_ptr<const Kinds> withOwn() {
     Kinds kinds = builtIn();
-    kinds.joints.add(jointKind<TwiceJoint>("Springs of twice the stiffness.",
-                                           fields::FieldList<TwiceJoint>().number(
-                                               "stiffness_N_per_m", &TwiceJoint::spring, &SpringJoint::stiffness,
-                                               "N/m", fields::positive, "Half of what it has.")));
+    kinds.joints.add(jointKind<TwiceJoint>(
+        "Springs of twice the stiffness.",
+        fields::FieldList<TwiceJoint>().number("stiffness_N_per_m", &TwiceJoint::spring, &SpringJoint::stiffness, "N/m",
+                                               fields::positive, "Half of what it has.")));
     kinds.joints.add(jointKind<LeashJoint>(
         "A leash keeps points from going apart.",
         fields::FieldList<LeashJoint>().number("longer", &LeashJoint::longer, "", fields::Range{1.0, 100.0},

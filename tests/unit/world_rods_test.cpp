@@ -61,7 +61,7 @@ TEST(Rods, APendulumKeepsItsEnergyForAHundredPeriods) {
         most = std::max(most, std::abs(now.energy() - start) / swing);
         strain = std::max(strain, now.maxStrain);
     }
-    EXPECT_LT(most, 1e-4) << most;  // measured 4.8e-5, (ω h)²/8 of it; it goes on as it is
+    EXPECT_LT(most, 1e-4) << most;       // measured 4.8e-5, (ω h)²/8 of it; it goes on as it is
     EXPECT_LT(strain, 1e-12) << strain;  // to which they are solved: 1e-13, and rounding
 }
 
@@ -216,7 +216,8 @@ TEST(Rods, HoldInContact) {
     World world(sceneOf(head("leapfrog", "0.001") +
                         "[collider.floor]\nshape = \"plane\"\n[net.n]\ntouch = \"others\"\npoints = [{ name = \"a\", "
                         "position = [0, 0.3, 0] }, { name = \"b\", position = [0.5, 0.5, 0] }]\nsprings = [{ a = "
-                        "\"a\", b = \"b\", stiffness_N_per_m = 1 }]\n[rope.r]\nstretch_N = 200\nsegments = 4\nends = [[0.25, 0.2, -0.5], [0.25, 0.2, "
+                        "\"a\", b = \"b\", stiffness_N_per_m = 1 }]\n[rope.r]\nstretch_N = 200\nsegments = 4\nends = "
+                        "[[0.25, 0.2, -0.5], [0.25, 0.2, "
                         "0.5]]\nhold = [\"ends\"]\ntouch = \"others\"\n" +
                         rod("net.n@a", "net.n@b")));
     int pressed = 0, contacts = 0;
@@ -246,8 +247,9 @@ TEST(Rods, WhatTheyDoNotHaveIsRefusedByName) {
         World{sceneOf(two + rod("net.n@a", "net.n@b"))};
         ADD_FAILURE() << "was made";
     } catch (const core::Error& error) {
-        EXPECT_NE(std::string(error.what()).find("rods.toml:4:1: error: a rod has both ends in one place; move them "
-                                                 "apart, or use kind = \"weld\""),
+        EXPECT_NE(std::string(error.what())
+                      .find("rods.toml:4:1: error: a rod has both ends in one place; move them "
+                            "apart, or use kind = \"weld\""),
                   std::string::npos)
             << error.what();
     }

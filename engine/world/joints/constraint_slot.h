@@ -1,5 +1,5 @@
-// The constraints of an island, between its method and its contacts: what projects them, and into which arrays. It knows
-// no kind of constraint and no tick.
+// The constraints of an island, between its method and its contacts: what projects them, and into which arrays. It
+// knows no kind of constraint and no tick.
 //
 // After a step from x0 to x' = x0 + h v', x is brought to where they hold, along gradients at x0, and v changes by
 // (x - x')/h: under leap-frog, whose v is that of the step, this is SHAKE. Velocities at the time of x are projected
@@ -47,8 +47,8 @@ class ConstraintSlot {
             Tie& tie = ties_.emplace_back();
             tie.constraint = constraint->copy();
             for (const int point : tie.constraint->points())
-                tie.numbers.push_back(static_cast<std::size_t>(
-                    std::lower_bound(points_.begin(), points_.end(), point) - points_.begin()));
+                tie.numbers.push_back(static_cast<std::size_t>(std::lower_bound(points_.begin(), points_.end(), point) -
+                                                               points_.begin()));
             for (const Constraint::Place& place : tie.constraint->places()) {
                 tie.numbers.push_back(points_.size() + places_.size());
                 places_.push_back(place);
@@ -65,7 +65,7 @@ class ConstraintSlot {
     // Velocities at the time t [s] of x.
     void projectVelocities(double t, Planes& velocities) {
         load(t, velocities);
-        takeTurns([](Constraint& constraint, const Constraint::Moment& now) { return constraint.projectVelocities(now); });
+        takeTurns(&Constraint::projectVelocities);
         store(velocities, v_);
     }
 
@@ -78,7 +78,7 @@ class ConstraintSlot {
     void project(Method& method, double t, double h) {
         load(t, state_.v);
         reached_ = x_;
-        takeTurns([](Constraint& constraint, const Constraint::Moment& now) { return constraint.projectPositions(now); });
+        takeTurns(&Constraint::projectPositions);
         Real* predicted = method.predicted(state_);
         const bool isHalfStep = predicted != state_.v.data();
         for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -87,7 +87,7 @@ class ConstraintSlot {
             // w' = 1.5 v⁺ - 0.5 v⁻
             v_[i] = isHalfStep ? at(predicted, points_[i]) + 1.5 * change : stored_[i];
         }
-        takeTurns([](Constraint& constraint, const Constraint::Moment& now) { return constraint.projectVelocities(now); });
+        takeTurns(&Constraint::projectVelocities);
         store(state_.x, x_);
         store(state_.v, isHalfStep ? stored_ : v_);
         if (isHalfStep)
@@ -97,22 +97,22 @@ class ConstraintSlot {
         keep();
     }
 
-    // After contact, at t [s]: what it changed of x and v is shared with what they tie. Contact has left velocities that
-    // are stored and those at the time of x with one change. Returns whether it had changed anything.
+    // After contact, at t [s]: what it changed of x and v is shared with what they tie. Contact has left velocities
+    // that are stored and those at the time of x with one change. Returns whether it had changed anything.
     bool settle(Method& method, double t) {
         load(t, state_.v);
         bool isSame = true;
         for (std::size_t i = 0; i < points_.size(); ++i) isSame = isSame && x_[i] == placed_[i] && v_[i] == stored_[i];
         if (isSame) return false;
         from_ = x_;
-        takeTurns([](Constraint& constraint, const Constraint::Moment& now) { return constraint.projectPositions(now); });
+        takeTurns(&Constraint::projectPositions);
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const dvec3 change = v_[i] - stored_[i];
             stored_[i] = v_[i];
             v_[i] = reached_[i] + change;
             reached_[i] = v_[i];
         }
-        takeTurns([](Constraint& constraint, const Constraint::Moment& now) { return constraint.projectVelocities(now); });
+        takeTurns(&Constraint::projectVelocities);
         store(state_.x, x_);
         Real* predicted = method.predicted(state_);
         const bool isHalfStep = predicted != state_.v.data();
@@ -150,7 +150,8 @@ class ConstraintSlot {
     };
 
     dvec3 at(const Real* planes, int point) const {
-        return {static_cast<double>(planes[planar_.index(point, 0)]), static_cast<double>(planes[planar_.index(point, 1)]),
+        return {static_cast<double>(planes[planar_.index(point, 0)]),
+                static_cast<double>(planes[planar_.index(point, 1)]),
                 static_cast<double>(planes[planar_.index(point, 2)])};
     }
     void set(Real* planes, int point, const dvec3& value) const {
@@ -171,9 +172,10 @@ class ConstraintSlot {
         }
     }
     const mechanics::PosePath& pathOf(const std::string& collider) const {
-        return std::find_if(plan_.carriers.begin(), plan_.carriers.end(), [&](const Carrier& carrier) {
-                   return carrier.collider == collider;
-               })->path;
+        return std::find_if(
+                   plan_.carriers.begin(), plan_.carriers.end(),
+                   [&](const Carrier& carrier) { return carrier.collider == collider; })
+            ->path;
     }
     void store(Planes& planes, const std::vector<dvec3>& values) {
         for (std::size_t i = 0; i < points_.size(); ++i) planar_.set(planes, points_[i], values[i]);
@@ -196,14 +198,13 @@ class ConstraintSlot {
             tie.v[k] = v_[n];
         }
     }
-    template <class Project>
-    void takeTurns(const Project& project) {
+    void takeTurns(bool (Constraint::*project)(const Constraint::Moment&)) {
         constexpr int mostRounds = 50;
         for (int round = 0; round < mostRounds; ++round) {
             bool moves = false;
             for (Tie& tie : ties_) {
                 gather(tie);
-                if (!project(*tie.constraint, Constraint::Moment{tie.w, tie.from, tie.x, tie.v})) continue;
+                if (!((*tie.constraint).*project)({tie.w, tie.from, tie.x, tie.v})) continue;
                 moves = true;
                 for (std::size_t k = 0; k < tie.constraint->points().size(); ++k) {
                     x_[tie.numbers[k]] = tie.x[k];

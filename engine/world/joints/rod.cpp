@@ -34,8 +34,8 @@ void changeRods(IslandPlan& plan, const Change& change) {
 
 // Points that were welded may be elsewhere than where their bodies have them.
 void RodJoint::tie(IslandPlan& plan, int first, int second, double) const {
-    const double length = distance(plan.positions[static_cast<std::size_t>(first)],
-                                   plan.positions[static_cast<std::size_t>(second)]);
+    const double length =
+        distance(plan.positions[static_cast<std::size_t>(first)], plan.positions[static_cast<std::size_t>(second)]);
     changeRods(plan, [&](Rods& rods) { rods.tie(first, second, length, source); });
 }
 

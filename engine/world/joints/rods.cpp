@@ -42,8 +42,8 @@ void Rods::tie(int a, const Place& b, double length, const Source& source) {
 }
 
 int Rods::count() const {
-    return static_cast<int>(
-        std::count_if(rods_.begin(), rods_.end(), [](const Rod& rod) { return !rod.isBroken; }));
+    return static_cast<int>(std::count_if(
+        rods_.begin(), rods_.end(), [](const Rod& rod) { return !rod.isBroken; }));
 }
 
 double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) const {
@@ -59,8 +59,9 @@ void Rods::check() const {
     for (const Rod& rod : rods_)
         if (!(rod.length > 0))
             throw core::Error(core::ErrorKind::badContent,
-                              world::at(rod.source) + "a rod has both ends in one place; move them apart, or use kind = "
-                                                "\"weld\"");
+                              world::at(rod.source) +
+                                  "a rod has both ends in one place; move them apart, or use kind = "
+                                  "\"weld\"");
 }
 
 bool Rods::sever(const IsCut& isCut) {
@@ -190,8 +191,7 @@ void Rods::solve() {
     for (int i = 0; i < count; ++i)
         for (int j = first_[static_cast<std::size_t>(i)]; j < i; ++j)
             impulse_[static_cast<std::size_t>(i)] -= at(i, j) * impulse_[static_cast<std::size_t>(j)];
-    for (int i = 0; i < count; ++i)
-        impulse_[static_cast<std::size_t>(i)] *= inversePivot_[static_cast<std::size_t>(i)];
+    for (int i = 0; i < count; ++i) impulse_[static_cast<std::size_t>(i)] *= inversePivot_[static_cast<std::size_t>(i)];
     for (int i = count - 1; i >= 0; --i)
         for (int j = first_[static_cast<std::size_t>(i)]; j < i; ++j)
             impulse_[static_cast<std::size_t>(j)] -= at(i, j) * impulse_[static_cast<std::size_t>(i)];
@@ -214,8 +214,7 @@ bool Rods::projectPositions(const Moment& moment) {
         for (std::size_t i = 0; i < order_.size(); ++i) {
             const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
             const dvec3 d = between(rod, moment.x);
-            const double g =
-                rod.isBroken ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
+            const double g = rod.isBroken ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
             const double size = norm(moment.x[static_cast<std::size_t>(end(rod.a))]) +
                                 norm(moment.x[static_cast<std::size_t>(end(rod.b))]);
             holds = holds && std::abs(g) <= relativeTolerance * rod.length + roundingShare * size;
@@ -236,8 +235,8 @@ bool Rods::projectVelocities(const Moment& moment) {
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
         impulse_[i] = glm::dot(direction_[i], between(rod, moment.v));
-        const double size = norm(moment.v[static_cast<std::size_t>(end(rod.a))]) +
-                            norm(moment.v[static_cast<std::size_t>(end(rod.b))]);
+        const double size =
+            norm(moment.v[static_cast<std::size_t>(end(rod.a))]) + norm(moment.v[static_cast<std::size_t>(end(rod.b))]);
         holds = holds && std::abs(impulse_[i]) <= roundingShare * size;
     }
     if (holds) return false;

@@ -114,14 +114,13 @@ template <class Own>
 Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
     Kind<JointSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};
     kind.section.help = std::move(help);
-    kind.section.fields = fields::FieldList<Own>()
-                              .text("a", &JointSpec::a, fields::Role::tieable,
-                                    "Points of one body: KIND.NAME@SELECTOR.")
-                              .required()
-                              .text("b", &JointSpec::b, fields::Role::tieable,
-                                    "Points of the other; or collider.NAME, on either side.")
-                              .required()
-                              .take();
+    kind.section.fields =
+        fields::FieldList<Own>()
+            .text("a", &JointSpec::a, fields::Role::tieable, "Points of one body: KIND.NAME@SELECTOR.")
+            .required()
+            .text("b", &JointSpec::b, fields::Role::tieable, "Points of the other; or collider.NAME, on either side.")
+            .required()
+            .take();
     for (fields::Field& row : own.take()) {
         TAUT_EXPECTS(row.inside.empty());
         kind.section.fields.push_back(std::move(row));

@@ -20,6 +20,7 @@ template <class Change>
 void changeRods(IslandPlan& plan, const Change& change) {
     for (auto& constraint : plan.constraints)
         if (const auto* rods = dynamic_cast<const Rods*>(constraint.get())) {
+            if (constraint.use_count() == 1) return change(const_cast<Rods&>(*rods));  // while the plan is made
             auto changed = std::make_shared<Rods>(*rods);
             change(*changed);
             constraint = std::move(changed);

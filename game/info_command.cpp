@@ -119,6 +119,7 @@ Json islandJson(const world::IslandInfo& i) {
             {"runs", i.runs},
             {"single_springs", i.singles},
             {"cells", i.cells},
+            {"constraints", i.constraints},
             {"mass_kg", i.mass},
             {"method", i.method},
             {"omega_B1_per_s", i.omegaBound},
@@ -139,7 +140,7 @@ Json jointJson(const world::JointInfo& joint) {
     for (const auto& pair : joint.pairs) pairs.push_back({{"a", pair.a}, {"b", pair.b}, {"points", pair.points}});
     return {{"a", joint.a},
             {"b", joint.b},
-            {"kind", joint.isWeld ? "weld" : "spring"},
+            {"kind", joint.kind},
             {"pairs", std::move(pairs)},
             {"largest_jump_m", joint.jump},
             {"loose", joint.loose}};
@@ -199,6 +200,7 @@ void printIsland(const world::IslandInfo& i) {
     printResult("  points      {} ({} held), {:.4g} kg\n", i.points, i.heldPoints, i.mass);
     printResult("  springs     {} ({} runs, {} single){}\n", i.springs, i.runs, i.singles,
                 i.cells > 0 ? fmt::format(", {} volume cells", i.cells) : "");
+    if (i.constraints > 0) printResult("  constraints {}\n", i.constraints);
     printResult("  omega       {:.4g} /s bound of any shape, {:.4g} /s bound now, {:.4g} /s estimated (Lanczos)\n",
                 i.omegaBound, i.omegaNow, i.omegaEstimate);
     if (std::isfinite(i.stepLimit))
@@ -219,7 +221,7 @@ std::string lengthText(double metres) {
 void printJoint(const world::JointInfo& joint) {
     int points = 0;
     for (const auto& pair : joint.pairs) points += pair.points;
-    printResult("\n{} {} – {}: {} point{}{}\n", joint.isWeld ? "weld" : "spring joint", joint.a, joint.b, points,
+    printResult("\n{} {} – {}: {} point{}{}\n", joint.kind == "spring" ? "spring joint" : joint.kind, joint.a, joint.b, points,
                 points == 1 ? "" : "s",
                 joint.jump > 0 ? fmt::format(", moved together by up to {}", lengthText(joint.jump)) : "");
     for (const auto& pair : joint.pairs) printResult("  {} – {}  {}\n", pair.a, pair.b, pair.points);

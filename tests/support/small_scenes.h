@@ -7,6 +7,7 @@
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
 #include "taut/spec/spec.h"
+#include "taut/bodies/joints/joints.h"
 
 namespace taut::support {
 
@@ -53,6 +54,26 @@ inline world::ColliderSpec ground() {
     spec.name = "ground";
     spec.shape = "plane";
     return spec;
+}
+
+inline world::WeldJoint weld(const std::string& a, const std::string& b, double reach = 0.02,
+                             const world::Source& source = {}) {
+    world::WeldJoint joint;
+    joint.a = a;
+    joint.b = b;
+    joint.furthest = reach;
+    joint.source = source;
+    return joint;
+}
+
+inline world::SpringJoint springJoint(const std::string& a, const std::string& b, double stiffness,
+                                      double dampingTime = 0) {
+    world::SpringJoint joint;
+    joint.a = a;
+    joint.b = b;
+    joint.stiffness = stiffness;
+    joint.dampingTime = dampingTime;
+    return joint;
 }
 
 }  // namespace taut::support

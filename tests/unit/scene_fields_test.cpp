@@ -11,6 +11,7 @@
 #include "taut/bodies/rope.h"
 #include "taut/forces/anchor.h"
 #include "taut/forces/wind.h"
+#include "taut/bodies/joints/joints.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"
 
@@ -236,14 +237,14 @@ TEST(SceneFields, NetLandsInItsMembers) {
 
 TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
-    ASSERT_EQ(scene.joints.size(), 2U);
+    ASSERT_EQ(scene.joints.size(), 3U);
     EXPECT_EQ(scene.joints[0].a, "rope.rail@end");
     EXPECT_EQ(scene.joints[0].b, "net.cradle@b");
-    EXPECT_EQ(scene.joints[0].kind, world::JointSpec::Kind::spring);
-    EXPECT_EQ(scene.joints[0].stiffness, 50.0);
-    EXPECT_EQ(scene.joints[0].dampingTime, 7e-4);
-    EXPECT_EQ(scene.joints[1].kind, world::JointSpec::Kind::weld);
-    EXPECT_EQ(scene.joints[1].reach, 0.05);
+    EXPECT_EQ(scene.joints.of<world::SpringJoint>().at(0).stiffness, 50.0);
+    EXPECT_EQ(scene.joints.of<world::SpringJoint>().at(0).dampingTime, 7e-4);
+    EXPECT_EQ(scene.joints[1].kind(), "weld");
+    EXPECT_EQ(scene.joints[1].reach(), 0.05);
+    EXPECT_EQ(scene.joints.of<world::RodJoint>().at(0).place, world::dvec3(0, 1, 2.5));
     ASSERT_EQ(scene.masses.size(), 1U);
     EXPECT_EQ(scene.masses[0].target, "block.*@corners");
     EXPECT_EQ(scene.masses[0].mass, 1.5);

@@ -141,6 +141,11 @@ a = "rope.rail@start"
 b = "net.cradle@a"
 kind = "weld"
 reach_m = 0.05
+[[joint]]
+a = "net.cradle@a"
+b = "collider.ball"
+kind = "rod"
+place = [0, 1, 2.5]
 [[mass]]
 target = "block.*@corners"
 mass_kg = 1.5

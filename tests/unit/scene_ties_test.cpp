@@ -38,10 +38,10 @@ TEST(SceneTies, AreReadWithTheirKeys) {
     const world::World world(loaded.spec);
     const auto joints = world.joints();
     ASSERT_EQ(joints.size(), 2U);
-    EXPECT_FALSE(joints[0].isWeld);
+    EXPECT_EQ(joints[0].kind, "spring");
     EXPECT_EQ(joints[0].pairs.at(0).a, "rope.r");
     EXPECT_EQ(joints[0].pairs.at(0).b, "collider.figure");
-    EXPECT_TRUE(joints[1].isWeld);
+    EXPECT_EQ(joints[1].kind, "weld");
     EXPECT_EQ(joints[1].pairs.at(0).points, 3);
     EXPECT_EQ(world.islands()[0].heldPoints, 3);
     EXPECT_EQ(loaded.spec.actions.of<world::HoldAction>()[0].holdOn, "collider.figure");

@@ -99,10 +99,7 @@ TEST(PlanModel, WhatIsTiedToItsPointsKeepsThem) {
     scene.bodies.of<world::ClothSpec>()[0].hold = {"#3"};
     scene.bodies.add(support::rope("a", {0, 2, 0}, {1, 2, 0}, 20));
     scene.bodies.add(support::rope("b", {0, 2, 1}, {1, 2, 1}, 10));
-    world::JointSpec joint;
-    joint.a = "rope.a@end";
-    joint.b = "rope.a@end";
-    scene.joints.push_back(joint);
+    scene.joints = {support::weld("rope.a@end", "rope.a@end")};
     const Resolution resolution = resolutionOf(scene);
     EXPECT_EQ(resolution.scalable, std::vector<std::string>{"rope.b"});
     EXPECT_EQ(resolution.count, 10);

@@ -16,6 +16,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_islands_test.cpp
   world_motion_test.cpp
   world_own_action_test.cpp
+  world_own_joint_test.cpp
   world_own_kinds_test.cpp
   world_own_method_test.cpp
   world_own_shape_test.cpp
@@ -23,6 +24,7 @@ list(APPEND TAUT_UNIT_TESTS
   world_ramps_test.cpp
   world_rehearsal_test.cpp
   world_restoring_test.cpp
+  world_rods_test.cpp
   world_saving_test.cpp
   world_start_doubts_test.cpp
   world_step_choice_test.cpp

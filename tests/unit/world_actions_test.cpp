@@ -369,11 +369,7 @@ TEST(ActionErrors, NameTheActionsPlaceInItsFile) {
 TEST(ActionErrors, ASpawnedBodyCannotBeTied) {
     SceneSpec scene;
     scene.bodies.add(support::rope("a", {0, 3, 0}, {1, 3, 0}, 4), support::rope("b", {1, 3, 0}, {2, 3, 0}, 4));
-    JointSpec joint;
-    joint.a = "rope.a@end";
-    joint.b = "rope.b@start";
-    joint.source = {"tied.toml", 3, 1};
-    scene.joints = {joint};
+    scene.joints = {support::weld("rope.a@end", "rope.b@start", 0.02, {"tied.toml", 3, 1})};
     EXPECT_EQ(errorOf(scene, 0), "");
     scene.actions = {action<SpawnAction>(1.0, "rope.b")};
     EXPECT_NE(errorOf(scene, 0).find("tied.toml:3:1: error: \"rope.b@start\" ties rope.b, which is spawned later"),

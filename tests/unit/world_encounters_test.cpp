@@ -94,7 +94,7 @@ TEST(Encounters, AreOfWhatSwingsIntoAnother) {
 TEST(Encounters, AreNotOfBodiesThatAreTied) {
     SceneSpec scene = sceneOf({cube("lower", {0, 1, 0}), cube("upper", {0, 1.3, 0})});
     EXPECT_EQ(encounters(scene).pairs.size(), 1U);  // one stands 0.1 m in the other
-    scene.joints = {{"block.lower@top", "block.upper@bottom", JointSpec::Kind::spring, 1e3, 0, 0, {}}};
+    scene.joints = {support::springJoint("block.lower@top", "block.upper@bottom", 1e3, 0)};
     EXPECT_EQ(encounters(scene).pairs, Pairs());
 }
 

@@ -25,7 +25,7 @@ TEST(Islands, BodiesThatNothingCouplesAreApart) {
 
 TEST(Islands, AWeldMakesOnePointOfTwo) {
     SceneSpec scene = twoRopes();
-    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {}}};
+    scene.joints = {support::weld("rope.a@end", "rope.b@start", 0.01)};
     const std::vector<IslandInfo> islands = World(scene).islands();
     ASSERT_EQ(islands.size(), 1U);
     EXPECT_EQ(islands[0].points, 21);  // 11 + 11 - 1
@@ -36,7 +36,7 @@ TEST(Islands, AWeldMakesOnePointOfTwo) {
 TEST(Islands, AJointSaysWhatItTiesAndWarnsOfBodiesThatItNamesAndDoesNot) {
     SceneSpec scene = twoRopes();
     scene.bodies.add(support::rope("c", {1, 0, 0.3}, {2, 0, 0.3}), support::rope("d", {5, 0, 0}, {6, 0, 0}));
-    scene.joints = {{"rope.a@end", "rope.*@start", JointSpec::Kind::weld, 0, 0, 0.01, {"s.toml", 3, 1}}};
+    scene.joints = {support::weld("rope.a@end", "rope.*@start", 0.01, {"s.toml", 3, 1})};
     const World world(scene);
     const std::vector<JointInfo> joints = world.joints();
     ASSERT_EQ(joints.size(), 1U);
@@ -49,14 +49,14 @@ TEST(Islands, AJointSaysWhatItTiesAndWarnsOfBodiesThatItNamesAndDoesNot) {
     EXPECT_EQ(world.warnings()[0],
               "s.toml:3:1: warning: the joint \"rope.a@end\" – \"rope.*@start\" does not tie rope.c (0.3 m off), "
               "rope.d (4 m off); it reaches 0.01 m: move them together, raise reach_m, or use kind = \"spring\"");
-    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {}}};
+    scene.joints = {support::weld("rope.a@end", "rope.b@start", 0.01)};
     EXPECT_TRUE(World(scene).warnings().empty());
 }
 
 TEST(Islands, AWeldAddsMassesAndKeepsMomentum) {
     SceneSpec scene = twoRopes();
     scene.bodies.of<RopeSpec>()[1].velocity = {0, 0, 2};
-    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {}}};
+    scene.joints = {support::weld("rope.a@end", "rope.b@start", 0.01)};
     std::vector<Body> bodies = buildBodies(scene);
     const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
     const int welded = bodies[0].pointOf.back();
@@ -69,7 +69,7 @@ TEST(Islands, AWeldAddsMassesAndKeepsMomentum) {
 TEST(Islands, ASpringJointKeepsItsStartingLength) {
     SceneSpec scene = twoRopes();
     scene.bodies.of<RopeSpec>()[1].start.x = 1.5;
-    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::spring, 500, 1e-3, 0.01, {}}};
+    scene.joints = {support::springJoint("rope.a@end", "rope.b@start", 500, 1e-3)};
     std::vector<Body> bodies = buildBodies(scene);
     const std::vector<IslandPlan> plans = planIslands(pointersTo(bodies), scene);
     ASSERT_EQ(plans.size(), 1U);
@@ -82,7 +82,7 @@ TEST(Islands, ASpringJointKeepsItsStartingLength) {
 TEST(Islands, AJointThatJoinsNothingSaysHowFarItIs) {
     SceneSpec scene = twoRopes();
     scene.bodies.of<RopeSpec>()[1].start.x = 1.5;
-    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {"s.toml", 9, 1}}};
+    scene.joints = {support::weld("rope.a@end", "rope.b@start", 0.01, {"s.toml", 9, 1})};
     try {
         const World world(scene);
         FAIL();
@@ -96,7 +96,7 @@ TEST(Islands, JoinedBodiesMustAgreeOnTheirSolver) {
     SceneSpec scene = twoRopes();
     scene.bodies.of<RopeSpec>()[1].solver.integrator = "velocity-verlet";
     EXPECT_EQ(World(scene).islands()[1].method, "velocity-verlet");
-    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.01, {}}};
+    scene.joints = {support::weld("rope.a@end", "rope.b@start", 0.01)};
     EXPECT_THROW(World{scene}, core::Error);
 }
 

@@ -106,7 +106,7 @@ TEST(StartDoubts, AreOfStepsWithoutNumber) {
 TEST(StartDoubts, AreOfAWeldThatJerksPointsTogether) {
     SceneSpec scene = ropeScene(support::rope("a", {0, 2, 0}, {1, 2, 0}, 10));
     scene.bodies.add(support::rope("b", {1.15, 2, 0}, {2.15, 2, 0}, 10));
-    scene.joints = {{"rope.a@end", "rope.b@start", JointSpec::Kind::weld, 0, 0, 0.3, {}}};
+    scene.joints = {support::weld("rope.a@end", "rope.b@start", 0.3)};
     World world(scene);
     EXPECT_NEAR(world.joints()[0].jump, 0.15, 1e-12);
     EXPECT_EQ(

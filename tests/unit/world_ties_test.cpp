@@ -20,13 +20,8 @@ namespace {
 using core::pi;
 using support::run;
 
-JointSpec tie(const std::string& a, const std::string& b, JointSpec::Kind kind = JointSpec::Kind::weld) {
-    JointSpec joint;
-    joint.a = a;
-    joint.b = b;
-    joint.kind = kind;
-    joint.source = {"ties.toml", 5, 1};
-    return joint;
+WeldJoint tie(const std::string& a, const std::string& b) {
+    return support::weld(a, b, 0.02, {"ties.toml", 5, 1});
 }
 
 // A ball that nothing comes near to, at the origin, on keys that turn it about z evenly: a turn a second.
@@ -117,9 +112,10 @@ dvec3 placeOnTheSwing(const std::string& method, bool isRigid, int substeps) {
     SceneSpec scene = pair(method, 40, 1.0 / 60 / substeps);
     scene.colliders = {turning(3)};
     scene.colliders[0].keys[1].ease = Ease::smooth;  // its spin changes from tick to tick
-    scene.joints = {tie("net.n@p", "collider.spinner", isRigid ? JointSpec::Kind::weld : JointSpec::Kind::spring)};
-    scene.joints[0].stiffness = 100;
-    scene.joints[0].dampingTime = 5e-3;
+    if (isRigid)
+        scene.joints = {tie("net.n@p", "collider.spinner")};
+    else
+        scene.joints = {support::springJoint("net.n@p", "collider.spinner", 100, 5e-3)};
     World world(scene);
     run(world, 60);
     return world.points("net.n@m").x[0];
@@ -242,9 +238,7 @@ TEST(Ties, PointsAreCarriedThroughTicksThatAreRepeated) {
 TEST(Ties, ASpringDrawsAPointToItsPlaceOnTheCollider) {
     SceneSpec scene = pair();
     scene.colliders = {support::ball("arm", {0, 0, 0}, 0.01)};
-    scene.joints = {tie("collider.arm", "net.n@p", JointSpec::Kind::spring)};
-    scene.joints[0].stiffness = 200;
-    scene.joints[0].dampingTime = 0.1;
+    scene.joints = {support::springJoint("collider.arm", "net.n@p", 200, 0.1)};
     scene.bodies.of<NetSpec>()[0].springs[0].dampingTime = 0.1;
     scene.bodies.of<NetSpec>()[0].drag = 4;  // so that m does not swing for ever
     auto move = support::action<MoveAction>(0.0, "collider.arm");
@@ -275,8 +269,7 @@ SceneSpec muchIsTied(const std::string& method) {
     scene.bodies[0].hold = {"top"};
     scene.bodies[0].holdOn = "collider.spinner";
     scene.colliders = {turning(3), support::ball("rock", {0.5, 0.8, 0.1}, 0.3), support::ball("arm", {0, 0, 1}, 0.1)};
-    scene.joints = {tie("cloth.sheet@bottom-left", "collider.arm", JointSpec::Kind::spring)};
-    scene.joints[0].stiffness = 20;
+    scene.joints = {support::springJoint("cloth.sheet@bottom-left", "collider.arm", 20, 1e-4)};
     auto move = support::action<MoveAction>(0.1, "collider.arm");
     move.to = dvec3(0, 1, 1);
     move.rotation = dvec3(1, 1, 0);
@@ -339,9 +332,9 @@ std::string refusal(const SceneSpec& scene) {
 
 TEST(Ties, WhatCannotBeTiedIsRefused) {
     SceneSpec scene = carriedPair();
-    const auto with = [&](const JointSpec& joint) {
+    const auto with = [&](const WeldJoint& joint) {
         SceneSpec other = scene;
-        other.joints.push_back(joint);
+        other.joints.add(joint);
         return refusal(other);
     };
     const std::string place = "ties.toml:5:1: error: ";

@@ -44,10 +44,10 @@ struct PointRef {
     int point;
 };
 
-struct JointSpring {
+struct JointPair {
     PointRef a, b;
     const JointSpec* spec;
-    double restLength;
+    double distance;  // [m]
 };
 
 class Planner {
@@ -66,8 +66,8 @@ class Planner {
         std::vector<std::vector<int>> members(bodies_.size());  // by the body that stands for the set
         for (int body = 0; body < static_cast<int>(bodies_.size()); ++body)
             members[static_cast<std::size_t>(islands_.find(body))].push_back(body);
-        std::vector<std::vector<JointSpring>> joints(bodies_.size());
-        for (const JointSpring& joint : joints_)
+        std::vector<std::vector<JointPair>> joints(bodies_.size());
+        for (const JointPair& joint : joints_)
             joints[static_cast<std::size_t>(islands_.find(joint.a.body))].push_back(joint);
         std::vector<int> numberOf(firstGlobalEnd(), -1);  // by the global point that stands for a weld
         std::vector<IslandPlan> plans;
@@ -105,7 +105,7 @@ class Planner {
     void addJoint(const JointSpec& joint) {
         const std::vector<PointRef> as = points(joint.a, joint.source);
         std::vector<PointRef> bs = points(joint.b, joint.source);
-        const bool weld = joint.kind == JointSpec::Kind::weld;
+        const bool weld = joint.isWeld();
         JointReport& report = reports_.emplace_back();
         report.spec = &joint;
         std::map<std::pair<int, int>, int> pairs;  // bodies: points joined
@@ -120,7 +120,7 @@ class Planner {
             for (std::size_t i = 0; i < bs.size(); ++i) {
                 const dvec3 d = position(bs[i]) - position(a);
                 const double distance = std::sqrt(glm::dot(d, d));
-                if (bs[i].body == a.body) continue;
+                if (bs[i].body == a.body && (!joint.tiesWithin() || bs[i].point == a.point)) continue;
                 double& otherReach = reached.at(bs[i].body);
                 otherReach = std::min(otherReach, distance);
                 if (distance < bestDistance) {
@@ -130,7 +130,7 @@ class Planner {
             }
             nearest = std::min(nearest, bestDistance);
             ownReach = std::min(ownReach, bestDistance);
-            if (best == bs.size() || (weld && bestDistance > joint.reach)) continue;
+            if (best == bs.size() || bestDistance > joint.reach()) continue;
             islands_.unite(a.body, bs[best].body);
             ++pairs[{a.body, bs[best].body}];
             ++made;
@@ -145,7 +145,7 @@ class Planner {
         if (made == 0) {
             const std::string why = std::isfinite(nearest)
                                         ? "the nearest two points are " + std::to_string(nearest) +
-                                              " m apart, more than reach_m = " + std::to_string(joint.reach) +
+                                              " m apart, more than reach_m = " + std::to_string(joint.reach()) +
                                               "; move the bodies together, or use kind = \"spring\""
                                         : "both sides are the same body";
             throw Error(ErrorKind::badContent,
@@ -161,13 +161,12 @@ class Planner {
         }
     }
 
-    IslandPlan plan(const std::vector<int>& members, const std::vector<JointSpring>& joints,
+    IslandPlan plan(const std::vector<int>& members, const std::vector<JointPair>& joints,
                     std::vector<int>& numberOf) {
         IslandPlan plan;
         for (int body : members) addBody(plan, body, numberOf);
-        for (const JointSpring& joint : joints)
-            plan.springs.push_back({pointOf(joint.a), pointOf(joint.b), joint.spec->stiffness, joint.restLength,
-                                    joint.spec->dampingTime, mechanics::SpringKind::joint});
+        for (const JointPair& joint : joints)
+            joint.spec->tie(plan, pointOf(joint.a), pointOf(joint.b), joint.distance);
         plan.origins.resize(plan.springs.size());
         plan.broken.resize(plan.springs.size(), false);
         plan.solver = solverOf(plan);
@@ -290,7 +289,7 @@ class Planner {
     Sets islands_;                  // (bodies)
     std::vector<int> firstGlobal_;  // (bodies)
     Sets welds_;                    // (points of all bodies)
-    std::vector<JointSpring> joints_;
+    std::vector<JointPair> joints_;
     std::vector<JointReport> reports_;  // (joints of the scene)
 };
 
@@ -302,6 +301,12 @@ std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSp
     Planner planner(bodies, spec);
     if (joints != nullptr) *joints = planner.reports();
     return planner.plans();
+}
+
+void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::PosePath& path) {
+    const bool isThere = std::any_of(plan.carriers.begin(), plan.carriers.end(),
+                                     [&](const Carrier& carrier) { return carrier.collider == collider; });
+    if (!isThere) plan.carriers.push_back({collider, path});
 }
 
 void takeSpringsFromModels(IslandPlan& plan) {

@@ -1,7 +1,9 @@
 // Which bodies move together, and with which points and springs: the plan from which an island is built.
 #pragma once
 
+#include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,7 @@
 
 namespace taut::world {
 
+class Constraint;
 struct JointSpec;
 
 // Where a spring of an island comes from.
@@ -31,6 +34,12 @@ struct Grip {
     mechanics::PosePath path;                // of it; the place on a line during each tick
 };
 
+// A collider that constraints are fixed to.
+struct Carrier {
+    std::string collider;      // "collider.pole"
+    mechanics::PosePath path;  // as of a Grip
+};
+
 // Points in the island's own numbering: body by body, welded points once.
 struct IslandPlan {
     std::vector<Body*> bodies;
@@ -42,6 +51,8 @@ struct IslandPlan {
     std::vector<SpringOrigin> origins;          // (springs)
     std::vector<bool> broken;                   // (springs) cut or torn; then without stiffness
     std::vector<Grip> grips;                    // in the order of grabbing
+    std::vector<std::shared_ptr<const Constraint>> constraints;  // another takes the place of one that changes
+    std::vector<Carrier> carriers;                               // of their places, each once
 };
 
 // What a joint of the scene has become.
@@ -61,6 +72,9 @@ struct JointReport {
 // together disagree on their solver. Joints with colliders are not its concern, see ties.h.
 std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec,
                                     std::vector<JointReport>* joints = nullptr);
+
+// That a place of a constraint is on this collider, which is on that path.
+void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::PosePath& path);
 
 // Takes stiffness, damping and drag over from the models of the bodies, for instance when those have changed.
 void takeSpringsFromModels(IslandPlan& plan);

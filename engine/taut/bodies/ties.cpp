@@ -37,13 +37,10 @@ class Tying {
                 for (int i : selectPoints(body->model, parseTarget(pointsOf(joint)).selector))
                     points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
         if (points.empty()) return;
-        if (joint.kind == JointSpec::Kind::weld) return lead(colliderOf(joint), std::move(points), joint.source);
+        if (joint.isWeld()) return lead(colliderOf(joint), std::move(points), joint.source);
         sort(points);
-        Grip grip = tieTo(colliderOf(joint), poseOf(colliderOf(joint), find_, joint.source), points, plan_.positions);
-        grip.rigid = false;
-        grip.stiffness.assign(points.size(), joint.stiffness);
-        grip.damping.assign(points.size(), joint.stiffness * joint.dampingTime);
-        plan_.grips.push_back(std::move(grip));
+        const collision::Pose pose = poseOf(colliderOf(joint), find_, joint.source);
+        joint.carry(plan_, tieTo(colliderOf(joint), pose, std::move(points), plan_.positions));
     }
 
   private:

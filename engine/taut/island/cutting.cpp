@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "taut/bodies/joints/constraint.h"
+
 namespace taut::world {
 namespace {
 
@@ -90,6 +92,17 @@ Crossing crossingOf(const CutAction& action, const Island& island, std::span<Bod
         if (plan.origins[s].body >= 0 || plan.broken[s] || !isCut[a] || !isCut[b]) continue;
         if ((side[a] >= 0) != (side[b] >= 0)) crossing.joints.push_back(static_cast<int>(s));
     }
+    const auto isAcross = [&](int a, int b) {
+        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+        return isCut[i] && isCut[j] && (side[i] >= 0) != (side[j] >= 0);
+    };
+    bool any = false;
+    for (const auto& constraint : plan.constraints) {
+        const std::shared_ptr<Constraint> cut = constraint->copy();
+        any = cut->sever(isAcross) || any;
+        crossing.constraints.push_back(cut);
+    }
+    if (!any) crossing.constraints.clear();
     return crossing;
 }
 
@@ -100,6 +113,7 @@ void sever(const Crossing& crossing, IslandPlan& plan) {
         plan.broken[static_cast<std::size_t>(joint)] = true;
         plan.springs[static_cast<std::size_t>(joint)].stiffness = 0;
     }
+    if (!crossing.constraints.empty()) plan.constraints = crossing.constraints;
     breakSevered(plan);
 }
 

@@ -18,7 +18,8 @@ struct Crossing {
     };
     std::vector<Edge> edges;  // of springs, triangles and tetrahedra
     std::vector<int> joints;  // springs of the plan
-    bool isEmpty() const { return edges.empty() && joints.empty(); }
+    std::vector<std::shared_ptr<const Constraint>> constraints;  // the plan's after it; empty where none is cut
+    bool isEmpty() const { return edges.empty() && joints.empty() && constraints.empty(); }
 };
 
 // What of the bodies lies across the plane or the segment of the action and is not severed yet. A point on the plane

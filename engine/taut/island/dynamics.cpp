@@ -11,6 +11,7 @@
 #include "taut/mechanics/anchor.h"
 #include "taut/island/island_contacts.h"
 #include "taut/island/rounding_watch.h"
+#include "taut/island/constraint_slot.h"
 
 namespace taut::world {
 namespace {
@@ -23,7 +24,8 @@ class DynamicsOf final : public Dynamics {
           system_(massesOf(plan), plan.ranges, plan.springs),
           state_(system_.layout()),
           bound_(system_.layout().count, system_.layout().stride),
-          contacts_(plan_, system_, state_) {
+          contacts_(plan_, system_, state_),
+          constraints_(plan_, system_, state_) {
         lead();
         setForces(forces);
         for (std::size_t i = 0; i < plan_.positions.size(); ++i) {
@@ -41,6 +43,7 @@ class DynamicsOf final : public Dynamics {
             system_.setPoints(massesOf(plan_));
             lead();
         }
+        if (isShape) constraints_.take();
         if (isShape) return setForces(forces);
         if (isMaterial) contacts_.rewatch();
         if (isMaterial)
@@ -97,6 +100,7 @@ class DynamicsOf final : public Dynamics {
     void start(double t, double h) override {
         if (!method_) makeMethod();
         step_ = h;
+        if (!constraints_.isEmpty()) constraints_.start(t);
         method_->start(system_, t, h, state_);
         contacts_.drop();
         std::size_t size = 0;
@@ -105,8 +109,12 @@ class DynamicsOf final : public Dynamics {
     }
     void step(double t) override {
         time_ = t;
+        if (!constraints_.isEmpty()) constraints_.remember(t);
         method_->step(system_, t, step_, state_);
         speeds_ = leads_ ? ode::Speeds::unknown : method_->speeds();
+        if (constraints_.isEmpty()) return;
+        constraints_.project(*method_, t + step_, step_);
+        speeds_ = ode::Speeds::unknown;
     }
     void rememberPositions() override { contacts_.remember(); }
     bool collide(const collision::Colliders& colliders, std::vector<collision::Contact>* contacts) override {
@@ -117,6 +125,16 @@ class DynamicsOf final : public Dynamics {
                std::span<dvec3> v) override {
         speeds_ = ode::Speeds::unknown;
         contacts_.place(colliders, *method_, step_, gravity(time_), points, x, v);
+    }
+    bool settle() override {
+        if (constraints_.isEmpty()) return false;
+        speeds_ = ode::Speeds::unknown;
+        if (!constraints_.settle(*method_, time_ + step_)) return false;
+        contacts_.drop();
+        return true;
+    }
+    double strain(double t, const std::vector<bool>& only) override {
+        return constraints_.isEmpty() ? 0.0 : constraints_.strain(t, only);
     }
     void watchContacts(bool isOn) override { contacts_.watch(isOn); }
     ContactWork takeContactWork() override { return contacts_.takeWork(); }
@@ -338,6 +356,7 @@ class DynamicsOf final : public Dynamics {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
         contacts_.bear(pressed, 0.5 * step_, velocity_);
         contacts_.bear(contacts, velocity_);
+        if (!constraints_.isEmpty()) constraints_.projectVelocities(t, velocity_);
     }
 
     mechanics::Motion<Real> motion(double t) const { return system_.motion(t, state_.x.data(), state_.v.data()); }
@@ -387,6 +406,7 @@ class DynamicsOf final : public Dynamics {
     mechanics::StateBound<Real> bound_;
     mechanics::SpringWatch<Real> watch_;
     IslandContacts<Real> contacts_;
+    ConstraintSlot<Real> constraints_;
     Planes velocity_;  // scratch
     RoundingWatch<Real> rounding_;
 };

@@ -94,6 +94,10 @@ class Dynamics {
     // method stores it, and out of the colliders where those stop them on their way. Both become what is kept.
     virtual void place(const collision::Colliders* colliders, std::span<const int> points, std::span<dvec3> x,
                        std::span<dvec3> v) = 0;
+    // After contact of either sort, before anything else is asked: constraints share what it changed. Whether they did.
+    virtual bool settle() = 0;
+    // The largest |l - L|/L of what constraints tie, of points that count, at t [s].
+    virtual double strain(double t, const std::vector<bool>& only) = 0;
     // Whether collide() sums up what it does to the energy, and that sum since it was last taken.
     virtual void watchContacts(bool isOn) = 0;
     virtual ContactWork takeContactWork() = 0;

@@ -295,11 +295,12 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
                 dynamics_->emerge(colliders_, inside_);
                 dynamics_->takeContactWork();  // of no step, but of the start
             }
-            if (touches && !dynamics_->isTouchedBounded()) return giveUp(end());
+            const bool settles = touches && dynamics_->settle();
+            if (touches && !(settles ? dynamics_->isBounded() : dynamics_->isTouchedBounded())) return giveUp(end());
         }
         if (mayFreeze_)
             if (const auto fault = overstrained(end())) return fault;
-        if (mayGiveWay_) settle();  // of steps that stand
+        if (mayGiveWay_) giveWay();  // of steps that stand
     }
     return std::nullopt;
 }

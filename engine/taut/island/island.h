@@ -103,6 +103,8 @@ class Island {
     void read(std::span<dvec3> x, std::span<dvec3> v) const;
     // After a part: points (ascending) were moved by contact with other bodies; out of colliders again.
     void place(std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v);
+    // After those: constraints share what it changed. Whether any of its points went elsewhere.
+    bool settle() { return !frozen_ && dynamics_->settle(); }
     // After the last part: what contact with other bodies gave points in the last instant.
     void bear(std::span<const Pressed> pressed) { pressed_.assign(pressed.begin(), pressed.end()); }
 
@@ -133,6 +135,8 @@ class Island {
     void lead(const TickTime& time, const std::string& hand, const mechanics::PosePath& path, bool bends);
     // The same of a collider, "collider.pole"; opens where the way does not go on from the one before.
     void carry(const TickTime& time, const std::string& collider, const mechanics::PosePath& path);
+    // Opens where constraints are fixed to that collider: it is gone.
+    void release(const TickTime& time, const std::string& collider);
     // Opens where a force jumps; not if flows and gravity only go on changing.
     void setForces(const TickTime& time, const ForceList& forces);
 
@@ -182,7 +186,7 @@ class Island {
     void watchVolumes(double t);
     void watchLimit(double t);
     void setPath(std::size_t grip, const mechanics::PosePath& path);
-    void settle();
+    void giveWay();
     void tear(const std::vector<int>& springs, std::vector<int>& changed);
     void remember(int spring);
     void remember(Body& body);

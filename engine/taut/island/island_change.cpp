@@ -3,6 +3,7 @@
 
 #include "taut/island/island.h"
 #include "taut/bodies/ties.h"
+#include "taut/bodies/joints/constraint.h"
 
 namespace taut::world {
 
@@ -64,6 +65,16 @@ void Island::carry(const TickTime& time, const std::string& collider, const mech
         if (!plan_.grips[g].ofCollider || plan_.grips[g].holder != collider) continue;
         if (!goesOn(plan_.grips[g].path, path, time.start())) open(time);
         setPath(g, path);
+    }
+    for (Carrier& carrier : plan_.carriers)
+        if (carrier.collider == collider) carrier.path = path;
+}
+
+void Island::release(const TickTime& time, const std::string& collider) {
+    if (frozen_) return;
+    for (std::size_t c = 0; c < plan_.constraints.size(); ++c) {
+        std::shared_ptr<Constraint> constraint = plan_.constraints[c]->copy();
+        if (constraint->release(collider)) change(time, Change::shape).constraints[c] = std::move(constraint);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "taut/island/divergence.h"
 #include "taut/island/island.h"
+#include "taut/bodies/joints/constraint.h"
 
 namespace taut::world {
 
@@ -16,6 +17,7 @@ void Island::addMetrics(const TickTime& time, const std::function<bool(const Bod
     dynamics_->positions(x_);
     addPoints(counts, time, metrics);
     addSprings(counts, metrics);
+    metrics.maxStrain = std::max(metrics.maxStrain, dynamics_->strain(time.start(), counts));
     for (const auto& [body, report] : dynamics_->volumes(time.start(), false)) {
         if (!wanted(*body)) continue;
         metrics.minVolumeRatio = std::min(metrics.minVolumeRatio, report.smallestRatio);
@@ -116,6 +118,7 @@ IslandInfo Island::info(const TickTime& time) const {
     info.heldPoints = static_cast<int>(std::count(isHeld.begin(), isHeld.end(), true));
     info.points = static_cast<int>(plan_.points.size());
     info.springs = static_cast<int>(plan_.springs.size());
+    for (const auto& constraint : plan_.constraints) info.constraints += constraint->count();
     dynamics_->describe(info);
     info.method = plan_.solver.integrator;
     info.omegaBound = choice_.anywhere.omega;

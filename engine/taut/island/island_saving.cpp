@@ -4,6 +4,7 @@
 
 #include "taut/island/cutting.h"
 #include "taut/island/island.h"
+#include "taut/bodies/joints/constraint.h"
 
 namespace taut::world {
 namespace {
@@ -196,6 +197,18 @@ void Island::visit(StateBytes& bytes) {
     bytes(isChanged_);
     if (isChanged_) visitPlan(bytes);
     world::visit(bytes, forces_);
+    for (auto& constraint : plan_.constraints) {
+        std::shared_ptr<Constraint> changed = constraint->copy();
+        changed->visit(bytes);
+        constraint = std::move(changed);
+    }
+    for (Carrier& carrier : plan_.carriers) {
+        bytes(carrier.path.place);
+        for (glm::dquat* rotation : {&carrier.path.from, &carrier.path.to}) bytes(*rotation);
+        bytes(carrier.path.t0);
+        bytes(carrier.path.t1);
+        bytes.require(carrier.path.t0 < carrier.path.t1);
+    }
     dynamics_->visit(bytes);
     bool isPending = changes_.any();
     for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);

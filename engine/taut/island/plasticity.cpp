@@ -8,7 +8,7 @@ namespace taut::world {
 // Beyond the break strain, against the length that it was made with, a spring is gone; beyond the yield strain its
 // rest length follows, so that the elastic strain stays at it. The method goes on: what it keeps of forces is those of
 // a moment before.
-void Island::settle() {
+void Island::giveWay() {
     beyond_.clear();
     dynamics_->findBeyond(beyond_);
     if (beyond_.empty()) return;

@@ -38,7 +38,7 @@ struct Metrics {                      // at a published tick, velocities synchro
     double gravitational = 0;         // [J]
     glm::dvec3 momentum{0.0};         // [kg m/s]
     glm::dvec3 angularMomentum{0.0};  // [kg m²/s] about the origin
-    double maxStrain = 0;             // largest |l - L|/L of any spring but those of bending
+    double maxStrain = 0;             // largest |l - L|/L of any rod and any spring but those of bending
     int contacts = 0;
     int invertedCells = 0;   // V/V0 <= 0
     int brokenSprings = 0;   // cut or torn since the start
@@ -66,7 +66,8 @@ struct IslandInfo {
     std::string name;                 // of its first body
     std::vector<std::string> bodies;  // "cloth.flag", …
     int points = 0, heldPoints = 0, springs = 0, runs = 0, singles = 0, cells = 0;
-    double mass = 0;  // [kg] of the points
+    int constraints = 0;  // rods, and what else ties points without a spring
+    double mass = 0;      // [kg] of the points
     std::string method;
     double omegaBound = 0;       // B1 [1/s]
     double omegaNow = 0;         // B2 as it is now [1/s]

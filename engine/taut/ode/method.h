@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "taut/core/aligned_array.h"
@@ -86,6 +87,8 @@ class Method {
 
     // Velocities at the time of the positions as far as they are known without another evaluation; of state, or of it.
     virtual const Real* predicted(const State<Real>& state) const { return state.v.data(); }
+    // The same, to be changed; other than state.v of methods whose v is that of the step.
+    Real* predicted(State<Real>& state) const { return const_cast<Real*>(predicted(std::as_const(state))); }
 
     // Whether contacts concern more than the points that they touch: so they do where all are solved for at once.
     virtual bool yields() const { return false; }

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "taut/collision/shape_table.h"
 #include "taut/fields/field_list.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/merged_rows.h"
 #include "taut/scene/sections.h"
 #include "taut/bodies/ties.h"
 
@@ -101,6 +103,14 @@ void checkCollider(const CheckInput& input, ColliderSpec& collider) {
     }
 }
 
+// The titles of a joint between bodies and, where a kind has fields for one of the two alone, of one with a collider.
+std::vector<std::string> variantsOf(const Kind<JointSpec>& kind) {
+    const std::string title(kind.make()->title());
+    const std::vector<Field>& rows = kind.section.fields;
+    if (std::all_of(rows.begin(), rows.end(), [](const Field& row) { return row.only.empty(); })) return {title};
+    return {title, title + " to a collider"};
+}
+
 }  // namespace
 
 void checkAscending(const CheckInput& input) {
@@ -120,38 +130,47 @@ void checkAscending(const CheckInput& input) {
     }
 }
 
-SceneSection jointSection() {
+SceneSection jointSection(const KindTable<JointSpec>& kinds) {
     SceneSection section;
     section.name = "joint";
     section.layout = Layout::list;
     section.help = "Ties points of a body to points of another, or to a collider that carries them.";
-    section.enter = enterNamed(&SceneSpec::joints);
-    section.variant = [](const Node& table) -> std::string {
+    section.variant = [kinds](const Node& table) -> std::string {
         const Member* kind = table.find("kind");
-        if (kind != nullptr && kind->value.text == "spring") return "a spring joint";
+        const Kind<JointSpec>* row = kind != nullptr ? kinds.find(kind->value.text) : nullptr;
+        const std::vector<std::string> variants = variantsOf(row != nullptr ? *row : kinds.all().front());
         const auto isOn = [&](const char* key) {
             const Member* side = table.find(key);
             return side != nullptr && isCollider(side->value.text);
         };
-        return isOn("a") || isOn("b") ? "a weld to a collider" : "a weld";
+        return isOn("a") || isOn("b") ? variants.back() : variants.front();
     };
-    section.fields =
-        FieldList<JointSpec>()
-            .text("a", &JointSpec::a, Role::tieable, "Points of one body: KIND.NAME@SELECTOR.")
-            .required()
-            .text("b", &JointSpec::b, Role::tieable, "Points of the other; or collider.NAME, on either side.")
-            .required()
-            .choice("kind", &JointSpec::kind, {"weld", "spring"},
-                    "Points made one, or springs. A collider carries all points that are welded to it as "
-                    "they lie when the scene starts; springs draw each to that place on it.")
-            .number("stiffness_N_per_m", &JointSpec::stiffness, "N/m", positive, "Of each spring.")
-            .only({"a spring joint"})
-            .number("damping_time_s", &JointSpec::dampingTime, "s", Range{0.0, 1e3}, "Of each spring.")
-            .only({"a spring joint"})
-            .number("reach_m", &JointSpec::reach, "m", Range{0.0, 1e3},
-                    "Largest distance of two points that a weld makes one.")
-            .only({"a weld"})
-            .take();
+    Field what;
+    what.key = "kind";
+    what.kind = FieldKind::choice;
+    what.write = [](void*, const Value&) {};
+    what.read = [first = kinds.all().front().name](const void*) { return Value(first); };
+    std::map<std::string, std::function<std::unique_ptr<JointSpec>()>> makers;  // by variant
+    for (const Kind<JointSpec>& kind : kinds.all()) {
+        what.choices.push_back(kind.name);
+        what.help += (what.help.empty() ? "" : " ") + kind.section.help;
+        for (const std::string& variant : variantsOf(kind)) {
+            section.forms.push_back(kind.section);
+            section.forms.back().name = variant;
+            makers[variant] = kind.make;
+        }
+    }
+    section.enter = [makers, first = kinds.all().front().make](SceneSpec& scene, const std::string& variant,
+                                                               const Source& source) -> void* {
+        const auto maker = makers.find(variant);
+        JointSpec& joint = scene.joints.add(maker != makers.end() ? maker->second() : first());
+        joint.source = source;
+        return dynamic_cast<void*>(&joint);
+    };
+    section.fields = mergedRows(kinds.all(), [](const Kind<JointSpec>& kind, const Field& field) {
+        return field.only.empty() ? variantsOf(kind) : field.only;
+    });
+    section.fields.insert(section.fields.begin() + 2, what);
     return section;
 }
 

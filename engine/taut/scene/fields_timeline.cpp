@@ -1,61 +1,12 @@
 // The field table, part five: what happens while a scene runs, and what is claimed of it.
-#include <algorithm>
-#include <span>
-
 #include "taut/fields/field_list.h"
 #include "taut/fields/problems.h"
+#include "taut/scene/merged_rows.h"
 #include "taut/scene/sections.h"
 
 namespace taut::scene {
 
 using namespace world;
-
-namespace {
-
-// Tells of both uses of a key.
-void merge(Field& into, const Field& other) {
-    if (into.kind != other.kind || into.components != other.components) {
-        into.kind = FieldKind::numbers;
-        into.unit.clear();
-    }
-    into.required = into.required && other.required;
-    if (into.help.find(other.help) == std::string::npos) into.help += " " + other.help;
-}
-
-// A row for what is said of a key; it is read and written by those of the kinds.
-Field shown(const Field& field, const Kind<ActionSpec>& kind) {
-    Field row = field;
-    row.only.clear();
-    row.write = [](void*, const Value&) {};
-    row.read = [read = field.read, make = kind.make](const void*) { return read(dynamic_cast<void*>(make().get())); };
-    return row;
-}
-
-// The keys of all kinds, each once and before the one that follows it where it was first met.
-std::vector<Field> mergedRows(std::span<const Kind<ActionSpec>> kinds) {
-    std::vector<Field> rows;
-    const auto find = [&](const std::string& key) {
-        return std::find_if(rows.begin(), rows.end(), [&](const Field& row) { return row.key == key; });
-    };
-    for (const auto& kind : kinds) {
-        auto next = rows.end();
-        const std::vector<Field>& own = kind.section.fields;
-        for (auto field = own.rbegin(); field != own.rend(); ++field) {
-            auto row = find(field->key);
-            if (row == rows.end())
-                row = rows.insert(next, shown(*field, kind));
-            else
-                merge(*row, *field);
-            row->only.push_back(kind.name);
-            next = row;
-        }
-    }
-    for (Field& row : rows)
-        if (row.only.size() == kinds.size()) row.only.clear();
-    return rows;
-}
-
-}  // namespace
 
 SceneSection handSection() {
     SceneSection section;
@@ -99,7 +50,7 @@ SceneSection atSection(const KindTable<ActionSpec>& kinds) {
         what.choices.push_back(kind.name);
         section.forms.push_back(kind.section);
     }
-    section.fields = mergedRows(kinds.all());
+    section.fields = mergedRows(kinds.all(), [](const auto& kind, const Field&) { return std::vector{kind.name}; });
     section.fields.insert(section.fields.begin() + 1, what);
     return section;
 }

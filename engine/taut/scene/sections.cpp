@@ -37,7 +37,7 @@ std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
     std::vector<SceneSection> all{fileSection(),    needSection(), solverSection(),  worldSection(),
                                   contactSection(), runSection(),  pictureSection(), materialSection()};
     for (const auto& kind : kinds.bodies.all()) all.push_back(kindSection(kind, &world::SceneSpec::bodies));
-    all.insert(all.end(), {jointSection(), massSection()});
+    all.insert(all.end(), {jointSection(kinds.joints), massSection()});
     for (const auto& kind : kinds.forces.all()) all.push_back(kindSection(kind, &world::SceneSpec::forces));
     all.insert(all.end(), {colliderSection(kinds.shapes), cameraSection(), lightSection(), lampSection(),
                            environmentSection(), backgroundSection(), labelSection(), handSection(),

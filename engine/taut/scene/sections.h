@@ -41,7 +41,7 @@ SceneSection backgroundSection();
 SceneSection materialSection();
 
 // What ties, pushes and shows it.
-SceneSection jointSection();
+SceneSection jointSection(const world::KindTable<world::JointSpec>& kinds);
 SceneSection massSection();
 SceneSection colliderSection(const collision::ShapeKinds& shapes);
 SceneSection cameraSection();

@@ -1,5 +1,5 @@
-// Rows of fields that several sections of a scene have in common, and the kinds that structs of bodies, forces and
-// actions make.
+// Rows of fields that several sections of a scene have in common, and the kinds that structs of bodies, joints,
+// forces and actions make.
 #pragma once
 
 #include <functional>
@@ -11,6 +11,7 @@
 #include "taut/spec/body_spec.h"
 #include "taut/spec/force_spec.h"
 #include "taut/spec/specs.h"
+#include "taut/spec/joint_spec.h"
 
 namespace taut::world {
 
@@ -104,6 +105,27 @@ Kind<BodySpec> bodyKind() {
 template <class Own>
 Kind<ForceSpec> forceKind() {
     return kindOf<Own, ForceSpec>();
+}
+
+// A kind of joint, from the rows of the struct's own fields; those of both sides come before them. A field is `only`
+// for joints between bodies, by the title ("a weld"), or for those with colliders ("a weld to a collider"), or for both.
+// A key that another kind has too should mean the same. Expects no tables inside.
+template <class Own>
+Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
+    Kind<JointSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};
+    kind.section.help = std::move(help);
+    kind.section.fields =
+        fields::FieldList<Own>()
+            .text("a", &JointSpec::a, fields::Role::tieable, "Points of one body: KIND.NAME@SELECTOR.")
+            .required()
+            .text("b", &JointSpec::b, fields::Role::tieable, "Points of the other; or collider.NAME, on either side.")
+            .required()
+            .take();
+    for (fields::Field& row : own.take()) {
+        TAUT_EXPECTS(row.inside.empty());
+        kind.section.fields.push_back(std::move(row));
+    }
+    return kind;
 }
 
 // What no single field of a kind can say: reports what is wrong with an action that was read.

@@ -14,6 +14,7 @@
 #include "taut/spec/common_rows.h"
 #include "taut/spec/force_spec.h"
 #include "taut/spec/specs.h"
+#include "taut/spec/joint_spec.h"
 
 namespace taut::world {
 
@@ -31,6 +32,7 @@ class KindTable : public core::Table<Kind<Base>> {
 
 struct Kinds {
     KindTable<BodySpec> bodies;
+    KindTable<JointSpec> joints;  // the first is that of a joint which names none
     KindTable<ForceSpec> forces;
     KindTable<ActionSpec> actions;
     ode::Methods methods;

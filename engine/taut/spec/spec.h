@@ -19,6 +19,7 @@
 #include "taut/spec/picture_spec.h"
 #include "taut/spec/solver_spec.h"
 #include "taut/spec/specs.h"
+#include "taut/spec/joint_spec.h"
 
 namespace taut::collision {
 class ShapeKinds;
@@ -52,17 +53,6 @@ struct HandSpec {
     double dampingRatio = 0.3;  // at most
 };
 
-// Targets are written KIND.NAME@SELECTOR, e.g. "cloth.flag@left"; NAME may have the wildcard *.
-struct JointSpec {
-    enum class Kind { weld, spring };
-    std::string a, b;
-    Kind kind = Kind::weld;
-    double stiffness = 1e4;     // [N/m] of each spring
-    double dampingTime = 1e-4;  // [s]
-    double reach = 0.02;        // [m] a weld joins points at most this far apart
-    Source source;
-};
-
 struct MassSpec {  // mass added to points
     std::string target;
     double mass = 1.0;  // [kg] shared evenly among the target's points
@@ -85,7 +75,7 @@ struct SceneSpec {
     BackgroundSpec background;
     std::map<std::string, MaterialSpec> materials;
     Specs<BodySpec> bodies;
-    std::vector<JointSpec> joints;  // in the order of the file
+    Specs<JointSpec> joints;        // in the order of the file
     std::vector<MassSpec> masses;   // in the order of the file
     std::vector<ColliderSpec> colliders;
     std::shared_ptr<const collision::ShapeKinds> shapes;  // that colliders may have; none: the engine's own

@@ -57,7 +57,9 @@ void World::Impl::leadHands() {
 }
 
 void World::Impl::carryTied() {
-    if (std::none_of(islands.begin(), islands.end(), [](const auto& island) { return !island->plan().grips.empty(); }))
+    if (std::none_of(islands.begin(), islands.end(), [](const auto& island) {
+            return !island->plan().grips.empty() || !island->plan().carriers.empty();
+        }))
         return;
     registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart&) {
         const Placement& placement = *registry.find<Placement>(entity);
@@ -69,6 +71,7 @@ void World::Impl::carryTied() {
 void World::Impl::letGo(const std::string& collider) {
     const auto isOwn = [&](const Grip& grip) { return grip.ofCollider && grip.holder == collider; };
     for (const auto& island : islands) {
+        island->release(now(), collider);
         const std::vector<Grip>& grips = island->plan().grips;
         if (island->frozen() != nullptr || std::none_of(grips.begin(), grips.end(), isOwn)) continue;
         std::erase_if(island->change(now(), Change::grips).grips, isOwn);

@@ -18,7 +18,7 @@ std::string metres(double length) {
 }
 
 JointInfo infoOf(const JointReport& report) {
-    JointInfo info{report.spec->a, report.spec->b, report.spec->kind == JointSpec::Kind::weld, {}, report.jump, {}};
+    JointInfo info{report.spec->a, report.spec->b, std::string(report.spec->kind()), {}, report.jump, {}};
     for (const auto& [a, b, points] : report.pairs) info.pairs.push_back({a->fullName(), b->fullName(), points});
     for (const auto& [body, distance] : report.loose) info.loose.push_back(body->fullName());
     return info;
@@ -26,15 +26,14 @@ JointInfo infoOf(const JointReport& report) {
 
 std::string warningOf(const JointReport& report) {
     const JointSpec& joint = *report.spec;
-    const bool isWeld = joint.kind == JointSpec::Kind::weld;
     std::string names;
     for (std::size_t i = 0; i < std::min(mostNamed, report.loose.size()); ++i) {
         const auto& [body, distance] = report.loose[i];
-        names += (i > 0 ? ", " : "") + body->fullName() + (isWeld ? " (" + metres(distance) + " off)" : "");
+        names += (i > 0 ? ", " : "") + body->fullName() + (joint.isWeld() ? " (" + metres(distance) + " off)" : "");
     }
     if (report.loose.size() > mostNamed) names += " and " + std::to_string(report.loose.size() - mostNamed) + " more";
     return asWarning(at(joint.source)) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" does not tie " + names +
-           (isWeld ? "; it reaches " + metres(joint.reach) +
+           (joint.isWeld() ? "; it reaches " + metres(joint.reach()) +
                          ": move them together, raise reach_m, or use kind = \"spring\""
                    : ": other bodies are nearer");
 }
@@ -60,7 +59,7 @@ void World::Impl::takeJoints(const std::vector<JointReport>& reports) {
     }
     for (const JointSpec& joint : spec.joints) {
         if (!isTie(joint)) continue;
-        JointInfo info{joint.a, joint.b, joint.kind == JointSpec::Kind::weld, {}, 0, {}};
+        JointInfo info{joint.a, joint.b, std::string(joint.kind()), {}, 0, {}};
         const std::string selector = parseTarget(pointsOf(joint)).selector;
         const std::vector<Body*> all = allBodies();
         for (const Body* body : matchBodies(all, pointsOf(joint)))

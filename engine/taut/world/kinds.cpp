@@ -6,6 +6,10 @@
     KIND(ropeKind)        \
     KIND(blockKind)       \
     KIND(netKind)
+#define TAUT_JOINTS(KIND) \
+    KIND(weldKind)        \
+    KIND(springKind)      \
+    KIND(rodKind)
 #define TAUT_FORCES(KIND) \
     KIND(anchorKind)      \
     KIND(windKind)
@@ -24,24 +28,30 @@
 namespace taut::world {
 
 #define TAUT_BODY(kind) Kind<BodySpec> kind();
+#define TAUT_JOINT(kind) Kind<JointSpec> kind();
 #define TAUT_FORCE(kind) Kind<ForceSpec> kind();
 #define TAUT_ACTION(kind) Kind<ActionSpec> kind();
 TAUT_BODIES(TAUT_BODY)
+TAUT_JOINTS(TAUT_JOINT)
 TAUT_FORCES(TAUT_FORCE)
 TAUT_ACTIONS(TAUT_ACTION)
 #undef TAUT_BODY
+#undef TAUT_JOINT
 #undef TAUT_FORCE
 #undef TAUT_ACTION
 
 Kinds builtIn() {
     Kinds kinds;
 #define TAUT_BODY(kind) kinds.bodies.add(kind());
+#define TAUT_JOINT(kind) kinds.joints.add(kind());
 #define TAUT_FORCE(kind) kinds.forces.add(kind());
 #define TAUT_ACTION(kind) kinds.actions.add(kind());
     TAUT_BODIES(TAUT_BODY)
+    TAUT_JOINTS(TAUT_JOINT)
     TAUT_FORCES(TAUT_FORCE)
     TAUT_ACTIONS(TAUT_ACTION)
 #undef TAUT_BODY
+#undef TAUT_JOINT
 #undef TAUT_FORCE
 #undef TAUT_ACTION
     kinds.methods = ode::builtInMethods();

@@ -34,7 +34,7 @@ std::span<const Metric> metricTable() {
          "Sum of mass times velocity.", plain<&M::momentum>},
         {"angular_x_kg_m2_per_s,angular_y_kg_m2_per_s,angular_z_kg_m2_per_s", "angular_momentum", "kg m²/s",
          "About the origin.", plain<&M::angularMomentum>},
-        {"max_strain", "max_strain", "", "Largest |l - L|/L of any spring but those of bending.", plain<&M::maxStrain>,
+        {"max_strain", "max_strain", "", "Largest |l - L|/L of any rod and any spring but those of bending.", plain<&M::maxStrain>,
          1},
         {"contacts", "contacts", "", "Number of points that touch a collider.", plain<&M::contacts>, 1},
         {"inverted_cells", "inverted", "", "Number of cells of blocks that are turned inside out.",

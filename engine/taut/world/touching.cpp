@@ -290,6 +290,7 @@ bool Touching::tryTick(const TickTime& time, std::span<const ColliderMotion> mov
         readAll();
         rigids_.place(static_cast<double>(c + 1) / instants, x1_);
         meet(h);
+        settle();
         if (findFaults(time.at(c + 1, instants), faults)) return false;
         if (isTooCoarse(isTrial)) return true;
     }
@@ -339,6 +340,15 @@ void Touching::meet(double h) {
     total_.slides += meeting_.slides;
     total_.zones += meeting_.zones;
     total_.uncertified += meeting_.uncertified;
+}
+
+// What contact gave points that constraints tie is shared, so that others go elsewhere too.
+void Touching::settle() {
+    for (const Part& room : rooms_) {
+        if (!room.island->settle()) continue;
+        const auto first = static_cast<std::size_t>(room.first), count = static_cast<std::size_t>(room.last) - first;
+        room.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
+    }
 }
 
 // Whether contact left any point without bounds, of whose islands nothing is to go on.

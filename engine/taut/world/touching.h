@@ -72,6 +72,7 @@ class Touching {
     int chooseInstants(const TickTime& time);
     int takeInstants(const TickTime& time, int needed);
     void meet(double h);
+    void settle();
     bool findFaults(double t, std::vector<std::optional<Fault>>& faults) const;
     void bear();
     bool isTooCoarse(bool isTrial) const;

@@ -11,6 +11,7 @@
 #include "taut/spec/targets.h"
 #include "taut/spec/ticks.h"
 #include "taut/bodies/ties.h"
+#include "taut/bodies/joints/constraint.h"
 
 namespace taut::world {
 
@@ -102,6 +103,7 @@ void World::Impl::checkForces() const {
 void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Envelopes& envelopes, bool hasJoints) {
     plan.solver.precision = spec.solver.precision;
     addTies(plan, spec, [this](const std::string& collider) { return poseOf(collider); });
+    for (const auto& constraint : plan.constraints) constraint->check();
     const std::vector<Body*> members = plan.bodies;
     const Envelope envelope = envelopes.of(plan, current, hasJoints);
     const int parts = touches(plan) ? fewestInstants(1.0 / ticksPerSecond) : 1;

@@ -53,7 +53,7 @@ struct BodyHash {
 // What a joint of the scene ties together.
 struct JointInfo {
     std::string a, b;  // as the scene names the points
-    bool isWeld = true;
+    std::string kind;  // "weld"
     struct Pair {
         std::string a, b;  // "block.plank0"; b may be a collider
         int points = 0;    // of the first that are tied to the second

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cmath>
+
+#include "taut/mechanics/pose_path.h"
+#include "taut/spec/common_rows.h"
+#include "taut/bodies/island_plan.h"
+#include "taut/bodies/joints/joints.h"
+#include "taut/bodies/joints/rods.h"
+
+namespace taut::world {
+namespace {
+
+double distance(const dvec3& a, const dvec3& b) {
+    const dvec3 d = b - a;
+    return std::sqrt(glm::dot(d, d));
+}
+
+// All rods of a plan are one constraint, which solves for them together.
+template <class Change>
+void changeRods(IslandPlan& plan, const Change& change) {
+    for (auto& constraint : plan.constraints)
+        if (const auto* rods = dynamic_cast<const Rods*>(constraint.get())) {
+            if (constraint.use_count() == 1) return change(const_cast<Rods&>(*rods));  // while the plan is made
+            auto changed = std::make_shared<Rods>(*rods);
+            change(*changed);
+            constraint = std::move(changed);
+            return;
+        }
+    auto rods = std::make_shared<Rods>();
+    change(*rods);
+    plan.constraints.push_back(std::move(rods));
+}
+
+}  // namespace
+
+// Points that were welded may be elsewhere than where their bodies have them.
+void RodJoint::tie(IslandPlan& plan, int first, int second, double) const {
+    const double length =
+        distance(plan.positions[static_cast<std::size_t>(first)], plan.positions[static_cast<std::size_t>(second)]);
+    changeRods(plan, [&](Rods& rods) { rods.tie(first, second, length, source); });
+}
+
+void RodJoint::carry(IslandPlan& plan, Grip grip) const {
+    const mechanics::PosePath::Frame frame = grip.path.at(0.0);
+    const dvec3 end = place.value_or(frame.place);
+    const dvec3 offset = mechanics::PosePath::rotated(glm::conjugate(frame.rotation), end - frame.place);
+    changeRods(plan, [&](Rods& rods) {
+        for (const int point : grip.points)
+            rods.tie(point, Constraint::Place{grip.holder, offset},
+                     distance(plan.positions[static_cast<std::size_t>(point)], end), source);
+    });
+    carryBy(plan, grip.holder, grip.path);
+}
+
+Kind<JointSpec> rodKind() {
+    return jointKind<RodJoint>(
+        "Rods keep the distance that points have as the scene starts, from each other, which may be of one body, or "
+        "from a place on a collider.",
+        fields::FieldList<RodJoint>()
+            .vector("place", &RodJoint::place, "m", placeRange,
+                    "Where on the collider a rod is fixed, as the scene starts; its centre if not given.")
+            .only({"a rod to a collider"}));
+}
+
+}  // namespace taut::world

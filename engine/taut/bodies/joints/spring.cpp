@@ -1,0 +1,27 @@
+#include "taut/spec/common_rows.h"
+#include "taut/bodies/island_plan.h"
+#include "taut/bodies/joints/joints.h"
+
+namespace taut::world {
+
+void SpringJoint::tie(IslandPlan& plan, int first, int second, double distance) const {
+    plan.springs.push_back({first, second, stiffness, distance, dampingTime, mechanics::SpringKind::joint});
+}
+
+// Each point is drawn to its place on it.
+void SpringJoint::carry(IslandPlan& plan, Grip grip) const {
+    grip.rigid = false;
+    grip.stiffness.assign(grip.points.size(), stiffness);
+    grip.damping.assign(grip.points.size(), stiffness * dampingTime);
+    plan.grips.push_back(std::move(grip));
+}
+
+Kind<JointSpec> springKind() {
+    return jointKind<SpringJoint>(
+        "Springs draw points together, and each point of a collider's to its place on it.",
+        fields::FieldList<SpringJoint>()
+            .number("stiffness_N_per_m", &SpringJoint::stiffness, "N/m", fields::positive, "Of each spring.")
+            .number("damping_time_s", &SpringJoint::dampingTime, "s", dampingTimeRange, "Of each spring."));
+}
+
+}  // namespace taut::world

@@ -164,5 +164,28 @@ TEST(TouchingWorld, WhatIsFrozenStopsWhatComesAndStays) {
     }
 }
 
+// The same square alone, and a box that goes through it: no shorter instant would keep them apart.
+TEST(TouchingWorld, WhatIsFrozenIsGoneThroughByAColliderInTicksThatEnd) {
+    ClothSpec cloth = square(0.0, {"left"});
+    cloth.velocity = {400.0, 0.0, 0.0};
+    SceneSpec scene;
+    scene.bodies.add(cloth);
+    scene.world.gravity = dvec3(0.0);
+    scene.solver.onDivergence = OnDivergence::freeze;
+    scene.solver.freezeStrain = 0.5;
+    ColliderSpec box;
+    box.name = "box";
+    box.shape = "box";
+    box.size = dvec3(0.2);
+    box.keys = {{0.0, {0.2, -0.5, 0.3}, dvec3(0.0), Ease::linear}, {0.1, {0.2, 0.5, 0.3}, dvec3(0.0), Ease::linear}};
+    scene.colliders = {box};
+    World world(scene);
+    EXPECT_FALSE(world.advance());
+    ASSERT_EQ(world.frozen().size(), 1U);
+    const std::vector<dvec3> kept = positionsOf(world, "cloth.square");
+    EXPECT_FALSE(test::advance(world, 6));
+    EXPECT_EQ(positionsOf(world, "cloth.square"), kept);
+}
+
 }  // namespace
 }  // namespace taut::world

@@ -9,7 +9,8 @@
 namespace taut::world {
 
 // (triangles) points of the model, counter-clockwise seen from outside: faces of whole tetrahedra that neither another
-// whole one nor the surface has. In the order of the model's cells. Expects damage that has been assessed.
+// whole one nor what is left of the surface has; none while all are whole. They are others only after goneAround() of
+// the damage is. In the order of the model's cells. Expects damage that has been assessed.
 std::vector<std::array<int, 3>> bareFaces(const Body& body);
 
 }  // namespace taut::world

@@ -104,6 +104,7 @@ Damage::Assessed Damage::assess(const mechanics::Model& model) {
         for (const std::size_t c : index.cells[static_cast<std::size_t>(a)]) look(model.cells[c].points, cells_, c, b);
     }
     goneCells_ = static_cast<std::size_t>(std::count(cells_.begin(), cells_.end(), true));
+    goneTriangles_ = static_cast<std::size_t>(std::count(triangles_.begin(), triangles_.end(), true));
     assessed.severed = std::exchange(fresh_, {});
     return assessed;
 }

@@ -25,6 +25,8 @@ class Damage {
     bool isTriangleGone(std::size_t triangle) const { return triangle < triangles_.size() && triangles_[triangle]; }
     bool isCellGone(std::size_t cell) const { return !cells_.empty() && cells_[cell]; }
     std::size_t goneCells() const { return goneCells_; }  // how many
+    // Cells and triangles that are gone, of a body with any such cell: with them changes what of its inside is bare.
+    std::size_t goneAround() const { return goneCells_ > 0 ? goneCells_ + goneTriangles_ : 0; }
 
     // Share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
     void sever(int a, int b, double share);
@@ -43,7 +45,7 @@ class Damage {
     std::vector<Edge> fresh_;              // not assessed yet
     std::shared_ptr<const Index> index_;   // once it is needed
     std::vector<bool> triangles_, cells_;  // (of the model) gone; empty while nothing is severed
-    std::size_t goneCells_ = 0;
+    std::size_t goneCells_ = 0, goneTriangles_ = 0;
 };
 
 }  // namespace taut::world

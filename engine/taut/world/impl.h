@@ -52,7 +52,7 @@ struct World::Impl {
     ForceList added;  // by addForce()
     std::vector<std::unique_ptr<Island>> islands;
     std::unique_ptr<Touching> touching;  // of those that touch; null when it has to be made anew
-    std::size_t goneCells = 0;           // of bodies that touch, as it was made
+    std::size_t goneAround = 0;          // of bodies that touch, as it was made
     StepFollowing contactPace;           // of theirs, as it presses; saved
     TouchWatch touchWatch;
     struct Member {

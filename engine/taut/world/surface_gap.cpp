@@ -36,9 +36,9 @@ bool any(const std::vector<bool>& flags) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
-std::size_t goneCellsOf(std::span<const Body* const> bodies) {
+std::size_t goneAroundIn(std::span<const Body* const> bodies) {
     std::size_t gone = 0;
-    for (const Body* body : bodies) gone += body->damage.goneCells();
+    for (const Body* body : bodies) gone += body->damage.goneAround();
     return gone;
 }
 
@@ -72,14 +72,14 @@ void SurfaceGap::build() {
         rest.insert(rest.end(), start.begin(), start.end());
     }
     damage_.assign(bodies_.size(), 0);
-    goneCells_ = goneCellsOf(bodies_);
+    goneAround_ = goneAroundIn(bodies_);
     x_.resize(rest.size());
     elements_ = std::make_unique<contact::Elements>(std::move(surfaces), std::move(rest));
     patches_ = std::make_unique<contact::Patches>(*elements_);
 }
 
 void SurfaceGap::look() {
-    if (goneCellsOf(bodies_) != goneCells_) build();
+    if (goneAroundIn(bodies_) != goneAround_) build();
     std::size_t offset = 0;
     bool isOther = false;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {

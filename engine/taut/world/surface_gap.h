@@ -34,7 +34,7 @@ class SurfaceGap {
     std::int64_t generation_;
     std::vector<const Body*> bodies_;       // (surfaces)
     std::vector<std::size_t> damage_;       // (surfaces) severed edges that are known
-    std::size_t goneCells_ = 0;             // of all bodies
+    std::size_t goneAround_ = 0;            // of all bodies
     std::vector<bool> isFirst_, isSecond_;  // (surfaces)
     std::vector<glm::dvec3> x_;             // (points of each body after the other)
     std::unique_ptr<contact::Elements> elements_;

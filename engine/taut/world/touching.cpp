@@ -265,9 +265,14 @@ std::optional<Touching::Outcome> Touching::tick(const TickTime& time, std::span<
     return std::nullopt;
 }
 
-// Whether an instant was too long for what it found: of a trial anything at all, else what went deep.
+bool Touching::movesAny() const {
+    return std::any_of(islands_.begin(), islands_.end(), [](const Island* island) { return !island->frozen(); });
+}
+
+// Whether an instant was too long for what it found: of a trial anything at all, else what went deep. Where nothing
+// moves no shorter one finds less.
 bool Touching::isTooCoarse(bool isTrial) const {
-    if (spec_.instants) return false;
+    if (spec_.instants || !movesAny()) return false;
     if (instants_ < instantsFor(meeting_.surfaces) || (isTrial && meeting_.pressing > 0)) return true;
     return instants_ < mostForWays && (meeting_.deepest > wayOfKeep || meeting_.slides > 0);
 }

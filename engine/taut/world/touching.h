@@ -67,7 +67,8 @@ class Touching {
     void takeDamage();
     void readAll();
     int mostInstants() const;
-    int commonSubsteps() const;
+    int commonSubsteps() const;  // 1 where all are frozen
+    bool movesAny() const;
     int instantsFor(std::span<const int> surfaces) const;
     int chooseInstants(const TickTime& time);
     int takeInstants(const TickTime& time, int needed);

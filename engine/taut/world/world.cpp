@@ -206,9 +206,9 @@ void World::Impl::findTouching() {
     std::size_t gone = 0;
     for (const auto& island : islands)
         if (touches(island->plan()))
-            for (const Body* body : island->plan().bodies) gone += body->damage.goneCells();
-    if (touching && gone == goneCells) return;
-    goneCells = gone;
+            for (const Body* body : island->plan().bodies) gone += body->damage.goneAround();
+    if (touching && gone == goneAround) return;
+    goneAround = gone;
     touching =
         std::make_unique<Touching>(islands, spec.contact, 1.0 / ticksPerSecond, contactPace, [this] { return met(); });
 }

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "taut/contact/group.h"
-#include "taut/contact/standing_out.h"
+#include "taut/contact/contact_group.h"
+#include "taut/contact/penetration.h"
 
 namespace taut::contact {
 namespace {
@@ -35,9 +35,9 @@ struct Scene {
         rigid.lines = {{top, first}, {top, second}, {top, third}};
         rigid.wings = {{second, third}, {third, first}, {first, second}};
     }
-    Group group() const {
-        GroupOptions options;
-        return Group({sheet, rigid}, x, options);
+    ContactGroup group() const {
+        ContactOptions options;
+        return ContactGroup({sheet, rigid}, x, options);
     }
 };
 
@@ -52,7 +52,7 @@ TEST(ContactFaces, ATriangleIsStoppedByATipAsItsWholeMass) {
     constexpr double gap = 0.0005, h = 1e-3, speed = 2.0, rise = 0.25;
     Scene scene;
     scene.addTip({0, -0.01 - gap, -1.0 / 3});
-    Group group = scene.group();
+    ContactGroup group = scene.group();
     std::vector<dvec3> x0 = scene.x, x1 = x0, v(x0.size(), dvec3(0.0));
     for (std::size_t i = 0; i < x0.size(); ++i) {
         v[i] = i < 3 ? dvec3(0, -speed, 0) : dvec3(0, rise, 0);
@@ -67,7 +67,7 @@ TEST(ContactFaces, ATriangleIsStoppedByATipAsItsWholeMass) {
     instant.v = v;
     instant.inverseMass = inverse;
     group.begin(x0);
-    EXPECT_EQ(group.meet(instant).pressing, 1);
+    EXPECT_EQ(group.resolve(instant).active, 1);
     double momentum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         momentum += v[i].y;
@@ -86,9 +86,9 @@ TEST(ContactFaces, ATipHasTheFrictionOfItselfAndTheBody) {
     scene.addTip({0, -0.01, -1.0 / 3});
     scene.sheet.friction = 0.5;
     scene.rigid.friction = 0.4;
-    GroupOptions options;
+    ContactOptions options;
     options.friction = 0.7;
-    Group group({scene.sheet, scene.rigid}, scene.x, options);
+    ContactGroup group({scene.sheet, scene.rigid}, scene.x, options);
     std::vector<dvec3> x1 = scene.x, v(x1.size(), dvec3(0.0));
     for (std::size_t i = 0; i < 3; ++i) {
         v[i] = {slide, -speed, 0};
@@ -102,7 +102,7 @@ TEST(ContactFaces, ATipHasTheFrictionOfItselfAndTheBody) {
     instant.v = v;
     instant.inverseMass = inverse;
     group.begin(scene.x);
-    EXPECT_EQ(group.meet(instant).pressing, 1);
+    EXPECT_EQ(group.resolve(instant).active, 1);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(v[i].x, slide - 0.5 * 0.4 * speed, 1e-12);
 }
 
@@ -110,9 +110,9 @@ TEST(ContactFaces, ATipStandsOutByItsHeightOverTheTriangle) {
     constexpr double height = 0.03;
     Scene scene;
     scene.addTip({0, height, -1.0 / 3});
-    Group group = scene.group();
+    ContactGroup group = scene.group();
     const auto heightOf = [&] {
-        return standOut(group.elements(), group.crossingsAt(scene.x), scene.x, [](int s) { return s == 0; });
+        return penetrationOf(group.elements(), group.crossingsAt(scene.x), scene.x, [](int s) { return s == 0; });
     };
     EXPECT_EQ(group.crossingsAt(scene.x).size(), 3u);
     EXPECT_NEAR(heightOf(), height, 1e-15);
@@ -132,8 +132,8 @@ TEST(ContactFaces, ARidgeStandsOutByTheHeightOverTwoTriangles) {
     scene.rigid.points = {a, b};
     scene.rigid.lines = {{a, b}};
     scene.rigid.wings = {{scene.add({0, -1, -1}), scene.add({0, -1, 1})}};
-    Group group = scene.group();
-    EXPECT_NEAR(standOut(group.elements(), group.crossingsAt(scene.x), scene.x, [](int s) { return s == 0; }),
+    ContactGroup group = scene.group();
+    EXPECT_NEAR(penetrationOf(group.elements(), group.crossingsAt(scene.x), scene.x, [](int s) { return s == 0; }),
                 0.5 * d / std::sqrt(1 + d * d), 1e-15);
 }
 
@@ -147,7 +147,7 @@ TEST(ContactFaces, AnEdgeDoesNotStopWhatComesAlongAFaceBesideIt) {
     scene.rigid.lines = {{a, b}};
     const int top = scene.add({0, 0, -1}), side = scene.add({0, -1, 0});
     scene.rigid.wings = {{top, side}};
-    Group group = scene.group();
+    ContactGroup group = scene.group();
     std::vector<dvec3> x1 = scene.x, v(x1.size(), dvec3(0.0));
     for (std::size_t i = 0; i < 3; ++i) {
         v[i] = {0, 0, speed};
@@ -161,7 +161,7 @@ TEST(ContactFaces, AnEdgeDoesNotStopWhatComesAlongAFaceBesideIt) {
     instant.v = v;
     instant.inverseMass = inverse;
     group.begin(scene.x);
-    EXPECT_EQ(group.meet(instant).pressing, 0);
+    EXPECT_EQ(group.resolve(instant).active, 0);
     EXPECT_EQ(v[0].z, speed);
 }
 

@@ -1,9 +1,9 @@
 // Nearest places, certificates and piercings, against sampling.
 #include "contact_support.h"
-#include "taut/contact/closest.h"
-#include "taut/contact/guard.h"
-#include "taut/contact/near_pairs.h"
-#include "taut/contact/nearest_batch.h"
+#include "taut/contact/closest_points.h"
+#include "taut/contact/certificate.h"
+#include "taut/contact/broad_phase.h"
+#include "taut/contact/closest_batch.h"
 #include "taut/core/instruction_set.h"
 
 namespace taut::contact {
@@ -25,7 +25,7 @@ TEST(ContactNearest, OnATriangleNoSampleIsNearer) {
     constexpr int grid = 40;
     for (int n = 0; n < 500; ++n) {
         const auto p = fourPoints(dice, n);
-        const OnTriangle on = nearestOnTriangle(p[0], p[1], p[2], p[3]);
+        const OnTriangle on = closestOnTriangle(p[0], p[1], p[2], p[3]);
         const auto& w = on.weights;
         for (double weight : w) EXPECT_GE(weight, -1e-15) << n;
         EXPECT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-14);
@@ -52,22 +52,22 @@ TEST(ContactNearest, KernelsGiveTheBitsOfOnePairOnEveryInstructionSet) {
         if (!core::isSupported(set)) continue;
         core::useInstructionSet(set);
         Dice dice(3);
-        NearestBatch triangles, segments;
+        ClosestBatch triangles, segments;
         std::vector<std::array<dvec3, 4>> places;
-        for (int n = 0; n < nearestBatch * 4 / 3; ++n) {
+        for (int n = 0; n < closestBatch * 4 / 3; ++n) {
             const auto& p = places.emplace_back(fourPoints(dice, n));
             triangles.add(p[0], p[1], p[2], p[3]);
             segments.add(p[0], p[1], p[2], p[3]);
         }
-        triangles.solve(nearestKernels().onTriangles);
-        segments.solve(nearestKernels().onSegments);
+        triangles.solve(closestKernels().onTriangles);
+        segments.solve(closestKernels().onSegments);
         for (int n = 0; n < triangles.count(); ++n) {
             const auto& p = places[static_cast<std::size_t>(n)];
-            const OnTriangle on = nearestOnTriangle(p[0], p[1], p[2], p[3]);
+            const OnTriangle on = closestOnTriangle(p[0], p[1], p[2], p[3]);
             const std::array<double, 4> weights{1, -on.weights[0], -on.weights[1], -on.weights[2]};
             EXPECT_EQ(triangles.weights(n), weights) << n;
             EXPECT_EQ(triangles.where(n), static_cast<long>(on.feature)) << n;
-            const OnSegments beside = nearestOnSegments(p[0], p[1], p[2], p[3]);
+            const OnSegments beside = closestOnSegments(p[0], p[1], p[2], p[3]);
             const std::array<double, 4> shares{1 - beside.s, beside.s, beside.t - 1, -beside.t};
             EXPECT_EQ(segments.weights(n), shares) << n;
             EXPECT_EQ(segments.where(n), beside.areInside ? 1 : 0) << n;
@@ -81,7 +81,7 @@ TEST(ContactNearest, OnSegmentsNoSampleIsNearer) {
     constexpr int grid = 60;
     for (int n = 0; n < 500; ++n) {
         const auto p = fourPoints(dice, n);
-        const OnSegments on = nearestOnSegments(p[0], p[1], p[2], p[3]);
+        const OnSegments on = closestOnSegments(p[0], p[1], p[2], p[3]);
         EXPECT_EQ(on.s, clampShare(on.s));
         EXPECT_EQ(on.t, clampShare(on.t));
         const auto distance = [&](double s, double t) {
@@ -96,21 +96,21 @@ TEST(ContactNearest, OnSegmentsNoSampleIsNearer) {
 }
 
 // Of the sides of a pair at places p, as the group finds them.
-MeetingPair pairAt(const std::array<dvec3, 4>& p, bool isPoint) {
-    MeetingPair pair{};
+ContactConstraint pairAt(const std::array<dvec3, 4>& p, bool isPoint) {
+    ContactConstraint pair{};
     pair.points = {0, 1, 2, 3};
     pair.isPoint = isPoint;
     if (isPoint) {
-        const OnTriangle on = nearestOnTriangle(p[0], p[1], p[2], p[3]);
+        const OnTriangle on = closestOnTriangle(p[0], p[1], p[2], p[3]);
         pair.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
     } else {
-        const OnSegments on = nearestOnSegments(p[0], p[1], p[2], p[3]);
+        const OnSegments on = closestOnSegments(p[0], p[1], p[2], p[3]);
         pair.weights = {1 - on.s, on.s, on.t - 1, -on.t};
     }
     dvec3 apart(0.0);
     for (std::size_t k = 0; k < 4; ++k) apart += pair.weights[k] * p[k];
-    pair.apart = glm::length(apart);
-    pair.normal = apart / pair.apart;
+    pair.distance = glm::length(apart);
+    pair.normal = apart / pair.distance;
     return pair;
 }
 
@@ -131,7 +131,7 @@ bool passThroughEachOther(const std::array<dvec3, 4>& from, const std::array<dve
         const bool isAbove = volume(low) > 0;
         if (isAbove == (volume(high) > 0)) continue;
         for (int i = 0; i < 50; ++i) (((volume(0.5 * (low + high)) > 0) == isAbove) ? low : high) = 0.5 * (low + high);
-        if (pairAt(at(low), isPoint).apart < 1e-9) return true;
+        if (pairAt(at(low), isPoint).distance < 1e-9) return true;
     }
     return false;
 }
@@ -149,7 +149,7 @@ TEST(ContactCertificate, IsNeverGivenToWhatPassesThroughEachOther) {
             to[k] += common + 0.3 * dice.vector();
             if (k < (isPoint ? 1U : 2U)) to[k] += first;
         }
-        const MeetingPair pair = pairAt(from, isPoint);
+        const ContactConstraint pair = pairAt(from, isPoint);
         const std::vector<dvec3> x0(from.begin(), from.end()), x1(to.begin(), to.end());
         const bool isCertain = isCertified(pair, x0, x1), passes = passThroughEachOther(from, to, isPoint);
         EXPECT_FALSE(isCertain && passes) << n;
@@ -167,7 +167,7 @@ TEST(ContactCertificate, IsGivenToWhatMovesAlike) {
     Dice dice(6);
     for (int n = 0; n < 200; ++n) {
         const std::array<dvec3, 4> from{dice.vector(), dice.vector(), dice.vector(), dice.vector()};
-        const MeetingPair pair = pairAt(from, n % 2 == 0);
+        const ContactConstraint pair = pairAt(from, n % 2 == 0);
         const dvec3 way = 1e3 * dice.vector();
         std::vector<dvec3> x0(from.begin(), from.end()), x1;
         for (const dvec3& x : x0) x1.push_back(x + way);
@@ -207,15 +207,15 @@ TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
         if (i > 0) surface.lines.push_back({i - 1, i});
     }
     const Elements elements({surface}, rest);
-    NearPairs near(elements);
+    BroadPhase near(elements);
     near.find(rest, rest);
     int listed = 0;
     for (std::size_t r = 0; r < near.awakeCount(); ++r)
         for (std::size_t k = 0; k < near.awake(r).pairs.size(); ++k) {
-            const NearPair& pair = near.awake(r).pairs[k];
+            const CandidatePair& pair = near.awake(r).pairs[k];
             const int between = std::abs(pair.a - pair.b) - 1;  // segments
-            EXPECT_NEAR(pair.distance, std::min(2 * thickness, 0.7 * between * L), 1e-15) << pair.a << ", " << pair.b;
-            EXPECT_NEAR(near.awake(r).nearApproached[k] + nearShare * pair.distance, between * L, 1e-15);
+            EXPECT_NEAR(pair.thickness, std::min(2 * thickness, 0.7 * between * L), 1e-15) << pair.a << ", " << pair.b;
+            EXPECT_NEAR(near.awake(r).nearApproached[k] + nearShare * pair.thickness, between * L, 1e-15);
             ++listed;
         }
     EXPECT_GE(listed, 4 + 3);  // those that are up to 2 L apart
@@ -227,7 +227,7 @@ TEST(ContactDistance, LeavesAThickSheetAsItWasBuilt) {
     Surface& sheet = flight.addSheet(dvec3(0.0), {0.1, 0, 0}, {0, 0, 0.1}, 8, {0.0, -3.0, 1.0}, 1e-3, 0.03);
     sheet.meetsItself = true;
     const std::vector<dvec3> before = flight.v;
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(flight.fly(1e-3).pressing, 0);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(flight.fly(1e-3).active, 0);
     EXPECT_EQ(flight.v, before);
 }
 

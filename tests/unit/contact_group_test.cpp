@@ -114,7 +114,7 @@ TEST(ContactGroup, MeetsWhatAnImpulseLeadsFarInOneInstant) {
 }
 
 // A ball comes through a triangle of which two corners are held, right beside them: of 0.9 % of the squares of the
-// weights the third is not pressed. The guard slides it down, and up again from the sheet 30 mm below it, to which
+// weights the third is not pressed. The certify slides it down, and up again from the sheet 30 mm below it, to which
 // nothing else is near: a fifth of that is left. All in powers of two there, for which of the corners goes down is left
 // to rounding.
 TEST(ContactGroup, MeetsWhatASlideLeadsToIt) {
@@ -123,7 +123,7 @@ TEST(ContactGroup, MeetsWhatASlideLeadsToIt) {
     flight.inverseMass[1] = flight.inverseMass[2] = 0;
     flight.addTriangle({dvec3(-2, -0.03, 0.2), dvec3(2, -0.03, 0.2), dvec3(0, -0.03, 4)}, dvec3(0.0), 0.0, 0.002);
     flight.addBall({0.0, 1.0 / 32, 1.0 / 16}, {0.0, -100.0, 0.0}, 0.0, 0.002);
-    EXPECT_EQ(flight.fly(1e-3).pressing, 0);
+    EXPECT_EQ(flight.fly(1e-3).active, 0);
     EXPECT_NEAR(flight.x[0].y, -0.024, 1e-9);
 }
 
@@ -216,8 +216,8 @@ TEST(ContactGroup, LeadsTheSmallerPartOfASheetBack) {
         flight.addSheet({-0.2, 0.0, -0.2}, {0.4, 0, 0}, {0, 0, 0.4}, 4, dvec3(0.0), 1e-3, 0.002);
         flight.addSheet({-0.103, -below, 0.013}, {0.2, 0, 0.01}, {0, 0.2, 0.02}, 4, dvec3(0.0), 1e-3, 0.002);
         const Elements elements(flight.surfaces, flight.x);
-        Patches patches(elements);
-        const std::vector<Crossing> crossings = findCrossings(elements, patches, flight.x);
+        Bvh bvh(elements);
+        const std::vector<Crossing> crossings = findCrossings(elements, bvh, flight.x);
         EXPECT_GE(crossings.size(), 12U);  // 9 edges of the parted, and some of the other
         for (const Crossing& crossing : crossings) {
             const bool isParted = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface == 1;

@@ -1,6 +1,6 @@
 // Impacts of points, edges and sheets that nothing else moves, against what momentum and energy leave over.
 #include "contact_support.h"
-#include "taut/contact/guard.h"
+#include "taut/contact/certificate.h"
 
 namespace taut::contact {
 namespace {
@@ -33,8 +33,8 @@ TEST(ContactImpact, SharesTheSpeedByMassAndRestitution) {
                 SCOPED_TRACE(std::to_string(areEdges) + ", m2 " + std::to_string(m2) + ", e " + std::to_string(e));
                 const double m1 = 0.2, speed = 3.0;
                 Flight flight = areEdges ? edgeOnEdge(m1, m2, speed) : pointOnTriangle(m1, m2, speed);
-                flight.options.pressing.restitution = e;
-                flight.options.pressing.restSpeed = 1e-3;
+                flight.options.solver.restitution = e;
+                flight.options.solver.restSpeed = 1e-3;
                 for (int i = 0; i < 40; ++i) flight.fly(5e-4);  // on the way for 4 ms
                 const std::size_t firstOfSecond = areEdges ? 2 : 1;
                 for (std::size_t i = 0; i < flight.v.size(); ++i) {
@@ -49,8 +49,8 @@ TEST(ContactImpact, SharesTheSpeedByMassAndRestitution) {
 // Slower than restSpeed it stays where it comes: m1/(m1 + m2) v.
 TEST(ContactImpact, OfWhatIsSlowHasNoRestitution) {
     Flight flight = pointOnTriangle(0.2, 0.6, 0.5);
-    flight.options.pressing.restitution = 1.0;
-    flight.options.pressing.restSpeed = 1.0;
+    flight.options.solver.restitution = 1.0;
+    flight.options.solver.restSpeed = 1.0;
     for (int i = 0; i < 60; ++i) flight.fly(5e-4);  // on the way for 24 ms
     for (const dvec3& v : flight.v) EXPECT_NEAR(v.y, -0.25 * 0.5, 1e-6);
 }
@@ -68,8 +68,8 @@ TEST(ContactImpact, TurnsATriangleAsTheLeversSay) {
     Flight flight;
     flight.addBall(above, {0.0, -2.0, 0.0}, 0.1, 0.004);
     flight.addTriangle(corners, dvec3(0.0), 0.5, 0.004);
-    flight.options.pressing.restitution = 1.0;
-    flight.options.pressing.restSpeed = 1e-3;
+    flight.options.solver.restitution = 1.0;
+    flight.options.solver.restSpeed = 1e-3;
     flight.fly(1e-3);
     const double impulse = 2 * 2.0 / inverse;
     EXPECT_NEAR(flight.v[0].y, -2.0 + impulse / 0.1, 1e-12);
@@ -125,7 +125,7 @@ TEST(ContactImpact, AddsNoKineticEnergyInAnyInstant) {
     for (const double friction : {0.0, 0.3, 2.0})
         for (const int sweeps : {1, 2, 10}) {
             Flight flight = twoSheets(friction);
-            flight.options.pressing.sweeps = sweeps;
+            flight.options.solver.sweeps = sweeps;
             const double start = flight.kinetic();
             double before = start;
             for (int i = 0; i < 60; ++i) {
@@ -152,7 +152,7 @@ bool meetOnTheWay(const test::Skin& skin, const std::vector<dvec3>& from, const 
 
 // Two small triangles, the one held or free, the other at 100 m/s from any side, in any phase: how many have been
 // in each other at any time.
-int countThrough(double step, const GroupOptions& options, int phases) {
+int countThrough(double step, const ContactOptions& options, int phases) {
     Dice dice(7);
     int through = 0;
     for (int n = 0; n < phases; ++n) {
@@ -184,7 +184,7 @@ TEST(ContactImpact, LetsNothingThroughAtAHundredMetresASecond) {
 
 // What certificates are for: impulses alone go by where the sides were nearest at the start.
 TEST(ContactImpact, LetsSomeThroughWithoutCertificates) {
-    GroupOptions options;
+    ContactOptions options;
     options.certifies = false;
     EXPECT_GT(countThrough(1e-3, options, 200), 0);
 }
@@ -195,18 +195,18 @@ TEST(ContactImpact, LeavesAloneWhatMisses) {
     for (const double step : {1e-4, 5e-4, 1e-3}) {
         int touched = 0;
         for (int n = 0; n < 200; ++n) {
-            constexpr double keep = 0.008;
+            constexpr double thickness = 0.008;
             Flight flight;
             const dvec3 up = dice.direction(), along = glm::normalize(glm::cross(up, dice.direction())),
                         aside = glm::cross(along, up);
             const auto corner = [&](double height) {
                 return height * up + 0.05 * dice.number() * along + 0.05 * dice.number() * aside;
             };
-            const std::array<dvec3, 3> low{corner(-keep - 0.02), corner(-keep), corner(-keep - 0.01)};
-            std::array<dvec3, 3> high{corner(keep + 0.02), corner(keep), corner(keep + 0.01)};
+            const std::array<dvec3, 3> low{corner(-thickness - 0.02), corner(-thickness), corner(-thickness - 0.01)};
+            std::array<dvec3, 3> high{corner(thickness + 0.02), corner(thickness), corner(thickness + 0.01)};
             for (dvec3& p : high) p -= (0.2 + 100 * step * dice.between(0.0, 1.0)) * along;
-            flight.addTriangle(low, dvec3(0.0), 0.01, keep / 2);
-            flight.addTriangle(high, 100.0 * along, 0.01, keep / 2);
+            flight.addTriangle(low, dvec3(0.0), 0.01, thickness / 2);
+            flight.addTriangle(high, 100.0 * along, 0.01, thickness / 2);
             const std::vector<dvec3> before = flight.v;
             for (int i = 0; i < 4 + static_cast<int>(0.004 / step); ++i) flight.fly(step);
             touched += flight.v != before ? 1 : 0;
@@ -215,13 +215,13 @@ TEST(ContactImpact, LeavesAloneWhatMisses) {
     }
 }
 
-// A ball at 100 m/s past another, by that share of what they keep: nearer than 0.95 of it they meet.
+// A ball at 100 m/s past another, by that share of what they thickness: nearer than 0.95 of it they meet.
 TEST(ContactImpact, MeetsWhatPassesNearerThanItKeeps) {
     for (const double share : {0.3, 0.5, 0.9, 1.1}) {
-        constexpr double keep = 0.008;
+        constexpr double thickness = 0.008;
         Flight flight;
-        flight.addBall(dvec3(0.0), dvec3(0.0), 0.0, keep / 2);
-        flight.addBall({-0.05, share * keep, 0.0}, {100.0, 0.0, 0.0}, 0.01, keep / 2);
+        flight.addBall(dvec3(0.0), dvec3(0.0), 0.0, thickness / 2);
+        flight.addBall({-0.05, share * thickness, 0.0}, {100.0, 0.0, 0.0}, 0.01, thickness / 2);
         flight.fly(1e-3);
         EXPECT_EQ(flight.v[1] != dvec3(100.0, 0.0, 0.0), share < 1) << share;
     }
@@ -272,7 +272,7 @@ TEST(ContactFriction, IsAllThatSlowsWhatSlidesOnAFlatSheet) {
     }
 }
 
-// Without friction the guard takes the approach alone and leaves the sliding; zones, its last resort, take both.
+// Without friction the certify takes the approach alone and leaves the sliding; zones, its last resort, take both.
 TEST(ContactImpact, LeavesWhatItCatchesOnTheWayItsSliding) {
     const auto left = [](bool slides) {
         Dice dice(7);
@@ -300,7 +300,7 @@ TEST(ContactImpact, LeavesWhatItCatchesOnTheWayItsSliding) {
 TEST(ContactImpact, TakesOverlapBackByAFifthAnInstantWithoutSpeed) {
     const auto gapsAre = [](double recovery) {
         Flight flight;
-        flight.options.pressing.recovery = recovery;
+        flight.options.solver.recovery = recovery;
         flight.addBall({0.0, 0.003, 0.0}, dvec3(0.0), 0.1, 0.004);
         flight.addTriangle({dvec3(-0.1, 0, -0.1), dvec3(0.1, 0, -0.1), dvec3(0, 0, 0.2)}, dvec3(0.0), 0.2, 0.004);
         const double mass = 0.1 + 3 * 0.2;
@@ -321,8 +321,8 @@ TEST(ContactImpact, TakesOverlapBackByAFifthAnInstantWithoutSpeed) {
         EXPECT_LT(glm::length(centre() - before), 1e-15);
         return most;
     };
-    EXPECT_LT(gapsAre(PressingOptions{}.recovery), 1e-9);
-    EXPECT_GT(gapsAre(5 * PressingOptions{}.recovery), 1e-3);
+    EXPECT_LT(gapsAre(SolverOptions{}.recovery), 1e-9);
+    EXPECT_GT(gapsAre(5 * SolverOptions{}.recovery), 1e-3);
 }
 
 // A fifth of 5 mm in 0.1 ms would be 10 m/s.
@@ -338,27 +338,27 @@ TEST(ContactImpact, TakesOverlapBackNoFasterThanAMetreASecond) {
 }
 
 // A point and a place that nothing moves, in contact.
-MeetingPair restingPair(int point, std::array<int, 3> corners) {
-    MeetingPair pair{};
+ContactConstraint restingPair(int point, std::array<int, 3> corners) {
+    ContactConstraint pair{};
     pair.points = {point, corners[0], corners[1], corners[2]};
     pair.weights = {1.0, -0.25, -0.25, -0.5};
     pair.normal = {0.0, 1.0, 0.0};
-    pair.apart = pair.keep = 0.01;
-    pair.isPoint = pair.presses = true;
+    pair.distance = pair.thickness = 0.01;
+    pair.isPoint = pair.isActive = true;
     return pair;
 }
 
 // Of two points, 5 mm too near each other, the lower is on the ground: the upper alone goes, by all of the 1 mm.
 TEST(ContactImpact, TakesOverlapBackNotIntoWhatHoldsIt) {
-    MeetingPair pair = restingPair(0, {1, 2, 3});
+    ContactConstraint pair = restingPair(0, {1, 2, 3});
     pair.weights = {1.0, -1.0, 0.0, 0.0};
-    pair.apart = pair.keep - 0.005;
-    const Held held{1, {0.0, 1.0, 0.0}, 0.0};
+    pair.distance = pair.thickness - 0.005;
+    const KinematicContact held{1, {0.0, 1.0, 0.0}, 0.0};
     const std::vector<double> inverseMass{1.0, 1.0, 0.0, 0.0};
     std::vector<dvec3> u(4, dvec3(0.0)), v = u, shift = u;
-    PressingOptions options;
+    SolverOptions options;
     options.sweeps = 100;
-    Pressing pressing;
+    ContactSolver pressing;
     pressing.solve(std::span(&pair, 1), std::span(&held, 1), inverseMass, 1.0, options, u, v, shift);
     EXPECT_NEAR(shift[0].y, 1e-3, 2e-8);  // where sweeps end
     EXPECT_NEAR(shift[1].y, 0.0, 2e-8);
@@ -367,14 +367,14 @@ TEST(ContactImpact, TakesOverlapBackNotIntoWhatHoldsIt) {
 
 // What a method stores need not be the mean of the instant: each bounces as it arrives.
 TEST(ContactImpact, BouncesVelocitiesAsTheyArriveThemselves) {
-    const MeetingPair pair = restingPair(0, {1, 2, 3});
+    const ContactConstraint pair = restingPair(0, {1, 2, 3});
     const std::vector<double> inverseMass{1.0, 0.0, 0.0, 0.0};
     std::vector<dvec3> u(4, dvec3(0.0)), v = u, shift = u;
     u[0] = {0.0, -2.0, 0.0};
     v[0] = {0.0, -3.0, 0.0};
-    PressingOptions options;
+    SolverOptions options;
     options.restitution = 0.5;
-    Pressing pressing;
+    ContactSolver pressing;
     pressing.solve(std::span(&pair, 1), {}, inverseMass, 1e-3, options, u, v, shift);
     EXPECT_NEAR(u[0].y, 1.0, 1e-15);
     EXPECT_NEAR(v[0].y, 1.5, 1e-15);
@@ -382,13 +382,13 @@ TEST(ContactImpact, BouncesVelocitiesAsTheyArriveThemselves) {
 
 // Two points on one triangle are one cluster by it, unless nothing moves it.
 TEST(ContactImpact, PassesNothingOnThroughWhatIsHeld) {
-    const std::vector<MeetingPair> pairs{restingPair(0, {2, 3, 4}), restingPair(1, {2, 3, 4})};
+    const std::vector<ContactConstraint> pairs{restingPair(0, {2, 3, 4}), restingPair(1, {2, 3, 4})};
     for (const bool isHeld : {true, false}) {
         const double inverse = isHeld ? 0.0 : 1.0;
         const std::vector<double> inverseMass{1.0, 1.0, inverse, inverse, inverse};
         std::vector<dvec3> u(5, dvec3(0.0)), v = u, shift = u;
         u[0] = v[0] = {0.0, -1.0, 0.0};
-        Pressing pressing;
+        ContactSolver pressing;
         pressing.solve(pairs, {}, inverseMass, 1e-3, {}, u, v, shift);
         EXPECT_EQ(pressing.clusters(), isHeld ? 2 : 1);
     }
@@ -397,9 +397,9 @@ TEST(ContactImpact, PassesNothingOnThroughWhatIsHeld) {
 // A collider stops what comes slower than it goes itself, and lets go what is faster.
 TEST(ContactImpact, ACollidersSupportDoesNotPull) {
     for (const double speed : {-1.0, 0.2, 0.7, 3.0}) {
-        Support support{{0, {0.0, 1.0, 0.0}, 0.5}, 2.0};
+        KinematicRow support{{0, {0.0, 1.0, 0.0}, 0.5}, 2.0};
         dvec3 u(0.0, speed, 0.0);
-        descend({}, {}, std::span(&support, 1), 10, 1e-9, std::span(&u, 1));
+        projectedGaussSeidel({}, {}, std::span(&support, 1), 10, 1e-9, std::span(&u, 1));
         EXPECT_EQ(u, dvec3(0.0, std::max(speed, 0.5), 0.0));
         EXPECT_NEAR(support.impulse.normal, 2.0 * std::max(0.0, 0.5 - speed), 1e-15);
     }
@@ -410,10 +410,10 @@ TEST(ContactImpact, ACollidersSupportDoesNotPull) {
 // steps on between them, as in conjugate gradients, they are in proportion to n.
 TEST(ContactImpact, TakesSweepsInProportionToThePile) {
     for (const int n : {10, 20, 40}) {
-        std::vector<MeetingPair> pairs;
+        std::vector<ContactConstraint> pairs;
         std::vector<Row> rows;
         for (int k = 0; k < n; ++k) {
-            MeetingPair pair{};
+            ContactConstraint pair{};
             pair.points = {k + 1, k, 0, 0};
             pair.weights = {1.0, -1.0, 0.0, 0.0};
             pair.normal = {0.0, 1.0, 0.0};
@@ -426,7 +426,7 @@ TEST(ContactImpact, TakesSweepsInProportionToThePile) {
         }
         std::vector<dvec3> u(static_cast<std::size_t>(n) + 1, dvec3(0.0, -1.0, 0.0));
         u[0] = dvec3(0.0);
-        EXPECT_LT(descend(pairs, rows, {}, 5 * n, 1e-3, u), 4 * n);     // it is 3.5 to 3.7 n
+        EXPECT_LT(projectedGaussSeidel(pairs, rows, {}, 5 * n, 1e-3, u), 4 * n);     // it is 3.5 to 3.7 n
         for (const dvec3& v : u) EXPECT_NEAR(v.y, 0.0, 1e-3 * n) << n;  // which leaves 4e-4 to 7e-4 n
     }
 }
@@ -435,13 +435,13 @@ TEST(ContactImpact, TakesSweepsInProportionToThePile) {
 TEST(ContactImpact, TurnsNothingAsAWhole) {
     const auto moment = [](bool areSwapped) {
         const std::array<dvec3, 3> corners{dvec3(0.0), dvec3(0.0, 0.0, 0.2), dvec3(0.2, 0.0, 0.0)};
-        MeetingPair pair{};
+        ContactConstraint pair{};
         pair.points = {0, 1, 2, 3};
         pair.weights = {1.0, -0.6, -0.3, -0.1};
         pair.normal = {0.0, 1.0, 0.0};
-        pair.apart = pair.keep = 0.008;
-        pair.isPoint = pair.presses = true;
-        std::vector<dvec3> x{pair.apart * pair.normal};
+        pair.distance = pair.thickness = 0.008;
+        pair.isPoint = pair.isActive = true;
+        std::vector<dvec3> x{pair.distance * pair.normal};
         for (std::size_t k = 0; k < 3; ++k) {
             x[0] -= pair.weights[k + 1] * corners[k];
             x.push_back(corners[k]);
@@ -451,7 +451,7 @@ TEST(ContactImpact, TurnsNothingAsAWhole) {
         std::vector<dvec3> u(4, dvec3(0.0)), v(4, dvec3(0.0)), shift(4, dvec3(0.0));
         u[0] = v[0] = {0.0, -2.0, 0.0};
         const std::vector<dvec3> before = u;
-        Pressing pressing;
+        ContactSolver pressing;
         pressing.solve(std::span(&pair, 1), {}, inverseMass, 1e-3, {}, u, v, shift);
         EXPECT_GT(pressing.impulses()[0], 0.1);
         dvec3 sum(0.0);
@@ -466,19 +466,19 @@ TEST(ContactImpact, TurnsNothingAsAWhole) {
 // or all that it slides with.
 TEST(ContactFriction, OfTheGroundBearsWhatIsOnTop) {
     for (const double slide : {0.1, 3.0}) {  // [m/s]
-        MeetingPair pair{};
+        ContactConstraint pair{};
         pair.points = {0, 1, 2, 3};
         pair.weights = {1.0, -1.0, 0.0, 0.0};
         pair.normal = {0.0, 1.0, 0.0};
-        pair.apart = pair.keep = 0.01;
-        pair.isPoint = pair.presses = true;
-        Held held{1, {0.0, 1.0, 0.0}, 0.0};
+        pair.distance = pair.thickness = 0.01;
+        pair.isPoint = pair.isActive = true;
+        KinematicContact held{1, {0.0, 1.0, 0.0}, 0.0};
         held.friction = 0.4;
         const std::vector<double> inverseMass{1.0, 2.0, 0.0, 0.0};
         std::vector<dvec3> u{{0.0, -1.0, 0.0}, {slide, 0.0, 0.0}, dvec3(0.0), dvec3(0.0)}, v = u, shift(4, dvec3(0.0));
-        PressingOptions options;
+        SolverOptions options;
         options.sweeps = 100;
-        Pressing pressing;
+        ContactSolver pressing;
         pressing.solve(std::span(&pair, 1), std::span(&held, 1), inverseMass, 1.0, options, u, v, shift);
         const double ought = std::max(0.0, slide - 0.4 * 1.0 * 2.0);  // λ = 1 kg · 1 m/s, on half a kilogram
         for (const auto& of : {u, v}) {
@@ -520,12 +520,12 @@ TEST(ContactFriction, HoldsUpToItsAngleAndSlowsBeyondIt) {
 // A point pressed through a triangle that it was hardly away from: both come apart, with the momentum they had, as far
 // as rounding has no say, 0.02 of the 10 mm they keep, and no further. What a collider holds from below stays.
 TEST(ContactGuard, SlidesAPinchClearOfRoundingAndNotIntoWhatHoldsIt) {
-    const MeetingPair pair{{0, 1, 2, 3}, {1.0, -0.25, -0.25, -0.5}, {0, 1, 0}, 1e-9, 0.01, 0.0, 0, 0, true, true};
+    const ContactConstraint pair{{0, 1, 2, 3}, {1.0, -0.25, -0.25, -0.5}, {0, 1, 0}, 1e-9, 0.01, 0.0, 0, 0, true, true};
     const std::vector<double> inverseMass(4, 1.0);
     for (const bool isHeld : {false, true}) {
         std::vector<dvec3> x{{0, -1e-6, 0}, {-1, 0, -1}, {1, 0, -1}, {0, 0, 1}}, v{{0, -1, 0}, {}, {}, {}};
         const std::vector<dvec3> before = x;
-        std::vector<Held> held;
+        std::vector<KinematicContact> held;
         for (const int i : {1, 2, 3})
             if (isHeld) held.push_back({i, {0, 1, 0}, 0.0});
         std::vector<int> moved;

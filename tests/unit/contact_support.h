@@ -9,7 +9,7 @@
 #include <random>
 
 #include "support/piercings.h"
-#include "taut/contact/group.h"
+#include "taut/contact/contact_group.h"
 
 namespace taut::contact {
 
@@ -17,8 +17,8 @@ struct Flight {
     std::vector<Surface> surfaces;
     std::vector<dvec3> x, v;          // (points) [m], [m/s]
     std::vector<double> inverseMass;  // (points) [1/kg]
-    GroupOptions options;
-    std::unique_ptr<Group> group;  // made by the first instant
+    ContactOptions options;
+    std::unique_ptr<ContactGroup> group;  // made by the first instant
     std::vector<dvec3> rest;       // [m] none: as they are at the first instant
 
     int addPoint(const dvec3& place, const dvec3& speed, double mass) {
@@ -73,9 +73,9 @@ struct Flight {
     }
 
     // Flies for h [s], and is met at the end.
-    const Meeting& fly(double h) {
+    const InstantResult& fly(double h) {
         if (!group) {
-            group = std::make_unique<Group>(surfaces, rest.empty() ? x : rest, options);
+            group = std::make_unique<ContactGroup>(surfaces, rest.empty() ? x : rest, options);
             group->begin(x);
         }
         std::vector<dvec3> before = x;
@@ -86,7 +86,7 @@ struct Flight {
         instant.x1 = x;
         instant.v = v;
         instant.inverseMass = inverseMass;
-        return group->meet(instant);
+        return group->resolve(instant);
     }
 
     double mass(std::size_t i) const { return inverseMass[i] > 0 ? 1.0 / inverseMass[i] : 0.0; }

@@ -32,6 +32,6 @@ list(APPEND TAUT_UNIT_TESTS
   world_targets_test.cpp
   world_tearing_test.cpp
   world_ties_test.cpp
-  world_touch_watch_test.cpp
+  world_contact_report_test.cpp
   world_touching_test.cpp)
 list(APPEND TAUT_UNIT_LINKS taut::advice taut::world)

@@ -5,7 +5,7 @@
 #include "taut/core/error.h"
 #include "taut/world/impl.h"
 #include "taut/spec/ticks.h"
-#include "taut/advice/touch_doubts.h"
+#include "taut/advice/contact_doubts.h"
 
 namespace taut::world {
 namespace {
@@ -14,9 +14,9 @@ namespace {
 constexpr double perEvaluation = 15, perIteration = 60, perPointInstant = 80;  // and point
 constexpr double perPair = 250;
 
-class Outlook {
+class LookAhead {
   public:
-    explicit Outlook(const SceneSpec& scene) : trial_(scene) {
+    explicit LookAhead(const SceneSpec& scene) : trial_(scene) {
         for (BodySpec& body : trial_.bodies) {
             if (body.touch != Touch::nothing) continue;
             silent_.insert(body.fullName());
@@ -34,8 +34,8 @@ class Outlook {
         double work = 0;
         try {
             while (world.tick() < last && work < most && !world.advance()) {
-                for (const BodyContact& c : w.touchWatch.contacts()) add(*c.first, *c.second);
-                for (const contact::Crossing& c : w.touching->crossingsBefore()) add(*w.touching, c);
+                for (const BodyContact& c : w.contactReport.contacts()) add(*c.first, *c.second);
+                for (const contact::Crossing& c : w.contactStage->crossingsBefore()) add(*w.contactStage, c);
                 work = workOf(w);
             }
         } catch (const core::Error& error) {
@@ -51,17 +51,17 @@ class Outlook {
         WorldImpl& w = WorldAccess::of(world);
         if (!w.touchesAny()) return;
         for (const BodyCrossing& c : w.crossings()) add(*c.ofEdge, *c.ofTriangle);
-        for (const auto& [surfaces, points] : pointsInOnePlace(*w.touching))
-            add(w.touching->bodyOf(surfaces.first), w.touching->bodyOf(surfaces.second));
+        for (const auto& [surfaces, points] : pointsInOnePlace(*w.contactStage))
+            add(w.contactStage->bodyOf(surfaces.first), w.contactStage->bodyOf(surfaces.second));
         for (BodySpec& body : trial_.bodies)
             if (entangled_.contains(body.fullName())) body.touch = Touch::nothing;
     }
 
-    void add(const Touching& touching, const contact::Crossing& crossing) {
-        const contact::Elements& elements = touching.elements();
+    void add(const ContactStage& stage, const contact::Crossing& crossing) {
+        const contact::Elements& elements = stage.elements();
         const int a = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
         const int b = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
-        if (touching.isOfBody(a) && touching.isOfBody(b)) add(touching.bodyOf(a), touching.bodyOf(b));
+        if (stage.isOfBody(a) && stage.isOfBody(b)) add(stage.bodyOf(a), stage.bodyOf(b));
     }
 
     void add(const Body& a, const Body& b) {
@@ -75,7 +75,7 @@ class Outlook {
 
     // Of all ticks so far [ns].
     double workOf(const WorldImpl& world) {
-        const ContactInfo contact = world.touching->info();
+        const ContactInfo contact = world.contactStage->info();
         contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.located);
         double work = contactWork_;
         for (const auto& island : world.islands) {
@@ -96,7 +96,7 @@ class Outlook {
 }  // namespace
 
 Encounters encounters(const SceneSpec& scene, double most) {
-    return Outlook(scene).look(most);
+    return LookAhead(scene).look(most);
 }
 
 }  // namespace taut::world

@@ -9,7 +9,7 @@
 #include "taut/forces/wind.h"
 #include "taut/world/impl.h"
 #include "taut/spec/motion.h"
-#include "taut/advice/touch_doubts.h"
+#include "taut/advice/contact_doubts.h"
 
 namespace taut::world {
 namespace {

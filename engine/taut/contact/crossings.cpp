@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "taut/contact/closest.h"
+#include "taut/contact/closest_points.h"
 
 namespace taut::contact {
 namespace {
@@ -206,21 +206,21 @@ dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec
     return out < 0 ? -normal : normal;
 }
 
-std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, std::span<const dvec3> x) {
+std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
-    patches.start(x, x);
-    patches.followAll(x, x);
+    leaves.start(x, x);
+    leaves.followAll(x, x);
     std::vector<Box> boxes;
-    for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
-    std::vector<PatchPair> near;
-    patches.findNear(boxes, 0.0, near);
+    for (int p = 0; p < leaves.count(); ++p) boxes.push_back(leaves.motion(p).box);
+    std::vector<LeafPair> near;
+    leaves.findNear(boxes, 0.0, near);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
     struct Boxed {
         int item;
         Box box;
     };
     std::vector<Boxed> edges;
-    const auto tryBoth = [&](const Patch& ofEdges, const Patch& ofTriangles, const Box& edgeBox,
+    const auto tryBoth = [&](const BvhLeaf& ofEdges, const BvhLeaf& ofTriangles, const Box& edgeBox,
                              const Box& triangleBox) {
         edges.clear();
         for (int e : ofEdges.edges) {
@@ -259,11 +259,11 @@ std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, 
             }
         }
     };
-    for (PatchPair pair : near) {
+    for (LeafPair pair : near) {
         const int a = lowOf(pair), b = highOf(pair);
-        const Box &boxA = patches.motion(a).box, &boxB = patches.motion(b).box;
-        tryBoth(patches[a], patches[b], boxA, boxB);
-        if (a != b) tryBoth(patches[b], patches[a], boxB, boxA);
+        const Box &boxA = leaves.motion(a).box, &boxB = leaves.motion(b).box;
+        tryBoth(leaves[a], leaves[b], boxA, boxB);
+        if (a != b) tryBoth(leaves[b], leaves[a], boxB, boxA);
     }
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
         return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);

@@ -16,14 +16,14 @@
 #include <span>
 #include <vector>
 
-#include "taut/contact/patches.h"
+#include "taut/contact/bvh.h"
 
 namespace taut::contact {
 
 struct Crossing {
     int edge, triangle;
     dvec3 place;  // [m] where the edge goes through
-    // As MeetingPair: the ends of the edge, and the corners of the triangle with less than nothing.
+    // As ContactConstraint: the ends of the edge, and the corners of the triangle with less than nothing.
     std::array<int, 5> points;
     std::array<double, 5> weights;
     dvec3 apart;  // unit, the way for the edge to go; or zero
@@ -39,6 +39,6 @@ dvec3 acrossEdge(const Edge& edge, int beside, std::span<const dvec3> x);
 dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec3> x);
 
 // Among surfaces that may meet, at places x (points) [m]; ascending by edge and triangle.
-std::vector<Crossing> findCrossings(const Elements& elements, Patches& patches, std::span<const dvec3> x);
+std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x);
 
 }  // namespace taut::contact

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "taut/contact/surface.h"
+#include "taut/contact/contact_surface.h"
 
 namespace taut::contact {
 

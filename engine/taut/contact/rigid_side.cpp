@@ -39,7 +39,7 @@ bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec
     return true;
 }
 
-bool mayYield(const MeetingPair& pair, std::span<const double> inverseMass) {
+bool mayYield(const ContactConstraint& pair, std::span<const double> inverseMass) {
     return mayYield(pair.points, pair.weights, static_cast<std::size_t>(pair.firstSide()), inverseMass);
 }
 

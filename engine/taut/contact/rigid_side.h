@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "taut/contact/contact_constraint.h"
 #include "taut/contact/crossings.h"
-#include "taut/contact/meeting_pair.h"
 
 namespace taut::contact {
 
@@ -18,7 +18,7 @@ bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec
 
 // What cannot go away itself, and meets what cannot, is not to be moved by a long lever beside a point that is held, or
 // by none at all: whether what moves of either side has its share in the place that is pressed.
-bool mayYield(const MeetingPair& pair, std::span<const double> inverseMass);
+bool mayYield(const ContactConstraint& pair, std::span<const double> inverseMass);
 bool mayYield(const Crossing& crossing, std::span<const double> inverseMass);
 
 }  // namespace taut::contact

@@ -66,8 +66,8 @@ std::set<Damage::Edge> edgesOf(const mechanics::Model& model) {
 
 }  // namespace
 
-Crossing crossingOf(const CutAction& action, const Island& island, std::span<Body* const> bodies) {
-    Crossing crossing;
+CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Body* const> bodies) {
+    CutEdges crossing;
     const IslandPlan& plan = island.plan();
     const bool isPlane = action.planePoint.has_value() && action.planeNormal.has_value();
     std::vector<double> side(plan.points.size(), 0.0);
@@ -106,8 +106,8 @@ Crossing crossingOf(const CutAction& action, const Island& island, std::span<Bod
     return crossing;
 }
 
-void sever(const Crossing& crossing, IslandPlan& plan) {
-    for (const Crossing::Edge& edge : crossing.edges) edge.body->damage.sever(edge.a, edge.b, edge.share);
+void sever(const CutEdges& crossing, IslandPlan& plan) {
+    for (const CutEdges::Edge& edge : crossing.edges) edge.body->damage.sever(edge.a, edge.b, edge.share);
     for (Body* body : plan.bodies) body->damage.assess(body->model);
     for (int joint : crossing.joints) {
         plan.broken[static_cast<std::size_t>(joint)] = true;

@@ -4,30 +4,30 @@
 #include <span>
 #include <vector>
 
-#include "taut/spec/actions.h"
 #include "taut/island/island.h"
+#include "taut/spec/actions.h"
 
 namespace taut::world {
 
 // Of one island.
-struct Crossing {
+struct CutEdges {
     struct Edge {
         Body* body;
         int a, b;      // points of its model
         double share;  // of the way from a to b
     };
-    std::vector<Edge> edges;  // of springs, triangles and tetrahedra
-    std::vector<int> joints;  // springs of the plan
+    std::vector<Edge> edges;                                     // of springs, triangles and tetrahedra
+    std::vector<int> joints;                                     // springs of the plan
     std::vector<std::shared_ptr<const Constraint>> constraints;  // the plan's after it; empty where none is cut
     bool isEmpty() const { return edges.empty() && joints.empty() && constraints.empty(); }
 };
 
 // What of the bodies lies across the plane or the segment of the action and is not severed yet. A point on the plane
 // counts as in front of it, so that every edge is either crossed or not. A segment only cuts cloth on a grid.
-Crossing crossingOf(const CutAction& action, const Island& island, std::span<Body* const> bodies);
+CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Body* const> bodies);
 
 // Severs the edges, with the springs along them, and the joints.
-void sever(const Crossing& crossing, IslandPlan& plan);
+void sever(const CutEdges& crossing, IslandPlan& plan);
 
 // Breaks the springs of the plan whose edges are severed in the damage of their bodies, which has been assessed.
 void breakSevered(IslandPlan& plan);

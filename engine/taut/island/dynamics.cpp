@@ -183,12 +183,12 @@ class DynamicsOf final : public Dynamics {
         for (std::size_t i = 0; i < v.size(); ++i) v[i] = at(state_.v, static_cast<int>(i));
     }
     std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts,
-                                    std::span<const Pressed> pressed) override {
+                                    std::span<const ContactAcceleration> pressed) override {
         findVelocities(t, contacts, pressed);
         return list(velocity_);
     }
     void synchronise(double t, std::span<const collision::Contact> contacts,
-                     std::span<const Pressed> pressed) override {
+                     std::span<const ContactAcceleration> pressed) override {
         findVelocities(t, contacts, pressed);
         std::copy(velocity_.begin(), velocity_.end(), state_.v.begin());
     }
@@ -352,7 +352,7 @@ class DynamicsOf final : public Dynamics {
     }
 
     // Those at t into velocity_. Methods that store them have had them resolved.
-    void findVelocities(double t, std::span<const collision::Contact> contacts, std::span<const Pressed> pressed) {
+    void findVelocities(double t, std::span<const collision::Contact> contacts, std::span<const ContactAcceleration> pressed) {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
         contacts_.bear(pressed, 0.5 * step_, velocity_);
         contacts_.bear(contacts, velocity_);

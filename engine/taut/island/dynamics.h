@@ -48,7 +48,7 @@ struct ContactWork {
 };
 
 // What contact with other bodies gave a point in the last instant.
-struct Pressed {
+struct ContactAcceleration {
     int point;
     dvec3 acceleration;  // [m/s²] in the mean of the instant
 };
@@ -126,9 +126,9 @@ class Dynamics {
     virtual std::vector<dvec3> velocities() const = 0;
     virtual void velocities(std::span<dvec3> v) const = 0;
     virtual std::vector<dvec3> velocitiesAt(double t, std::span<const collision::Contact> contacts,
-                                            std::span<const Pressed> pressed) = 0;
+                                            std::span<const ContactAcceleration> pressed) = 0;
     virtual void synchronise(double t, std::span<const collision::Contact> contacts,
-                             std::span<const Pressed> pressed) = 0;
+                             std::span<const ContactAcceleration> pressed) = 0;
     virtual void setVelocity(int point, const dvec3& v) = 0;
     // Whether every velocity is a number below the limit, and those of points that the last collide() touched.
     virtual bool isBounded() const = 0;

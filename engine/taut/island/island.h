@@ -106,7 +106,7 @@ class Island {
     // After those: constraints share what it changed. Whether any of its points went elsewhere.
     bool settle() { return !frozen_ && dynamics_->settle(); }
     // After the last part: what contact with other bodies gave points in the last instant.
-    void bear(std::span<const Pressed> pressed) { pressed_.assign(pressed.begin(), pressed.end()); }
+    void bear(std::span<const ContactAcceleration> pressed) { pressed_.assign(pressed.begin(), pressed.end()); }
 
     // Whether any spring tore in the last tick.
     bool hasTorn() const { return hasTorn_; }
@@ -248,10 +248,10 @@ class Island {
     std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
     std::vector<collision::Contact> contacts_;  // of the last tick's last step
-    std::vector<Pressed> pressed_;              // of its last instant
+    std::vector<ContactAcceleration> pressed_;              // of its last instant
     struct {
         std::vector<collision::Contact> contacts;
-        std::vector<Pressed> pressed;
+        std::vector<ContactAcceleration> pressed;
         std::vector<int> inside;
         bool hasTouched = false;
         ContactWork contactWork;

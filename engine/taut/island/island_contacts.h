@@ -119,9 +119,9 @@ class IslandContacts {
 
     // Velocities to which forces have been added for so long [s] since those of the state, and what presses points has
     // not: as much again as in the last instant. Of an impact, which does not go on, hardly more than of the forces.
-    void bear(std::span<const Pressed> pressed, double seconds, Planes& velocities) const {
+    void bear(std::span<const ContactAcceleration> pressed, double seconds, Planes& velocities) const {
         constexpr double most = 2.0;  // of what forces have added
-        for (const Pressed& one : pressed) {
+        for (const ContactAcceleration& one : pressed) {
             const dvec3 v = planar_.at(velocities, one.point), added = v - planar_.at(state_.v, one.point);
             const dvec3 push = seconds * one.acceleration;
             const double size = std::sqrt(glm::dot(push, push)), limit = most * std::sqrt(glm::dot(added, added));

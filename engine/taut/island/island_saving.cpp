@@ -218,7 +218,7 @@ void Island::visit(StateBytes& bytes) {
             contact.point >= 0 && contact.point < static_cast<int>(plan_.points.size()) && contact.friction >= 0 &&
             std::isfinite(glm::dot(contact.normal, contact.normal) + glm::dot(contact.carried, contact.carried)));
     bytes.list(pressed_);
-    for (const Pressed& one : pressed_)
+    for (const ContactAcceleration& one : pressed_)
         bytes.require(one.point >= 0 && one.point < static_cast<int>(plan_.points.size()) &&
                       std::isfinite(glm::dot(one.acceleration, one.acceleration)));
     for (std::string* warning : {&stretchWarning_, &collapseWarning_, &limitWarning_, &freezingWarning_})

@@ -21,8 +21,8 @@
 #include "taut/world/components.h"
 #include "taut/world/hands.h"
 #include "taut/island/island.h"
-#include "taut/world/touch_watch.h"
-#include "taut/world/touching.h"
+#include "taut/world/contact_report.h"
+#include "taut/world/contact_stage.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -51,10 +51,10 @@ struct World::Impl {
     std::vector<std::string> callbackSystems;  // the names of those that are
     ForceList added;  // by addForce()
     std::vector<std::unique_ptr<Island>> islands;
-    std::unique_ptr<Touching> touching;  // of those that touch; null when it has to be made anew
+    std::unique_ptr<ContactStage> contactStage;  // of those that touch; null when it has to be made anew
     std::size_t goneAround = 0;          // of bodies that touch, as it was made
     StepFollowing contactPace;           // of theirs, as it presses; saved
-    TouchWatch touchWatch;
+    ContactReport contactReport;
     struct Member {
         ecs::Entity entity;
         Body* body;
@@ -88,12 +88,12 @@ struct World::Impl {
     void checkForces() const;
     collision::Colliders colliders() const;  // where they are now
     void rebuildColliders();
-    std::vector<MetCollider> met() const;  // colliders as Touching asks for them
+    std::vector<TouchedCollider> met() const;  // colliders as the contact stage asks for them
     ecs::Entity addCollider(const ColliderSpec& collider);
     Member addBody(std::unique_ptr<Body> body);
     ecs::Entity spawn(Body body);
     ecs::Entity addAlone(std::unique_ptr<Body> body);
-    void findTouching();
+    void makeContactStage();
     std::optional<Divergence> tickIslands(const std::vector<ColliderMotion>& moving);
     void placeColliders();
     std::vector<ColliderMotion> movingColliders();

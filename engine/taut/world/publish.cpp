@@ -45,7 +45,7 @@ void addMarks(const Island& island, view::Marks& marks) {
 // Between bodies: what presses, with a line as long as both keep apart, and what goes through what.
 void addTouchMarks(WorldImpl& w, view::Marks& marks) {
     const glm::vec3 pressing(0.05F, 0.75F, 0.95F), crossing(1.0F, 0.0F, 0.1F);
-    for (const BodyContact& c : w.touchWatch.contacts()) {
+    for (const BodyContact& c : w.contactReport.contacts()) {
         const dvec3 way = 0.5 * (c.first->spec->thickness + c.second->spec->thickness) * c.normal;
         marks.lines.push_back({glm::vec3(c.place - way), glm::vec3(c.place + way), pressing});
         marks.dots.push_back({glm::vec3(c.place), pressing, 2.5F});

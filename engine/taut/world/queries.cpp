@@ -15,8 +15,8 @@ bool World::Impl::touchesAny() const {
 }
 
 std::vector<BodyCrossing> World::Impl::crossings() {
-    findTouching();
-    return crossingsOf(*touching);
+    makeContactStage();
+    return crossingsOf(*contactStage);
 }
 
 Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted, Measures what) {
@@ -24,17 +24,17 @@ Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted, M
     metrics.time = seconds();
     for (const auto& island : islands) island->addMetrics(now(), wanted, metrics);
     const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
-    for (const BodyContact& contact : touchWatch.contacts())
+    for (const BodyContact& contact : contactReport.contacts())
         metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
     if (what == Measures::butCrossings || !touchesAny()) return metrics;
     for (const BodyCrossing& crossing : crossings())
         metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
-    metrics.facePenetration = touching->facePenetration(wanted);
+    metrics.facePenetration = contactStage->facePenetration(wanted);
     return metrics;
 }
 
-std::vector<MetCollider> World::Impl::met() const {
-    std::vector<MetCollider> all;
+std::vector<TouchedCollider> World::Impl::met() const {
+    std::vector<TouchedCollider> all;
     registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
         all.push_back({collision::outlinesOf(part.model->shape), part.spec.friction, placement.to});
     });
@@ -111,12 +111,12 @@ std::vector<glm::dvec3> World::positions(ecs::Entity entity) const {
 }
 
 ContactInfo World::contact() const {
-    impl_->findTouching();
-    return impl_->touching->info();
+    impl_->makeContactStage();
+    return impl_->contactStage->info();
 }
 
 bool World::hasTouched() const {
-    return impl_->touchWatch.hasMet() ||
+    return impl_->contactReport.hasMet() ||
            std::any_of(
                impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
 }
@@ -125,7 +125,7 @@ std::vector<std::string> World::warnings() const {
     std::vector<std::string> all = impl_->jointWarnings;
     for (const auto& island : impl_->islands)
         for (const std::string& warning : island->warnings()) all.push_back(warning);
-    for (const std::string& warning : impl_->touchWatch.warnings()) all.push_back(warning);
+    for (const std::string& warning : impl_->contactReport.warnings()) all.push_back(warning);
     for (const std::string& name : callbacks())
         all.push_back(name + " is a callback: from here on nobody promises that bits are the same on every machine");
     return all;

@@ -161,9 +161,9 @@ void World::Impl::visit(StateBytes& bytes, std::span<const RampAction> applied) 
         bytes(placement.moved);
         bytes.optional(part.move, [&](PoseMove& move) { visitPart(bytes, move); });
     });
-    if (bytes.mark(touchMark, touchWatch.isWorthSaving())) {
+    if (bytes.mark(touchMark, contactReport.isWorthSaving())) {
         const std::vector<Body*> all = allBodies();
-        touchWatch.visit(bytes, std::vector<const Body*>(all.begin(), all.end()));
+        contactReport.visit(bytes, std::vector<const Body*>(all.begin(), all.end()));
     }
     if (touchesAny()) {
         contactPace.visit([&](auto& number) { bytes(number); });
@@ -200,7 +200,7 @@ void World::restore(std::span<const std::byte> content, std::span<const RampActi
     if (!reader.isAtEnd()) misfit("there is more in them than it has");
     impl_->rebuildColliders();
     impl_->redrawDamage();
-    impl_->touching.reset();
+    impl_->contactStage.reset();
 }
 
 }  // namespace taut::world

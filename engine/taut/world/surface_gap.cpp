@@ -5,10 +5,10 @@
 #include <set>
 
 #include "taut/contact/crossings.h"
-#include "taut/contact/group.h"
+#include "taut/contact/contact_group.h"
 #include "taut/bodies/body.h"
 #include "taut/island/island.h"
-#include "taut/world/touching.h"
+#include "taut/world/contact_stage.h"
 
 namespace taut::world {
 namespace {
@@ -75,7 +75,7 @@ void SurfaceGap::build() {
     goneAround_ = goneAroundIn(bodies_);
     x_.resize(rest.size());
     elements_ = std::make_unique<contact::Elements>(std::move(surfaces), std::move(rest));
-    patches_ = std::make_unique<contact::Patches>(*elements_);
+    patches_ = std::make_unique<contact::Bvh>(*elements_);
 }
 
 void SurfaceGap::look() {

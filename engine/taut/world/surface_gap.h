@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "taut/contact/elements.h"
-#include "taut/contact/patches.h"
+#include "taut/contact/bvh.h"
 #include "taut/world/world.h"
 
 namespace taut::world {
@@ -38,7 +38,7 @@ class SurfaceGap {
     std::vector<bool> isFirst_, isSecond_;  // (surfaces)
     std::vector<glm::dvec3> x_;             // (points of each body after the other)
     std::unique_ptr<contact::Elements> elements_;
-    std::unique_ptr<contact::Patches> patches_;
+    std::unique_ptr<contact::Bvh> patches_;
 };
 
 }  // namespace taut::world

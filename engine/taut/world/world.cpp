@@ -109,7 +109,7 @@ void World::Impl::addIsland(IslandPlan plan, const ForceList& current, const Env
     const int parts = touches(plan) ? fewestInstants(1.0 / ticksPerSecond) : 1;
     islands.push_back(
         std::make_unique<Island>(std::move(plan), current, envelope, ticksPerSecond, seconds(), keepsSteps, parts));
-    touching.reset();
+    contactStage.reset();
     for (Body* body : members) body->island = islands.back().get();
 }
 
@@ -142,7 +142,7 @@ void World::Impl::rebuildColliders() {
         names.push_back("collider." + part.spec.name);
     });
     for (const auto& island : islands) island->setColliders(all.clone(), names);
-    touching.reset();
+    contactStage.reset();
 }
 
 ecs::Entity World::Impl::spawn(Body body) {
@@ -201,27 +201,27 @@ std::vector<ColliderMotion> World::Impl::movingColliders() {
     return moving;
 }
 
-void World::Impl::findTouching() {
+void World::Impl::makeContactStage() {
     // What a cut bares is surface from then on.
     std::size_t gone = 0;
     for (const auto& island : islands)
         if (touches(island->plan()))
             for (const Body* body : island->plan().bodies) gone += body->damage.goneAround();
-    if (touching && gone == goneAround) return;
+    if (contactStage && gone == goneAround) return;
     goneAround = gone;
-    touching =
-        std::make_unique<Touching>(islands, spec.contact, 1.0 / ticksPerSecond, contactPace, [this] { return met(); });
+    contactStage =
+        std::make_unique<ContactStage>(islands, spec.contact, 1.0 / ticksPerSecond, contactPace, [this] { return met(); });
 }
 
 // Those that touch go together, all others side by side.
 std::optional<Divergence> World::Impl::tickIslands(const std::vector<ColliderMotion>& moving) {
     const TickTime time = now();
-    findTouching();
+    makeContactStage();
     std::vector<Island*> alone;
     for (const auto& island : islands)
         if (!touches(island->plan())) alone.push_back(island.get());
     std::vector<std::optional<Fault>> faults(alone.size());
-    std::optional<Touching::Outcome> outcome;
+    std::optional<ContactStage::Outcome> outcome;
     threads.run([&] {
         core::parallelFor(
             static_cast<int>(alone.size()), [&](int i) { return alone[static_cast<std::size_t>(i)]->callsBack(); },
@@ -229,7 +229,7 @@ std::optional<Divergence> World::Impl::tickIslands(const std::vector<ColliderMot
                 const auto k = static_cast<std::size_t>(i);
                 faults[k] = alone[k]->tick(time, moving);
             });
-        if (!touching->isEmpty()) outcome = touching->tick(time, moving);
+        if (!contactStage->isEmpty()) outcome = contactStage->tick(time, moving);
     });
     const auto diagnose = [&](Island& island, const Fault& fault) {
         undoTick();
@@ -241,7 +241,7 @@ std::optional<Divergence> World::Impl::tickIslands(const std::vector<ColliderMot
             alone[i]->freeze(*faults[i], time);
         }
     if (outcome) return diagnose(*outcome->island, outcome->fault);
-    if (!touching->isEmpty()) touchWatch.look(*touching, time.start());
+    if (!contactStage->isEmpty()) contactReport.look(*contactStage, time.start());
     return std::nullopt;
 }
 
@@ -380,8 +380,8 @@ void World::destroy(ecs::Entity entity) {
     if (const BodyPart* part = w.registry.find<BodyPart>(entity)) {
         const Island* island = &w.islandOf(*part->body);
         TAUT_EXPECTS(island->plan().bodies.size() == 1);
-        w.touching.reset();
-        w.touchWatch.forget(*part->body);
+        w.contactStage.reset();
+        w.contactReport.forget(*part->body);
         std::erase_if(
             w.islands, [&](const auto& other) { return other.get() == island; });
         std::erase_if(w.bodies, [&](const Impl::Member& member) { return member.entity == entity; });

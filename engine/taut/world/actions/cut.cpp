@@ -34,7 +34,7 @@ void CutAction::perform(World& world) const {
     if (bodies.empty()) failAction(*this, "target = \"" + target + "\" names no body");
     bool any = false;
     for (const auto& island : w.islands) {
-        const Crossing crossing = crossingOf(*this, *island, bodies);
+        const CutEdges crossing = edgesCutBy(*this, *island, bodies);
         if (crossing.isEmpty()) continue;
         any = true;
         if (island->frozen() == nullptr) sever(crossing, island->change(w.now(), Change::shape));

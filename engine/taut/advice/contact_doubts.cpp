@@ -1,0 +1,177 @@
+#include "taut/advice/contact_doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "taut/contact/closest_points.h"
+#include "taut/world/impl.h"
+
+namespace taut::world {
+namespace {
+
+constexpr std::size_t mostDoubts = 8;  // of one sort
+constexpr double samePlace = 0.01;     // of the distance kept: so near nothing says which of two is on which side
+
+std::string inLength(double metres) {
+    return metres < 0.01 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
+}
+
+// Those that touch, there or to come.
+std::vector<const Body*> touchingBodies(const WorldImpl& world) {
+    std::vector<const Body*> all;
+    const auto add = [&](const Body& body) {
+        if (body.spec->touch != Touch::nothing) all.push_back(&body);
+    };
+    for (const Body* body : world.allBodies()) add(*body);
+    for (const auto& body : world.waiting) add(*body);
+    return all;
+}
+
+void doubtThickness(std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
+    std::set<const BodySpec*> seen;  // copies would say the same again
+    std::size_t count = 0;
+    for (const Body* body : bodies) {
+        const double edge = shortestEdge(*body), thickness = body->spec->thickness;
+        if (!(2 * thickness > edge * (1 + 1e-9)) || !seen.insert(body->spec.get()).second || ++count > mostDoubts)
+            continue;
+        doubts.push_back(fmt::format(
+            "{}: layers of it lie further apart ({}, twice its thickness) than its cells are wide ({}); handOver "
+            "thickness <= {:.3g}",
+            body->spec->fullName(), inLength(2 * thickness), inLength(edge), 0.5 * edge));
+    }
+}
+
+void doubtInstants(const WorldImpl& world, std::vector<std::string>& doubts) {
+    if (!world.spec.contact.instants) return;
+    const Island* stiffest = nullptr;
+    for (const auto& island : world.islands)
+        if (touches(island->plan()) &&
+            (stiffest == nullptr || island->instantsToPress() > stiffest->instantsToPress()))
+            stiffest = island.get();
+    const int instants = *world.spec.contact.instants;
+    if (stiffest == nullptr || instants >= stiffest->instantsToPress()) return;
+    doubts.push_back(fmt::format(
+        "{} instants of contact a tick are few for {}, which asks for {} where it is pressed: contact may drive its "
+        "springs; leave out instants",
+        instants, stiffest->plan().bodies.front()->fullName(), stiffest->instantsToPress()));
+}
+
+void doubtLoneliness(std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
+    if (bodies.size() != 1 || bodies[0]->spec->touch != Touch::others) return;
+    doubts.push_back(bodies[0]->fullName() +
+                     " has touch = \"others\", but there is no other that touches: nothing will come of it; handOver "
+                     "another body touch too, or this one touch = \"all\"");
+}
+
+void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
+    if (!world.touchesAny()) return;
+    struct Pair {
+        std::set<int> edges;
+        BodyCrossing deepest;
+    };
+    std::map<std::pair<std::string, std::string>, Pair> pairs;
+    for (const BodyCrossing& crossing : world.crossings()) {
+        const bool isInOrder = !sortsBefore(*crossing.ofTriangle, *crossing.ofEdge);
+        const Body &a = isInOrder ? *crossing.ofEdge : *crossing.ofTriangle,
+                   &b = isInOrder ? *crossing.ofTriangle : *crossing.ofEdge;
+        Pair& pair = pairs[{a.fullName(), b.fullName()}];
+        pair.edges.insert(crossing.edge);
+        if (pair.deepest.ofEdge == nullptr || crossing.depth > pair.deepest.depth) pair.deepest = crossing;
+    }
+    std::size_t count = 0;
+    for (const auto& [names, pair] : pairs) {
+        if (++count > mostDoubts) break;
+        const bool isOne = names.first == names.second;
+        const dvec3 x = pair.deepest.place;
+        doubts.push_back(fmt::format(
+            "{} as {}: {} edge{}, the deepest by {} at [{:.4g}, {:.4g}, {:.4g}]; {} will be drawn apart, "
+            "start {} further off",
+            isOne ? names.first + " goes through itself"
+                  : names.first + " and " + names.second + " go through each other",
+            isOne ? "it starts" : "they start", pair.edges.size(), pair.edges.size() == 1 ? "" : "s",
+            inLength(pair.deepest.depth), x.x, x.y, x.z, isOne ? "it" : "they", isOne ? "its parts" : "them"));
+    }
+    if (pairs.size() > mostDoubts)
+        doubts.push_back(fmt::format("{} more pairs of bodies go through each other", pairs.size() - mostDoubts));
+}
+
+void doubtPlaces(const ContactStage& stage, std::vector<std::string>& doubts) {
+    const auto found = pointsInOnePlace(stage);
+    std::size_t count = 0;
+    for (const auto& [surfaces, points] : found) {
+        if (++count > mostDoubts) break;
+        const Body &a = stage.bodyOf(surfaces.first), &b = stage.bodyOf(surfaces.second);
+        doubts.push_back(fmt::format(
+            "{} and {} start in the same place, by {} points: nothing says which is to go to which side, and to part "
+            "them takes long; start them {} apart",
+            a.fullName(), b.fullName(), points.size(), inLength(a.spec->thickness + b.spec->thickness)));
+    }
+    if (found.size() > mostDoubts)
+        doubts.push_back(fmt::format("{} more pairs of bodies start in the same place", found.size() - mostDoubts));
+}
+
+}  // namespace
+
+std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage& stage) {
+    const contact::Elements& elements = stage.elements();
+    std::vector<dvec3> x;
+    for (int i = 0; i < elements.pointCount(); ++i) x.push_back(stage.position(i));
+    contact::Bvh patches(elements);
+    patches.start(x, x);
+    patches.followAll(x, x);
+    std::vector<contact::Box> boxes;
+    for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
+    std::vector<contact::LeafPair> near;
+    patches.findNear(boxes, 0.0, near);
+    const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    std::map<std::pair<int, int>, std::set<int>> found;
+    const auto look = [&](const contact::BvhLeaf& a, const contact::BvhLeaf& b) {
+        const Body &own = stage.bodyOf(a.surface), &other = stage.bodyOf(b.surface);
+        const double within = samePlace * (own.spec->thickness + other.spec->thickness);
+        const auto isIn = [&](const dvec3& point) {
+            const auto isNear = [&](const dvec3& place) {
+                return glm::dot(point - place, point - place) <= within * within;
+            };
+            for (int t : b.triangles) {
+                const std::array<int, 3>& c = elements.triangles()[static_cast<std::size_t>(t)].points;
+                const auto [u, v, w] = contact::closestOnTriangle(point, at(c[0]), at(c[1]), at(c[2])).weights;
+                if (isNear(u * at(c[0]) + v * at(c[1]) + w * at(c[2]))) return true;
+            }
+            for (int e : b.edges) {
+                const contact::Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
+                const double s = contact::closestOnSegments(point, point, at(edge.a), at(edge.b)).t;
+                if (isNear((1 - s) * at(edge.a) + s * at(edge.b))) return true;
+            }
+            return false;
+        };
+        for (int i : a.points)
+            if (isIn(at(i))) found[std::minmax(a.surface, b.surface)].insert(i);
+    };
+    for (contact::LeafPair pair : near) {
+        const contact::BvhLeaf &a = patches[contact::lowOf(pair)], &b = patches[contact::highOf(pair)];
+        if (a.surface == b.surface || elements.shareBond(a.surface, b.surface) || !stage.isOfBody(a.surface) ||
+            !stage.isOfBody(b.surface))
+            continue;
+        look(a, b);
+        look(b, a);
+    }
+    return found;
+}
+
+std::vector<std::string> touchDoubts(World& world) {
+    WorldImpl& w = WorldAccess::of(world);
+    std::vector<std::string> doubts;
+    const std::vector<const Body*> bodies = touchingBodies(w);
+    doubtLoneliness(bodies, doubts);
+    doubtThickness(bodies, doubts);
+    doubtInstants(w, doubts);
+    doubtCrossings(w, doubts);
+    if (w.touchesAny()) doubtPlaces(*w.contactStage, doubts);
+    return doubts;
+}
+
+}  // namespace taut::world

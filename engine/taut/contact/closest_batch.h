@@ -1,0 +1,59 @@
+// Pairs of which the nearest places are found together; slots are counted from 0.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <glm/vec3.hpp>
+
+#include "taut/contact/closest_kernel.h"
+
+namespace taut::contact {
+
+class ClosestBatch {
+  public:
+    void clear() { count_ = 0; }
+    int count() const { return count_; }
+
+    // [m], as ClosestLanes::at. Returns the slot.
+    int add(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r, const glm::dvec3& s) {
+        if (count_ == static_cast<int>(lanes_.size()) * closestBatch) lanes_.emplace_back();
+        ClosestLanes& into = lanes_[static_cast<std::size_t>(count_ / closestBatch)];
+        const int lane = count_ % closestBatch;
+        for (int k = 0; k < 3; ++k) {
+            into.at[0][k][lane] = p[k];
+            into.at[1][k][lane] = q[k];
+            into.at[2][k][lane] = r[k];
+            into.at[3][k][lane] = s[k];
+        }
+        return count_++;
+    }
+
+    // One of ClosestKernels.
+    void solve(void (*kernel)(ClosestLanes&, int)) {
+        for (int from = 0; from < count_; from += closestBatch)
+            kernel(lanes_[static_cast<std::size_t>(from / closestBatch)],
+                   count_ - from < closestBatch ? count_ - from : closestBatch);
+    }
+
+    // After that.
+    std::array<double, 4> weights(int slot) const {
+        const ClosestLanes& from = lanesOf(slot);
+        const int lane = slot % closestBatch;
+        return {from.weights[0][lane], from.weights[1][lane], from.weights[2][lane], from.weights[3][lane]};
+    }
+    glm::dvec3 apart(int slot) const {
+        const ClosestLanes& from = lanesOf(slot);
+        const int lane = slot % closestBatch;
+        return {from.apart[0][lane], from.apart[1][lane], from.apart[2][lane]};
+    }
+    double distance(int slot) const { return lanesOf(slot).distance[slot % closestBatch]; }
+    long where(int slot) const { return lanesOf(slot).where[slot % closestBatch]; }
+
+  private:
+    const ClosestLanes& lanesOf(int slot) const { return lanes_[static_cast<std::size_t>(slot / closestBatch)]; }
+
+    std::deque<ClosestLanes> lanes_;
+    int count_ = 0;
+};
+
+}  // namespace taut::contact

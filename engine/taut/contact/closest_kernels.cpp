@@ -1,0 +1,29 @@
+#include "taut/contact/closest_kernel.h"
+#include "taut/core/instruction_set.h"
+
+namespace taut::contact {
+
+#define TAUT_DECLARE(isa)                                                     \
+    namespace isa {                                                           \
+    void onTriangles(ClosestLanes&, int);                                     \
+    void onSegments(ClosestLanes&, int);                                      \
+    int findOverlapping(const BoxLanes&, const double*, const double*, int*); \
+    int findAwake(CandidateRows&);                                            \
+    }
+TAUT_DECLARE(sse2)
+TAUT_DECLARE(avx2)
+TAUT_DECLARE(avx512)
+#undef TAUT_DECLARE
+
+ClosestKernels closestKernels() {
+    switch (core::instructionSet()) {
+        case core::InstructionSet::avx512:
+            return {avx512::onTriangles, avx512::onSegments, avx512::findOverlapping, avx512::findAwake};
+        case core::InstructionSet::avx2:
+            return {avx2::onTriangles, avx2::onSegments, avx2::findOverlapping, avx2::findAwake};
+        case core::InstructionSet::sse2: break;
+    }
+    return {sse2::onTriangles, sse2::onSegments, sse2::findOverlapping, sse2::findAwake};
+}
+
+}  // namespace taut::contact

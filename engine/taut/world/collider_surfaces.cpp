@@ -1,0 +1,130 @@
+#include "taut/world/collider_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "taut/spec/motion.h"
+
+namespace taut::world {
+namespace {
+
+constexpr double roundCells = 2.0;   // a ball or a capsule of a smaller radius reaches between points
+constexpr double jumpSpeed = 100.0;  // [m/s] of any vertex; above it a collider jumps
+
+struct Placing {
+    glm::dmat3 rotation;
+    dvec3 position;
+    explicit Placing(const collision::Pose& pose) : position(pose.position) {
+        const glm::dquat& q = pose.rotation;
+        const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+        rotation = glm::mat3_cast(glm::dquat(q.w / size, q.x / size, q.y / size, q.z / size));
+    }
+    dvec3 operator()(const dvec3& x) const { return rotation * x + position; }
+};
+
+// [m] the longest edge of what meets colliders.
+double cellOf(std::span<const contact::Surface> surfaces, std::span<const dvec3> rest) {
+    double square = 0;
+    const auto take = [&](int a, int b) {
+        const dvec3 d = rest[static_cast<std::size_t>(a)] - rest[static_cast<std::size_t>(b)];
+        square = std::max(square, glm::dot(d, d));
+    };
+    for (const contact::Surface& surface : surfaces) {
+        if (!surface.meetsRigid) continue;
+        for (const std::array<int, 3>& t : surface.triangles)
+            for (std::size_t k = 0; k < 3; ++k) take(t[k], t[(k + 1) % 3]);
+        for (const std::array<int, 2>& line : surface.lines) take(line[0], line[1]);
+    }
+    return std::sqrt(square);
+}
+
+contact::Surface surfaceOf(const collision::Outline& outline, double friction, int offset, int bond) {
+    contact::Surface surface;
+    surface.isRigid = true;
+    surface.meetsItself = surface.meetsOthers = false;
+    surface.thickness = outline.radius;
+    surface.friction = friction;
+    surface.bond = bond;
+    for (int corner : outline.corners) surface.points.push_back(offset + corner);
+    for (const collision::Outline::Edge& edge : outline.edges) {
+        surface.lines.push_back({offset + edge.a, offset + edge.b});
+        const auto wing = [&](int vertex) { return vertex < 0 ? -1 : offset + vertex; };
+        surface.wings.push_back({wing(edge.wingA), wing(edge.wingB)});
+    }
+    return surface;
+}
+
+}  // namespace
+
+ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders,
+                                   std::vector<contact::Surface>& surfaces, std::vector<dvec3>& rest) {
+    const double thin = roundCells * cellOf(surfaces, rest);
+    for (std::size_t c = 0; c < colliders.size(); ++c) {
+        Rigid rigid{static_cast<int>(c),
+                    {},
+                    static_cast<int>(rest.size()),
+                    static_cast<int>(surfaces.size()),
+                    0,
+                    colliders[c].pose,
+                    colliders[c].pose};
+        const Placing place(colliders[c].pose);
+        for (const collision::Outline& outline : colliders[c].outlines) {
+            if (outline.radius > thin) continue;
+            const int bond = -1 - static_cast<int>(surfaces.size());  // of none else
+            surfaces.push_back(surfaceOf(outline, colliders[c].friction, static_cast<int>(rest.size()), bond));
+            for (const dvec3& vertex : outline.vertices) rest.push_back(place(vertex));
+            rigid.vertices.insert(rigid.vertices.end(), outline.vertices.begin(), outline.vertices.end());
+        }
+        rigid.lastSurface = static_cast<int>(surfaces.size());
+        if (!rigid.vertices.empty()) rigids_.push_back(std::move(rigid));
+    }
+}
+
+bool ColliderSurfaces::lead(std::span<const ColliderMotion> moving, double tickSeconds, contact::Elements& elements,
+                            std::span<dvec3> v) {
+    bool hasJumped = false;
+    for (Rigid& rigid : rigids_) {
+        const bool moved = rigid.moves;
+        rigid.moves = false;
+        rigid.from = rigid.to;
+        for (const ColliderMotion& motion : moving) {
+            if (motion.collider != rigid.collider) continue;
+            rigid.from = motion.from;
+            rigid.to = motion.to;
+            rigid.moves = true;
+        }
+        for (int s = rigid.firstSurface; s < rigid.lastSurface; ++s) elements.setStill(s, !rigid.moves);
+        if (!rigid.moves && !moved) continue;
+        const Placing from(rigid.from), to(rigid.to);
+        const std::span<dvec3> own = v.subspan(static_cast<std::size_t>(rigid.firstPoint), rigid.vertices.size());
+        double square = 0;
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            own[i] = (to(rigid.vertices[i]) - from(rigid.vertices[i])) / tickSeconds;
+            square = std::max(square, glm::dot(own[i], own[i]));
+        }
+        if (!(square > jumpSpeed * jumpSpeed)) continue;
+        rigid.from = rigid.to;
+        std::fill(own.begin(), own.end(), dvec3(0.0));
+        hasJumped = true;
+    }
+    return hasJumped;
+}
+
+void ColliderSurfaces::place(double share, std::span<dvec3> x) const {
+    for (const Rigid& rigid : rigids_) {
+        if (!rigid.moves) continue;
+        const Placing place(between(rigid.from, rigid.to, share));
+        for (std::size_t i = 0; i < rigid.vertices.size(); ++i)
+            x[static_cast<std::size_t>(rigid.firstPoint) + i] = place(rigid.vertices[i]);
+    }
+}
+
+void ColliderSurfaces::placeAll(std::span<dvec3> x) const {
+    for (const Rigid& rigid : rigids_) {
+        const Placing place(rigid.to);
+        for (std::size_t i = 0; i < rigid.vertices.size(); ++i)
+            x[static_cast<std::size_t>(rigid.firstPoint) + i] = place(rigid.vertices[i]);
+    }
+}
+
+}  // namespace taut::world

@@ -1,0 +1,135 @@
+#include "taut/world/contact_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "taut/bodies/body.h"
+
+namespace taut::world {
+namespace {
+
+// Of an edge and a triangle's plane: how far the nearer end is from it.
+double depthOf(const ContactStage& stage, const contact::Crossing& crossing) {
+    const auto at = [&](std::size_t k) { return stage.position(crossing.points[k]); };
+    const dvec3 normal = glm::cross(at(3) - at(2), at(4) - at(2));
+    const double size = std::sqrt(glm::dot(normal, normal));
+    if (!(size > 0)) return 0;
+    const double a = std::abs(glm::dot(normal, at(0) - at(2))), b = std::abs(glm::dot(normal, at(1) - at(2)));
+    return std::min(a, b) / size;
+}
+
+constexpr std::uint64_t spansMark = 0xfff8'7461'7574'0005ULL;  // a NaN
+
+// When: "since 1.20 s", "from 1.20 s to 1.35 s".
+std::string crossingText(const std::string& first, const std::string& second, const std::string& when,
+                         std::int64_t edges, std::int64_t times, bool isOn) {
+    const bool isOne = first == second;
+    std::string text = isOne ? first : first + " and " + second;
+    if (isOn) text += isOne ? " has" : " have";
+    text += std::string(" crossed ") + (isOne ? "itself " : "each other ") + when + " (" + std::to_string(edges) +
+            (edges == 1 ? " edge" : " edges") + (times > 1 ? ", " + std::to_string(times) + " times in all)" : ")");
+    if (isOn) return text + (isOne ? "; it is being drawn apart" : "; they are being drawn apart");
+    return text + (isOne ? "; it has come apart" : "; they have come apart");
+}
+
+std::string moment(double seconds) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.2f s", seconds);
+    return text;
+}
+
+}  // namespace
+
+std::vector<BodyCrossing> crossingsOf(ContactStage& stage) {
+    std::vector<BodyCrossing> all;
+    for (const contact::Crossing& crossing : stage.crossings()) {
+        const auto& elements = stage.elements();
+        const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
+        const int triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
+        if (!stage.isOfBody(edge)) continue;  // a collider's stands out of a face
+        all.push_back(
+            {crossing.place, depthOf(stage, crossing), &stage.bodyOf(edge), &stage.bodyOf(triangle), crossing.edge});
+    }
+    return all;
+}
+
+void ContactReport::look(const ContactStage& stage, double start) {
+    contacts_.clear();
+    hasMet_ = hasMet_ || stage.hasMet();
+    for (const contact::ContactPoint& c : stage.contacts())
+        if (stage.isOfBody(c.surfaceA) && stage.isOfBody(c.surfaceB))
+            contacts_.push_back({c.place, c.normal, c.impulse, &stage.bodyOf(c.surfaceA), &stage.bodyOf(c.surfaceB)});
+    std::map<std::pair<std::string, std::string>, std::set<int>> edges;
+    for (const contact::Crossing& crossing : stage.crossingsBefore()) {
+        const auto& elements = stage.elements();
+        const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
+        if (!stage.isOfBody(edge)) continue;
+        const Body* a = &stage.bodyOf(edge);
+        const Body* b = &stage.bodyOf(elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface);
+        if (sortsBefore(*b, *a)) std::swap(a, b);
+        edges[{a->fullName(), b->fullName()}].insert(crossing.edge);
+    }
+    for (Said& said : said_) {
+        const bool isOn = edges.count({said.first, said.second}) > 0;
+        if (said.isOn) said.until = start;
+        if (isOn && !said.isOn) ++said.times;
+        if (!isOn || said.isOn) edges.erase({said.first, said.second});
+        said.isOn = isOn;
+    }
+    for (const auto& [names, crossed] : edges) {
+        const std::string &first = names.first, &second = names.second;
+        auto said = std::find_if(said_.begin(), said_.end(),
+                                 [&](const Said& s) { return s.first == first && s.second == second; });
+        if (said == said_.end()) {
+            said_.push_back({first, second, {}});
+            said = said_.end() - 1;
+        }
+        said->since = said->until = start;
+        said->edges = std::ssize(crossed);
+        said->text = crossingText(first, second, "since " + moment(start), said->edges, said->times, true);
+    }
+}
+
+void ContactReport::forget(const Body& body) {
+    std::erase_if(contacts_, [&](const BodyContact& c) { return c.first == &body || c.second == &body; });
+    for (Said& said : said_)
+        if (said.first == body.fullName() || said.second == body.fullName()) said.isOn = false;
+}
+
+std::vector<std::string> ContactReport::warnings() const {
+    std::vector<std::string> all;
+    for (const Said& said : said_)
+        all.push_back(said.isOn ? said.text
+                                : crossingText(said.first, said.second,
+                                               "from " + moment(said.since) + " to " + moment(said.until), said.edges,
+                                               said.times, false));
+    return all;
+}
+
+void ContactReport::visit(StateBytes& bytes, std::span<const Body* const> bodies) {
+    bytes.each(said_, [&](Said& said) {
+        for (std::string* text : {&said.first, &said.second, &said.text}) bytes(*text);
+    });
+    bytes.each(contacts_, [&](BodyContact& c) {
+        bytes(c.place);
+        bytes(c.normal);
+        bytes(c.impulse);
+        for (const Body** body : {&c.first, &c.second}) {
+            auto number = static_cast<std::int64_t>(std::find(bodies.begin(), bodies.end(), *body) - bodies.begin());
+            bytes.atLeast(number, 0, static_cast<std::int64_t>(bodies.size()) - 1);
+            *body = bodies[static_cast<std::size_t>(number)];
+        }
+    });
+    if (!bytes.mark(spansMark, !said_.empty())) return;
+    for (Said& said : said_) {
+        bytes(said.since);
+        bytes(said.until);
+        bytes(said.edges);
+        bytes(said.times);
+        bytes(said.isOn);
+    }
+}
+
+}  // namespace taut::world

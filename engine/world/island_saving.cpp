@@ -197,7 +197,7 @@ void Island::visit(StateBytes& bytes) {
     if (isChanged_) visitPlan(bytes);
     world::visit(bytes, forces_);
     dynamics_->visit(bytes);
-    bool isPending = changes_.any();
+    bool isPending = changes_.any() || haveForcesJumped_;
     for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);
     bytes.list(contacts_);
     for (const collision::Contact& contact : contacts_)
@@ -217,6 +217,7 @@ void Island::visit(StateBytes& bytes) {
         visitPart(bytes, frozen.divergence);
     });
     if (!bytes.isReading()) return;
+    haveForcesJumped_ = false;  // as they were set for what is read; those that had are among what is pending
     workElsewhere_ = done;
     bytes.require(!frozen_ || mayFreeze_);
     if (frozen_) {

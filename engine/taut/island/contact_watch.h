@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "taut/island/dynamics.h"
@@ -42,16 +43,12 @@ class ContactWatch {
         std::copy(stored.begin(), stored.end(), v.begin());
         std::copy_n(velocities, w.size(), w.begin());
     }
-    // At the first touch: how much there is before it.
+    // At a touch: how much there is before the first since take().
     void meetAtTouch(const IslandPlan& plan, const dvec3& gravity) {
         if (!(work_.atTouch > 0)) work_.atTouch = whole(plan, gravity);
     }
     void add(double work) { work_.added += work; }  // [J]
-    ContactWork take() {
-        const ContactWork work = work_;
-        work_.added = 0;
-        return work;
-    }
+    ContactWork take() { return std::exchange(work_, {}); }
 
     // [J] of these points, or of all, and of what acts between them and others, at such places and velocities.
     double energy(const IslandPlan& plan, const std::vector<int>& points, bool isAll, const Planes& places,

@@ -44,7 +44,7 @@ enum class Since { tick, step };
 // What contacts have done to the energy of an island.
 struct ContactWork {
     double added = 0;    // [J]
-    double atTouch = 0;  // [J] kinetic, elastic, and of the height over the lowest point, at the first touch; 0 without
+    double atTouch = 0;  // [J] kinetic, elastic, and of the height over the lowest point, at a tick's first touch; or 0
 };
 
 // What contact with other bodies gave a point in the last instant.

@@ -123,6 +123,7 @@ void Island::beginTry() {
     if (frozen_) return;
     keepSteps();
     contacts_.clear();
+    dynamics_->takeContactWork();  // of a try that others gave up
 }
 
 std::optional<Fault> Island::advance(const TickTime& time, std::span<const ColliderMotion> moving, int part,
@@ -293,7 +294,7 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
             hasTouched_ = hasTouched_ || touches;
             if (!inside_.empty()) {
                 dynamics_->emerge(colliders_, inside_);
-                dynamics_->takeContactWork();  // of no step, but of the start
+                contactWork_.atTouch = energyAtTouch(dynamics_->takeContactWork());  // no step added it, but the start
             }
             const bool settles = touches && dynamics_->settle();
             if (touches && !(settles ? dynamics_->isBounded() : dynamics_->isTouchedBounded())) return giveUp(end());

@@ -197,6 +197,7 @@ class Island {
     void watchFreezing(const TickTime& time);
     std::string freezingWarning(int point, int plane) const;
     bool addsTooMuch(const ContactWork& work) const;
+    double energyAtTouch(const ContactWork& work) const;
     void account(const ContactWork& work);
     std::string contactWarning() const;  // empty where nothing is to be said
     int inParts(int substeps) const;
@@ -236,7 +237,7 @@ class Island {
     int parts_ = 1;                          // likewise, now
     int ownSubsteps_ = 1;                    // a tick, where they do not follow the state
     int contactFactor_ = 1, calmTicks_ = 0;  // by which contact makes them more; since when it does not need that
-    ContactWork contactWork_;                // so far
+    ContactWork contactWork_;                // so far: energyAtTouch(), and what was added in sum
     double mostContactWork_ = 0;             // [J] that it was at any time
     int ticksToLook_ = 0;                    // until size and place tell anew whether rounding matters
     double mayLose_ = 0;                     // [m] that rounding may keep a point back; 0 where it cannot

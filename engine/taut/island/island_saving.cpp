@@ -210,7 +210,7 @@ void Island::visit(StateBytes& bytes) {
         bytes.require(carrier.path.t0 < carrier.path.t1);
     }
     dynamics_->visit(bytes);
-    bool isPending = changes_.any();
+    bool isPending = changes_.any() || haveForcesJumped_;
     for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);
     bytes.list(contacts_);
     for (const collision::Contact& contact : contacts_)
@@ -230,6 +230,7 @@ void Island::visit(StateBytes& bytes) {
         visitPart(bytes, frozen.divergence);
     });
     if (!bytes.isReading()) return;
+    haveForcesJumped_ = false;  // as they were set for what is read; those that had are among what is pending
     workElsewhere_ = done;
     bytes.require(!frozen_ || mayFreeze_);
     if (frozen_) {

@@ -8,7 +8,7 @@
 namespace taut::world {
 namespace {
 
-constexpr double mostAdded = 0.02;  // of the energy at the first touch, in sum
+constexpr double mostAdded = 0.02;  // of the most energy at a touch, in sum
 constexpr double trifle = 0.01;     // of that
 constexpr double lostShare = 0.01;  // of a body's size, that rounding may keep a point back
 constexpr int looksEvery = 64;      // ticks
@@ -16,18 +16,24 @@ constexpr double considered = 1.0;  // [s] for which a speed is taken to last
 
 }  // namespace
 
+// [J] The most at the first touch of any tick, but for what contact itself has added: a collider that moves, a hand or
+// the wind may have brought far more than there was at the first of all.
+double Island::energyAtTouch(const ContactWork& work) const {
+    return std::max(contactWork_.atTouch, work.atTouch - std::max(contactWork_.added, 0.0));
+}
+
 // A quarter of what is left to add: so the sum stays below, however many impacts come. A trifle is no reason.
 bool Island::addsTooMuch(const ContactWork& work) const {
     if (!shortensForContact_ || contactFactor_ >= mostContactFactor || 2 * choice_.substeps > mostSubsteps)
         return false;
-    const double atTouch = contactWork_.atTouch > 0 ? contactWork_.atTouch : work.atTouch;
+    const double atTouch = energyAtTouch(work);
     const double left = 0.9 * mostAdded * atTouch - std::max(contactWork_.added, 0.0);
     return atTouch > 0 && work.added > std::max(0.25 * left, trifle * mostAdded * atTouch);
 }
 
 // After a second in which contact has added or taken next to nothing steps are as long again as they may.
 void Island::account(const ContactWork& work) {
-    if (!(contactWork_.atTouch > 0)) contactWork_.atTouch = work.atTouch;
+    contactWork_.atTouch = energyAtTouch(work);
     contactWork_.added += work.added;
     mostContactWork_ = std::max(mostContactWork_, contactWork_.added);
     if (contactFactor_ == 1) return;
@@ -43,7 +49,7 @@ std::string Island::contactWarning() const {
     char text[300];
     std::snprintf(
         text, sizeof text,
-        ": contact has added %.2g J, %.0f %% of the energy at the first touch: what a step of %s leads into a "
+        ": contact has added %.2g J, %.0f %% of the most energy at a touch: what a step of %s leads into a "
         "collider is brought out of it against its springs; ",
         mostContactWork_, 100.0 * mostContactWork_ / contactWork_.atTouch, inSeconds(choice_.step).c_str());
     return plan_.bodies.front()->fullName() + text +

@@ -114,7 +114,7 @@ TEST(ContactGroup, MeetsWhatAnImpulseLeadsFarInOneInstant) {
 }
 
 // A ball comes through a triangle of which two corners are held, right beside them: of 0.9 % of the squares of the
-// weights the third is not pressed. The certify slides it down, and up again from the sheet 30 mm below it, to which
+// weights the third is not pressed. The certificate slides it down, and up again from the sheet 30 mm below it, to which
 // nothing else is near: a fifth of that is left. All in powers of two there, for which of the corners goes down is left
 // to rounding.
 TEST(ContactGroup, MeetsWhatASlideLeadsToIt) {

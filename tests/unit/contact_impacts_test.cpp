@@ -272,7 +272,7 @@ TEST(ContactFriction, IsAllThatSlowsWhatSlidesOnAFlatSheet) {
     }
 }
 
-// Without friction the certify takes the approach alone and leaves the sliding; zones, its last resort, take both.
+// Without friction the certificate takes the approach alone and leaves the sliding; zones, its last resort, take both.
 TEST(ContactImpact, LeavesWhatItCatchesOnTheWayItsSliding) {
     const auto left = [](bool slides) {
         Dice dice(7);

@@ -39,7 +39,7 @@ void doubtThickness(std::span<const Body* const> bodies, std::vector<std::string
         if (!(2 * thickness > edge * (1 + 1e-9)) || !seen.insert(body->spec.get()).second || ++count > mostDoubts)
             continue;
         doubts.push_back(fmt::format(
-            "{}: layers of it lie further apart ({}, twice its thickness) than its cells are wide ({}); handOver "
+            "{}: layers of it lie further apart ({}, twice its thickness) than its cells are wide ({}); give "
             "thickness <= {:.3g}",
             body->spec->fullName(), inLength(2 * thickness), inLength(edge), 0.5 * edge));
     }
@@ -63,7 +63,7 @@ void doubtInstants(const WorldImpl& world, std::vector<std::string>& doubts) {
 void doubtLoneliness(std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
     if (bodies.size() != 1 || bodies[0]->spec->touch != Touch::others) return;
     doubts.push_back(bodies[0]->fullName() +
-                     " has touch = \"others\", but there is no other that touches: nothing will come of it; handOver "
+                     " has touch = \"others\", but there is no other that touches: nothing will come of it; give "
                      "another body touch too, or this one touch = \"all\"");
 }
 

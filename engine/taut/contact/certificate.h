@@ -20,7 +20,7 @@ bool misses(const ContactConstraint& pair, std::span<const dvec3> x0, std::span<
 // Of a pair without: the points of its two sides that went furthest into each other come apart, to a fifth of what they
 // were, and their velocities stop approaching. It takes the approach alone and leaves the sliding (Harmon et al. 2008).
 // A fifth of a fifth each instant would end where rounding decides which side they are on: 0.02 of what they keep is
-// left at least. What a collider holds does not handOver way into it (held: ascending by point).
+// left at least. What a collider holds does not give way into it (held: ascending by point).
 // Returns whether any point was moved; then both, or the one that can, are appended.
 bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMass,
                 std::span<const KinematicContact> held, std::span<dvec3> x1, std::span<dvec3> v,

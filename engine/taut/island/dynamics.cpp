@@ -10,6 +10,7 @@
 
 #include "taut/mechanics/anchor.h"
 #include "taut/island/island_contacts.h"
+#include "taut/island/report.h"
 #include "taut/island/rounding_watch.h"
 #include "taut/island/constraint_slot.h"
 

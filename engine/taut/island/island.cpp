@@ -4,13 +4,16 @@
 #include <cmath>
 #include <cstdio>
 
+#include "taut/bodies/joints/constraint.h"
+#include "taut/bodies/ties.h"
+#include "taut/island/island_report.h"
 #include "taut/spec/motion.h"
 
 namespace taut::world {
 namespace {
 
 constexpr int mostToPress = 1024;  // instants of a tick: who has more steps is warned of them
-constexpr int leastParts = 4;  // of a tick of bodies that touch others, whatever their method bears
+constexpr int leastParts = 4;      // of a tick of bodies that touch others, whatever their method bears
 
 std::string insideWarning(const Body& body, const std::string& collider, int points, double depth) {
     char text[200];
@@ -45,15 +48,17 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
             return mechanics::leastFrequency(inverseMasses, stiffnessAt(plan_.positions));
         },
         keepsStep ? nullptr : &now, [&](int substeps) { return inParts(substeps); });
+    now_.substeps = choice_.substeps;
+    now_.step = choice_.step;
     if (choice_.need)
-        following_ = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
+        now_.following = StepFollowing((*choice_.need)(now), choice_.need->safety, static_cast<int>(ticksPerSecond));
     if (choice_.splits) dynamics_->split(true);
-    ownSubsteps_ = choice_.substeps;
+    ownSubsteps_ = now_.substeps;
     shortensForContact_ = !keepsStep && !plan_.solver.dt;
-    dynamics_->start(t, choice_.step);
-    foreseeFreezing(t);
+    dynamics_->start(t, now_.step);
+    precision_.foresee(plan_, *dynamics_, t, tickSeconds_, now_.step, choice_.limitingSpring);
     for (const Since moment : {Since::tick, Since::step}) dynamics_->keep(moment);
-    watchPlasticity();
+    yielding_.watch(plan_, *dynamics_);
     mayFreeze_ = plan_.solver.onDivergence == OnDivergence::freeze;
     isChanged_ = !plan_.grips.empty();  // they go on ways that the scene alone does not tell
     hasCells_ = std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
@@ -64,11 +69,11 @@ void Island::setColliders(collision::Colliders colliders, std::span<const std::s
     colliders_ = std::move(colliders);
     mayCollide_ = colliders_.size() > 0 &&
                   std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* b) { return b->spec->collide; });
-    if (!mayCollide_) contacts_.clear();
+    if (!mayCollide_) now_.contacts.clear();
     // Without restitution an impact takes ½ m v² from its point and its shift adds ½ k (v h)², which is less while
     // ω h < 1, and at the limits little enough for the sum to stay below 2 % (measured on stiff nets).
     const bool takesMore =
-        method().symplectic && !colliders_.bounces() && (choice_.need || choice_.step <= choice_.limit * (1 + 1e-9));
+        method().symplectic && !colliders_.bounces() && (choice_.need || now_.step <= choice_.limit * (1 + 1e-9));
     dynamics_->watchContacts(mayCollide_ && !takesMore);
     if (!hasLooked_ && mayCollide_) findInside(names);
     hasLooked_ = true;
@@ -82,8 +87,8 @@ void Island::findInside(std::span<const std::string> names) {
         std::vector<double> depth(names.size(), 0.0);
         for (int i = body->firstPoint; i < body->lastPoint; ++i) {
             const collision::Colliders::Inside at = colliders_.inside(position(i));
-            if (at.depth <= emergingSpeed * choice_.step) continue;
-            inside_.push_back(i);
+            if (at.depth <= emergingSpeed * now_.step) continue;
+            now_.inside.push_back(i);
             if (!isFree(plan_, i)) continue;
             const auto c = static_cast<std::size_t>(at.collider);
             ++count[c];
@@ -110,41 +115,41 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
 }
 
 void Island::beginTick(const TickTime& time) {
-    keepGiven();
+    yielding_.keep();
     if (mayFreeze_ && frozen_) return;
     TAUT_EXPECTS(!isOpen_);
     hasMoved_ = true;
     takeParts(time, parts_);
-    keepTouches();
     tries_ = {};
 }
 
 void Island::beginTry() {
     if (frozen_) return;
-    keepSteps();
-    contacts_.clear();
+    dynamics_->keep(Since::tick);
+    before_ = now_;
+    now_.contacts.clear();
     dynamics_->takeContactWork();  // of a try that others gave up
 }
 
 std::optional<Fault> Island::advance(const TickTime& time, std::span<const ColliderMotion> moving, int part,
                                      int parts) {
     if (frozen_) return std::nullopt;
-    TAUT_EXPECTS(choice_.substeps % parts == 0);
-    const int each = choice_.substeps / parts;
+    TAUT_EXPECTS(now_.substeps % parts == 0);
+    const int each = now_.substeps / parts;
     return takeSubsteps(time, moving, part * each, (part + 1) * each);
 }
 
 void Island::endTick(const TickTime& time) {
     if (frozen_) return;
     if (hasCells_) watchVolumes(time.at(1, 1));
-    watchFreezing(time);
+    precision_.look(plan_, *dynamics_, tickSeconds_, now_.step, choice_.limitingSpring);
 }
 
 Verdict Island::judge(const TickTime& time, std::optional<Fault>& fault) {
     if (frozen_) return Verdict::stands;
     if (choice_.need || shortensForContact_) return judgeSteps(time, fault);
     if (fault) return Verdict::fails;
-    account(dynamics_->takeContactWork());
+    now_.budget.add(dynamics_->takeContactWork(), tickSeconds_);
     return Verdict::stands;
 }
 
@@ -156,27 +161,27 @@ Verdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
     if (fault && !choice_.need) return Verdict::fails;
     const ContactWork work = dynamics_->takeContactWork();
     bool isTooLong = fault.has_value();
-    double need = 2.0 * following_.substeps();
+    double need = 2.0 * now_.following.substeps();
     if (!fault && choice_.need) {
         need = (*choice_.need)(dynamics_->fastestNow());
-        isTooLong = following_.isExceededBy(need / contactFactor_);
+        isTooLong = now_.following.isExceededBy(need / now_.budget.factor);
     }
     // Where shorter steps have not helped, still shorter ones will not.
     const bool isInVain = tries_.doublings >= fairTrial && work.added > 0.75 * tries_.addedFirst;
     if (!isTooLong && (isInVain || !addsTooMuch(work))) {
-        if (isInVain) contactFactor_ = std::max(1, contactFactor_ >> tries_.doublings);
-        if (choice_.need) following_.lengthenIfCalm(need);
-        account(work);
+        if (isInVain) now_.budget.factor = std::max(1, now_.budget.factor >> tries_.doublings);
+        if (choice_.need) now_.following.lengthenIfCalm(need);
+        now_.budget.add(work, tickSeconds_);
         return Verdict::stands;
     }
     if (fault && (!fault->isNumber || ++tries_.rescues > mostRescues || need > mostSubsteps)) return Verdict::fails;
     if (!isTooLong) {
-        contactFactor_ *= 2;
-        calmTicks_ = 0;
+        now_.budget.factor *= 2;
+        now_.budget.calmTicks = 0;
         if (tries_.doublings++ == 0) tries_.addedFirst = work.added;
     } else if (need <= mostSubsteps) {
-        following_.shorten(need);
-        while (contactFactor_ > 1 && wantedSubsteps() > mostSubsteps) contactFactor_ /= 2;
+        now_.following.shorten(need);
+        while (now_.budget.factor > 1 && wantedSubsteps() > mostSubsteps) now_.budget.factor /= 2;
     } else {
         fault = Fault{.point = 0, .time = time.at(1, 1), .isTooStiff = true};
         return Verdict::fails;
@@ -186,14 +191,15 @@ Verdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
 
 void Island::tryAgain(const TickTime& time, Verdict verdict) {
     if (frozen_) return;
-    const StepFollowing following = following_;
-    const int factor = contactFactor_, calmTicks = calmTicks_;
+    const StepFollowing following = now_.following;
+    const ContactBudget budget = now_.budget;
     undoTick();
     if (verdict != Verdict::again) return;
-    following_ = following;
-    contactFactor_ = factor;
-    calmTicks_ = calmTicks;
-    dynamics_->synchronise(time.start(), contacts_, pressed_);
+    // What the try has taught of steps stays.
+    now_.following = following;
+    now_.budget.factor = budget.factor;
+    now_.budget.calmTicks = budget.calmTicks;
+    dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
     startWith(time, wantedSubsteps(), true);
 }
 
@@ -215,8 +221,8 @@ int Island::instantsToPress() const {
 
 void Island::takeParts(const TickTime& time, int parts) {
     parts_ = parts;
-    if (frozen_ || wantedSubsteps() == choice_.substeps) return;
-    dynamics_->synchronise(time.start(), contacts_, pressed_);
+    if (frozen_ || wantedSubsteps() == now_.substeps) return;
+    dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
     startWith(time, wantedSubsteps(), false);
 }
 
@@ -232,95 +238,67 @@ void Island::place(std::span<const int> points, std::span<dvec3> x, std::span<dv
     dynamics_->place(mayCollide_ ? &colliders_ : nullptr, points, x, v);
 }
 
-void Island::keepTouches() {
-    before_.contacts = contacts_;
-    before_.pressed = pressed_;
-    before_.inside = inside_;
-    before_.hasTouched = hasTouched_;
-    before_.contactWork = contactWork_;
-    before_.mostContactWork = mostContactWork_;
-}
-
-void Island::keepSteps() {
-    dynamics_->keep(Since::tick);
-    before_.following = following_;
-    before_.contactFactor = contactFactor_;
-    before_.calmTicks = calmTicks_;
-    before_.stepChanges = stepChanges_.size();
-    before_.substeps = choice_.substeps;
-    before_.step = choice_.step;
-}
-
 void Island::undoTick() {
     dynamics_->goBack(Since::tick);
-    takeBackGiven();
-    contacts_ = before_.contacts;
-    pressed_ = before_.pressed;
-    inside_ = before_.inside;
-    hasTouched_ = before_.hasTouched;
-    contactWork_ = before_.contactWork;
-    mostContactWork_ = before_.mostContactWork;
-    following_ = before_.following;
-    contactFactor_ = before_.contactFactor;
-    calmTicks_ = before_.calmTicks;
-    stepChanges_.resize(before_.stepChanges);
-    choice_.substeps = before_.substeps;
-    choice_.step = before_.step;
-    dynamics_->setStep(choice_.step);
+    yielding_.undo(plan_, *dynamics_, forces_);
+    now_ = before_;
+    dynamics_->setStep(now_.step);
 }
 
 void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
-    if (substeps != choice_.substeps) stepChanges_.push_back({time.start(), choice_.substeps, substeps, isRepeated});
-    choice_.substeps = substeps;
-    choice_.step = 1.0 / time.ticksPerSecond / substeps;
-    dynamics_->start(time.start(), choice_.step);
-    ticksToLook_ = 0;
+    if (substeps != now_.substeps) now_.stepChanges.push_back({time.start(), now_.substeps, substeps, isRepeated});
+    now_.substeps = substeps;
+    now_.step = 1.0 / time.ticksPerSecond / substeps;
+    dynamics_->start(time.start(), now_.step);
+    precision_.restart();
 }
 
 // Contacts are those of the last of them.
 std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first,
                                           int last) {
-    contacts_.clear();
+    now_.contacts.clear();
     for (int s = first; s < last; ++s) {
-        const auto end = [&] { return time.at(s + 1, choice_.substeps); };
+        const auto end = [&] { return time.at(s + 1, now_.substeps); };
         if (mayFreeze_) dynamics_->keep(Since::step);
         if (mayCollide_) dynamics_->rememberPositions();
-        dynamics_->step(time.at(s, choice_.substeps));
+        dynamics_->step(time.at(s, now_.substeps));
         if (!dynamics_->isBounded()) return giveUp(end());
         if (mayCollide_) {
             moveColliders(moving, s);
             const bool isLast = s + 1 == last;
-            const bool touches = dynamics_->collide(colliders_, isLast ? &contacts_ : nullptr);
-            hasTouched_ = hasTouched_ || touches;
-            if (!inside_.empty()) {
-                dynamics_->emerge(colliders_, inside_);
-                contactWork_.atTouch = energyAtTouch(dynamics_->takeContactWork());  // no step added it, but the start
+            const bool touches = dynamics_->collide(colliders_, isLast ? &now_.contacts : nullptr);
+            now_.hasTouched = now_.hasTouched || touches;
+            if (!now_.inside.empty()) {
+                dynamics_->emerge(colliders_, now_.inside);
+                now_.budget.sum.atTouch =
+                    now_.budget.energyAtTouch(dynamics_->takeContactWork());  // no step added it, but the start
             }
             const bool settles = touches && dynamics_->settle();
             if (touches && !(settles ? dynamics_->isBounded() : dynamics_->isTouchedBounded())) return giveUp(end());
         }
         if (mayFreeze_)
             if (const auto fault = overstrained(end())) return fault;
-        if (mayGiveWay_) giveWay();  // of steps that stand
+        if (yielding_.isOn() && yielding_.giveWay(plan_, *dynamics_, forces_))
+            isChanged_ = true;  // of steps that stand
     }
     return std::nullopt;
 }
 
 void Island::moveColliders(std::span<const ColliderMotion> moving, int substep) {
-    const double n = choice_.substeps;
+    const double n = now_.substeps;
     for (const ColliderMotion& m : moving)
         colliders_.move(m.collider, between(m.from, m.to, substep / n), between(m.from, m.to, (substep + 1) / n));
 }
 
 void Island::freeze(const Fault& fault, const TickTime& time) {
     dynamics_->goBack(Since::step);
-    contacts_.clear();
-    pressed_.clear();
+    now_.contacts.clear();
+    now_.pressed.clear();
     FrozenIsland frozen;
     frozen.name = plan_.bodies.front()->fullName();
     for (const Body* body : plan_.bodies) frozen.bodies.push_back(body->fullName());
-    frozen.time = fault.time - choice_.step;
-    frozen.divergence = diagnose(fault, time);
+    frozen.time = fault.time - now_.step;
+    frozen.divergence = diagnose(*this, fault, time);
     frozen_ = std::move(frozen);
 }
 
@@ -375,6 +353,152 @@ void Island::watchVolumes(double t) {
             collapseWarning_ = plan_.bodies.front()->fullName() + text;
         }
     }
+}
+
+// What is changed between two ticks.
+
+void Island::open(const TickTime& time) {
+    if (isOpen_) return;
+    if (!frozen_) dynamics_->synchronise(time.start(), now_.contacts, now_.pressed);
+    isOpen_ = true;
+}
+
+void Island::close(const TickTime& time) {
+    if (!isOpen_) return;
+    if (changes_.any()) {
+        dynamics_->take(changes_, forces_);
+        yielding_.watch(plan_, *dynamics_);
+        watchLimit(time.start());
+    }
+    if (choice_.need) {
+        if (changes_.any() || haveForcesJumped_)
+            choice_.need->raise(dynamics_->stabilityShare(time.start()), inverseMassesOf(plan_));
+        const double need = (*choice_.need)(dynamics_->fastestNow());
+        if (now_.following.isExceededBy(need)) now_.following.shorten(need);
+    }
+    startWith(time, wantedSubsteps(), false);
+    changes_.reset();
+    haveForcesJumped_ = false;
+    isOpen_ = false;
+}
+
+IslandPlan& Island::change(const TickTime& time, Change what) {
+    open(time);
+    changes_.add(what);
+    isChanged_ = true;
+    return plan_;
+}
+
+void Island::push(const TickTime& time, std::span<const int> points, const dvec3& velocity) {
+    open(time);
+    const std::vector<dvec3> v = dynamics_->velocities();
+    for (int i : points) dynamics_->setVelocity(i, v[static_cast<std::size_t>(i)] + velocity);
+}
+
+void Island::stop(const TickTime& time, std::span<const int> points) {
+    open(time);
+    for (int i : points) dynamics_->setVelocity(i, dvec3(0.0));
+}
+
+void Island::lead(const TickTime& time, const std::string& hand, const mechanics::PosePath& path, bool bends) {
+    if (frozen_) return;
+    for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
+        if (plan_.grips[g].ofCollider || plan_.grips[g].holder != hand) continue;
+        if (bends) open(time);
+        setPath(g, path);
+    }
+}
+
+void Island::carry(const TickTime& time, const std::string& collider, const mechanics::PosePath& path) {
+    if (frozen_) return;
+    for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
+        if (!plan_.grips[g].ofCollider || plan_.grips[g].holder != collider) continue;
+        if (!goesOn(plan_.grips[g].path, path, time.start())) open(time);
+        setPath(g, path);
+    }
+    for (Carrier& carrier : plan_.carriers)
+        if (carrier.collider == collider) carrier.path = path;
+}
+
+void Island::release(const TickTime& time, const std::string& collider) {
+    if (frozen_) return;
+    for (std::size_t c = 0; c < plan_.constraints.size(); ++c) {
+        std::shared_ptr<Constraint> constraint = plan_.constraints[c]->copy();
+        if (constraint->release(collider)) change(time, Change::shape).constraints[c] = std::move(constraint);
+    }
+}
+
+void Island::setPath(std::size_t grip, const mechanics::PosePath& path) {
+    plan_.grips[grip].path = path;
+    // Grips that are not what the dynamics know are led when those take them over.
+    if (!changes_.has(Change::grips)) dynamics_->leadGrip(grip);
+}
+
+void Island::setForces(const TickTime& time, const ForceList& forces) {
+    if (frozen_) return;
+    const bool jumps = !goesOn(forces_, forces);
+    if (jumps) open(time);  // on the forces so far
+    haveForcesJumped_ = haveForcesJumped_ || jumps;
+    forces_ = forces;
+    if (jumps)
+        dynamics_->setForces(forces_);
+    else
+        dynamics_->steer(forces_);
+}
+
+// What is changed while it runs may go beyond what a step that stays was chosen for; that is said once. Rest lengths
+// have no part in the limit.
+void Island::watchLimit(double t) {
+    if (choice_.need || changes_ == Changes{}.add(Change::lengths) || !limitWarning_.empty() ||
+        !(now_.step <= choice_.limit))
+        return;
+    const double limit = stepLimit(plan_, dynamics_->stabilityShare(t));
+    if (now_.step <= limit * (1 + 1e-6)) return;  // single precision computes the share a little differently
+    limitWarning_ = plan_.bodies.front()->fullName() + ": since " + inSeconds(t) + " its step of " +
+                    inSeconds(now_.step) + " is over the stability limit, which has fallen to " + inSeconds(limit) +
+                    ": it may diverge; a shorter dt, or [hand] in the scene, allows for it";
+}
+
+std::vector<dvec3> Island::velocities(const TickTime& time) {
+    if (frozen_) return std::vector<dvec3>(plan_.points.size(), dvec3(0.0));
+    if (isOpen_) return dynamics_->velocities();
+    // Asking changes nothing, the work of the run least of all.
+    workElsewhere_ += dynamics_->work();
+    std::vector<dvec3> v = dynamics_->velocitiesAt(time.start(), now_.contacts, now_.pressed);
+    workElsewhere_ -= dynamics_->work();
+    return v;
+}
+
+bool Island::addsTooMuch(const ContactWork& work) const {
+    if (!shortensForContact_ || now_.budget.factor >= mostContactFactor || 2 * now_.substeps > mostSubsteps)
+        return false;
+    return now_.budget.isExceededBy(work);
+}
+
+StepChoice Island::choice() const {
+    StepChoice choice = choice_;
+    choice.substeps = now_.substeps;
+    choice.step = now_.step;
+    return choice;
+}
+
+ode::Work Island::work() const {
+    ode::Work sum = workElsewhere_;
+    return sum += dynamics_->work();
+}
+
+mechanics::StiffnessProduct Island::stiffnessAt(std::span<const dvec3> x) const {
+    return [this, x](std::span<const dvec3> in, std::span<dvec3> sum) {
+        mechanics::addSpringStiffness(plan_.springs, x, in, sum);
+        dynamics_->addStiffnessProduct(in, sum);
+    };
+}
+
+std::vector<std::string> Island::said() const {
+    std::vector<std::string> all = insideWarnings_;
+    for (const std::string& warning : {stretchWarning_, collapseWarning_, limitWarning_, precision_.warning()})
+        if (!warning.empty()) all.push_back(warning);
+    return all;
 }
 
 }  // namespace taut::world

@@ -1,11 +1,7 @@
-// One island: the bodies that move together, how they are doing, and what is done to them.
+// One island: the bodies that move together, how they are doing, and what is done to them. island_report.h tells of it.
 //
-//   island.cpp          the tick
-//   island_change.cpp   what is changed between two ticks
-//   island_watch.cpp    what contact adds, and what rounding loses
-//   island_report.cpp   energies, frequencies, warnings, why it stopped
+//   island.cpp          ticks, and what is changed between two ticks
 //   island_saving.cpp   its bytes
-//   plasticity.cpp      springs that give way and break, strength.h says when
 #pragma once
 
 #include <cstdint>
@@ -20,10 +16,12 @@
 #include "taut/core/hash.h"
 #include "taut/island/dynamics.h"
 #include "taut/island/envelope.h"
+#include "taut/island/memory.h"
+#include "taut/island/precision_watch.h"
+#include "taut/island/report.h"
 #include "taut/island/step_choice.h"
 #include "taut/island/step_following.h"
-#include "taut/island/strength.h"
-#include "taut/island/report.h"
+#include "taut/island/yielding.h"
 
 namespace taut::world {
 
@@ -61,9 +59,6 @@ enum class Verdict { stands, again, fails };
 // What is moved back over several steps is moved against its springs: at ω H = 3 they gain several times ½ m u².
 inline constexpr double longestTurn = 2.0;
 
-// By how much contact shortens the steps of "auto" at most.
-inline constexpr int mostContactFactor = 1024;
-
 class Island {
   public:
     // At time t [s]. Chooses its step, which holds for all that the envelope allows; throws core::Error(badContent)
@@ -92,7 +87,7 @@ class Island {
     Verdict judge(const TickTime& time, std::optional<Fault>& fault);
     void tryAgain(const TickTime& time, Verdict verdict);
     void endTick(const TickTime& time);
-    int substeps() const { return choice_.substeps; }
+    int substeps() const { return now_.substeps; }
     bool keepsStep() const { return keepsStep_; }
     // Instants of a tick in which something presses it: one a step, or where steps are shorter than that, as many as
     // turn its fastest motion by no more than longestTurn.
@@ -106,10 +101,10 @@ class Island {
     // After those: constraints share what it changed. Whether any of its points went elsewhere.
     bool settle() { return !frozen_ && dynamics_->settle(); }
     // After the last part: what contact with other bodies gave points in the last instant.
-    void bear(std::span<const ContactAcceleration> pressed) { pressed_.assign(pressed.begin(), pressed.end()); }
+    void bear(std::span<const ContactAcceleration> pressed) { now_.pressed.assign(pressed.begin(), pressed.end()); }
 
     // Whether any spring tore in the last tick.
-    bool hasTorn() const { return hasTorn_; }
+    bool hasTorn() const { return yielding_.hasTorn(); }
 
     // Puts back what the last tick began with.
     void undoTick();
@@ -144,10 +139,10 @@ class Island {
     bool callsBack() const { return dynamics_->callsBack(forces_); }
 
     const IslandPlan& plan() const { return plan_; }
-    double step() const { return choice_.step; }  // [s]
+    double step() const { return now_.step; }  // [s]
     dvec3 position(int point) const { return dynamics_->position(point); }
-    std::span<const collision::Contact> contacts() const { return contacts_; }
-    bool hasTouched() const { return hasTouched_; }  // anything, at any step so far
+    std::span<const collision::Contact> contacts() const { return now_.contacts; }
+    bool hasTouched() const { return now_.hasTouched; }  // anything, at any step so far
     // (points) [m/s] at the time of the tick; zero when frozen. May cost an evaluation.
     std::vector<dvec3> velocities(const TickTime& time);
 
@@ -155,17 +150,19 @@ class Island {
     void addToHash(const Body& body, core::Hash& hash) const { dynamics_->addToHash(body.pointOf, hash); }
     // The same of one point.
     void addPointToHash(int point, core::Hash& hash) const { dynamics_->addToHash({&point, 1}, hash); }
-    // Adds the share, at the time of the tick, of the bodies of this island that `wanted` names; velocities
-    // synchronised.
-    void addMetrics(const TickTime& time, const std::function<bool(const Body&)>& wanted, Metrics& metrics);
     // Since the start.
     ode::Work work() const;
-    IslandInfo info(const TickTime& time) const;
     // Why its step will end the run, with file, line and remedy; empty where it will not.
     const std::string& fault() const { return choice_.fault; }
-    // What to say before the first tick, and what has changed since (a working stretch left).
-    std::vector<std::string> warnings() const;
-    Divergence diagnose(const Fault& fault, const TickTime& time) const;
+
+    // For island_report.h.
+    const Dynamics& dynamics() const { return *dynamics_; }
+    Dynamics& dynamics() { return *dynamics_; }
+    const IslandMemory& memory() const { return now_; }
+    StepChoice choice() const;  // with the steps that there are now
+    const collision::Colliders& colliders() const { return colliders_; }
+    bool hasMoved() const { return hasMoved_; }  // any tick yet
+    std::vector<std::string> said() const;       // warnings so far that cannot be derived
 
     // All that changes while it moves, written or read. Throws core::Error(badContent) for bytes that do not fit.
     void visit(StateBytes& bytes);
@@ -174,9 +171,6 @@ class Island {
     std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first,
                                       int last);
     Verdict judgeSteps(const TickTime& time, std::optional<Fault>& fault);
-    // For undoTick(), besides what gives way.
-    void keepTouches();
-    void keepSteps();
     // From velocities at the time of the positions.
     void startWith(const TickTime& time, int substeps, bool isRepeated);
     std::optional<Fault> overstrained(double t);
@@ -186,29 +180,12 @@ class Island {
     void watchVolumes(double t);
     void watchLimit(double t);
     void setPath(std::size_t grip, const mechanics::PosePath& path);
-    void giveWay();
-    void tear(const std::vector<int>& springs, std::vector<int>& changed);
-    void remember(int spring);
-    void remember(Body& body);
-    void keepGiven();
-    void takeBackGiven();
-    void watchPlasticity();
-    void foreseeFreezing(double t);
-    void watchFreezing(const TickTime& time);
-    std::string freezingWarning(int point, int plane) const;
     bool addsTooMuch(const ContactWork& work) const;
-    double energyAtTouch(const ContactWork& work) const;
-    void account(const ContactWork& work);
-    std::string contactWarning() const;  // empty where nothing is to be said
     int inParts(int substeps) const;
     int quietSubsteps() const {  // where nothing presses it
-        return inParts(contactFactor_ * (choice_.need ? following_.substeps() : ownSubsteps_));
+        return inParts(now_.budget.factor * (choice_.need ? now_.following.substeps() : ownSubsteps_));
     }
     int wantedSubsteps() const { return (quietSubsteps() + parts_ - 1) / parts_ * parts_; }
-    void addPoints(const std::vector<bool>& only, const TickTime& time, Metrics& metrics);
-    void addSprings(const std::vector<bool>& only, Metrics& metrics);
-    void addCells(const Body& body, Metrics& metrics) const;
-    double penetration(const std::vector<bool>& wanted) const;
     // The product with its stiffness at these places of its points, which have to stay.
     mechanics::StiffnessProduct stiffnessAt(std::span<const dvec3> x) const;
     const ode::MethodInfo& method() const { return *methodsOf(plan_.solver).find(plan_.solver.integrator); }
@@ -220,70 +197,36 @@ class Island {
     std::unique_ptr<Dynamics> dynamics_;
     bool isOpen_ = false;              // v is at the time of x, and the method not started from there
     bool mayCollide_ = false;          // there are colliders, and bodies for them
-    bool mayGiveWay_ = false;          // there are springs that yield or break
     bool mayFreeze_ = false;           // after a fault
     bool hasCells_ = false;            // to watch
     bool hasMoved_ = false;            // any tick yet
-    bool hasTouched_ = false;          // a contact yet
     bool hasLooked_ = false;           // which points stand inside colliders
     bool isChanged_ = false;           // the plan is not as it was built
     bool haveForcesJumped_ = false;    // since the island was opened
     Changes changes_;                  // of the plan, that the dynamics know nothing of yet
     bool shortensForContact_ = false;  // the step
     StepChoice choice_;
-    double tickSeconds_;                     // [s]
-    bool keepsStep_ = false;                 // whatever the state is
-    int quietParts_ = 1;                     // a tick, that substeps are to be divided into while nothing presses it
-    int parts_ = 1;                          // likewise, now
-    int ownSubsteps_ = 1;                    // a tick, where they do not follow the state
-    int contactFactor_ = 1, calmTicks_ = 0;  // by which contact makes them more; since when it does not need that
-    ContactWork contactWork_;                // so far: energyAtTouch(), and what was added in sum
-    double mostContactWork_ = 0;             // [J] that it was at any time
-    int ticksToLook_ = 0;                    // until size and place tell anew whether rounding matters
-    double mayLose_ = 0;                     // [m] that rounding may keep a point back; 0 where it cannot
-    StepFollowing following_;                // where choice_.need is
-    std::vector<StepChange> stepChanges_;    // so far
+    double tickSeconds_;      // [s]
+    bool keepsStep_ = false;  // whatever the state is
+    int quietParts_ = 1;      // a tick, that substeps are to be divided into while nothing presses it
+    int parts_ = 1;           // likewise, now
+    int ownSubsteps_ = 1;     // a tick, where they do not follow the state
     IslandPlan plan_;
     ForceList forces_;
     ode::Work workElsewhere_;  // of what ran before it was read, less that of what was only asked
     std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
-    std::vector<collision::Contact> contacts_;  // of the last tick's last step
-    std::vector<ContactAcceleration> pressed_;              // of its last instant
-    struct {
-        std::vector<collision::Contact> contacts;
-        std::vector<ContactAcceleration> pressed;
-        std::vector<int> inside;
-        bool hasTouched = false;
-        ContactWork contactWork;
-        double mostContactWork = 0;
-        StepFollowing following;
-        int contactFactor = 1, calmTicks = 0, substeps = 1;
-        double step = 0;
-        std::size_t stepChanges = 0;
-    } before_;  // what the tick began with
+    IslandMemory now_, before_;  // as it is, and what the tick began with
     struct {
         int rescues = 0;        // so far, of a tick that diverges
         int doublings = 0;      // of steps, for contact to add less
         double addedFirst = 0;  // [J] by contact, before those
     } tries_;                   // of this tick
-    std::vector<int> inside_;   // points that began inside a collider and have not been out yet
     std::vector<std::string> insideWarnings_;
-    std::string stretchWarning_, collapseWarning_, limitWarning_, freezingWarning_;
+    std::string stretchWarning_, collapseWarning_, limitWarning_;
+    PrecisionWatch precision_;
+    Yielding yielding_;
     std::optional<FrozenIsland> frozen_;
-
-    // Of springs that yield or break.
-    struct Given {
-        int spring;
-        double stiffness, restLength;
-        bool isBroken;
-    };
-    std::unique_ptr<const Strength> strength_;
-    std::vector<int> beyond_;                        // scratch
-    std::vector<Given> given_;                       // of what has changed, what it was when the tick began
-    std::vector<bool> isRemembered_;                 // (springs) there
-    std::vector<std::pair<Body*, Damage>> damaged_;  // likewise
-    bool hasTorn_ = false;                           // in this tick
 };
 
 }  // namespace taut::world

@@ -1,70 +1,48 @@
-// What an island says of itself: energies, frequencies, and why it stopped.
+#include "taut/island/island_report.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
-#include "taut/island/divergence.h"
-#include "taut/island/island.h"
 #include "taut/bodies/joints/constraint.h"
+#include "taut/island/divergence.h"
 
 namespace taut::world {
+namespace {
 
-void Island::addMetrics(const TickTime& time, const std::function<bool(const Body&)>& wanted, Metrics& metrics) {
-    if (frozen_) return;
-    std::vector<bool> counts(plan_.points.size(), false);
-    for (const Body* body : plan_.bodies)
-        if (wanted(*body))
-            for (int i : body->pointOf) counts[static_cast<std::size_t>(i)] = true;
-    dynamics_->positions(x_);
-    addPoints(counts, time, metrics);
-    addSprings(counts, metrics);
-    metrics.maxStrain = std::max(metrics.maxStrain, dynamics_->strain(time.start(), counts));
-    for (const auto& [body, report] : dynamics_->volumes(time.start(), false)) {
-        if (!wanted(*body)) continue;
-        metrics.minVolumeRatio = std::min(metrics.minVolumeRatio, report.smallestRatio);
-        metrics.invertedCells += report.inverted;
-    }
-    dynamics_->addEnergies(time.start(), counts, metrics.gravitational, metrics.elastic);
-    for (const Body* body : plan_.bodies)
-        if (wanted(*body)) addCells(*body, metrics);
-    for (const collision::Contact& contact : contacts_)
-        metrics.contacts += counts[static_cast<std::size_t>(contact.point)] ? 1 : 0;
-    metrics.penetration = std::max(metrics.penetration, penetration(counts));
-    metrics.work += work();
-}
-
-void Island::addPoints(const std::vector<bool>& only, const TickTime& time, Metrics& metrics) {
-    const std::vector<dvec3> velocities = this->velocities(time);
-    for (std::size_t i = 0; i < x_.size(); ++i) {
+void addPoints(const IslandPlan& plan, std::span<const dvec3> x, std::span<const dvec3> velocities,
+               const std::vector<bool>& only, Metrics& metrics) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
         if (!only[i]) continue;
-        const double m = plan_.points[i].mass;
+        const double m = plan.points[i].mass;
         const dvec3 v = velocities[i];
         metrics.kinetic += 0.5 * m * glm::dot(v, v);
         metrics.momentum += m * v;
-        metrics.angularMomentum += m * glm::cross(x_[i], v);
+        metrics.angularMomentum += m * glm::cross(x[i], v);
     }
 }
 
-void Island::addSprings(const std::vector<bool>& only, Metrics& metrics) {
-    for (std::size_t i = 0; i < plan_.springs.size(); ++i) {
-        const mechanics::Spring& s = plan_.springs[i];
+void addSprings(const IslandPlan& plan, std::span<const dvec3> x, const std::vector<bool>& only, Metrics& metrics) {
+    for (std::size_t i = 0; i < plan.springs.size(); ++i) {
+        const mechanics::Spring& s = plan.springs[i];
         if (!only[static_cast<std::size_t>(s.a)] || !only[static_cast<std::size_t>(s.b)]) continue;
-        if (plan_.broken[i]) {
+        if (plan.broken[i]) {
             ++metrics.brokenSprings;
             continue;
         }
-        const double stretch = lengthOf(s, x_) - s.restLength;
+        const double stretch = lengthOf(s, x) - s.restLength;
         metrics.elastic += 0.5 * s.stiffness * stretch * stretch;
         if (s.restLength > 0 && s.kind != mechanics::SpringKind::bend)
             metrics.maxStrain = std::max(metrics.maxStrain, std::abs(stretch) / s.restLength);
     }
 }
 
-void Island::addCells(const Body& body, Metrics& metrics) const {
+void addCells(const Body& body, std::span<const dvec3> x, Metrics& metrics) {
     for (std::size_t c = 0; c < body.model.cells.size(); ++c) {
         if (body.damage.isCellGone(c)) continue;
         const mechanics::VolumeCell& cell = body.model.cells[c];
         const auto corner = [&](std::size_t k) {
-            return x_[static_cast<std::size_t>(body.pointOf[static_cast<std::size_t>(cell.points[k])])];
+            return x[static_cast<std::size_t>(body.pointOf[static_cast<std::size_t>(cell.points[k])])];
         };
         const dvec3 p = corner(0);
         metrics.restVolume += cell.restVolume;
@@ -73,109 +51,155 @@ void Island::addCells(const Body& body, Metrics& metrics) const {
 }
 
 // Only points that touched something in the last step can be inside anything, once there has been a step.
-double Island::penetration(const std::vector<bool>& wanted) const {
+double penetrationOf(const Island& island, const std::vector<bool>& wanted) {
     double depth = 0;
-    if (colliders_.size() == 0) return depth;
+    if (island.colliders().size() == 0) return depth;
     const auto look = [&](int point) {
-        if (wanted[static_cast<std::size_t>(point)] && isFree(plan_, point))
-            depth = std::max(depth, -colliders_.distance(position(point)));
+        if (wanted[static_cast<std::size_t>(point)] && isFree(island.plan(), point))
+            depth = std::max(depth, -island.colliders().distance(island.position(point)));
     };
-    if (hasMoved_) {
-        for (const collision::Contact& contact : contacts_) look(contact.point);
+    if (island.hasMoved()) {
+        for (const collision::Contact& contact : island.contacts()) look(contact.point);
         return depth;
     }
-    for (const Body* body : plan_.bodies)
+    for (const Body* body : island.plan().bodies)
         if (body->spec->collide)
             for (int i = body->firstPoint; i < body->lastPoint; ++i) look(i);
     return depth;
 }
 
-ode::Work Island::work() const {
-    ode::Work sum = workElsewhere_;
-    return sum += dynamics_->work();
-}
-
-std::vector<std::string> Island::warnings() const {
-    std::vector<std::string> all = choice_.warnings;
-    all.insert(all.end(), insideWarnings_.begin(), insideWarnings_.end());
-    for (const std::string& warning :
-         {stretchWarning_, collapseWarning_, limitWarning_, freezingWarning_, contactWarning()})
-        if (!warning.empty()) all.push_back(warning);
-    if (work().unconverged > 0) all.push_back(unconvergedWarning(work(), plan_));
-    if (frozen_) all.push_back(explainFreeze(*frozen_, choice_, method().title));
-    return all;
-}
-
-IslandInfo Island::info(const TickTime& time) const {
-    IslandInfo info;
-    info.name = plan_.bodies.front()->fullName();
-    for (const Body* body : plan_.bodies) {
-        info.bodies.push_back(body->fullName());
-        info.cells += static_cast<int>(body->model.cells.size());
-    }
-    for (const auto& point : plan_.points) info.mass += point.mass;
-    const std::vector<bool> isHeld = heldPointsOf(plan_);
-    info.heldPoints = static_cast<int>(std::count(isHeld.begin(), isHeld.end(), true));
-    info.points = static_cast<int>(plan_.points.size());
-    info.springs = static_cast<int>(plan_.springs.size());
-    for (const auto& constraint : plan_.constraints) info.constraints += constraint->count();
-    dynamics_->describe(info);
-    info.method = plan_.solver.integrator;
-    info.omegaBound = choice_.anywhere.omega;
-    info.fastest = choice_.mode;
-    info.stepLimit = choice_.limit;
-    info.step = choice_.step;
-    info.substeps = choice_.substeps;
-    info.work = work();
-    info.followsState = choice_.need.has_value();
-    info.stepChanges = stepChanges_;
-    info.splitsDashpots = choice_.splits;
-    info.limitingSpring = choice_.limitingSpring;
-    info.advice = choice_.advice;
-    std::vector<dvec3> x;
-    dynamics_->positions(x);
-    const std::vector<double> inverseMasses = inverseMassesOf(plan_);
-    const std::vector<mechanics::VolumeCell> cells = cellsOf(plan_);
-    info.omegaNow = mechanics::boundHere({plan_.springs, inverseMasses, cells},
-                                         dynamics_->stabilityShare(time.start()).stiffness, x)
-                        .omega;
-    info.omegaEstimate = mechanics::estimateFrequency(inverseMasses, stiffnessAt(x));
-    return info;
-}
-
-mechanics::StiffnessProduct Island::stiffnessAt(std::span<const dvec3> x) const {
-    return [this, x](std::span<const dvec3> in, std::span<dvec3> sum) {
-        mechanics::addSpringStiffness(plan_.springs, x, in, sum);
-        dynamics_->addStiffnessProduct(in, sum);
+mechanics::StiffnessProduct stiffnessAt(const Island& island, std::span<const dvec3> x) {
+    return [&island, x](std::span<const dvec3> in, std::span<dvec3> sum) {
+        mechanics::addSpringStiffness(island.plan().springs, x, in, sum);
+        island.dynamics().addStiffnessProduct(in, sum);
     };
 }
 
-Divergence Island::diagnose(const Fault& fault, const TickTime& time) const {
+std::string contactWarning(const Island& island) {
+    const ContactBudget& budget = island.memory().budget;
+    if (!budget.isOverdrawn()) return {};
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  ": contact has added %.2g J, %.0f %% of the most energy at a touch: what a step of %s leads into a "
+                  "collider is brought out of it against its springs; ",
+                  budget.most, 100.0 * budget.most / budget.sum.atTouch, inSeconds(island.step()).c_str());
+    return island.plan().bodies.front()->fullName() + text +
+           (island.plan().solver.dt ? "give dt = \"auto\", or a shorter one"
+                                    : "give a shorter dt, or less restitution");
+}
+
+const ode::MethodInfo& methodOf(const Island& island) {
+    return *methodsOf(island.plan().solver).find(island.plan().solver.integrator);
+}
+
+}  // namespace
+
+void addMetrics(Island& island, const TickTime& time, const std::function<bool(const Body&)>& wanted,
+                Metrics& metrics) {
+    if (island.frozen() != nullptr) return;
+    const IslandPlan& plan = island.plan();
+    Dynamics& dynamics = island.dynamics();
+    std::vector<bool> counts(plan.points.size(), false);
+    for (const Body* body : plan.bodies)
+        if (wanted(*body))
+            for (int i : body->pointOf) counts[static_cast<std::size_t>(i)] = true;
+    std::vector<dvec3> x;
+    dynamics.positions(x);
+    addPoints(plan, x, island.velocities(time), counts, metrics);
+    addSprings(plan, x, counts, metrics);
+    metrics.maxStrain = std::max(metrics.maxStrain, dynamics.strain(time.start(), counts));
+    for (const auto& [body, report] : dynamics.volumes(time.start(), false)) {
+        if (!wanted(*body)) continue;
+        metrics.minVolumeRatio = std::min(metrics.minVolumeRatio, report.smallestRatio);
+        metrics.invertedCells += report.inverted;
+    }
+    dynamics.addEnergies(time.start(), counts, metrics.gravitational, metrics.elastic);
+    for (const Body* body : plan.bodies)
+        if (wanted(*body)) addCells(*body, x, metrics);
+    for (const collision::Contact& contact : island.contacts())
+        metrics.contacts += counts[static_cast<std::size_t>(contact.point)] ? 1 : 0;
+    metrics.penetration = std::max(metrics.penetration, penetrationOf(island, counts));
+    metrics.work += island.work();
+}
+
+std::vector<std::string> warningsOf(const Island& island) {
+    std::vector<std::string> all = island.choice().warnings;
+    for (const std::string& warning : island.said()) all.push_back(warning);
+    if (const std::string warning = contactWarning(island); !warning.empty()) all.push_back(warning);
+    if (island.work().unconverged > 0) all.push_back(unconvergedWarning(island.work(), island.plan()));
+    if (island.frozen() != nullptr)
+        all.push_back(explainFreeze(*island.frozen(), island.choice(), methodOf(island).title));
+    return all;
+}
+
+IslandInfo infoOf(const Island& island, const TickTime& time) {
+    const IslandPlan& plan = island.plan();
+    const Dynamics& dynamics = island.dynamics();
+    const StepChoice choice = island.choice();
+    IslandInfo info;
+    info.name = plan.bodies.front()->fullName();
+    for (const Body* body : plan.bodies) {
+        info.bodies.push_back(body->fullName());
+        info.cells += static_cast<int>(body->model.cells.size());
+    }
+    for (const auto& point : plan.points) info.mass += point.mass;
+    const std::vector<bool> isHeld = heldPointsOf(plan);
+    info.heldPoints = static_cast<int>(std::count(isHeld.begin(), isHeld.end(), true));
+    info.points = static_cast<int>(plan.points.size());
+    info.springs = static_cast<int>(plan.springs.size());
+    for (const auto& constraint : plan.constraints) info.constraints += constraint->count();
+    dynamics.describe(info);
+    info.method = plan.solver.integrator;
+    info.omegaBound = choice.anywhere.omega;
+    info.fastest = choice.mode;
+    info.stepLimit = choice.limit;
+    info.step = choice.step;
+    info.substeps = choice.substeps;
+    info.work = island.work();
+    info.followsState = choice.need.has_value();
+    info.stepChanges = island.memory().stepChanges;
+    info.splitsDashpots = choice.splits;
+    info.limitingSpring = choice.limitingSpring;
+    info.advice = choice.advice;
+    std::vector<dvec3> x;
+    dynamics.positions(x);
+    const std::vector<double> inverseMasses = inverseMassesOf(plan);
+    const std::vector<mechanics::VolumeCell> cells = cellsOf(plan);
+    info.omegaNow =
+        mechanics::boundHere({plan.springs, inverseMasses, cells}, dynamics.stabilityShare(time.start()).stiffness, x)
+            .omega;
+    info.omegaEstimate = mechanics::estimateFrequency(inverseMasses, stiffnessAt(island, x));
+    return info;
+}
+
+Divergence diagnose(const Island& island, const Fault& fault, const TickTime& time) {
+    const IslandPlan& plan = island.plan();
+    const StepChoice choice = island.choice();
     Divergence d;
     d.tick = time.tick;
     d.time = fault.time;
-    if (const auto [body, point] = authored(plan_, fault.point); body != nullptr) {
+    if (const auto [body, point] = authored(plan, fault.point); body != nullptr) {
         d.body = body->fullName();
         d.point = point;
     }
     // The bound for the last good state, and the stiffest spring at that point or, where there is none, of all.
-    const std::vector<double> inverseMasses = inverseMassesOf(plan_);
+    const std::vector<double> inverseMasses = inverseMassesOf(plan);
     std::vector<dvec3> positions;
-    dynamics_->positions(positions);
-    const std::vector<mechanics::VolumeCell> cells = cellsOf(plan_);
-    const mechanics::FrequencyBound here = mechanics::boundHere({plan_.springs, inverseMasses, cells}, {}, positions);
+    island.dynamics().positions(positions);
+    const std::vector<mechanics::VolumeCell> cells = cellsOf(plan);
+    const mechanics::FrequencyBound here = mechanics::boundHere({plan.springs, inverseMasses, cells}, {}, positions);
     const mechanics::Spring* stiffest = nullptr;
-    for (const mechanics::Spring& s : plan_.springs)
+    for (const mechanics::Spring& s : plan.springs)
         if ((s.a == fault.point || s.b == fault.point) && (stiffest == nullptr || s.stiffness > stiffest->stiffness))
             stiffest = &s;
-    const int worst = stiffest == nullptr ? here.spring : static_cast<int>(stiffest - plan_.springs.data());
-    if (worst >= 0) d.spring = describeSpring(plan_, worst);
-    ode::FastestMode mode = choice_.mode;
-    mode.omega = std::max(here.omega, choice_.here.omega);
-    d.omegaH = mode.omega * choice_.step;
-    d.limit = mode.omega * method().largestStep(mode);
-    d.safeStep = choice_.limit;
-    d.message = explainDivergence(d, fault, choice_, plan_, method().title);
+    const int worst = stiffest == nullptr ? here.spring : static_cast<int>(stiffest - plan.springs.data());
+    if (worst >= 0) d.spring = describeSpring(plan, worst);
+    ode::FastestMode mode = choice.mode;
+    mode.omega = std::max(here.omega, choice.here.omega);
+    d.omegaH = mode.omega * choice.step;
+    d.limit = mode.omega * methodOf(island).largestStep(mode);
+    d.safeStep = choice.limit;
+    d.message = explainDivergence(d, fault, choice, plan, methodOf(island).title);
     return d;
 }
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "taut/bodies/joints/constraint.h"
 #include "taut/island/cutting.h"
 #include "taut/island/island.h"
-#include "taut/bodies/joints/constraint.h"
 
 namespace taut::world {
 namespace {
@@ -118,20 +118,20 @@ void Island::visitPlan(StateBytes& bytes) {
 }
 
 void Island::visitInside(StateBytes& bytes) {
-    const bool has = bytes.mark(insideMark, !insideWarnings_.empty() || !inside_.empty());
+    const bool has = bytes.mark(insideMark, !insideWarnings_.empty() || !now_.inside.empty());
     if (bytes.isReading()) {
-        inside_.clear();
+        now_.inside.clear();
         insideWarnings_.clear();
     }
     if (!has) return;
-    bytes.list(inside_);
-    for (int i : inside_) bytes.require(i >= 0 && i < static_cast<int>(plan_.points.size()));
+    bytes.list(now_.inside);
+    for (int i : now_.inside) bytes.require(i >= 0 && i < static_cast<int>(plan_.points.size()));
     bytes.each(insideWarnings_, [&](std::string& warning) { bytes(warning); });
 }
 
 void Island::visitStep(StateBytes& bytes) {
     bool follows = choice_.need.has_value();
-    int substeps = choice_.substeps;
+    int substeps = now_.substeps;
     bool splits = choice_.splits;
     bytes(follows);
     int own = ownSubsteps_;
@@ -140,49 +140,48 @@ void Island::visitStep(StateBytes& bytes) {
     bytes.require(parts_ > 0 && parts_ <= mostSubsteps);
     bytes(splits);
     bytes(substeps);
-    bytes(contactFactor_);
-    bytes(calmTicks_);
-    bytes.require(contactFactor_ >= 1 && contactFactor_ <= mostContactFactor && calmTicks_ >= 0);
+    bytes(now_.budget.factor);
+    bytes(now_.budget.calmTicks);
+    bytes.require(now_.budget.factor >= 1 && now_.budget.factor <= mostContactFactor && now_.budget.calmTicks >= 0);
     // By contact they may have been more, and be about to be less again.
     const bool isOwn = own == ownSubsteps_ && substeps > 0 && substeps <= mostSubsteps;
     if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && !isOwn))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
-    bytes.each(stepChanges_, [&](StepChange& change) {
+    bytes.each(now_.stepChanges, [&](StepChange& change) {
         bytes(change.time);
         bytes(change.from);
         bytes(change.to);
         bytes(change.isRepeated);
         bytes.require(change.from > 0 && change.from <= mostSubsteps && change.to > 0 && change.to <= mostSubsteps);
     });
-    for (double* number : {&contactWork_.added, &contactWork_.atTouch, &mostContactWork_, &mayLose_})
-        bytes.raw(*number);
-    bytes(ticksToLook_);
+    for (double* number : {&now_.budget.sum.added, &now_.budget.sum.atTouch, &now_.budget.most}) bytes.raw(*number);
+    precision_.visit(bytes);
     if (!follows) {
         if (!bytes.isReading()) return;
-        choice_.substeps = substeps;
-        choice_.step = tickSeconds_ / substeps;
-        dynamics_->setStep(choice_.step);
+        now_.substeps = substeps;
+        now_.step = tickSeconds_ / substeps;
+        dynamics_->setStep(now_.step);
         return;
     }
     double safety = choice_.need->safety;
     bytes(safety);
     if (safety != choice_.need->safety)
         misfit("the rule for the steps of " + plan_.bodies.front()->fullName() + " is another");
-    following_.visit([&](auto& number) { bytes(number); });
+    now_.following.visit([&](auto& number) { bytes(number); });
     bytes.notNegative(choice_.need->moreOmega2);
     bytes.notNegative(choice_.need->others.rate);
-    bytes.require(substeps > 0 && substeps <= mostSubsteps && following_.isSound());
+    bytes.require(substeps > 0 && substeps <= mostSubsteps && now_.following.isSound());
     if (!bytes.isReading()) return;
-    choice_.substeps = substeps;
-    choice_.step = choice_.need->tickSeconds / substeps;
+    now_.substeps = substeps;
+    now_.step = choice_.need->tickSeconds / substeps;
     // Decided when the island was made, of springs that may have been others then.
     const bool isOther = splits != choice_.splits;
     choice_.splits = choice_.need->splits = splits;
-    dynamics_->setStep(choice_.step);
+    dynamics_->setStep(now_.step);
     if (!isOther) return;
     bytes.require(plan_.solver.integrator == "leapfrog");
     dynamics_->split(splits);
-    dynamics_->start(0.0, choice_.step);
+    dynamics_->start(0.0, now_.step);
 }
 
 void Island::visit(StateBytes& bytes) {
@@ -212,17 +211,17 @@ void Island::visit(StateBytes& bytes) {
     dynamics_->visit(bytes);
     bool isPending = changes_.any() || haveForcesJumped_;
     for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);
-    bytes.list(contacts_);
-    for (const collision::Contact& contact : contacts_)
+    bytes.list(now_.contacts);
+    for (const collision::Contact& contact : now_.contacts)
         bytes.require(
             contact.point >= 0 && contact.point < static_cast<int>(plan_.points.size()) && contact.friction >= 0 &&
             std::isfinite(glm::dot(contact.normal, contact.normal) + glm::dot(contact.carried, contact.carried)));
-    bytes.list(pressed_);
-    for (const ContactAcceleration& one : pressed_)
+    bytes.list(now_.pressed);
+    for (const ContactAcceleration& one : now_.pressed)
         bytes.require(one.point >= 0 && one.point < static_cast<int>(plan_.points.size()) &&
                       std::isfinite(glm::dot(one.acceleration, one.acceleration)));
-    for (std::string* warning : {&stretchWarning_, &collapseWarning_, &limitWarning_, &freezingWarning_})
-        bytes(*warning);
+    for (std::string* warning : {&stretchWarning_, &collapseWarning_, &limitWarning_}) bytes(*warning);
+    precision_.visitWarning(bytes);
     ode::Work done = work();
     for (std::int64_t* number : {&done.evaluations, &done.iterations, &done.unconverged}) bytes(*number);
     bytes.optional(frozen_, [&](FrozenIsland& frozen) {
@@ -239,7 +238,7 @@ void Island::visit(StateBytes& bytes) {
     }
     dynamics_->take(Changes{}.add(Change::shape), forces_);
     if (isPending) changes_.add(Change::shape);
-    watchPlasticity();
+    yielding_.watch(plan_, *dynamics_);
 }
 
 }  // namespace taut::world

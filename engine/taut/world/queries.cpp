@@ -4,6 +4,7 @@
 #include <set>
 
 #include "taut/core/hash.h"
+#include "taut/island/island_report.h"
 #include "taut/world/impl.h"
 #include "taut/spec/targets.h"
 
@@ -22,7 +23,7 @@ std::vector<BodyCrossing> World::Impl::crossings() {
 Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted, Measures what) {
     Metrics metrics;
     metrics.time = seconds();
-    for (const auto& island : islands) island->addMetrics(now(), wanted, metrics);
+    for (const auto& island : islands) addMetrics(*island, now(), wanted, metrics);
     const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
     for (const BodyContact& contact : contactReport.contacts())
         metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
@@ -124,7 +125,7 @@ bool World::hasTouched() const {
 std::vector<std::string> World::warnings() const {
     std::vector<std::string> all = impl_->jointWarnings;
     for (const auto& island : impl_->islands)
-        for (const std::string& warning : island->warnings()) all.push_back(warning);
+        for (const std::string& warning : warningsOf(*island)) all.push_back(warning);
     for (const std::string& warning : impl_->contactReport.warnings()) all.push_back(warning);
     for (const std::string& name : callbacks())
         all.push_back(name + " is a callback: from here on nobody promises that bits are the same on every machine");

@@ -6,6 +6,7 @@
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
 #include "taut/forces/scene_forces.h"
+#include "taut/island/island_report.h"
 #include "taut/world/impl.h"
 #include "taut/spec/motion.h"
 #include "taut/spec/targets.h"
@@ -233,7 +234,7 @@ std::optional<Divergence> World::Impl::tickIslands(const std::vector<ColliderMot
     });
     const auto diagnose = [&](Island& island, const Fault& fault) {
         undoTick();
-        return island.diagnose(fault, time);
+        return world::diagnose(island, fault, time);
     };
     for (std::size_t i = 0; i < faults.size(); ++i)
         if (faults[i]) {
@@ -323,7 +324,7 @@ std::uint64_t World::stateHash() const {
 
 std::vector<IslandInfo> World::islands() const {
     std::vector<IslandInfo> all;
-    for (const auto& island : impl_->islands) all.push_back(island->info(impl_->now()));
+    for (const auto& island : impl_->islands) all.push_back(infoOf(*island, impl_->now()));
     return all;
 }
 

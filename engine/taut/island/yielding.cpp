@@ -1,0 +1,111 @@
+#include "taut/island/yielding.h"
+
+#include <algorithm>
+
+namespace taut::world {
+
+// Beyond the break strain, against the length that it was made with, a spring is gone; beyond the yield strain its
+// rest length follows, so that the elastic strain stays at it. The method goes on: what it keeps of forces is those of
+// a moment before.
+bool Yielding::giveWay(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces) {
+    beyond_.clear();
+    dynamics.findBeyond(beyond_);
+    if (beyond_.empty()) return false;
+    dynamics.positions(x_);
+    std::vector<Strength::Break> over;
+    std::vector<int> changed;
+    for (const int s : beyond_) {
+        const double l = lengthOf(plan.springs[static_cast<std::size_t>(s)], x_);
+        if (const double overload = strength_->overload(s, l); overload > 1) {
+            over.push_back({s, overload});
+            continue;
+        }
+        const double next = strength_->yieldedLength(s, l);
+        if (next == plan.springs[static_cast<std::size_t>(s)].restLength) continue;
+        remember(plan, s);
+        plan.springs[static_cast<std::size_t>(s)].restLength = next;
+        changed.push_back(s);
+    }
+    if (!over.empty()) tear(plan, dynamics, forces, strength_->firstToBreak(std::move(over)), changed);
+    if (changed.empty()) return false;
+    dynamics.changeSprings(changed);
+    for (const int s : changed) dynamics.watchLength(s, strength_->limitsOf(s));
+    return true;
+}
+
+void Yielding::tear(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces, const std::vector<int>& springs,
+                    std::vector<int>& changed) {
+    bool isSurfaceLess = false;
+    std::vector<std::pair<int, int>> ends;
+    for (const int s : springs) {
+        const SpringOrigin& origin = plan.origins[static_cast<std::size_t>(s)];
+        Body& body = *plan.bodies[static_cast<std::size_t>(origin.body)];
+        const mechanics::Spring& made = body.model.springs[static_cast<std::size_t>(origin.spring)];
+        remember(body);
+        body.damage.sever(made.a, made.b, 0.5);
+    }
+    for (std::size_t number = 0; number < plan.bodies.size(); ++number) {
+        Body& body = *plan.bodies[number];
+        const Damage::Assessed assessed = body.damage.assess(body.model);
+        isSurfaceLess = isSurfaceLess || assessed.isSurfaceLess;
+        for (const auto& [a, b] : assessed.severed) {
+            ends.emplace_back(body.pointOf[static_cast<std::size_t>(a)], body.pointOf[static_cast<std::size_t>(b)]);
+            for (const int s : strength_->between(ends.back().first, ends.back().second)) {
+                if (plan.origins[static_cast<std::size_t>(s)].body != static_cast<int>(number)) continue;
+                if (plan.broken[static_cast<std::size_t>(s)]) continue;
+                remember(plan, s);
+                plan.broken[static_cast<std::size_t>(s)] = true;
+                plan.springs[static_cast<std::size_t>(s)].stiffness = 0;
+                changed.push_back(s);
+            }
+        }
+    }
+    for (const auto& [a, b] : ends)
+        for (const int s : strength_->around(a, b)) dynamics.watchLength(s, strength_->limitsOf(s));
+    if (isSurfaceLess) dynamics.setForces(forces);
+    hasTorn_ = true;
+}
+
+void Yielding::remember(const IslandPlan& plan, int spring) {
+    const auto s = static_cast<std::size_t>(spring);
+    isRemembered_.resize(plan.springs.size(), false);
+    if (isRemembered_[s]) return;
+    isRemembered_[s] = true;
+    before_.push_back({spring, plan.springs[s].stiffness, plan.springs[s].restLength, plan.broken[s]});
+}
+
+void Yielding::remember(Body& body) {
+    if (std::none_of(damaged_.begin(), damaged_.end(), [&](const auto& kept) { return kept.first == &body; }))
+        damaged_.emplace_back(&body, body.damage);
+}
+
+void Yielding::keep() {
+    for (const Spring& was : before_) isRemembered_[static_cast<std::size_t>(was.number)] = false;
+    before_.clear();
+    damaged_.clear();
+    hasTorn_ = false;
+}
+
+void Yielding::undo(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces) {
+    if (before_.empty()) return;
+    for (const Spring& was : before_) {
+        const auto s = static_cast<std::size_t>(was.number);
+        plan.springs[s].stiffness = was.stiffness;
+        plan.springs[s].restLength = was.restLength;
+        plan.broken[s] = was.isBroken;
+    }
+    for (auto& [body, damage] : damaged_) body->damage = std::move(damage);
+    dynamics.take(Changes{}.add(hasTorn_ ? Change::shape : Change::lengths), forces);
+    keep();
+    watch(plan, dynamics);
+}
+
+void Yielding::watch(const IslandPlan& plan, Dynamics& dynamics) {
+    isOn_ = std::any_of(plan.bodies.begin(), plan.bodies.end(),
+                        [](const Body* body) { return body->plasticity.yieldStrain || body->plasticity.breakStrain; });
+    if (!isOn_) return;
+    if (!strength_) strength_ = std::make_unique<const Strength>(plan);
+    dynamics.watchLengths(strength_->limits());
+}
+
+}  // namespace taut::world

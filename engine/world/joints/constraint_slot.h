@@ -198,13 +198,13 @@ class ConstraintSlot {
             tie.v[k] = v_[n];
         }
     }
-    void takeTurns(bool (Constraint::*project)(const Constraint::Moment&)) {
+    void takeTurns(bool (Constraint::*turn)(const Constraint::Moment&)) {
         constexpr int mostRounds = 50;
         for (int round = 0; round < mostRounds; ++round) {
             bool moves = false;
             for (Tie& tie : ties_) {
                 gather(tie);
-                if (!((*tie.constraint).*project)({tie.w, tie.from, tie.x, tie.v})) continue;
+                if (!((*tie.constraint).*turn)({tie.w, tie.from, tie.x, tie.v})) continue;
                 moves = true;
                 for (std::size_t k = 0; k < tie.constraint->points().size(); ++k) {
                     x_[tie.numbers[k]] = tie.x[k];

@@ -234,9 +234,9 @@ TEST(StiffContact, ShortensStepsByWhatThereIsNowNotByWhatThereWasAtFirst) {
     ball.shape = "sphere";
     ball.radius = 0.1;
     ball.restitution = 1.0;
-    ball.keys = {{0.0, {0, -0.12, 0}, dvec3(0.0), Ease::linear},
-                 {1.0, {0, -0.07, 0}, dvec3(0.0), Ease::linear},
-                 {1.2, {0, 0.93, 0}, dvec3(0.0), Ease::linear}};
+    ball.keys = {{0.0, dvec3(0.0, -0.12, 0.0), dvec3(0.0), world::Ease::linear},
+                 {1.0, dvec3(0.0, -0.07, 0.0), dvec3(0.0), world::Ease::linear},
+                 {1.2, dvec3(0.0, 0.93, 0.0), dvec3(0.0), world::Ease::linear}};
     world::World world(scene);
     const int quiet = world.islands().front().substeps;
     EXPECT_FALSE(advance(world, 60));

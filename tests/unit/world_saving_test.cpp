@@ -336,8 +336,8 @@ TEST(SavingRamps, OneThatHasEndedIsNotAllowedForAgain) {
                                 "collider.c = { shape = \"cylinder\", radius = 0.29, height = 0.5 }\n"
                                 "cloth.b = { material = \"m\", size = [0.12, 0.44], cells = [3, 4] }\n"
                                 "at = [{ t = 0, do = \"ramp\", key = \"world.gravity\", to = [45, 0, 47] },\n"
-                                "      { t = 0.0166667, do = \"push\", target = \"cloth.b@left\",\n"
-                                "        impulse_Ns = [-0.07, 0.06, 0] }]\n",
+                                "      { t = 0.0166667, do = \"push\", target = \"cloth.b@left\", "
+                                "impulse_Ns = [-0.07, 0.06, 0] }]\n",
                                 "s.toml", {})
                                 .spec;
     World world(scene), again(scene);

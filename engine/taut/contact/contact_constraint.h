@@ -14,6 +14,7 @@ struct ContactConstraint {
     dvec3 normal;                   // unit, towards the first side
     double distance;                // [m] at the start of the instant
     double thickness;               // [m] that they keep
+    double recovery = 1.0;          // share of what an overlap is taken back by
     double friction;                // Coulomb's μ [-]
     int a, b;                       // as CandidatePair
     bool isPoint;                   // of a point and a triangle; else of edges

@@ -105,7 +105,7 @@ class ContactGroup {
     void classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
                   const NarrowPhaseScratch& scratch, std::vector<ContactConstraint>& pairs) const;
     bool isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const;
-    bool isRidge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const;
+    double ridge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const;
     bool isTangled(const ContactConstraint& pair) const;
     void press(const Instant& instant);
     void untangle(const Instant& instant);

@@ -37,18 +37,20 @@ bool ContactGroup::isTangled(const ContactConstraint& pair) const {
     return std::min(first, second) != unmarked && std::max(first, second) == wrongSide;
 }
 
-// Whether no face beside the edge is nearer to what lies outward of a place on it.
-bool ContactGroup::isRidge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const {
+// How far the faces beside an edge stay behind what lies outward of a place on it: 1 of a ridge, 0 where one rises beside
+// it by `valley`, and less where it is nearer than the edge.
+double ContactGroup::ridge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const {
+    double most = 0;  // sine of the steepest
     for (int t : edge.triangles) {
         if (t < 0) continue;
         for (int i : elements_.triangles()[static_cast<std::size_t>(t)].points) {
             if (i == edge.a || i == edge.b) continue;
             const dvec3 inwards = x[static_cast<std::size_t>(i)] - on;
             const double rise = glm::dot(inwards, outward);
-            if (rise > 0 && rise * rise > valley * valley * glm::dot(inwards, inwards)) return false;
+            if (rise > most * length(inwards)) most = rise / length(inwards);
         }
     }
-    return areWingsBehind(edge, outward, x);
+    return areWingsBehind(edge, outward, x) ? std::min(1.0, 2.0 * (1.0 - most / valley)) : -1.0;
 }
 
 // Of a point whose nearest place on a triangle is on an edge or a corner: whether that is so of all triangles there,
@@ -192,7 +194,8 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
         if (isBall && (first.triangles[0] >= 0 || second.triangles[0] >= 0))
             pair.isActive = false;
         else
-            pair.isActive = isRidge(first, onFirst, -pair.normal, x0) && isRidge(second, onSecond, pair.normal, x0);
+            pair.recovery = std::min(ridge(first, onFirst, -pair.normal, x0), ridge(second, onSecond, pair.normal, x0));
+        if (pair.recovery < 0) pair.isActive = false;
     }
     if (pair.isActive && gap >= activeShare * pair.thickness && misses(pair, x0, x1, 1.0 - activeShare))
         pair.isActive = false;

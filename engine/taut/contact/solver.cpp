@@ -128,7 +128,7 @@ void ContactSolver::takeBack(std::span<const ContactConstraint> pairs, std::span
     bool overlaps = false;
     for (const Row& row : rows) {
         const ContactConstraint& pair = pairs[static_cast<std::size_t>(row.pair)];
-        const double recover = pair.gap() < 0 ? std::min(-options.recovery * pair.gap(), fastestOut * h) : 0.0;
+        const double recover = pair.gap() < 0 ? std::min(-options.recovery * pair.recovery * pair.gap(), fastestOut * h) : 0.0;
         overlaps = overlaps || recover > 0;
         if (recover > 0 || row.impulse.normal > 0) pushes.push_back({row.pair, row.gains, row.mass, recover});
     }

@@ -14,11 +14,11 @@ struct ContactConstraint {
     dvec3 normal;                   // unit, towards the first side
     double distance;                // [m] at the start of the instant
     double thickness;               // [m] that they keep
-    double recovery = 1.0;          // share of what an overlap is taken back by
     double friction;                // Coulomb's μ [-]
     int a, b;                       // as CandidatePair
     bool isPoint;                   // of a point and a triangle; else of edges
     bool isActive;                  // else it is only watched
+    double recovery = 1.0;          // 0 … 1: share by which an overlap is taken back
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]
 };

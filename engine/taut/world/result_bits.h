@@ -8,7 +8,7 @@ namespace taut::world {
 
 // Raised by one in the commit that changes what any scene computes, if only in the last bit. What carries no number was
 // recorded by bits 1.
-inline constexpr int resultBits = 4;
+inline constexpr int resultBits = 5;
 
 inline constexpr int mostBits = 999'999'999;  // 1 … this: anything else is no such number
 

@@ -10,9 +10,11 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/bodies/island_plan.h"
-#include "taut/spec/spec.h"
 
 namespace taut::world {
+
+struct JointSpec;
+struct SceneSpec;
 
 // Where the collider of that title, "collider.pole", is now; nothing where there is none.
 using FindPose = std::function<std::optional<collision::Pose>(const std::string& collider)>;

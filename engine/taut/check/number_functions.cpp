@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "taut/check/function_table.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "taut/core/aligned_array.h"
+#include "taut/ode/fastest_mode.h"
 #include "taut/ode/first_order_method.h"
 #include "taut/ode/system.h"
+#include "taut/ode/work.h"
 
 namespace taut::ode {
 
@@ -26,26 +28,6 @@ struct State {
     core::AlignedArray<Real> x;                    // positions at t
     core::AlignedArray<Real> v;                    // velocities as the method stores them (leap-frog: at t - h/2)
     std::vector<core::AlignedArray<Real>> memory;  // what else the method keeps, sized by start()
-};
-
-// What a run has cost so far.
-struct Work {
-    std::int64_t evaluations = 0;  // of the acceleration, those to start and to synchronise included
-    std::int64_t iterations = 0;   // of a solver: one product with the stiffness each
-    std::int64_t unconverged = 0;  // solves that did not reach their tolerance
-
-    Work& operator+=(const Work& other) {
-        evaluations += other.evaluations;
-        iterations += other.iterations;
-        unconverged += other.unconverged;
-        return *this;
-    }
-    Work& operator-=(const Work& other) {
-        evaluations -= other.evaluations;
-        iterations -= other.iterations;
-        unconverged -= other.unconverged;
-        return *this;
-    }
 };
 
 // How methods that solve equations, or split them, go about it; the others have no use for it.
@@ -109,15 +91,6 @@ class Method {
     Work work_;
     Real speedLimit_ = std::numeric_limits<Real>::infinity();
     Speeds speeds_ = Speeds::unknown;
-};
-
-// The fastest motion of a system, as a bound: what limits the step.
-struct FastestMode {
-    double omega = 0;        // ω [1/s], stiffness over mass
-    double tau = 0;          // [s] dashpots c = τ k
-    double rate = 0;         // [1/s] other explicit damping: wind, anchors
-    double drag = 0;         // [1/s] smallest drag rate γ of a free point
-    double largestDrag = 0;  // [1/s] largest of them
 };
 
 // The functions that make a method, one for each precision: of a method for any y' = f(t, y), or of one that needs

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "taut/core/error.h"
+#include "taut/ecs/registry.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario_checks.h"
 #include "taut/world/components.h"

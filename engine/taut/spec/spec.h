@@ -17,6 +17,7 @@
 #include "taut/spec/collider_spec.h"
 #include "taut/spec/force_spec.h"
 #include "taut/spec/picture_spec.h"
+#include "taut/spec/run_spec.h"
 #include "taut/spec/solver_spec.h"
 #include "taut/spec/specs.h"
 #include "taut/spec/joint_spec.h"
@@ -39,11 +40,6 @@ struct WorldSpec {
 struct ContactSpec {
     double friction = 0.3;        // Coulomb's μ between two bodies, times the factors of both [-]
     std::optional<int> instants;  // a tick, at which contacts are looked at; none: as many as their speed asks for
-};
-
-struct RunSpec {
-    double fps = 60.0;     // pictures a second of scene time
-    double seconds = 5.0;  // length
 };
 
 // What hands may do while the scene runs. A timeline's own grabs are allowed for without it.

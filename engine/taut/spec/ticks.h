@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "taut/spec/spec.h"
+#include "taut/spec/run_spec.h"
 
 namespace taut::world {
 

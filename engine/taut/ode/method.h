@@ -67,12 +67,12 @@ class Method {
     // Tells that the x and v of these points were changed after the step, by a contact.
     virtual void touch(State<Real>& state, std::span<const int> points) = 0;
 
-    // Velocities at the time of the positions as far as they are known without another evaluation; of state, or of it.
+    // The best known velocities at the time of the positions without another evaluation; they belong to the state.
     virtual const Real* predicted(const State<Real>& state) const { return state.v.data(); }
-    // The same, to be changed; other than state.v of methods whose v is that of the step.
+    // The same, to be changed. It is not state.v where a method stores v at another time.
     Real* predicted(State<Real>& state) const { return const_cast<Real*>(predicted(std::as_const(state))); }
 
-    // Whether contacts concern more than the points that they touch: so they do where all are solved for at once.
+    // Whether contacts affect other points than those that touch, as in methods that solve for all points at once.
     virtual bool yields() const { return false; }
     // After a step from t to t + h and touch(): solves for the step once more. Points with a normal end as far along it
     // as they are now, and keep their v along it; those without stay where they are, as they are. May be called again

@@ -13,11 +13,11 @@
 //   D*   half a step of the dashpots of D, in the opposite order: the adjoint of D
 //
 // What order it keeps. D alone composes flows that do not commute: order 1 (Lie and Trotter). D* R D reads the same in
-// both directions where R does, and a symmetric method has even order: 2 (Strang 1968; Hairer, Lubich and Wanner, II.5).
-// In R drag takes the mean of the velocities before and after it, and chains the mean of those before the kick and
-// after themselves: each alone is symmetric. Where drag and chains act on the same points an error of first order
-// remains, of the size γ h/2 of what the chains do. Forces that depend on velocity take w, extrapolated to the time of
-// the positions with an error O(h²).
+// both directions where R does, and a symmetric method has even order: 2 (Strang 1968; Hairer, Lubich and Wanner,
+// Geometric Numerical Integration, II.5). In R drag takes the mean of the velocities before and after it, and chains
+// the mean of those before the kick and after themselves: each alone is symmetric. Where drag and chains act on the
+// same points an error of first order remains, γ h/2 of what the chains do. Forces that depend on velocity take w,
+// extrapolated to the time of the positions with an error O(h²).
 //
 // Why it is stable. D and D* never raise the kinetic energy, for any h and any c. Without them the method is leap-frog.
 // For large h c they are wrong only in how fast they damp: accuracy, not stability, keeps the step short against the

@@ -1,8 +1,8 @@
 // What a scene asks for, as plain data with defaults. The loader fills it, the world is built from it; it knows
 // neither files nor pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
 //
-// The loader refuses what is out of range (scene::manual() has every range). Who fills a scene in code keeps to the
-// same ranges and words, which the world does not check again; that targets and materials exist it does.
+// The loader refuses values out of range (scene::manual() lists every range). Code that fills a scene must keep to the
+// same ranges and words: the world does not check them again. It does check that targets and materials exist.
 #pragma once
 
 #include <map>
@@ -80,7 +80,7 @@ struct SceneSpec {
     std::vector<LabelSpec> labels;
     HandSpec hand;
     Specs<ActionSpec> actions;                                 // by time, those of one moment in the order of the file
-    std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // of which they are; none: the engine's own
+    std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // the table of their kinds; none: the engine's own
     std::vector<CheckSpec> checks;                             // in the order of the file
     std::vector<GoldenSpec> goldens;
 };

@@ -39,7 +39,7 @@ class Constraint {
     virtual std::span<const int> points() const = 0;  // of the plan, each once
     virtual std::span<const Place> places() const { return {}; }
 
-    // Moves x to where the constraint holds, along gradients at `from`. Displacements are in proportion to inverse masses
+    // Moves x to where the constraint holds, along gradients at `from`. Displacements go with the inverse masses
     // and add no momentum. Returns whether any x changed by more than rounding.
     virtual bool projectPositions(const Moment& moment) = 0;
     // The same for v: afterwards its component along the gradients at x is zero.

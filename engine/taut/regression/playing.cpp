@@ -8,6 +8,7 @@
 #include "taut/regression/scenario_checks.h"
 #include "taut/world/components.h"
 #include "taut/spec/motion.h"
+#include "taut/world/world.h"
 
 namespace taut::regression {
 namespace {

@@ -2,7 +2,7 @@
 //
 // One dashpot between a and b at fixed positions damps u, the difference of their velocities along the unit vector n:
 //   u' = -c (w_a + w_b) u.
-// The implicit midpoint rule solves it in closed form. With y = ½ c h (w_a + w_b)
+// The implicit midpoint rule takes it over h in closed form. With y = ½ c h (w_a + w_b)
 //   u(h) = (1 - y)/(1 + y) u(0),   impulse p = g u(0),   g = c h/(1 + y).
 // The factor lies between -1 and 1 for every y >= 0. So no dashpot raises the kinetic energy, however stiff it is and
 // however long the step: the sweep is stable without a condition. Both ends get the same impulse with opposite signs,

@@ -116,7 +116,7 @@ class Colliders {
     //   Of a mesh only a closed one has an inside; an open one has two sides.
     // - Arrivals slower than 2 · gravity · h do not bounce: a resting point arrives with about half of that in each
     //   step, and such a bounce would be over before the next step ends.
-    // - ContactAcceleration by several colliders a point is tried four times against each, in the order of their numbers.
+    // - A point that several colliders touch is tried four times against each, in the order of their numbers.
     // - Surfaces are where the shapes say, without a margin: exact for the closed forms and meshes, within 1e-12 of
     //   its size for a hull (its corners are found on rounded vertices). A mesh keeps at least 8 roundings of the
     //   coordinates (4e-6 m in float, 3e-14 m in double, a metre from the origin).

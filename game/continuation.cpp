@@ -12,6 +12,7 @@
 #include "taut/core/whole_file.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/pipeline/checkpoint.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

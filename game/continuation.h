@@ -12,7 +12,10 @@
 #include "taut/pipeline/run.h"
 #include "taut/scene/load.h"
 #include "taut/scene/used_files.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+class World;
+}
 
 namespace taut::game {
 

@@ -9,6 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/image/video_writer.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

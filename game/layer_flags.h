@@ -9,7 +9,10 @@
 #include "game/command_line.h"
 #include "taut/pipeline/run.h"
 #include "taut/pipeline/run_record.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+class World;
+}
 
 namespace taut::game {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/spec/picture_spec.h"
 
 namespace taut::game {
 namespace {

@@ -19,6 +19,7 @@
 #include "taut/pipeline/run.h"
 #include "taut/regression/tape.h"
 #include "taut/scene/load.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

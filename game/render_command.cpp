@@ -41,6 +41,7 @@
 #include "taut/pipeline/run_parts.h"
 #include "taut/pipeline/run_record.h"
 #include "taut/scene/load.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

@@ -14,6 +14,7 @@
 #include "game/folders.h"
 #include "taut/core/error.h"
 #include "taut/pipeline/self_test.h"
+#include "taut/spec/picture_spec.h"
 
 namespace taut::game {
 

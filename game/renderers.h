@@ -8,7 +8,10 @@
 
 #include "taut/pipeline/run_record.h"
 #include "taut/render/renderer.h"
-#include "taut/spec/spec.h"
+
+namespace taut::world {
+struct PictureSpec;
+}
 
 namespace taut::game {
 

@@ -21,6 +21,7 @@
 #include "taut/regression/tape_compare.h"
 #include "taut/scene/load.h"
 #include "taut/world/result_bits.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

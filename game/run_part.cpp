@@ -12,6 +12,7 @@
 #include "taut/image/video_writer.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/run.h"
+#include "taut/spec/run_spec.h"
 
 namespace taut::game {
 namespace {

@@ -11,7 +11,10 @@
 #include "taut/image/frame_sequence.h"
 #include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/run_parts.h"
-#include "taut/spec/spec.h"
+
+namespace taut::world {
+struct RunSpec;
+}
 
 namespace taut::game {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "taut/bodies/rope.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 using namespace taut;

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "taut/bodies/cloth.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 int main() {

@@ -4,6 +4,7 @@
 
 #include "taut/bodies/rope.h"
 #include "taut/forces/force.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 using namespace taut;

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "taut/bodies/cloth.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 namespace taut {

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "taut/bodies/cloth.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 namespace taut {

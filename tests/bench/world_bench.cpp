@@ -4,6 +4,7 @@
 #include "taut/spec/actions.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 namespace taut {

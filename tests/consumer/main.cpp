@@ -1,4 +1,5 @@
 // Warnings are a project's own affair: with taut's this would not compile.
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 int main() {

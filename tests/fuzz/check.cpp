@@ -2,6 +2,7 @@
 
 #include "fuzz/support.h"
 #include "taut/check/evaluation.h"
+#include "taut/world/world.h"
 
 // A claim, read and then held against a small world.
 void taut::fuzz::readCheck(View bytes) {

@@ -6,6 +6,7 @@
 #include "support/network.h"
 #include "taut/ode/method_table.h"
 #include "taut/bodies/net.h"
+#include "taut/spec/spec.h"
 #include "taut/world/world.h"
 
 namespace taut::test::step_following {

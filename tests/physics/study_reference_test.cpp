@@ -7,6 +7,7 @@
 #include <string>
 
 #include "taut/ode/method_table.h"
+#include "taut/spec/spec.h"
 #include "taut/study/errors.h"
 #include "taut/study/fehlberg78.h"
 #include "taut/study/problems.h"

@@ -7,6 +7,7 @@
 #include "support/dense_stiffness.h"
 #include "taut/mechanics/builders.h"
 #include "taut/ode/method_table.h"
+#include "taut/spec/spec.h"
 #include "taut/study/threshold.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"

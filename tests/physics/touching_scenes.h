@@ -7,6 +7,7 @@
 
 #include "support/piercings.h"
 #include "taut/spec/actions.h"
+#include "taut/spec/spec.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"

@@ -11,6 +11,8 @@
 
 #include "taut/core/error.h"
 #include "taut/core/instruction_set.h"
+#include "taut/spec/spec.h"
+#include "taut/view/frame_view.h"
 #include "taut/world/components.h"
 #include "taut/world/surface_gap.h"
 #include "taut/world/world.h"

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/spec/spec.h"
 #include "taut/world/components.h"
 #include "taut/world/world.h"
 

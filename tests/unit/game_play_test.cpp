@@ -7,6 +7,7 @@
 #include "image_support.h"
 #include "program_support.h"
 #include "taut/image/read.h"
+#include "taut/spec/picture_spec.h"
 
 namespace taut::game {
 namespace {

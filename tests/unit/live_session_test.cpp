@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "taut/scene/load.h"
+#include "taut/world/world.h"
 
 namespace taut::live {
 namespace {

@@ -12,6 +12,8 @@
 #include "taut/pipeline/run_record.h"
 #include "taut/bodies/net.h"
 #include "taut/forces/wind.h"
+#include "taut/spec/spec.h"
+#include "taut/world/world.h"
 
 namespace taut::pipeline {
 namespace {

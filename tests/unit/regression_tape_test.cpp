@@ -10,6 +10,7 @@
 #include "taut/pipeline/sealed_file.h"
 #include "taut/regression/tape_compare.h"
 #include "taut/scene/load.h"
+#include "taut/world/world.h"
 
 namespace taut::regression {
 namespace {

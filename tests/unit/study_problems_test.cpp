@@ -1,3 +1,4 @@
+#include "taut/spec/spec.h"
 #include "taut/study/problems.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "taut/spec/spec.h"
 #include "taut/study/work_precision.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "support/small_scenes.h"
 #include "taut/bodies/cloth.h"

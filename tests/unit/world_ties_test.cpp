@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "support/timelines.h"
 #include "taut/core/error.h"

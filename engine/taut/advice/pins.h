@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "taut/world/world.h"
 
 namespace taut::world {
+
+class World;
 
 class Pins {
   public:

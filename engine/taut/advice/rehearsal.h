@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "taut/spec/spec.h"
 
 namespace taut::world {
+
+struct SceneSpec;
 
 struct Rehearsal {
     std::vector<std::string> faults;    // what ends the run, with file, line and column

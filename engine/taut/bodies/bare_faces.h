@@ -1,4 +1,4 @@
-// What cuts and tears bare of the inside of a block.
+// The faces inside a block that cuts and tears have laid open.
 #pragma once
 
 #include <array>

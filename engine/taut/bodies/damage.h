@@ -1,5 +1,5 @@
-// What has been cut or torn of a body, told in points of its model: which edges, and which triangles and tetrahedra
-// thereby. It knows neither islands nor how it came about.
+// What has been cut or torn of a body, in points of its model: edges, and the triangles and tetrahedra that went with
+// them. It knows neither islands nor the cause.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@ class Damage {
     // Where it is severed, as a share of the way from a to b; a half where nothing else is known.
     double share(int a, int b) const;
     const std::map<Edge, double>& edges() const { return edges_; }  // with the share from the lower point
-    // Also of others than those of the model, none of which ever goes.
+    // A triangle that is not one of the model's is never gone.
     bool isTriangleGone(std::size_t triangle) const { return triangle < triangles_.size() && triangles_[triangle]; }
     bool isCellGone(std::size_t cell) const { return !cells_.empty() && cells_[cell]; }
     std::size_t goneCells() const { return goneCells_; }  // how many
-    // Cells and triangles that are gone, of a body with any such cell: with them changes what of its inside is bare.
+    // Number of cells and triangles that are gone, of a body that has cells. While it stays, so do the bare faces.
     std::size_t goneAround() const { return goneCells_ > 0 ? goneCells_ + goneTriangles_ : 0; }
 
     // Share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
@@ -34,8 +34,8 @@ class Damage {
         std::vector<Edge> severed;   // since the last time
         bool isSurfaceLess = false;  // triangles or tetrahedra have gone
     };
-    // After severing: bending springs follow the springs that they lie along, and triangles and tetrahedra go whose
-    // corners no spring holds together any more. Always of the same model; its cost is that of what is new.
+    // To be called after sever(), always with the same model. A bending spring goes with the springs along it;
+    // triangles and tetrahedra go when no spring holds their corners together. The cost is that of the new damage.
     Assessed assess(const mechanics::Model& model);
 
   private:

@@ -23,7 +23,7 @@ struct SpringOrigin {
     int spring = -1;  // of that body's model
 };
 
-// What a hand or a collider has got hold of. Its points keep their places about it and turn with it.
+// The points that a hand or a collider holds. They keep their places relative to it and turn with it.
 struct Grip {
     std::string holder;                      // the hand, or "collider.pole"
     bool ofCollider = false;                 // which of the two
@@ -73,7 +73,7 @@ struct JointReport {
 std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec,
                                     std::vector<JointReport>* joints = nullptr);
 
-// That a place of a constraint is on this collider, which is on that path.
+// Records that a place of a constraint is fixed to this collider, which moves on this path.
 void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::PosePath& path);
 
 // Takes stiffness, damping and drag over from the models of the bodies, for instance when those have changed.
@@ -87,7 +87,8 @@ std::vector<double> inverseMassesOf(const IslandPlan& plan);
 // The cells that are left of a body, or of all bodies of the plan, by points of the island.
 std::vector<mechanics::VolumeCell> cellsOf(const Body& body);
 std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan);
-// The body and its own number of a point; null and the point where none has it. Of welded bodies the first.
+// The body of a point and the point's number there; of welded bodies the first. Null and the point itself if no body
+// has it.
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point);
 // (points) whether it is held, in place or on a collider.
 std::vector<bool> heldPointsOf(const IslandPlan& plan);

@@ -1,5 +1,5 @@
-// The bytes of a world, written and read by the same words: a struct says once what it keeps, and in which order. It
-// knows no struct of the world's.
+// The bytes of a world, written and read by the same code: a struct lists once what it saves, and in which order. It
+// knows no struct of the world.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@ namespace taut::world {
     throw core::Error(core::ErrorKind::badContent, "the bytes are not of this scene: " + what);
 }
 
-// Writing leaves what it is given as it is. Reading throws core::Error(badContent) for bytes that end too early or hold
-// what cannot be: a number that is none, an enumerator that there is not.
+// Writing changes nothing. Reading throws core::Error(badContent) for bytes that end too early or hold impossible
+// values: a number that is not finite, an unknown enumerator.
 class StateBytes {
   public:
     explicit StateBytes(core::ByteWriter& writer) : writer_(&writer) {}
@@ -32,7 +32,7 @@ class StateBytes {
         if (isReading() && !condition) core::ByteReader::fail();
     }
 
-    // Writes the mark where it is wanted; reading, takes it where it is. Whether it is there.
+    // Writes the mark if it is wanted; reads it if it is there. Returns whether it is there.
     bool mark(std::uint64_t mark, bool isWanted) {
         if (!isReading()) {
             if (isWanted) writer_->add(mark);
@@ -50,7 +50,7 @@ class StateBytes {
         raw(number);
         if constexpr (std::is_floating_point_v<Number>) require(std::isfinite(number));
     }
-    // Any bits that a number can have: of what a run that diverged left behind.
+    // Any bits that a number can have, also infinite or not a number: the state of a run that diverged.
     template <class Number>
     void raw(Number& number) {
         if (isReading())
@@ -80,7 +80,7 @@ class StateBytes {
         else
             writer_->add(text);
     }
-    // What has to be there as it is.
+    // A value that the bytes must have exactly.
     void expect(std::string text, const char* why) {
         const std::string expected = text;
         (*this)(text);
@@ -105,7 +105,7 @@ class StateBytes {
         (*this)(pose.position);
         (*this)(pose.rotation);
     }
-    // Numbers, or plain structs of numbers without gaps; nothing is said of what they hold.
+    // Numbers, or plain structs of numbers without gaps; their values are not checked.
     template <class Item>
     requires std::is_trivially_copyable_v<Item>
     void list(std::vector<Item>& items) {

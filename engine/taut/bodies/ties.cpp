@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {

@@ -11,10 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "taut/world/world.h"
+#include "taut/world/world_info.h"
 
 namespace taut::world {
 class SurfaceGap;
+class World;
 }
 
 namespace taut::check {

@@ -7,6 +7,7 @@
 #include "taut/check/function_table.h"
 #include "taut/core/error.h"
 #include "taut/world/surface_gap.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

@@ -1,6 +1,7 @@
 // What claims are built of, and how their parts become numbers. It parses nothing.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <map>
 #include <span>
 #include <string>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "taut/check/check.h"
+#include "taut/island/report.h"
+#include "taut/world/world_info.h"
 
 namespace taut::check {
 

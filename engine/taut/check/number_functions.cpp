@@ -1,7 +1,9 @@
 // The moment, and what is done with numbers.
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "taut/check/function_table.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "taut/spec/targets.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

@@ -1,6 +1,7 @@
 // What is measured at points.
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "taut/check/function_table.h"
 #include "taut/check/places.h"

@@ -6,7 +6,9 @@
 
 #include "taut/check/evaluation.h"
 #include "taut/core/error.h"
+#include "taut/spec/spec.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/world.h"
 
 namespace taut::check {
 

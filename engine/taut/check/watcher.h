@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "taut/check/check.h"
-#include "taut/spec/spec.h"
-#include "taut/world/world.h"
+#include "taut/spec/claim_spec.h"
+
+namespace taut::world {
+struct SceneSpec;
+class World;
+}
 
 namespace taut::check {
 

@@ -1,5 +1,5 @@
-// What Candidates keeps: the room given to every solid and to every block of points, and which rooms meet. Knows no
-// contacts.
+// What Candidates keeps: an enlarged box (room) for every solid and every block of points, and which of them overlap.
+// It knows no contacts.
 #pragma once
 
 #include <cstdint>

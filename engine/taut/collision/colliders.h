@@ -1,4 +1,4 @@
-// Points against rigid shapes: the one door to Bullet, of which nothing shows outside this folder's sources.
+// Points against rigid shapes: the one door to Bullet, which no other folder includes.
 #pragma once
 
 #include <cstdint>
@@ -59,13 +59,13 @@ struct Contact {
     double friction;      // Coulomb's μ of point and surface [-]
 };
 
-// What contacts, all of one point, leave of a velocity [m/s] that forces have changed since: none of it goes into a
-// surface, and friction slows what goes along it as Colliders::resolve does. Nothing bounces.
+// The velocity [m/s] of a point after its contacts, when forces have changed it since they were resolved: the part into
+// a surface is removed, and friction slows the part along it as Colliders::resolve does. Nothing bounces. Expects
+// contacts of one point.
 glm::dvec3 velocityInContact(std::span<const Contact> contacts, glm::dvec3 v);
 
-// Which of an island's points may touch which solids: Colliders::resolve() finds it when it has to, and goes by it for
-// as long as points and solids stay in the room that it gave them. Only what it costs depends on it, nothing that comes
-// out.
+// Which of an island's points may touch which solids. Colliders::resolve() finds these pairs and uses them as long as
+// points and solids stay in the boxes that it gave them. They change the cost of a step, never its result.
 class Candidates {
   public:
     Candidates();
@@ -116,7 +116,7 @@ class Colliders {
     //   Of a mesh only a closed one has an inside; an open one has two sides.
     // - Arrivals slower than 2 · gravity · h do not bounce: a resting point arrives with about half of that in each
     //   step, and such a bounce would be over before the next step ends.
-    // - ContactAcceleration by several colliders a point is tried four times against each, in the order of their numbers.
+    // - A point that several colliders touch is tried four times against each, in the order of their numbers.
     // - Surfaces are where the shapes say, without a margin: exact for the closed forms and meshes, within 1e-12 of
     //   its size for a hull (its corners are found on rounded vertices). A mesh keeps at least 8 roundings of the
     //   coordinates (4e-6 m in float, 3e-14 m in double, a metre from the origin).

@@ -16,8 +16,8 @@ class Form {
   public:
     virtual ~Form() = default;
 
-    // The signed distance from p [m], and the direction in which it grows fastest. Never more than the way from p to
-    // the surface: what stands here moves points by it.
+    // The signed distance from p [m], and the direction in which it grows fastest. It must not exceed the distance from
+    // p to the surface: the default sweep() moves points by it.
     virtual Nearest nearest(const dvec3& p) const = 0;
 
     // Whether a path ends, or passes, too near to the surface; `touch` then says where it has to end:
@@ -25,7 +25,7 @@ class Form {
     // - one that ends near the surface, on the side from which it came, goes straight out;
     // - any other, which would come out elsewhere, ends on the plane where it first touched.
     // `crossed`, false before, becomes true where the path has gone through a surface that has no inside.
-    // As it stands here it asks for nothing but `nearest`, place after place along the path.
+    // The default calls only nearest(), at one place after another along the path.
     virtual bool sweep(const Path& path, Touch& touch, bool& crossed) const;
 
     // What it fills [m]; none: it is the half-space behind a plane through the origin.

@@ -1,5 +1,5 @@
-// All shapes of colliders by name: a value, to which a program may add shapes of its own. A new one of the engine's is
-// one file in shapes/, with its distance, its mesh and its row, and one line in shape_table.cpp.
+// All shapes of colliders by name. The table is a value: a program may add shapes of its own. A new shape of the engine
+// is one file in shapes/, with its distance, its mesh and its row, and one line in shape_table.cpp.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace taut::collision {
 
-// What shapes are made from; each takes what it has a use for. Lengths in metres, about the shape's own origin; the
-// axis of what is round is y.
+// What shapes are made from; each takes the sizes that it needs. Lengths in metres, about the shape's own origin; round
+// shapes have the axis y.
 struct ShapeSizes {
     dvec3 normal{0.0, 1.0, 0.0};           // of a plane through the origin, away from the solid; of any length
     dvec3 halfSize{0.5};                   //

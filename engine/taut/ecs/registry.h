@@ -13,14 +13,9 @@
 #include <vector>
 
 #include "taut/core/error.h"
+#include "taut/ecs/entity.h"
 
 namespace taut::ecs {
-
-struct Entity {
-    std::uint32_t index = 0;
-    std::uint32_t generation = 0;  // tells an entity from a later one in the same place
-    friend bool operator==(const Entity&, const Entity&) = default;
-};
 
 class Registry {
   public:

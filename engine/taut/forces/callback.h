@@ -1,5 +1,5 @@
-// A force that is a function of the program that uses the engine, in whatever language it is written: it is shown the
-// points that it acts on as plain lists, in the order of authoring.
+// A force that is a function of the program that uses the engine, in any language. The function gets the points that it
+// acts on as plain lists, in the order of authoring.
 #pragma once
 
 #include <functional>
@@ -24,10 +24,10 @@ struct CallbackSpec {
     std::string name{};                  // "force.pull", of a kind that scenes do not have
     std::vector<std::string> targets{};  // KIND.NAME@SELECTOR; empty: all points of all bodies
 
-    // Writes the force on every point into f (points) [N]; those of held points do not count, and of a shared one the
-    // first does. Called once an evaluation for each island that has such points, never for two at a time, in the order
-    // of the islands; for a moment again where a tick is repeated in shorter steps, and where velocities are asked for.
-    // What it throws ends the tick.
+    // Writes the force on every point into f (points) [N]. Forces on held points do not count; of a shared point the
+    // first entry counts. Called once an evaluation for each island that has such points, in the order of the islands
+    // and never for two at a time. Called again for the same moment where a tick is repeated in shorter steps, and
+    // where velocities are synchronised. An exception ends the tick.
     std::function<void(const CallbackPoints& points, std::span<dvec3> f)> force{};
     // Writes the potential energy of every point into e (points) [J]. Without it the force has none.
     std::function<void(const CallbackPoints& points, std::span<double> e)> energy{};

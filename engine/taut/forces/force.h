@@ -1,5 +1,5 @@
 // Something that acts on the points of bodies besides their springs: gravity, a wind, an anchor, one of the user's own.
-// It is told for the whole world; each island makes a generator of what it does to its own points. It knows no method.
+// One force acts on the whole world; each island makes a generator of its part of it. It knows no method.
 //
 // To add one: derive from ForceOf, give make<Real>(), and World::addForce() it; tests/unit/world_forces_test.cpp does.
 #pragma once
@@ -28,20 +28,21 @@ class Force {
     virtual std::unique_ptr<mechanics::ForceGenerator<float>> inSingle(const IslandPlan& plan) const = 0;
     virtual std::unique_ptr<mechanics::ForceGenerator<double>> inDouble(const IslandPlan& plan) const = 0;
 
-    // The force during a tick from t0 to t1 [s], at whose ends it is `from` and `to` and in whose middle this. What may
-    // change evenly does; all else stays as it is in the middle. Expects the same kind.
+    // The force during a tick from t0 to t1 [s]: `from` at its start, this one in its middle, `to` at its end. Values
+    // that can change evenly do so; all others are those of the middle. Expects the same kind.
     virtual std::shared_ptr<const Force> during(const Force& from, const Force& to, double t0, double t1) const = 0;
-    // Whether it goes on from the one of the tick before without a jump, so that a method need not start again.
+    // Whether it continues the force of the tick before without a jump. If so, no method has to start again.
     virtual bool goesOn(const Force& before) const = 0;
-    // Where it goes on: hands what has changed to the generator that the one before has made.
+    // Only where it continues: gives the changed values to the generator that the force before it made.
     virtual void steer(mechanics::ForceGenerator<float>& generator) const = 0;
     virtual void steer(mechanics::ForceGenerator<double>& generator) const = 0;
 
-    // Whether it asks a function of the program that runs this. The islands on which it acts go one after another then,
-    // in their order, and nobody promises that its bits are the same on every machine.
+    // Whether it calls a function of the program that uses the engine. Then the islands on which it acts advance one
+    // after another, in their order, and its bits may differ between machines.
     virtual bool isCallback() const { return false; }
 
-    // All that may differ from the force that the scene begins with, read or written. A copy to read into.
+    // visit() reads or writes all that may differ from the force at the start of the scene; copy() makes one to read
+    // into.
     virtual void visit(StateBytes& bytes) = 0;
     virtual std::shared_ptr<Force> copy() const = 0;
 
@@ -49,13 +50,13 @@ class Force {
     std::string name_;
 };
 
-// Whether nothing that they save differs.
+// Whether all values that they save are the same.
 bool hasSameBytes(const Force& a, const Force& b);
 
-// Writes what every force does alike. Of `Own` it needs
+// Implements what is the same for every force. `Own` must have
 //   template <class Real> std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan&) const;
-// the others are for forces that change while they act: visit() for all that a ramp or the force itself changes, the
-// rest for what is to change without a start anew.
+// The other functions are for forces that change while they act: visit() for all that a ramp or the force itself
+// changes, the rest for changes that no method has to start again for.
 template <class Own>
 class ForceOf : public Force {
   public:
@@ -97,11 +98,11 @@ using ForceList = std::vector<std::shared_ptr<const Force>>;
 // Each of `middle`, changing evenly where all three have it.
 ForceList during(const ForceList& from, const ForceList& middle, const ForceList& to, double t0, double t1);
 
-// Whether all go on without a jump, none more and none less.
+// Whether they are the same forces as before, and each continues without a jump.
 bool goesOn(const ForceList& before, const ForceList& now);
 
-// Writes the forces, or reads them over those that the scene begins with: gravity, winds, anchors, then those that were
-// added, of which the world has compared the names. Throws core::Error(badContent) where the bytes have others.
+// Writes the forces, or reads them over those at the start of the scene: gravity, winds, anchors, then those that were
+// added, whose names the world has compared. Throws core::Error(badContent) where the bytes have other forces.
 void visit(StateBytes& bytes, ForceList& forces);
 
 }  // namespace taut::world

@@ -3,6 +3,7 @@
 #include "taut/forces/anchor.h"
 #include "taut/forces/scene_forces.h"
 #include "taut/forces/wind.h"
+#include "taut/spec/spec.h"
 
 namespace taut::world {
 namespace {

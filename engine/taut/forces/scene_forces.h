@@ -2,9 +2,10 @@
 #pragma once
 
 #include "taut/forces/force.h"
-#include "taut/spec/spec.h"
 
 namespace taut::world {
+
+struct SceneSpec;
 
 // Gravity, winds, anchors, then those of other kinds: the order in which they are added up.
 ForceList sceneForces(const SceneSpec& spec);

@@ -1,5 +1,21 @@
-// What bringing points out of colliders does to the energy of an island: that of the points that are moved, and of the
-// springs and cells at them, before and after. Anchors and hands, soft beside those, are left out. It knows no method.
+// What bringing points out of colliders does to the energy of an island. It knows no method.
+//
+// Why it is measured. A contact is resolved by moving a point out of the collider and by an impulse (position
+// projection). The impulse adds no energy, for restitution is at most 1. The move does work against the springs and
+// cells at the point, and against gravity. Nothing bounds that work: it grows with the depth, which grows with speed
+// times step. So the island measures it, and takes shorter steps where the sum becomes a share of the
+// energy that there was at a touch (island_watch.cpp).
+//
+// Why local sums are enough. Resolving contacts changes x and v of some points only. The energy of everything else is
+// the same before and after, so the difference of
+//   E(points) = Σ ½ m v² - m g·x  +  Σ ½ k (l - L)² of springs at them  +  Σ ½ K V0 (V/V0 - 1)² of cells at them
+// over those points is the difference of the whole. A spring between two of them counts once, a cell once for all of
+// its corners. Held points have no energy of their own. Anchors and hands are soft beside these springs, and left out.
+//
+// Which velocities. Methods store v at other times than x; both sums take v at the time of the positions. A surface
+// that moves does work of its own, which is no error: then v is taken relative to the surface.
+//
+// One thread adds them up, in double precision and in the order of the points given.
 #pragma once
 
 #include <algorithm>

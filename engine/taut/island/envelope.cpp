@@ -8,6 +8,7 @@
 #include "taut/core/error.h"
 #include "taut/spec/actions.h"
 #include "taut/forces/scene_forces.h"
+#include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
 #include "taut/bodies/ties.h"
 

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "taut/ode/method.h"
+#include "taut/ode/fastest_mode.h"
+#include "taut/ode/work.h"
 
 namespace taut::world {
 

@@ -1,9 +1,28 @@
-// When an island changes its step: the substeps a tick that follow what the bound of the state asks for.
+// When an island changes its step. It knows no island and no bound: it counts the substeps a tick
+// that a bound asks for.
 //
-// A step that follows the state is not symplectic: switching back and forth between two steps takes energy out or puts
-// some in. So it is shortened at once where the bound asks for it, and lengthened only when the bound has allowed a
-// step longer by 15 % for a second. The bound is taken at a tick's end; where the step was over it the tick is undone
-// and repeated in shorter steps.
+// Why the step follows the state. The fastest frequency of a network depends on its shape. The bound that holds in any
+// shape (B1 of mechanics/stability.h) is larger than the bound of the present shape (B2), so steps made from B1 are
+// shorter than most states need.
+//
+// Why it changes seldom. A symplectic method with one step h keeps an energy that differs from the true one by O(h^p).
+// That energy depends on h (Hairer, Lubich and Wanner, Geometric Numerical Integration, chapter IX). Each change of h
+// moves the motion to another one, and many changes back and forth add up to a drift (Calvo and Sanz-Serna 1993). So
+// the rule has hysteresis:
+//
+//   share of the stability limit        0 ......... s/1.15 ........ s ........ (1+s)/2 ........ 1
+//                                         lengthen after 1 s   keep   target   keep       shorten now
+//
+// - A tick is taken in equal steps. The need is computed from the state at its end.
+// - Shorten: beyond the share (1 + s)/2 the tick is undone and repeated with the steps that the need asks for, so no
+//   tick stands that was taken beyond that share. Each repetition adds at least one substep, and their number is
+//   bounded, so repetitions end.
+// - Lengthen: only after a second of ticks, each of which would have allowed steps longer by 15 %. The largest need of
+//   that second counts. A tick that would not have allowed it starts the second anew.
+//
+// Why replay and resume agree. The decision is a function of the state at the end of ticks and of the three numbers
+// that visit() saves. No clock enters it, and the bound has the same bits for any number of threads. A try that is
+// repeated leaves nothing behind but the new number of substeps, and a checkpoint lies between two ticks.
 #pragma once
 
 #include <algorithm>

@@ -1,15 +1,25 @@
-// How long the springs of an island may be, before they yield or break; and which of those that are too long break at
+// How long the springs of an island may be before they yield or break, and which of those that are too long break at
 // once. It changes nothing.
 //
-// In a sheet that is strained evenly a spring breaks at the break strain, whatever the cells. At the tip of a tear the
-// strain of the spring that comes next grows as the cell shrinks, by 1/√l, while what the tear costs per area is the
-// material's. So there the strain to break goes with √(l_ref/l) too, where l_ref is the cell for which it is stated
-// (crack band: Bažant and Oh 1983, sudden drop). Long cells concentrate less than
-// that, for beside n broken springs of a lattice ε_tip² ≈ ε_far² (1 + α n): the limit is ε_break √(l_ref/l + 0.08).
+// Far from a tear a sheet is strained evenly, and a spring breaks at the break strain ε_break whatever the cell size.
+// At the tip of a tear this would depend on the mesh: the strain of the next spring grows as 1/√l when the cell l
+// shrinks, while the energy that a tear takes per area is a property of the material. The crack band model (Bažant and
+// Oh 1983, with a sudden drop) makes that energy independent of the mesh: the break strain at the tip grows as
+// √(l_ref/l), where l_ref is the cell for which ε_break is stated.
 //
-//   o   o---o---o    The tear has come from the left between two rows. The spring beside the last one broken is at its
-//           ║        tip: its ends are the neighbours, along springs that hold, of the ends of a broken one. So are the
-//   o   o---o---o    diagonals (not shown); what lies along the edges of the tear is not.
+// Long cells concentrate strain less than that. Beside n broken springs of a lattice ε_tip² ≈ ε_far² (1 + α n), so the
+// limit at the tip is ε_break √(l_ref/l + 0.08).
+//
+//   o   o---o---o    The tear has come from the left between two rows. The spring beside the last broken one is at the
+//           ║        tip: its ends neighbour the ends of a broken spring along springs that hold. So do the ends of the
+//   o   o---o---o    diagonals (not shown). Springs along the edges of the tear are not at the tip.
+//
+// When a spring breaks, springs near it are relieved. If all that are too long broke in one step, some would break
+// that the first break would have saved. So only those break that no other in reach exceeds; the rest are looked at
+// again after the next step.
+//
+// Yielding moves the rest length so far that the yield strain is left. The break strain counts from the length that the
+// spring was made with, so yielding does not raise the length at which a spring breaks.
 #pragma once
 
 #include <span>

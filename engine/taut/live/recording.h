@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "taut/spec/kinds.h"
-#include "taut/spec/spec.h"
+#include "taut/spec/run_spec.h"
 
 namespace taut::live {
 

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "taut/core/error.h"
+#include "taut/ecs/registry.h"
 #include "taut/world/components.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/world.h"
 
 namespace taut::live {
 namespace {

@@ -8,11 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "taut/island/report.h"
 #include "taut/live/hand.h"
 #include "taut/live/picking.h"
 #include "taut/live/recording.h"
+#include "taut/spec/spec.h"
 #include "taut/view/frame_view.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+class World;
+}
 
 namespace taut::live {
 

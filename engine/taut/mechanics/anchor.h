@@ -1,4 +1,4 @@
-// Springs of no rest length, with a dashpot, from points to a place that may move: what a hand holds cloth by.
+// Springs of zero rest length, with a dashpot, from points to a place that may move. A hand holds cloth by them.
 #pragma once
 
 #include <glm/glm.hpp>

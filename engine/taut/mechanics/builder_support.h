@@ -1,4 +1,4 @@
-// What every builder does alike: sets up the points of a model. Knows no shape.
+// What all builders share: setting up the points of a model. It knows no shape.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Force generators in Millington's sense, made fit for batches: one virtual call adds a force to all its points.
+// Force generators as in Millington's book, for batches: one virtual call adds a force to all its points.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,5 +1,5 @@
-// A vector that moves evenly, from one value to another between two times or without an end: where a hand leads, how a
-// wind rises.
+// A vector that changes evenly with time, from one value to another between two times or without an end: the place of a
+// hand, the velocity of a wind.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -28,7 +28,7 @@ struct LedPoints {
     std::function<void(double t, std::span<glm::dvec3> x, std::span<glm::dvec3> v)> path;
 };
 
-// Faster than this nothing moves: a point that does has left its stable step behind. [m/s]
+// No point moves faster than this [m/s] in a stable step: one that does diverges.
 inline constexpr double speedLimit = 3000.0;
 
 struct PointMass {
@@ -55,14 +55,15 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     std::span<const std::unique_ptr<ForceGenerator<Real>>> generators() const { return generators_; }
     void removeGenerators(std::size_t from = 0);  // those from this one on
 
-    // Take effect when the method is started again. As many as before, springs between the same points; setPoints()
-    // lets go of points that are led.
+    // Take effect when the method is started again. Expect as many as before, springs between the same points.
+    // setPoints() ends what lead() began.
     void setPoints(std::span<const PointMass> points);
     void setSprings(std::span<const Spring> springs);
     // Of these alone stiffness and rest length, from the next evaluation on; springs as for setSprings().
     void changeSprings(std::span<const int> which, std::span<const Spring> springs);
 
-    // Expects points that are held, each led once. Takes effect when the method is started, or started again.
+    // Moves points along given paths. Expects held points, each once. Takes effect when the method is started, or
+    // started again.
     void lead(LedPoints led);
     void prescribe(double t, Real* x, Real* v) override;
 

@@ -1,5 +1,5 @@
-// A rigid thing on its way: a place on a linear path, and a rotation about it that goes from one to another the short
-// way, at the pace of world::between(). What is fixed to it is carried along.
+// The path of a rigid body: a position on a straight line, and a rotation that goes from one to another the short way,
+// at the pace of world::between(). Points fixed to the body move with it.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,8 +1,8 @@
 // The springs of an island, sorted for speed: runs of regular springs that need no index each, and single springs.
 // It knows points by number only.
 //
-// Where a spring goes is settled when the network is made; what it is like may change later, in place. So the order of
-// sums, and with it every bit of a run, depends on the springs as they were at first, not on the way to what they are.
+// The place of a spring is fixed when the network is made; its values may change later, in place. So the order of
+// sums, and with it every bit of a run, depends on the springs at the start, not on the order of later changes.
 #pragma once
 
 #include <span>
@@ -58,7 +58,7 @@ struct SpringNetwork {
     // Takes stiffness, rest length and damping time over. Expects the springs it was made of, between the same points.
     void setSprings(std::span<const Spring> springs);
 
-    // Takes over one of them, whose damping time stays. Returns whether its stiffness is another.
+    // Takes over one of them but for its damping time. Returns whether its stiffness changed.
     bool setSpring(int spring, const Spring& now);
 
     // Where springs stand in `order`.
@@ -66,7 +66,7 @@ struct SpringNetwork {
     int placeOfRun(int run) const { return firstPlaces[static_cast<std::size_t>(run)]; }
     int placeOfSingles() const { return firstPlaces.back(); }
 
-    // The springs of a network of the same, without their dashpots.
+    // Becomes a copy of `damped` without its dashpots.
     void takeUndamped(const SpringNetwork& damped);
 
     std::vector<SpringBlock> blocks;

@@ -1,5 +1,5 @@
-// Which springs of a network are longer or shorter than they may be: cheap enough to be asked after every step. It does
-// not know what becomes of them.
+// Which springs of a network are longer or shorter than their limits; cheap enough to run after every step. It does not
+// know what happens to them.
 #pragma once
 
 #include <limits>

@@ -36,7 +36,7 @@ class VolumePreservation final : public ForceGenerator<Real> {
                        double workingStretch = 1.5);
 
     double workingStretch() const { return workingStretch_; }
-    // Takes the bulk moduli of the cells, which are those that it was made with.
+    // Takes over the bulk moduli of the cells. Expects the cells that it was made with.
     void setBulkModuli(std::span<const VolumeCell> cells);
     // Without `stretches` none is counted as overstretched.
     VolumeReport inspect(const Motion<Real>& motion, bool stretches = true) const;

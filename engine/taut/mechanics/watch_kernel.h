@@ -1,5 +1,5 @@
-// The inner loops that look whether springs are longer or shorter than they may be; one copy an instruction set, every
-// copy gives the same answer.
+// The inner loops that compare the lengths of springs with their limits; one copy for each instruction set, all with
+// the same answer.
 #pragma once
 
 namespace taut::mechanics {

@@ -6,7 +6,7 @@
 //
 // Across the flow (n ∥ u) this is the flat plate's drag ½ρ A C_D u². At an angle α between plate and flow, drag is
 // ∝ A sin α, the area that the flow sees, and lift, at a right angle to u towards n, is ½ρ A C_L u² sin α cos α.
-// Both vanish edge-on, where cloth spends its time and where a lift C_L |u|² n would jump with the sign of n.
+// Both vanish edge-on. Cloth is edge-on much of the time, and a lift C_L |u|² n would jump there with the sign of n.
 //
 // Smoothness. Edge-on, at u·n = 0, the drag's |u·n| has a kink: F is continuous and its slope jumps by ρA C_D |u|. A
 // step across it is off by O(h²) in v whatever the method, so that methods of order 4 fall to 2 once triangles turn

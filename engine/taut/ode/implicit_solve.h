@@ -23,7 +23,7 @@ void forEachNumber(Layout layout, F&& f) {
               static_cast<std::size_t>(i));
 }
 
-// Of methods that stand any step on linear problems. [s]
+// The largest step [s] of methods that are stable for every step on linear problems.
 inline double unlimitedStep(const FastestMode&) {
     return HUGE_VAL;
 }
@@ -146,8 +146,8 @@ class ImplicitMatrix {
     Real step_ = 0;
 };
 
-// A force that is not a number cannot be solved for, and the solver would leave all where it is, unseen: it goes into
-// the unknown of its point, where whoever looks at the state finds it.
+// A force that is not a number cannot be solved for, and the solver would leave the state unchanged. So the value goes
+// into the unknown of its point, and the check of the state finds it.
 template <class Real>
 bool passOnWhatIsNoNumber(const core::AlignedArray<Real>& b, core::AlignedArray<Real>& unknown, Work& work) {
     bool isThere = false;

@@ -5,7 +5,7 @@
 namespace taut::ode {
 
 // Of the forces F = m a_el: K = -∂F/∂x [N/m] and C = -∂F/∂v [kg/s], symmetric and positive semidefinite. Where the true
-// ones are not, they lack what makes them so.
+// ones are not, the parts that prevent it are left out.
 template <class Real>
 class ImplicitSystem {
   public:

@@ -11,7 +11,7 @@ namespace taut::ode {
 template <class Real>
 std::unique_ptr<Method<Real>> makeSplitLeapfrog();
 
-// After a contact nothing is known of the velocity half a step ahead, memory[0]: the new one stands for it.
+// After a contact the velocity predicted for the time of the positions, memory[0], is unknown: the new one replaces it.
 template <class Real>
 void takeAsPredicted(State<Real>& state, std::span<const int> points) {
     for (int p = 0; p < state.layout.planes; ++p) {

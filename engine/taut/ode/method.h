@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "taut/core/aligned_array.h"
+#include "taut/ode/fastest_mode.h"
 #include "taut/ode/first_order_method.h"
 #include "taut/ode/system.h"
+#include "taut/ode/work.h"
 
 namespace taut::ode {
 
@@ -26,26 +28,6 @@ struct State {
     core::AlignedArray<Real> x;                    // positions at t
     core::AlignedArray<Real> v;                    // velocities as the method stores them (leap-frog: at t - h/2)
     std::vector<core::AlignedArray<Real>> memory;  // what else the method keeps, sized by start()
-};
-
-// What a run has cost so far.
-struct Work {
-    std::int64_t evaluations = 0;  // of the acceleration, those to start and to synchronise included
-    std::int64_t iterations = 0;   // of a solver: one product with the stiffness each
-    std::int64_t unconverged = 0;  // solves that did not reach their tolerance
-
-    Work& operator+=(const Work& other) {
-        evaluations += other.evaluations;
-        iterations += other.iterations;
-        unconverged += other.unconverged;
-        return *this;
-    }
-    Work& operator-=(const Work& other) {
-        evaluations -= other.evaluations;
-        iterations -= other.iterations;
-        unconverged -= other.unconverged;
-        return *this;
-    }
 };
 
 // How methods that solve equations, or split them, go about it; the others have no use for it.
@@ -85,12 +67,12 @@ class Method {
     // Tells that the x and v of these points were changed after the step, by a contact.
     virtual void touch(State<Real>& state, std::span<const int> points) = 0;
 
-    // Velocities at the time of the positions as far as they are known without another evaluation; of state, or of it.
+    // The best known velocities at the time of the positions without another evaluation; they belong to the state.
     virtual const Real* predicted(const State<Real>& state) const { return state.v.data(); }
-    // The same, to be changed; other than state.v of methods whose v is that of the step.
+    // The same, to be changed. It is not state.v where a method stores v at another time.
     Real* predicted(State<Real>& state) const { return const_cast<Real*>(predicted(std::as_const(state))); }
 
-    // Whether contacts concern more than the points that they touch: so they do where all are solved for at once.
+    // Whether contacts affect other points than those that touch, as in methods that solve for all points at once.
     virtual bool yields() const { return false; }
     // After a step from t to t + h and touch(): solves for the step once more. Points with a normal end as far along it
     // as they are now, and keep their v along it; those without stay where they are, as they are. May be called again
@@ -109,15 +91,6 @@ class Method {
     Work work_;
     Real speedLimit_ = std::numeric_limits<Real>::infinity();
     Speeds speeds_ = Speeds::unknown;
-};
-
-// The fastest motion of a system, as a bound: what limits the step.
-struct FastestMode {
-    double omega = 0;        // ω [1/s], stiffness over mass
-    double tau = 0;          // [s] dashpots c = τ k
-    double rate = 0;         // [1/s] other explicit damping: wind, anchors
-    double drag = 0;         // [1/s] smallest drag rate γ of a free point
-    double largestDrag = 0;  // [1/s] largest of them
 };
 
 // The functions that make a method, one for each precision: of a method for any y' = f(t, y), or of one that needs

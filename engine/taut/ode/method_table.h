@@ -1,5 +1,5 @@
-// All methods by name: a value, to which a program may add methods of its own. A new one of the engine's is one file,
-// with its class and its row, and one line in method_table.cpp.
+// All methods by name. The table is a value: a program may add methods of its own. A new method of the engine is one
+// file, with its class and its row, and one line in method_table.cpp.
 #pragma once
 
 #include <memory>

@@ -2,9 +2,28 @@
 //
 //   v⁺ = D* R D v⁻,   x' = x + h v⁺,   w' = 1.5 v⁺ - 0.5 v⁻
 //
-// D damps for half a step and D*, its adjoint, for the other half; R is the kick of all other forces, drag and some of
-// the dashpots semi-implicit: a symmetric composition (Strang 1968), of order 2. The first kick is half as long; from
-// then on v lags by half a step, as in leap-frog.
+// Why split. A dashpot c damps the velocity of a pair of points at a rate c (w_a + w_b). An explicit step is unstable
+// once h times that rate is large: a strong dashpot then sets the step although it moves nothing. An implicit step
+// would solve for all points at once.
+//
+// What is split. The kick, at fixed positions, solves v' = A v + r(t, x, v) - γ v. A is the sum of the dashpots; each
+// of them acts on two points only, so each alone is solved in closed form (mechanics/dashpot_sweep.h).
+//   D    half a step of most dashpots, one after the other
+//   R    a whole step of the forces r and the drag γ, then of the dashpots that are solved as chains
+//   D*   half a step of the dashpots of D, in the opposite order: the adjoint of D
+//
+// What order it keeps. D alone composes flows that do not commute: order 1 (Lie and Trotter). D* R D reads the same in
+// both directions where R does, and a symmetric method has even order: 2 (Strang 1968; Hairer, Lubich and Wanner,
+// Geometric Numerical Integration, II.5). In R drag takes the mean of the velocities before and after it, and chains
+// the mean of those before the kick and after themselves: each alone is symmetric. Where drag and chains act on the
+// same points an error of first order remains, γ h/2 of what the chains do. Forces that depend on velocity take w,
+// extrapolated to the time of the positions with an error O(h²).
+//
+// Why it is stable. D and D* never raise the kinetic energy, for any h and any c. Without them the method is leap-frog.
+// For large h c they are wrong only in how fast they damp: accuracy, not stability, keeps the step short against the
+// dashpots too (island/step_choice.cpp).
+//
+// The first kick is half as long; from then on v lags by half a step, as in leap-frog.
 #include <algorithm>
 
 #include "taut/ode/leapfrog_parts.h"

@@ -21,7 +21,7 @@ inline double dampingRatio(const FastestMode& mode, double rate) {
 // ω h at which a mode of ζ >= 1 has h λ = `real` for the larger of its two rates λ.
 double overdampedLimit(double zeta, double real);
 
-// The place between low and high where `isBelow` turns from true to false, to the last bit but a few.
+// The number between low and high where `isBelow` turns from true to false, up to the last few bits.
 double bisect(double low, double high, const std::function<bool(double)>& isBelow);
 
 // Cube root of x >= 0; the C library's may differ from processor to processor.

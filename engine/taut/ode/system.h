@@ -48,7 +48,7 @@ class SecondOrderSystem {
     // Evaluates a_el at (t, x, v) and hands it to the sink range by range, each point once, perhaps from several
     // threads. When a range is handed over nothing reads its x and v any more: the sink may overwrite them.
     virtual void accelerate(double t, const Real* x, const Real* v, AccelerationSink<Real>& sink) = 0;
-    // Overwrites positions and velocities of points that are moved by hand with those of t; either may be null. Such
+    // Overwrites positions and velocities of kinematic points with those at t; either may be null. Such
     // points have no acceleration. Methods call it for every time at which they ask for accelerations.
     virtual void prescribe(double, Real*, Real*) {}
     // What implicit methods need besides, of the same system; nullptr when it has none.

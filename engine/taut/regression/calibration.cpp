@@ -11,6 +11,7 @@
 #include "taut/regression/mutants.h"
 #include "taut/regression/playing.h"
 #include "taut/regression/tape_compare.h"
+#include "taut/world/world.h"
 
 namespace taut::regression {
 namespace {

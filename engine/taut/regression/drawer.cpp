@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "taut/pipeline/self_test.h"
+#include "taut/spec/picture_spec.h"
 
 namespace taut::regression {
 

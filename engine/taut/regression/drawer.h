@@ -13,7 +13,11 @@
 #include "taut/image/image.h"
 #include "taut/render/renderer.h"
 #include "taut/view/frame_view.h"
-#include "taut/spec/spec.h"
+#include "taut/spec/source.h"
+
+namespace taut::world {
+struct PictureSpec;
+}
 
 namespace taut::regression {
 

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "taut/island/report.h"
+#include "taut/spec/spec.h"
 #include "taut/view/frame_view.h"
-#include "taut/world/world.h"
 
 namespace taut::regression {
 

@@ -3,10 +3,12 @@
 #include <chrono>
 
 #include "taut/core/error.h"
+#include "taut/ecs/registry.h"
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario_checks.h"
 #include "taut/world/components.h"
 #include "taut/spec/motion.h"
+#include "taut/world/world.h"
 
 namespace taut::regression {
 namespace {

@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "taut/image/image.h"
+#include "taut/island/report.h"
 #include "taut/regression/drawer.h"
 #include "taut/regression/scenario.h"
 #include "taut/regression/tape.h"
 #include "taut/report/test_report.h"
-#include "taut/world/world.h"
+#include "taut/view/frame_view.h"
 
 namespace taut::regression {
 

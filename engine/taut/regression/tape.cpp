@@ -7,9 +7,11 @@
 
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
+#include "taut/ecs/registry.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/world/components.h"
+#include "taut/world/world.h"
 
 namespace taut::regression {
 namespace {

@@ -9,7 +9,10 @@
 
 #include "taut/scene/used_files.h"
 #include "taut/world/result_bits.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+class World;
+}
 
 namespace taut::regression {
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "taut/spec/spec.h"
+
 namespace taut::scene {
 
 double BodySize::bytes() const {

@@ -1,7 +1,10 @@
 // How much a scene will hold once it is built and drawn, so that too much is refused before anything is allocated.
 #pragma once
 
-#include "taut/spec/spec.h"
+namespace taut::world {
+struct BodySpec;
+struct SceneSpec;
+}
 
 namespace taut::scene {
 

@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "taut/scene/splice.h"
-#include "taut/spec/spec.h"
+
+namespace taut::world {
+struct SceneSpec;
+}
 
 namespace taut::scene {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "taut/spec/spec.h"
+#include "taut/spec/mesh_data.h"
 
 namespace taut::scene {
 

@@ -6,6 +6,7 @@
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
 #include "taut/core/whole_file.h"
+#include "taut/spec/spec.h"
 
 namespace taut::scene {
 namespace {

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "taut/core/bytes.h"
-#include "taut/spec/spec.h"
+
+namespace taut::world {
+struct SceneSpec;
+}
 
 namespace taut::scene {
 

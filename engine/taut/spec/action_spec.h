@@ -34,13 +34,13 @@ struct ActionSpec {
     // How long it goes on after t [s], finite: a timeline performs it at every tick up to then.
     virtual double lasts() const { return 0.0; }
 
-    // Calls visit for itself; an action that applies others, for those. So steps allow for what they will do, and
-    // bodies that they spawn wait.
+    // Calls visit with this action; an action that applies others calls it with those. The choice of the step uses
+    // this, and bodies that will be spawned are made ready.
     using Visit = std::function<void(const ActionSpec&)>;
     virtual void foresee(const Visit& visit) const { visit(*this); }
 };
 
-// Calls visit for each action of that kind that the timeline has, or that one of it will apply.
+// Calls visit with each action of one kind: those of the timeline, and those that they will apply.
 template <class Own>
 void foreseen(const Specs<ActionSpec>& timeline, const std::function<void(const Own&)>& visit) {
     for (const ActionSpec& action : timeline)

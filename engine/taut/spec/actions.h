@@ -1,4 +1,4 @@
-// The actions that the engine knows. Each does what it says at its moment, see action_spec.h; how is in actions/.
+// The actions that the engine has, as plain data. What they do is in actions/; when, in action_spec.h.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,7 +14,7 @@ namespace taut::world {
 
 struct SceneSpec;
 
-// How hands of somebody who plays live are called, from its first letter on; HandSpec::anywhere allows for them.
+// The names of a live player's hands begin with this. Steps allow for them under HandSpec::anywhere.
 inline constexpr const char* liveHand = "mouse";
 
 // An action on points of bodies.
@@ -106,7 +106,7 @@ struct RampField {
     virtual void write(SceneSpec& scene, const std::vector<double>& value) const = 0;
 };
 
-// A field goes from its value at that moment to another. One that is on its way already takes over where that is.
+// A field goes from its present value to another one. A later ramp of the same field starts from where it is then.
 struct RampAction final : SpecOf<RampAction, ActionSpec> {
     static constexpr std::string_view kindName = "ramp";
     void perform(World& world) const override;

@@ -90,7 +90,7 @@ struct BodySpec {
 
     // How a body that was made of it is drawn: by default the triangles of its model, if there are any.
     virtual std::unique_ptr<BodyDrawing> drawing(const Body& body) const;
-    // What it will hold. By default it is built to find out.
+    // How many points, springs and cells it will have. By default the body is built to count them.
     virtual BodyOutline outline(const SceneSpec& scene) const;
     // The mesh file that it is made from, or null.
     virtual const MeshSource* meshSource() const { return nullptr; }

@@ -128,7 +128,7 @@ Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
     return kind;
 }
 
-// What no single field of a kind can say: reports what is wrong with an action that was read.
+// A check that concerns several fields of a kind: reports what is wrong with an action that was read.
 template <class Own>
 using ActionCheck = std::function<void(const fields::CheckInput& input, const Own& action)>;
 

@@ -36,11 +36,11 @@ struct JointSpec {
     virtual double reach() const { return HUGE_VAL; }
     // Whether two points of one body may be tied.
     virtual bool tiesWithin() const { return false; }
-    // Whether two points become one, and a collider leads its points. Then neither of these is called.
+    // Whether two points become one, and points tied to a collider move with it. Then tie() and carry() are not called.
     virtual bool isWeld() const { return false; }
     // Adds to the plan what ties two of its points, `distance` [m] apart: springs, constraints.
     virtual void tie(IslandPlan& plan, int a, int b, double distance) const = 0;
-    // The same of points and a collider, which the grip has, rigid, with the collider as it stands.
+    // The same between points and a collider. The rigid grip has those points and the present pose of the collider.
     virtual void carry(IslandPlan& plan, Grip grip) const = 0;
 };
 

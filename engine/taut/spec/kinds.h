@@ -32,7 +32,7 @@ class KindTable : public core::Table<Kind<Base>> {
 
 struct Kinds {
     KindTable<BodySpec> bodies;
-    KindTable<JointSpec> joints;  // the first is that of a joint which names none
+    KindTable<JointSpec> joints;  // a joint that names no kind is of the first
     KindTable<ForceSpec> forces;
     KindTable<ActionSpec> actions;
     ode::Methods methods;

@@ -5,7 +5,8 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/view/frame_view.h"
-#include "taut/spec/spec.h"
+#include "taut/spec/collider_spec.h"
+#include "taut/spec/picture_spec.h"
 
 namespace taut::world {
 

@@ -1,8 +1,8 @@
 // What a scene asks for, as plain data with defaults. The loader fills it, the world is built from it; it knows
 // neither files nor pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
 //
-// The loader refuses what is out of range (scene::manual() has every range). Who fills a scene in code keeps to the
-// same ranges and words, which the world does not check again; that targets and materials exist it does.
+// The loader refuses values out of range (scene::manual() lists every range). Code that fills a scene must keep to the
+// same ranges and words: the world does not check them again. It does check that targets and materials exist.
 #pragma once
 
 #include <map>
@@ -17,6 +17,7 @@
 #include "taut/spec/collider_spec.h"
 #include "taut/spec/force_spec.h"
 #include "taut/spec/picture_spec.h"
+#include "taut/spec/run_spec.h"
 #include "taut/spec/solver_spec.h"
 #include "taut/spec/specs.h"
 #include "taut/spec/joint_spec.h"
@@ -39,11 +40,6 @@ struct WorldSpec {
 struct ContactSpec {
     double friction = 0.3;        // Coulomb's μ between two bodies, times the factors of both [-]
     std::optional<int> instants;  // a tick, at which contacts are looked at; none: as many as their speed asks for
-};
-
-struct RunSpec {
-    double fps = 60.0;     // pictures a second of scene time
-    double seconds = 5.0;  // length
 };
 
 // What hands may do while the scene runs. A timeline's own grabs are allowed for without it.
@@ -84,7 +80,7 @@ struct SceneSpec {
     std::vector<LabelSpec> labels;
     HandSpec hand;
     Specs<ActionSpec> actions;                                 // by time, those of one moment in the order of the file
-    std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // of which they are; none: the engine's own
+    std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // the table of their kinds; none: the engine's own
     std::vector<CheckSpec> checks;                             // in the order of the file
     std::vector<GoldenSpec> goldens;
 };

@@ -1,5 +1,5 @@
 // A list of structs of several kinds under one base, such as the bodies of a scene. It is a value: a copy of the list
-// copies what is in it. And what makes a struct a kind that such lists and scene files know.
+// copies its items. Also here: what a struct needs to be a kind that such lists and scene files know.
 //
 // To add a kind: derive from SpecOf<Own, Base>, and add bodyKind<Own>(), forceKind<Own>() or actionKind<Own>(rows)
 // (common_rows.h) to a table of kinds.
@@ -37,7 +37,7 @@ struct Pointee {
     bool operator==(const Pointee&) const = default;
 };
 
-// Some of a list, in its order; as long as that is not changed.
+// Some items of a list, in its order. It is valid until the list changes.
 template <class Item>
 class Pointees {
   public:
@@ -131,7 +131,7 @@ class Specs {
     std::vector<std::unique_ptr<Base>> all_;
 };
 
-// Writes what every kind does alike.
+// Implements what is the same for every kind.
 template <class Own, class Base>
 struct SpecOf : Base {
     std::string_view kind() const final { return Own::kindName; }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "taut/spec/spec.h"
+#include "taut/spec/run_spec.h"
 
 namespace taut::world {
 
@@ -19,7 +19,7 @@ struct Ticks {
           perSecond(run.fps * perFrame),
           lastFrame(std::max<std::int64_t>(1, std::llround(run.seconds * run.fps)) - 1) {}
 
-    // The tick at whose start something at t [s] happens, and whose state is the one at t.
+    // The tick nearest to t [s]: an action at t happens as it starts, and the state at t is the one that it starts from.
     std::int64_t at(double t) const { return static_cast<std::int64_t>(std::floor(t * perSecond + 0.5)); }
     std::int64_t last() const { return lastFrame * perFrame; }
     double secondsOf(std::int64_t tick) const { return static_cast<double>(tick) / perSecond; }  // [s]

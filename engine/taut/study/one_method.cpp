@@ -1,4 +1,5 @@
 #include "taut/study/one_method.h"
+#include "taut/spec/spec.h"
 
 namespace taut::study {
 

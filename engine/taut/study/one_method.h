@@ -3,7 +3,11 @@
 
 #include <string_view>
 
-#include "taut/spec/spec.h"
+#include "taut/spec/solver_spec.h"
+
+namespace taut::world {
+struct SceneSpec;
+}
 
 namespace taut::study {
 

@@ -9,6 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/core/parallel.h"
 #include "taut/ode/method_table.h"
+#include "taut/spec/spec.h"
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_search.h"
 #include "taut/study/scene_subject.h"

@@ -13,6 +13,7 @@
 #include "taut/bodies/rope.h"
 #include "taut/bodies/body.h"
 #include "taut/forces/wind.h"
+#include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
 #include "taut/world/world.h"
 

@@ -8,10 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "taut/spec/spec.h"
+#include "taut/spec/solver_spec.h"
 
 namespace taut::world {
 struct IslandInfo;
+struct SceneSpec;
 }
 
 namespace taut::study {

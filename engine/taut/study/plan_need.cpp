@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/spec/spec.h"
 
 namespace taut::study {
 namespace {

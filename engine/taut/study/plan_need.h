@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "taut/spec/spec.h"
+
+namespace taut::world {
+struct SceneSpec;
+}
 
 namespace taut::study {
 

@@ -7,6 +7,7 @@
 
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
+#include "taut/spec/spec.h"
 #include "taut/study/fehlberg78.h"
 #include "taut/study/plan_search.h"
 

@@ -10,6 +10,8 @@
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"
 #include "taut/bodies/body.h"
+#include "taut/ecs/registry.h"
+#include "taut/spec/spec.h"
 #include "taut/world/components.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/world.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "taut/ode/method_table.h"
+#include "taut/spec/spec.h"
 
 namespace taut::study {
 namespace {

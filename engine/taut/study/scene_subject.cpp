@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "taut/core/error.h"
+#include "taut/ecs/registry.h"
 #include "taut/ode/method_table.h"
+#include "taut/spec/spec.h"
 #include "taut/study/fehlberg78.h"
 #include "taut/study/one_method.h"
 #include "taut/world/components.h"

@@ -5,7 +5,10 @@
 #include <string>
 
 #include "taut/study/subject.h"
-#include "taut/spec/spec.h"
+
+namespace taut::world {
+struct SceneSpec;
+}
 
 namespace taut::study {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "taut/ode/method.h"
-#include "taut/spec/spec.h"
+#include "taut/spec/solver_spec.h"
 
 namespace taut::study {
 

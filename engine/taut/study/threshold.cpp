@@ -9,6 +9,7 @@
 
 #include "taut/core/parallel.h"
 #include "taut/ode/method_table.h"
+#include "taut/spec/spec.h"
 #include "taut/study/one_method.h"
 #include "taut/world/world.h"
 

@@ -10,7 +10,10 @@
 
 #include "taut/ode/method.h"
 #include "taut/study/stability_map.h"
-#include "taut/spec/spec.h"
+
+namespace taut::world {
+struct SceneSpec;
+}
 
 namespace taut::study {
 

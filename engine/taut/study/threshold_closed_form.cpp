@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "taut/core/error.h"
+#include "taut/spec/spec.h"
 #include "taut/study/threshold.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/rope.h"

@@ -9,6 +9,7 @@
 #include "taut/bodies/body.h"
 #include "taut/spec/collider_spec.h"
 #include "taut/bodies/drawing.h"
+#include "taut/ecs/registry.h"
 #include "taut/spec/picture_spec.h"
 
 namespace taut::world {

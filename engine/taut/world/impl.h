@@ -18,6 +18,7 @@
 
 #include "taut/core/parallel.h"
 #include "taut/spec/actions.h"
+#include "taut/spec/spec.h"
 #include "taut/world/components.h"
 #include "taut/world/hands.h"
 #include "taut/island/island.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "taut/spec/spec.h"
+
 namespace taut::world {
 namespace {
 

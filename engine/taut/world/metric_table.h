@@ -7,9 +7,13 @@
 #include <string_view>
 #include <variant>
 
-#include "taut/world/world.h"
+#include "taut/island/report.h"
+#include "taut/world/world_info.h"
 
 namespace taut::world {
+
+struct BodySpec;
+struct SceneSpec;
 
 using MetricValue = std::variant<double, std::int64_t, glm::dvec3>;
 

@@ -6,7 +6,7 @@
 
 #include "taut/contact/elements.h"
 #include "taut/contact/bvh.h"
-#include "taut/world/world.h"
+#include "taut/world/world_info.h"
 
 namespace taut::world {
 

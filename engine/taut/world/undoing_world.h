@@ -10,6 +10,7 @@
 
 #include "taut/collision/colliders.h"
 #include "taut/spec/actions.h"
+#include "taut/spec/spec.h"
 #include "taut/forces/callback.h"
 #include "taut/world/world.h"
 

@@ -1,5 +1,6 @@
-// What keeps points of an island where springs would only draw them: rods, limits, one of the user's own. It knows no
-// method and no tick; an island projects it after each step, and once more after contact (constraint_slot.h).
+// A condition on points of an island that holds exactly, where springs would only pull: rods, limits, one of the user's
+// own. It knows no method and no tick; an island projects it after each step and again after contact
+// (constraint_slot.h).
 //
 // To add one: derive from ConstraintOf, and let a kind of joint put it into IslandPlan::constraints;
 // tests/unit/world_own_joint_test.cpp does.
@@ -25,7 +26,8 @@ class Constraint {
         std::string collider;  // "collider.pole"
         dvec3 offset;          // [m] from it, as it is unturned
     };
-    // Points first, in the order of points(), then places. What is held, led or on a collider has an inverse mass of 0.
+    // Points first, in the order of points(), then places. Points that are held or in a rigid grip, and places on
+    // colliders, have an inverse mass of 0.
     struct Moment {
         std::span<const double> inverseMass;  // [1/kg]
         std::span<const dvec3> from;          // [m] when the step began: gradients there keep momentum
@@ -37,10 +39,10 @@ class Constraint {
     virtual std::span<const int> points() const = 0;  // of the plan, each once
     virtual std::span<const Place> places() const { return {}; }
 
-    // Brings x to where it holds, along gradients at `from`, by displacements that are inverse to the masses and add up
-    // to no momentum. What has no inverse mass stays. Whether any x changed by more than rounding.
+    // Moves x to where the constraint holds, along gradients at `from`. Displacements go with the inverse masses
+    // and add no momentum. Returns whether any x changed by more than rounding.
     virtual bool projectPositions(const Moment& moment) = 0;
-    // The same of v, so that it goes on holding at x.
+    // The same for v: afterwards its component along the gradients at x is zero.
     virtual bool projectVelocities(const Moment& moment) = 0;
 
     // How many ties it has, and the largest |l - L|/L of those whose ends all count; both arrays as in Moment.
@@ -49,7 +51,8 @@ class Constraint {
     // Throws core::Error(badContent) where it can never hold.
     virtual void check() const {}
 
-    // What a cut does to it, `isCut` being of two points of the plan; and a collider that is gone. Whether anything.
+    // Removes what a cut goes through (isCut is asked for pairs of points of the plan), or what is tied to a collider
+    // that is gone. Both return whether anything changed.
     using IsCut = std::function<bool(int a, int b)>;
     virtual bool sever(const IsCut&) { return false; }
     virtual bool release(const std::string& /*collider*/) { return false; }
@@ -58,7 +61,7 @@ class Constraint {
     virtual std::shared_ptr<Constraint> copy() const = 0;
 };
 
-// Writes what every constraint does alike.
+// Implements what is the same for every constraint.
 template <class Own>
 class ConstraintOf : public Constraint {
   public:

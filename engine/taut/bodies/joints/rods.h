@@ -40,7 +40,7 @@ class Rods final : public ConstraintOf<Rods> {
         Source source;
         bool isBroken = false;
     };
-    // That two rods share an end: what stands in row i and column j < i is sign · w n_i·n_j.
+    // Two rods that share an end: the matrix has sign · w n_i·n_j in row i and column j < i.
     struct Coupling {
         int i, j, end;
         double sign;

@@ -1,0 +1,52 @@
+// What a world tells of its bodies, their points and its joints. It knows no world.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace taut::world {
+
+struct Body;
+
+// Crossings, those of edges of colliders among them, cost the most: up to some microseconds for each point of bodies
+// that touch.
+enum class Measures { all, butCrossings };
+
+// Points of a target at a published tick, velocities synchronised; body by body, in the order of authoring.
+struct PointsNow {
+    std::vector<glm::dvec3> x, v;  // (points) [m], [m/s]
+    std::vector<double> mass;      // (points) [kg]
+};
+
+// What KIND.NAME@SELECTOR names in a world, without @ all points: World::select() finds it, once for many questions.
+struct Selection {
+    struct Part {
+        const Body* body;
+        std::vector<int> points;  // of the body's model
+    };
+    std::vector<Part> parts;      // in the order of the state hash
+    std::int64_t generation = 0;  // of the world's bodies
+};
+
+// A body's part of the state hash, to tell which of them differ.
+struct BodyHash {
+    std::string name;  // "cloth.flag"
+    std::uint64_t hash = 0;
+};
+
+// What a joint of the scene ties together.
+struct JointInfo {
+    std::string a, b;  // as the scene names the points
+    std::string kind;  // "weld"
+    struct Pair {
+        std::string a, b;  // "block.plank0"; b may be a collider
+        int points = 0;    // of the first that are tied to the second
+    };
+    std::vector<Pair> pairs;
+    double jump = 0;                 // [m] of a weld: the largest by which points are moved together as it is made
+    std::vector<std::string> loose;  // bodies that it names and does not tie
+};
+
+}  // namespace taut::world

@@ -18,7 +18,7 @@ constexpr double wideShare = 0.6;    // of the widest gap there, which another h
 
 // Each on any thread.
 template <class Each>
-void forEachPatch(std::size_t count, Each&& each) {
+void forEachLeaf(std::size_t count, Each&& each) {
     constexpr std::size_t chunk = 32;
     core::parallelFor(static_cast<int>((count + chunk - 1) / chunk), [&](int task) {
         const std::size_t from = static_cast<std::size_t>(task) * chunk;
@@ -124,13 +124,13 @@ Bvh::Bvh(const Elements& elements)
     }
     if (!roots.empty()) root_ = joinRoots(roots);
     motions_.resize(leaves_.size());
-    times_.resize(leaves_.size());
+    references_.resize(leaves_.size());
     std::size_t corners = 0;
     for (const BvhLeaf& leaf : leaves_) {
-        firstRemembered_.push_back(corners);
+        firstReference_.push_back(corners);
         corners += leaf.corners.size();
     }
-    remembered_.assign(corners, dvec3(1e150));
+    referenceShape_.assign(corners, dvec3(1e150));
     firstAt_.assign(static_cast<std::size_t>(elements.pointCount()) + 1, 0);
     for (const BvhLeaf& leaf : leaves_)
         for (int i : leaf.corners) ++firstAt_[static_cast<std::size_t>(i) + 1];
@@ -143,10 +143,10 @@ Bvh::Bvh(const Elements& elements)
     flatness_.resize(leaves_.size());
     isMeasured_.assign(leaves_.size(), 0);
     isFollowed_.assign(leaves_.size(), 0);
-    going_.assign(leaves_.size(), 0.0);
+    travel_.assign(leaves_.size(), 0.0);
     all_.resize(leaves_.size());
     std::iota(all_.begin(), all_.end(), 0);
-    isKnown_.assign(leaves_.size(), 0);
+    isStillFollowed_.assign(leaves_.size(), 0);
     prepareFlatness();
     takeBalls();
 }
@@ -239,11 +239,11 @@ void Bvh::takeBalls() {
     }
 }
 
-void Bvh::remember(std::size_t number, std::span<const dvec3> x) {
+void Bvh::takeReference(std::size_t number, std::span<const dvec3> x) {
     const LeafMotion& motion = motions_[number];
-    dvec3* remembered = remembered_.data() + firstRemembered_[number];
-    for (int i : leaves_[number].corners) *remembered++ = x[static_cast<std::size_t>(i)] - motion.centre;
-    ++times_[number];
+    dvec3* shape = referenceShape_.data() + firstReference_[number];
+    for (int i : leaves_[number].corners) *shape++ = x[static_cast<std::size_t>(i)] - motion.centre;
+    ++references_[number];
 }
 
 void Bvh::findWay(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -262,17 +262,17 @@ void Bvh::findWay(std::size_t number, std::span<const dvec3> x0, std::span<const
     const double share = 1.0 / static_cast<double>(leaf.corners.size());
     motion.centre = share * sum;
     motion.way = share * ways;
-    const dvec3* remembered = remembered_.data() + firstRemembered_[number];
-    double stray = 0, bent = 0;
+    const dvec3* shape = referenceShape_.data() + firstReference_[number];
+    double deviation = 0, deformation = 0;
     for (int i : leaf.corners) {
         const dvec3 before = x0[static_cast<std::size_t>(i)] - motion.centre, after = x1[static_cast<std::size_t>(i)];
         const dvec3 own = after - motion.centre - motion.way - before;
-        const dvec3 bend = before - *remembered++, bendAfter = bend + own;
-        stray = std::max(stray, glm::dot(own, own));
-        bent = std::max(bent, std::max(glm::dot(bend, bend), glm::dot(bendAfter, bendAfter)));
+        const dvec3 bend = before - *shape++, bendAfter = bend + own;
+        deviation = std::max(deviation, glm::dot(own, own));
+        deformation = std::max(deformation, std::max(glm::dot(bend, bend), glm::dot(bendAfter, bendAfter)));
     }
-    motion.stray = std::sqrt(stray);
-    motion.bent = std::sqrt(bent);
+    motion.deviation = std::sqrt(deviation);
+    motion.deformation = std::sqrt(deformation);
 }
 
 void Bvh::correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -283,23 +283,23 @@ void Bvh::correct(std::span<const int> points, std::span<const dvec3> x0, std::s
             isCorrected_[static_cast<std::size_t>(leavesAt_[at])] = 1;
         ways_[k] = glm::dot(x1[k] - x0[k], x1[k] - x0[k]);
     }
-    forEachPatch(leaves_.size(), [&](std::size_t p) {
+    forEachLeaf(leaves_.size(), [&](std::size_t p) {
         if (isCorrected_[p] == 0) return;
-        findGoing(p);
+        findTravel(p);
         findWay(p, x0, x1);
     });
 }
 
-void Bvh::findGoing(std::size_t number) {
+void Bvh::findTravel(std::size_t number) {
     double most = 0;
     for (int i : leaves_[number].corners) most = std::max(most, ways_[static_cast<std::size_t>(i)]);
-    going_[number] = std::sqrt(most);
+    travel_[number] = std::sqrt(most);
 }
 
 void Bvh::start(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     ways_.resize(x0.size());
     for (std::size_t i = 0; i < x0.size(); ++i) ways_[i] = glm::dot(x1[i] - x0[i], x1[i] - x0[i]);
-    forEachPatch(leaves_.size(), [&](std::size_t p) { findGoing(p); });
+    forEachLeaf(leaves_.size(), [&](std::size_t p) { findTravel(p); });
     std::fill(isMeasured_.begin(), isMeasured_.end(), 0);
     std::fill(isFollowed_.begin(), isFollowed_.end(), 0);
 }
@@ -316,17 +316,17 @@ void Bvh::follow(std::span<const int> leaves, std::span<const dvec3> x0, std::sp
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
             const auto p = static_cast<std::size_t>(toFollow_[static_cast<std::size_t>(k)]);
             const bool isStill = elements_.isStill(leaves_[p].surface);
-            char& isKnown = isKnown_[p];
-            if (isStill && isKnown != 0) continue;
-            isKnown = isStill ? 1 : 0;
+            char& isStillFollowed = isStillFollowed_[p];
+            if (isStill && isStillFollowed != 0) continue;
+            isStillFollowed = isStill ? 1 : 0;
             LeafMotion& motion = motions_[p];
             motion.box = {};
             findWay(p, x0, x1);
-            if (most > 0 && !(motion.bent <= most)) {
-                remember(p, x0);
-                motion.bent = motion.stray;
+            if (most > 0 && !(motion.deformation <= most)) {
+                takeReference(p, x0);
+                motion.deformation = motion.deviation;
             }
-            motion.times = times_[p];
+            motion.reference = references_[p];
         }
     });
 }
@@ -346,20 +346,20 @@ void Bvh::findNear(std::span<const Box> boxes, double more, std::vector<LeafPair
         }
     }
     pairs.clear();
-    if (root_ >= 0) meetItself(root_, more, pairs);
+    if (root_ >= 0) findPairsWithin(root_, more, pairs);
     std::sort(pairs.begin(), pairs.end());
 }
 
-void Bvh::meetItself(int number, double more, std::vector<LeafPair>& pairs) const {
+void Bvh::findPairsWithin(int number, double more, std::vector<LeafPair>& pairs) const {
     const Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.surface >= 0 && !elements_.mayMeet(node.surface, node.surface)) return;
     if (node.leaf >= 0) return pairs.push_back(leafPair(node.leaf, node.leaf));
-    meetItself(node.left, more, pairs);
-    meetItself(node.right, more, pairs);
-    meet(node.left, node.right, more, pairs);
+    findPairsWithin(node.left, more, pairs);
+    findPairsWithin(node.right, more, pairs);
+    findPairsBetween(node.left, node.right, more, pairs);
 }
 
-void Bvh::meet(int a, int b, double more, std::vector<LeafPair>& pairs) const {
+void Bvh::findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pairs) const {
     const Node &first = nodes_[static_cast<std::size_t>(a)], &second = nodes_[static_cast<std::size_t>(b)];
     const Box &boxA = boxes_[static_cast<std::size_t>(a)], &boxB = boxes_[static_cast<std::size_t>(b)];
     if (!boxA.overlaps(boxB, nearShare * (first.thickness + second.thickness) + more)) return;
@@ -373,11 +373,11 @@ void Bvh::meet(int a, int b, double more, std::vector<LeafPair>& pairs) const {
         return size.x + size.y + size.z;
     };
     if (second.leaf >= 0 || (first.leaf < 0 && sizeOf(boxA) >= sizeOf(boxB))) {
-        meet(first.left, b, more, pairs);
-        meet(first.right, b, more, pairs);
+        findPairsBetween(first.left, b, more, pairs);
+        findPairsBetween(first.right, b, more, pairs);
     } else {
-        meet(a, second.left, more, pairs);
-        meet(a, second.right, more, pairs);
+        findPairsBetween(a, second.left, more, pairs);
+        findPairsBetween(a, second.right, more, pairs);
     }
 }
 

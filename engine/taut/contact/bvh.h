@@ -45,11 +45,11 @@ struct LeafMotion {
     Box before, box;     // of its points; of those before and after
     dvec3 centre{0.0};   // [m] mean of its points, before
     dvec3 way{0.0};      // [m] of that mean
-    double stray = 0.0;  // [m] no point goes further than that from the way of the mean
+    double deviation = 0.0;  // [m] no point goes further than that from the way of the mean
     // Seen from the mean no point is further than that from where it was when the leaf was last remembered, before and
     // after [m]; and how often that has been.
-    double bent = 0.0;
-    int times = 0;
+    double deformation = 0.0;
+    int reference = 0;
 };
 
 // How far a leaf of a surface that is flat at rest is from being moved as one, before and after: for all directions t
@@ -86,7 +86,7 @@ class Bvh {
 
     // An instant from x0 to x1 (points) [m] begins: of leaves is known only how far any of their points goes.
     void start(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    double going(int leaf) const { return going_[static_cast<std::size_t>(leaf)]; }  // [m]
+    double travel(int leaf) const { return travel_[static_cast<std::size_t>(leaf)]; }  // [m]
     // The motions of those of them that were not followed since. Bvh that have bent further than `most` [m] are
     // remembered anew.
     void follow(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1, double most);
@@ -105,17 +105,17 @@ class Bvh {
     // than that share of their distance at rest. For where the surface is flat and convex at rest and all of it about
     // them is moved nearly as one, |f(p) - f(q)| >= ∫ t·RᵀF t ds >= least |p - q| along the straight way at rest.
     // Negative where that cannot be told. Expects that what lies about them was measured.
-    double flatness(std::span<const int> about) const;
+    double flatness(std::span<const int> leavesBetween) const;
     // Of leaves followed from x0 to x1; those that were measured since then already stand.
     void measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1);
     // Parts that stay further apart than this share of their distance at rest are not in contact.
-    double enough(int surface) const { return enough_[static_cast<std::size_t>(surface)]; }
+    double requiredFlatness(int surface) const { return requiredFlatness_[static_cast<std::size_t>(surface)]; }
     bool isPlane(int surface) const { return planes_[static_cast<std::size_t>(surface)].has_value(); }
     // The least distance at rest of parts of a surface that do not hang together; of those that are flat. [m]
     double leastAltitude(int surface) const { return altitudes_[static_cast<std::size_t>(surface)]; }
     // What lies about them: all leaves that the box at rest of both overlaps. None where that cannot be told, or of
     // more than a few.
-    std::vector<int> about(int a, int b) const;
+    std::vector<int> leavesBetween(int a, int b) const;
 
   private:
     struct Node {
@@ -137,14 +137,14 @@ class Bvh {
     int addLeaf(const std::vector<int>& items, int surface, bool areTriangles);
     int joinRoots(std::span<const int> roots);
     void shareOut();
-    void remember(std::size_t leaf, std::span<const dvec3> x);
-    void findGoing(std::size_t leaf);
+    void takeReference(std::size_t leaf, std::span<const dvec3> x);
+    void findTravel(std::size_t leaf);
     void findWay(std::size_t leaf, std::span<const dvec3> x0, std::span<const dvec3> x1);
     void findPlane(int surface, const dvec3& along);
     void prepareFlatness();
     void measureOne(std::size_t leaf, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    void meetItself(int node, double more, std::vector<LeafPair>& pairs) const;
-    void meet(int a, int b, double more, std::vector<LeafPair>& pairs) const;
+    void findPairsWithin(int node, double more, std::vector<LeafPair>& pairs) const;
+    void findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pairs) const;
 
     const Elements& elements_;
     std::vector<BvhLeaf> leaves_;
@@ -157,19 +157,19 @@ class Bvh {
     std::vector<Node> nodes_;           // children before parents
     int root_ = -1;
     std::vector<double> ways_;                  // [m²] (points) of the instant, squared
-    std::vector<double> going_;                 // [m] (leaves)
+    std::vector<double> travel_;                 // [m] (leaves)
     std::vector<char> isFollowed_;              // (leaves)
     std::vector<LeafMotion> motions_;           // (leaves)
-    std::vector<dvec3> remembered_;             // [m] of the corners of all leaves, from the mean
-    std::vector<std::size_t> firstRemembered_;  // (leaves)
-    std::vector<int> times_;                    // (leaves) remembered
+    std::vector<dvec3> referenceShape_;             // [m] of the corners of all leaves, from the mean
+    std::vector<std::size_t> firstReference_;  // (leaves)
+    std::vector<int> references_;                    // (leaves) remembered
     std::vector<Box> boxes_;                    // (nodes) scratch
     std::vector<std::optional<Plane>> planes_;  // (surfaces)
     struct Inverse {
         double a, b, c, d;  // of the two edges at corner 0, in the plane
     };
     std::vector<double> altitudes_;   // (surfaces) [m] smallest of a triangle
-    std::vector<double> enough_;      // (surfaces) see enough()
+    std::vector<double> requiredFlatness_;      // (surfaces) see enough()
     std::vector<Inverse> inverses_;   // (triangles) of those in planes
     std::vector<RestBox> restBoxes_;  // (leaves) likewise
     struct Gradient {
@@ -180,7 +180,7 @@ class Bvh {
     std::vector<std::size_t> firstGradient_;  // (leaves + 1)
     std::vector<char> isMeasured_;            // (leaves) since they were followed last
     std::vector<int> toMeasure_;              // leaves, scratch
-    std::vector<char> isKnown_;               // (leaves) of still surfaces: where they are
+    std::vector<char> isStillFollowed_;               // (leaves) of still surfaces: where they are
 };
 
 }  // namespace taut::contact

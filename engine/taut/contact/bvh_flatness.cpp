@@ -13,7 +13,7 @@ namespace {
 constexpr double bumps = 0.05, gaps = 2e-3;  // of an edge, of the area
 constexpr double plenty = 1.15;              // of what is enough: no more is asked for
 constexpr double reachIn = 1e-3;             // of an edge
-constexpr std::size_t mostAbout = 48;        // leaves
+constexpr std::size_t mostBetween = 48;        // leaves
 constexpr int measuredAtOnce = 16;           // leaves a task
 
 double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
@@ -110,7 +110,7 @@ void Bvh::prepareFlatness() {
     gradients_.resize(firstGradient_.back());
     constexpr double hair = 1.02;  // for what is not quite flat or convex
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
-        enough_.push_back(hair * nearShare *
+        requiredFlatness_.push_back(hair * nearShare *
                           std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
 }
 
@@ -171,7 +171,7 @@ void Bvh::measureOne(std::size_t number, std::span<const dvec3> x0, std::span<co
     flatness_[number] = flatness;
 }
 
-std::vector<int> Bvh::about(int a, int b) const {
+std::vector<int> Bvh::leavesBetween(int a, int b) const {
     const int surface = leaves_[static_cast<std::size_t>(a)].surface;
     std::vector<int> found;
     if (surface != leaves_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
@@ -185,17 +185,17 @@ std::vector<int> Bvh::about(int a, int b) const {
         const RestBox& own = restBoxes_[p];
         if (own.low.x > box.high.x || own.low.y > box.high.y || box.low.x > own.high.x || box.low.y > own.high.y)
             continue;
-        if (found.size() == mostAbout) return {};
+        if (found.size() == mostBetween) return {};
         found.push_back(static_cast<int>(p));
     }
     return found;
 }
 
-double Bvh::flatness(std::span<const int> about) const {
-    if (about.empty()) return -1.0;
-    const double least = enough(leaves_[static_cast<std::size_t>(about.front())].surface);
+double Bvh::flatness(std::span<const int> leavesBetween) const {
+    if (leavesBetween.empty()) return -1.0;
+    const double least = requiredFlatness(leaves_[static_cast<std::size_t>(leavesBetween.front())].surface);
     dvec3 right(0.0), up(0.0);
-    for (int p : about) {
+    for (int p : leavesBetween) {
         const Flatness& own = flatness_[static_cast<std::size_t>(p)];
         if (own.least < least) return -1.0;
         right += own.right;
@@ -210,7 +210,7 @@ double Bvh::flatness(std::span<const int> about) const {
     up /= height;
     const dvec3 normal = glm::cross(right, up);
     double flattest = 1e300;
-    for (int p : about) {
+    for (int p : leavesBetween) {
         const Flatness& own = flatness_[static_cast<std::size_t>(p)];
         // Turned by an angle, from R of the leaf to that of all, F t may be led that much further away from R t.
         const double trace = glm::dot(right, own.right) + glm::dot(up, own.up) + glm::dot(normal, own.normal);

@@ -41,10 +41,10 @@ class ClosestBatch {
         const int lane = slot % closestBatch;
         return {from.weights[0][lane], from.weights[1][lane], from.weights[2][lane], from.weights[3][lane]};
     }
-    glm::dvec3 apart(int slot) const {
+    glm::dvec3 separation(int slot) const {
         const ClosestLanes& from = lanesOf(slot);
         const int lane = slot % closestBatch;
-        return {from.apart[0][lane], from.apart[1][lane], from.apart[2][lane]};
+        return {from.separation[0][lane], from.separation[1][lane], from.separation[2][lane]};
     }
     double distance(int slot) const { return lanesOf(slot).distance[slot % closestBatch]; }
     long where(int slot) const { return lanesOf(slot).where[slot % closestBatch]; }

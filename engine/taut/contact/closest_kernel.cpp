@@ -28,9 +28,9 @@ inline void sumUp(ClosestLanes& lanes, int n) {
             sum[k] = ((lanes.weights[0][i] * lanes.at[0][k][i] + lanes.weights[1][i] * lanes.at[1][k][i]) +
                       lanes.weights[2][i] * lanes.at[2][k][i]) +
                      lanes.weights[3][i] * lanes.at[3][k][i];
-        lanes.apart[0][i] = sum[0];
-        lanes.apart[1][i] = sum[1];
-        lanes.apart[2][i] = sum[2];
+        lanes.separation[0][i] = sum[0];
+        lanes.separation[1][i] = sum[1];
+        lanes.separation[2][i] = sum[2];
         lanes.distance[i] = __builtin_sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
     }
 }
@@ -150,24 +150,24 @@ int findOverlapping(const BoxLanes& boxes, const double* low, const double* high
     return count;
 }
 
-int findAwake(CandidateRows& rows) {
+int findDue(CandidateRows& rows) {
     using core::TAUT_ISA::larger, core::TAUT_ISA::load;
     using V = core::TAUT_ISA::WideVector<double>;
     constexpr int width = sizeof(V) / sizeof(double);
     alignas(64) double byTravelled[room], byApproached[room];  // minus what is asked for, of those asleep
-    alignas(64) long isAwake[room];
+    alignas(64) long isDue[room];
     int count = 0;
     for (int from = 0; from < rows.n; from += room) {
         const int n = rows.n - from < room ? rows.n - from : room;
-        const double *near = rows.nearTravelled + from, *nearFirst = rows.nearApproached + from;
+        const double *near = rows.travelBudget + from, *nearFirst = rows.approachBudget + from;
         const double travelled = rows.travelled, approached = rows.approached;
         TAUT_INDEPENDENT
         for (int i = 0; i < n; ++i) {
             const double left = near[i] - travelled, leftFirst = nearFirst[i] - approached;
-            const bool isAsleep = (left > 0) | (leftFirst > 0), isFurther = left > leftFirst;
-            isAwake[i] = isAsleep ? 0L : 1L;
-            byTravelled[i] = (isAsleep & isFurther) ? -near[i] : -1e300;
-            byApproached[i] = (isAsleep & !isFurther) ? -nearFirst[i] : -1e300;
+            const bool hasBudget = (left > 0) | (leftFirst > 0), isFurther = left > leftFirst;
+            isDue[i] = hasBudget ? 0L : 1L;
+            byTravelled[i] = (hasBudget & isFurther) ? -near[i] : -1e300;
+            byApproached[i] = (hasBudget & !isFurther) ? -nearFirst[i] : -1e300;
         }
         int full = 0;
         if (n >= width) {
@@ -177,17 +177,17 @@ int findAwake(CandidateRows& rows) {
                 mostFirst = larger(load<V>(byApproached + full), mostFirst);
             }
             for (int k = 0; k < width; ++k) {
-                rows.asleepTravelled = -larger(-rows.asleepTravelled, most[k]);
-                rows.asleepApproached = -larger(-rows.asleepApproached, mostFirst[k]);
+                rows.leastTravelBudget = -larger(-rows.leastTravelBudget, most[k]);
+                rows.leastApproachBudget = -larger(-rows.leastApproachBudget, mostFirst[k]);
             }
         }
         for (int i = full; i < n; ++i) {
-            rows.asleepTravelled = -larger(-rows.asleepTravelled, byTravelled[i]);
-            rows.asleepApproached = -larger(-rows.asleepApproached, byApproached[i]);
+            rows.leastTravelBudget = -larger(-rows.leastTravelBudget, byTravelled[i]);
+            rows.leastApproachBudget = -larger(-rows.leastApproachBudget, byApproached[i]);
         }
         for (int i = 0; i < n; ++i) {
-            rows.awake[count] = from + i;
-            count += static_cast<int>(isAwake[i]);
+            rows.due[count] = from + i;
+            count += static_cast<int>(isDue[i]);
         }
     }
     return count;

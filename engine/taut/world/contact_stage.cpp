@@ -182,19 +182,19 @@ int ContactStage::takeInstants(const TickTime& time, int needed) {
 // How many the tick is to have; less than nothing where it is a trial, in which nothing should meet.
 int ContactStage::chooseInstants(const TickTime& time) {
     if (spec_.instants) return takeInstants(time, *spec_.instants);
-    const contact::Forecast outlook = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
+    const contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
     // As many as it takes for a way at that speed [m/s] to be no longer in any.
     const auto enough = [&](int instants, double speed, double way) {
         while (instants < mostForWays && tickSeconds_ * speed > instants * way) instants *= 2;
         return instants;
     };
     // Where nothing meets, by what is cheapest.
-    if (!outlook.meets) {
+    if (!forecast.meets) {
         const int common = commonSubsteps();
-        return -takeInstants(time, std::min(common, enough(1, outlook.stir, calmWay)));
+        return -takeInstants(time, std::min(common, enough(1, forecast.deformationRate, calmWay)));
     }
-    return takeInstants(time, enough(std::max(fewest_, instantsFor(outlook.surfaces)), outlook.closing,
-                                     wayOfKeep * outlook.leastThickness));
+    return takeInstants(time, enough(std::max(fewest_, instantsFor(forecast.surfaces)), forecast.closing,
+                                     wayOfKeep * forecast.leastThickness));
 }
 
 std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
@@ -253,7 +253,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         std::swap(x0_, x1_);
         readAll();
         rigids_.place(0.0, x1_);
-        group_->goBack(x0_, x1_);
+        group_->rewind(x0_, x1_);
         instants = isCoarse ? takeInstants(time, std::max({fewest_, 2 * instants_, instantsFor(result_.surfaces)}))
                             : chooseInstants(time);
     }
@@ -341,7 +341,7 @@ void ContactStage::meet(double h) {
     const auto start = Clock::now();
     result_ = group_->resolve(instant);
     total_.seconds += secondsSince(start);
-    total_.locatedInAll += static_cast<std::int64_t>(group_->located());
+    total_.locatedInAll += static_cast<std::int64_t>(group_->testedCount());
     hasMet_ = hasMet_ || result_.active > 0;
     total_.slides += result_.slides;
     total_.zones += result_.zones;
@@ -399,9 +399,9 @@ ContactInfo ContactStage::info() const {
     info.points = static_cast<int>(x1_.size());
     info.mostInstants = mostInstants();
     info.lastInstants = instants_;
-    info.located = static_cast<int>(group_->located());
+    info.located = static_cast<int>(group_->testedCount());
     info.pressing = result_.active;
-    info.lists = static_cast<std::int64_t>(group_->listed());
+    info.lists = static_cast<std::int64_t>(group_->listsMade());
     info.bytes = group_->bytes();
     return info;
 }

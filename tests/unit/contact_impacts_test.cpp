@@ -420,7 +420,7 @@ TEST(ContactImpact, TakesSweepsInProportionToThePile) {
             pairs.push_back(pair);
             Row row{k};
             row.gains = {1.0, k > 0 ? -1.0 : 0.0, 0.0, 0.0};
-            row.most = 1.0;
+            row.largestGain = 1.0;
             row.mass = k > 0 ? 0.5 : 1.0;
             rows.push_back(row);
         }

@@ -22,8 +22,8 @@
 // depends on the instant alone. A restored world that has no lists yet goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
-// (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as rigid impact
-// zones (Provot 1997), which always ends.
+// (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as impact zones
+// (Provot 1997). Islands may change what they are handed, so the pairs are tested again after every round.
 #pragma once
 
 #include <cstdint>

@@ -12,11 +12,11 @@ namespace {
 
 constexpr int atOnce = 16;  // leaves a task
 
-constexpr double alike = 1e-6;       // what differs by that share is the same but for rounding
-constexpr double middleShare = 0.2;  // of the items: as far from the middle as that they may be parted
-constexpr double wideShare = 0.6;    // of the widest gap there, which another has to have
+constexpr double alike = 1e-6;       // sizes that differ by this share are equal but for rounding
+constexpr double middleShare = 0.2;  // of the items: a node may be split this far from the middle
+constexpr double wideShare = 0.6;    // of the widest gap there: the least gap to split at
 
-// Each on any thread.
+// Calls each(leaf) in parallel.
 template <class Each>
 void forEachLeaf(std::size_t count, Each&& each) {
     constexpr std::size_t chunk = 32;
@@ -34,8 +34,8 @@ dvec3 unitAcross(const dvec3& along) {
     return across / length(across);
 }
 
-// Axes that turn with a surface: along the shortest edge of its first triangle, beside that in its plane, and across;
-// along its first edge where there are no triangles.
+// Axes that turn with a surface, so that the tree does too: the shortest edge of its first triangle, the direction beside
+// it in the triangle's plane, and the normal. Without triangles its first edge, and the point furthest from that.
 Axes axesOf(const Elements& elements, int surface) {
     const auto at = [&](int i) { return elements.rest()[static_cast<std::size_t>(i)]; };
     dvec3 along(1.0, 0.0, 0.0), beside(0.0);
@@ -69,8 +69,8 @@ Axes axesOf(const Elements& elements, int surface) {
     return {along, beside, glm::cross(along, beside)};
 }
 
-// How many of places in order are the lower half: the gap nearest to the middle that is about as wide as any near it,
-// so that the rows of a grid stay whole.
+// Where to split sorted places: at the gap closest to the middle that is about as wide as any near it. So the rows of a
+// grid stay whole.
 std::size_t halfOf(const std::vector<double>& places) {
     const std::size_t n = places.size(), middle = n / 2;
     const auto off = std::max<std::size_t>(1, static_cast<std::size_t>(middleShare * static_cast<double>(n)));
@@ -90,6 +90,7 @@ Bvh::Bvh(const Elements& elements)
     : elements_(elements),
       leafOfPoint_(static_cast<std::size_t>(elements.pointCount()), -1),
       leafOfEdge_(static_cast<std::size_t>(elements.edgesWithoutBalls()), -1) {
+    // Over 60 lines: the parts of the tree one after the other, then the arrays that have their size.
     std::vector<int> roots;
     const std::vector<dvec3>& rest = elements.rest();
     const auto at = [&](int i) { return rest[static_cast<std::size_t>(i)]; };
@@ -109,7 +110,7 @@ Bvh::Bvh(const Elements& elements)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
         if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
         if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, axes, false));
-        // Points of neither, of which damage may have made balls.
+        // Points of neither, which damage has made balls, or may.
         std::vector<int> others;
         for (int i : elements.surface(s).points)
             if (elements.surfaceOf(i) == s && leafOfPoint_[static_cast<std::size_t>(i)] < 0) others.push_back(i);
@@ -125,6 +126,7 @@ Bvh::Bvh(const Elements& elements)
     if (!roots.empty()) root_ = joinRoots(roots);
     motions_.resize(leaves_.size());
     references_.resize(leaves_.size());
+    // Reference shapes, and the leaves at each point.
     std::size_t corners = 0;
     for (const BvhLeaf& leaf : leaves_) {
         firstReference_.push_back(corners);
@@ -154,6 +156,7 @@ Bvh::Bvh(const Elements& elements)
 int Bvh::addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, const Axes& axes,
                  bool areTriangles) {
     if (items.size() <= leafSize) return addLeaf(items, surface, areTriangles);
+    // Split along the axis on which the items extend furthest.
     std::size_t longest = 0;
     double size = -1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -259,6 +262,7 @@ void Bvh::findWay(std::size_t number, std::span<const dvec3> x0, std::span<const
         ways += to - from;
     }
     motion.box.add(motion.before);
+    // The mean, then how far points are from it, and from the reference shape.
     const double share = 1.0 / static_cast<double>(leaf.corners.size());
     motion.centre = share * sum;
     motion.way = share * ways;

@@ -1,4 +1,4 @@
-// Pairs of which the nearest places are found together; slots are counted from 0.
+// A batch of pairs whose closest points are found together, with the kernels. Slots count from 0.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ class ClosestBatch {
                    count_ - from < closestBatch ? count_ - from : closestBatch);
     }
 
-    // After that.
+    // After solve().
     std::array<double, 4> weights(int slot) const {
         const ClosestLanes& from = lanesOf(slot);
         const int lane = slot % closestBatch;

@@ -168,7 +168,7 @@ void ContactGroup::solveActive(const Instant& instant) {
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) load(i);
 
-    solver_.solve(active_, instant.held, instant.inverseMass, instant.h, options_.solver, u_, v_, shift_);
+    solver_.solve(active_, instant.kinematic, instant.inverseMass, instant.h, options_.solver, u_, v_, shift_);
 
     for (std::size_t p = 0; p < active_.size(); ++p) {
         if (!(solver_.impulses()[p] > 0)) continue;
@@ -200,7 +200,7 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
 void ContactGroup::handOver(const Instant& instant, std::span<const int> points) {
     if (points.empty()) return;
     moved_.insert(moved_.end(), points.begin(), points.end());
-    if (instant.take) instant.take(points);
+    if (instant.place) instant.place(points);
 }
 
 // An impulse for each edge that pierces a triangle, one after the other, along the way out (crossings.h).
@@ -255,7 +255,7 @@ std::vector<int> ContactGroup::separate(const Instant& instant, std::span<const 
     std::vector<int> moved;
     if (round < mostSlides && options_.slides) {
         for (const ContactConstraint* pair : pairs)
-            slideApart(*pair, instant.inverseMass, instant.held, instant.x1, instant.v, moved);
+            slideApart(*pair, instant.inverseMass, instant.kinematic, instant.x1, instant.v, moved);
         result_.slides += static_cast<int>(pairs.size());
     } else {
         moveAsImpactZones(pairs, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);

@@ -52,10 +52,10 @@ struct Instant {
     std::span<dvec3> x1;                     // [m] now
     std::span<dvec3> v;                      // [m/s] as the integrator of each island stores them
     std::span<const double> inverseMass;     // [1/kg]; 0: pinned or kinematic, contact does not move it
-    std::span<const KinematicContact> held;  // contacts of points with colliders, ascending by point
+    std::span<const KinematicContact> kinematic;  // contacts of points with colliders, ascending by point
     // Called with the points (ascending) of which the group has changed x1 and v. Their island places them, and may
     // change both once more: by rounding, or where a collider is. May be empty.
-    std::function<void(std::span<const int> points)> take;
+    std::function<void(std::span<const int> points)> place;
 };
 
 struct InstantResult {

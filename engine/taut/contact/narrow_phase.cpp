@@ -183,8 +183,8 @@ bool ContactGroup::isOnOwnFeature(const ContactConstraint& pair, long where, std
     return isRidge(first, onFirst, -pair.normal, x) && isRidge(second, onSecond, pair.normal, x);
 }
 
-// Whether two edges meet where neither is at an end. Ends are points, which have pairs of their own; but a line has none,
-// and pushes with its ends too.
+// Whether two edges are closest where neither is at an end. Ends of a triangle's edges are left to pairs of points and
+// triangles. Ends of lines push here too: two ropes have no triangles.
 bool ContactGroup::meetInside(const ContactConstraint& pair, long where) const {
     if (pair.isPoint || where != 0) return true;
     const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],

@@ -1,9 +1,9 @@
 // Nearest places, certificates and piercings, against sampling.
 #include "contact_support.h"
-#include "taut/contact/closest_points.h"
-#include "taut/contact/certificate.h"
 #include "taut/contact/broad_phase.h"
+#include "taut/contact/certificate.h"
 #include "taut/contact/closest_batch.h"
+#include "taut/contact/closest_points.h"
 #include "taut/core/instruction_set.h"
 
 namespace taut::contact {

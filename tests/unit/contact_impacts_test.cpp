@@ -426,8 +426,8 @@ TEST(ContactImpact, TakesSweepsInProportionToThePile) {
         }
         std::vector<dvec3> u(static_cast<std::size_t>(n) + 1, dvec3(0.0, -1.0, 0.0));
         u[0] = dvec3(0.0);
-        EXPECT_LT(projectedGaussSeidel(pairs, rows, {}, 5 * n, 1e-3, u), 4 * n);     // it is 3.5 to 3.7 n
-        for (const dvec3& v : u) EXPECT_NEAR(v.y, 0.0, 1e-3 * n) << n;  // which leaves 4e-4 to 7e-4 n
+        EXPECT_LT(projectedGaussSeidel(pairs, rows, {}, 5 * n, 1e-3, u), 4 * n);  // it is 3.5 to 3.7 n
+        for (const dvec3& v : u) EXPECT_NEAR(v.y, 0.0, 1e-3 * n) << n;            // which leaves 4e-4 to 7e-4 n
     }
 }
 

@@ -16,7 +16,7 @@ constexpr double referenceShare = 0.4;  // a leaf that has deformed further take
 constexpr double boxMarginShare = 0.5;  // margin of fat boxes
 constexpr double flatShare = 0.1;       // of the thickness: what is flat with less to spare keeps its list
 // Fat boxes reach ahead along the motion of their leaf.
-constexpr double searchAhead = 8;   // instants, if
+constexpr double searchAhead = 8;    // instants, if
 constexpr double mostBoxMargin = 4;  // that adds no more than so many margins
 
 // [m] Lower bound of the distance between what is in two boxes.
@@ -124,8 +124,8 @@ bool BroadPhase::areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3>
     bvh_.follow(leafList_, x0, x1, mostDeformed);
     for (int p : leafList_) {
         const Box &box = bvh_.motion(p).box, &fat = fatBoxes_[static_cast<std::size_t>(p)];
-        if (!(box.low.x >= fat.low.x && box.low.y >= fat.low.y && box.low.z >= fat.low.z &&
-              box.high.x <= fat.high.x && box.high.y <= fat.high.y && box.high.z <= fat.high.z))
+        if (!(box.low.x >= fat.low.x && box.low.y >= fat.low.y && box.low.z >= fat.low.z && box.high.x <= fat.high.x &&
+              box.high.y <= fat.high.y && box.high.z <= fat.high.z))
             return false;
     }
     return true;
@@ -229,8 +229,8 @@ void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     limitSlack(boxMargin);
 }
 
-// The tracked pairs whose leaves may have used up the motion budget -> checked_, and their leaves -> leafList_. The slack
-// of the others -> slacks_.
+// The tracked pairs whose leaves may have used up the motion budget -> checked_, and their leaves -> leafList_. The
+// slack of the others -> slacks_.
 void BroadPhase::selectForCheck(double boxMargin) {
     const int count = static_cast<int>(tracked_.size()), tasks = (count + atOnce - 1) / atOnce;
     needsCheck_.resize(tracked_.size());
@@ -263,7 +263,8 @@ void BroadPhase::selectDue() {
     for (const TrackedPair* tracked : checked_) {
         CandidateList* list = tracked->list;
         if (list->isSeparated) continue;
-        const bool hasBudget = list->travelled < list->leastTravelBudget && list->approached < list->leastApproachBudget;
+        const bool hasBudget =
+            list->travelled < list->leastTravelBudget && list->approached < list->leastApproachBudget;
         if (!list->isExpired && hasBudget) continue;
         due_.push_back(list);
         between_.insert(between_.end(), list->between.begin(), list->between.end());
@@ -295,8 +296,8 @@ void BroadPhase::refreshDue(std::span<const dvec3> x0) {
     listsMade_ += made;
 }
 
-// What points may go further than was told: see holdWithin(). Pairs that are in no list have the rest of its margin, and
-// what is left between them then; pairs in a list that need no certificate have watchShare of their thickness.
+// What points may go further than was told: see holdWithin(). Pairs that are in no list have the rest of its margin,
+// and what is left between them then; pairs in a list that need no certificate have watchShare of their thickness.
 void BroadPhase::limitSlack(double boxMargin) {
     slack_ = boxMargin;
     for (double slack : slacks_) slack_ = std::min(slack_, slack);
@@ -318,15 +319,15 @@ void BroadPhase::finish(std::span<const int> moved, std::span<const dvec3> x0, s
     accumulateTravel();
 }
 
-// The instant ends. Checked pairs count their relative motion, the others the travel of their leaves; check() adds that.
+// The instant ends. Checked pairs count their relative motion, the others the travel of their leaves; check() adds
+// that.
 void BroadPhase::accumulateTravel() {
     // What is left of the budgets of checked pairs. Leaves that travel less do not use it up.
     for (TrackedPair* tracked : checked_) {
         const CandidateList& list = *tracked->list;
         tracked->budgetStart = travelOf(tracked->pair);
-        tracked->motionBudget =
-            std::min({list.margin - list.approached, list.leastTravelBudget - list.travelled,
-                      list.leastApproachBudget - list.approached});
+        tracked->motionBudget = std::min({list.margin - list.approached, list.leastTravelBudget - list.travelled,
+                                          list.leastApproachBudget - list.approached});
         tracked->unlistedDistance = list.unlistedDistance;
         tracked->leastThickness = list.leastThickness;
     }

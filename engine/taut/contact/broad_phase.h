@@ -8,23 +8,23 @@
 //       |   a candidate has used up its budgets   until then no distance is measured
 //     lists that are due  --->  narrow phase      a list that has expired is made anew first
 //
-// All of it rests on one bound. The points of a leaf move with the mean of the leaf, but for a deviation. So between
+// All of it rests on one bound. The points of a leaf move by the mean way of the leaf, but for a deviation. So between
 // two leaves no distance changes in an instant by more than
 //
-//     relative motion = |way A - way B| + deviation A + deviation B                                        (way of the mean)
+//     relative motion = |way A - way B| + deviation A + deviation B
 //
 // The sum of these over instants is `travelled`. `approached` bounds the same change as a net displacement: it does not
 // grow when leaves swing to and fro. The smaller one counts. As with the skin of a Verlet list in molecular dynamics:
-// - A list is made with a margin. It names all pairs that are closer than near (nearShare of their thickness) plus margin.
+// - A list is made with a margin. It names all pairs closer than near (nearShare of their thickness) plus the margin.
 //   While approached <= margin, any pair that is near is in the list. Then the list expires.
 // - Each pair in it has the distance that was measured last, less near, as a budget. It is not near before the leaves
 //   have used it up, and is not measured again until then.
 // - Two leaves whose boxes are apart, or which a separating axis holds apart for this instant, need no list. Neither do
 //   leaves of a flat surface that is still nearly flat (bvh_flatness.cpp).
 //
-// So a list may name too much, never too little. What it names too much the narrow phase drops, by a test that knows this
-// instant alone. Pairs come in the order of their leaves and elements. That is why the result of an instant does not
-// depend on when lists were made: after a restored state, or drop(), the same bits come out.
+// So a list may name too much, never too little. What it names too much the narrow phase drops, by a test that knows
+// this instant alone. Pairs come in the order of their leaves and elements. That is why the result of an instant does
+// not depend on when lists were made: after a restored state, or drop(), the same bits come out.
 #pragma once
 
 #include <deque>
@@ -41,8 +41,8 @@ struct CandidatePair {
     double thickness;  // [m] distance that they keep
 };
 
-// A pair needs a certificate if its distance is below the relative motion of its leaves plus this share of its thickness:
-// the share is for the ways that contact adds.
+// A pair needs a certificate if its distance is below the relative motion of its leaves plus this share of its
+// thickness: the share is for the ways that contact adds.
 inline constexpr double watchShare = 0.5;
 
 class BroadPhase {
@@ -71,12 +71,13 @@ class BroadPhase {
         std::size_t pointPairs = 0;  // so many pairs of points and triangles come first, then pairs of edges
         // (pairs) [m] The pair is near only when travelled and approached have both reached these.
         std::vector<double> travelBudget, approachBudget;
-        double leastTravelBudget = 0, leastApproachBudget = 0;  // [m] of all pairs: the list is due when both are reached
-        double thickness = 0;                                   // [m] sum of the two surfaces' thicknesses
-        double leastThickness = 0;                              // [m] of the pairs
-        double margin = -1;                                     // [m] the list expires when approached exceeds it
-        double unlistedDistance = 0;  // [m] pairs that are not in the list are further apart than this until then
-        std::vector<int> between;     // leaves at rest between a and b: see Bvh::leavesBetween()
+        double leastTravelBudget = 0,
+               leastApproachBudget = 0;  // [m] of all pairs: the list is due when both are reached
+        double thickness = 0;            // [m] sum of the two surfaces' thicknesses
+        double leastThickness = 0;       // [m] of the pairs
+        double margin = -1;              // [m] the list expires when approached exceeds it
+        double unlistedDistance = 0;     // [m] pairs that are not in the list are further apart than this until then
+        std::vector<int> between;        // leaves at rest between a and b: see Bvh::leavesBetween()
 
         // Of this instant.
         double relativeMotion = 0;  // [m] bound above
@@ -87,11 +88,11 @@ class BroadPhase {
         bool isFlat = false;        // flat enough that no pair touches in this instant
 
         // When the list was made, and since.
-        double travelledBefore = 0;                     // [m] travelled, without this instant
-        dvec3 offset{0.0};                              // [m] from centre to centre
-        double deviationA = 0, deviationB = 0;          // [m] sums of the leaves' deviations until then
-        double deformationA = 0, deformationB = 0;      // [m] of the leaves from their reference shapes
-        int referenceA = -1, referenceB = -1;           // numbers of these reference shapes
+        double travelledBefore = 0;                 // [m] travelled, without this instant
+        dvec3 offset{0.0};                          // [m] from centre to centre
+        double deviationA = 0, deviationB = 0;      // [m] sums of the leaves' deviations until then
+        double deformationA = 0, deformationB = 0;  // [m] of the leaves from their reference shapes
+        int referenceA = -1, referenceB = -1;       // numbers of these reference shapes
     };
     // Lists to be measured in this instant, in the order of the leaves.
     std::size_t dueCount() const { return due_.size(); }
@@ -107,7 +108,7 @@ class BroadPhase {
         CandidateList* list;
         // [m] The pair is not checked until the travel of its leaves has grown from budgetStart by motionBudget.
         double motionBudget = -1, budgetStart = 0;
-        double countedTravel = 0;                         // [m] travel of its leaves that list->travelledBefore includes
+        double countedTravel = 0;  // [m] travel of its leaves that list->travelledBefore includes
         double unlistedDistance = 0, leastThickness = 0;  // [m] copies of the list's
     };
 
@@ -137,13 +138,13 @@ class BroadPhase {
     std::vector<TrackedPair> tracked_, merged_;  // ascending; scratch
     std::vector<TrackedPair*> checked_;          // in this instant
     std::vector<CandidateList*> due_;
-    std::vector<double> deviation_;       // (leaves) [m] sum over all instants
-    std::vector<double> travel_;          // (leaves) [m] sum over all instants of the furthest way of a point
-    std::vector<Box> fatBoxes_;           // (leaves) of the last search of the tree
-    std::vector<double> travelAtSearch_;  // (leaves) [m]
-    double freeTravel_ = 0;               // [m] a leaf that went less since the search is in its fat box
-    std::vector<char> needsCheck_;        // (tracked) scratch
-    std::vector<double> slacks_;          // (tasks) [m] scratch
+    std::vector<double> deviation_;        // (leaves) [m] sum over all instants
+    std::vector<double> travel_;           // (leaves) [m] sum over all instants of the furthest way of a point
+    std::vector<Box> fatBoxes_;            // (leaves) of the last search of the tree
+    std::vector<double> travelAtSearch_;   // (leaves) [m]
+    double freeTravel_ = 0;                // [m] a leaf that went less since the search is in its fat box
+    std::vector<char> needsCheck_;         // (tracked) scratch
+    std::vector<double> slacks_;           // (tasks) [m] scratch
     std::vector<int> between_, leafList_;  // leaves, scratch
     std::vector<LeafPair> found_;
     double slack_ = 0;  // [m] see holdWithin()

@@ -34,8 +34,9 @@ dvec3 unitAcross(const dvec3& along) {
     return across / length(across);
 }
 
-// Axes that turn with a surface, so that the tree does too: the shortest edge of its first triangle, the direction beside
-// it in the triangle's plane, and the normal. Without triangles its first edge, and the point furthest from that.
+// Axes that turn with a surface, so that the tree does too: the shortest edge of its first triangle, the direction
+// beside it in the triangle's plane, and the normal. Without triangles its first edge, and the point furthest from
+// that.
 Axes axesOf(const Elements& elements, int surface) {
     const auto at = [&](int i) { return elements.rest()[static_cast<std::size_t>(i)]; };
     dvec3 along(1.0, 0.0, 0.0), beside(0.0);

@@ -1,5 +1,6 @@
-// Bounding volume hierarchy over all surfaces: leaves of some fifteen triangles (or edges, where there are no triangles),
-// and a binary tree of boxes over them. It says which leaves come close in an instant, and how each leaf moves.
+// Bounding volume hierarchy over all surfaces: leaves of some fifteen triangles (or edges, where there are no
+// triangles), and a binary tree of boxes over them. It says which leaves come close in an instant, and how each leaf
+// moves.
 //
 // The tree is built once, from the surfaces at rest. It never depends on where points are, so a restored world has the
 // same tree. Boxes are refitted; the tree is searched only when leaves left their fat boxes (broad_phase.h).
@@ -7,9 +8,10 @@
 // Leaf motion. Points of a leaf move nearly alike. The motion is stored as the mean way of its points and the largest
 // deviation from it, so that two leaves need one subtraction to bound how distances between them change.
 //
-// Flatness certificate. A sheet's neighbouring leaves always overlap in space. They would fill the broad phase, though a
-// sheet that is nearly flat cannot touch itself. Let the sheet be flat and convex at rest, F the deformation gradient of
-// its triangles and R one rotation. For two places p, q at rest, integrate along the straight line between them, unit t:
+// Flatness certificate. A sheet's neighbouring leaves always overlap in space. They would fill the broad phase, though
+// a sheet that is nearly flat cannot touch itself. Let the sheet be flat and convex at rest, F the deformation gradient
+// of its triangles and R one rotation. For two places p, q at rest, integrate along the straight line between them,
+// unit t:
 //
 //     |f(p) - f(q)|  >=  R t · (f(p) - f(q))  =  ∫ t·RᵀF t ds  >=  least |p - q|         least = min t·RᵀF t over F, t
 //
@@ -62,8 +64,8 @@ struct LeafMotion {
     dvec3 centre{0.0};       // [m] mean of its points at x0
     dvec3 way{0.0};          // [m] mean of their ways
     double deviation = 0.0;  // [m] largest difference of a point's way from that mean
-    // [m] Largest difference of a point from the reference shape, both relative to the centre, at x0 and x1. The reference
-    // shape is the leaf at some instant before; it is taken anew when the leaf has deformed too much.
+    // [m] Largest difference of a point from the reference shape, both relative to the centre, at x0 and x1. The
+    // reference shape is the leaf at some instant before; it is taken anew when the leaf has deformed too much.
     double deformation = 0.0;
     int reference = 0;  // number of the reference shape
 };

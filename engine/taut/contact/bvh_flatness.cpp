@@ -1,8 +1,8 @@
 // The flatness certificate (bvh.h): leaves of a flat surface that are moved nearly as a rigid body, so that no two of
 // their parts touch.
 //
-// Bounds are taken from cheap to dear. Each leaf has its own R and `least`. For several leaves one R is needed: turning R
-// by an angle φ takes a unit vector t to another direction, and t·RᵀF t loses at most
+// Bounds are taken from cheap to dear. Each leaf has its own R and `least`. For several leaves one R is needed: turning
+// R by an angle φ takes a unit vector t to another direction, and t·RᵀF t loses at most
 //
 //     least (1 - cos φ) + sqrt(most² - least²) sin φ
 //
@@ -18,12 +18,12 @@
 namespace taut::contact {
 namespace {
 
-constexpr double bumps = 0.05;             // of an edge: a surface that rises less is flat
-constexpr double gaps = 2e-3;              // of the area: a surface that fills its hull but for this is convex
-constexpr double plenty = 1.15;            // of what is required: a bound above it needs no closer look
-constexpr double reachIn = 1e-3;           // of an edge
-constexpr std::size_t mostBetween = 48;        // leaves
-constexpr int measuredAtOnce = 16;           // leaves a task
+constexpr double bumps = 0.05;           // of an edge: a surface that rises less is flat
+constexpr double gaps = 2e-3;            // of the area: a surface that fills its hull but for this is convex
+constexpr double plenty = 1.15;          // of what is required: a bound above it needs no closer look
+constexpr double reachIn = 1e-3;         // of an edge
+constexpr std::size_t mostBetween = 48;  // leaves
+constexpr int measuredAtOnce = 16;       // leaves a task
 
 double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -57,8 +57,8 @@ double leastAlong(const dvec3& right, const dvec3& up, const dvec3& fRight, cons
 
 }  // namespace
 
-// A surface is flat if all points lie in one plane, and convex if its triangles fill their convex hull. Both but for small
-// bumps and gaps: bodies are built with some, to break symmetry.
+// A surface is flat if all points lie in one plane, and convex if its triangles fill their convex hull. Both but for
+// small bumps and gaps: bodies are built with some, to break symmetry.
 void Bvh::findPlane(int number, const dvec3& along) {
     planes_.emplace_back();
     const Surface& surface = elements_.surface(number);
@@ -120,7 +120,7 @@ void Bvh::prepareFlatness() {
     constexpr double hair = 1.02;  // for the bumps and gaps
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
         requiredFlatness_.push_back(hair * nearShare *
-                          std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
+                                    std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
 }
 
 void Bvh::measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1) {

@@ -1,4 +1,5 @@
-// Makes the list of two leaves: boxes of elements first, many at once; then the distances of what overlaps, many at once.
+// Makes the list of two leaves: boxes of elements first, many at once; then the distances of what overlaps, many at
+// once.
 //
 // Two surfaces of one body keep less than their thickness where they are closer at rest: at most restShare of the
 // distance at rest. So pairs of one body are measured twice, at x0 and at rest.
@@ -11,7 +12,7 @@
 namespace taut::contact {
 namespace {
 
-constexpr double leastMargin = 0.4;     // of the thickness
+constexpr double leastMargin = 0.4;    // of the thickness
 constexpr double instantsAhead = 4.0;  // like this one, that a list is to last
 
 // Boxes of elements, one coordinate a row, for the kernel that tests many at once.
@@ -196,8 +197,8 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     const double thickness = list.thickness;
     const bool isBond = elements_.shareBond(a.surface, b.surface);
 
-    // The margin: a share of the thickness, more if the leaves move fast. Within one body, not so much that each element
-    // lists its neighbours.
+    // The margin: a share of the thickness, more if the leaves move fast. Within one body, not so much that each
+    // element lists its neighbours.
     const double cell = std::min(elements_.shortestEdge(a.surface), elements_.shortestEdge(b.surface));
     const double slow = isBond ? std::min(thickness, restShare * cell - thickness) : thickness;
     const double fast = std::min(instantsAhead * list.relativeMotion, std::max(2 * thickness, list.relativeMotion));

@@ -1,6 +1,7 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 //
-// The same operations in the same order as closest_points.h. Where that branches, all cases are computed and one is chosen.
+// The same operations in the same order as closest_points.h. Where that branches, all cases are computed and one is
+// chosen.
 #include "taut/contact/closest_kernel.h"
 
 #include "taut/core/vectorise.h"

@@ -7,14 +7,14 @@ namespace taut::contact {
 
 inline constexpr int closestBatch = 64;  // pairs at most
 
-// Room for them in a row, and for a line of the cache more: rows a page separation would get in each other's way.
+// Length of a row: a batch and one cache line, so that rows do not all fall into the same cache sets.
 inline constexpr int closestRow = closestBatch + 8;
 
 struct ClosestLanes {
     alignas(64) double at[4][3][closestRow];  // [m] a point and the corners of a triangle, or the ends of two segments
     alignas(64) double weights[4][closestRow];     // as of a ContactConstraint
     alignas(64) double separation[3][closestRow];  // [m] from the second side to the first
-    alignas(64) double distance[closestRow];  // [m]
+    alignas(64) double distance[closestRow];       // [m]
     // Of triangles the closest Feature; of segments 1 if both places are inside, 0 if one is at an end.
     alignas(64) long where[closestRow];
 };

@@ -8,7 +8,7 @@ namespace taut::contact {
     void onTriangles(ClosestLanes&, int);                                     \
     void onSegments(ClosestLanes&, int);                                      \
     int findOverlapping(const BoxLanes&, const double*, const double*, int*); \
-    int findDue(CandidateRows&);                                            \
+    int findDue(CandidateRows&);                                              \
     }
 TAUT_DECLARE(sse2)
 TAUT_DECLARE(avx2)

@@ -15,15 +15,7 @@ inline double length(const dvec3& v) {
 }
 
 // Of a triangle. Edge k has the corners k and k + 1.
-enum class Feature : unsigned char {
-    face,
-    edge0,
-    edge1,
-    edge2,
-    corner0,
-    corner1,
-    corner2
-};
+enum class Feature : unsigned char { face, edge0, edge1, edge2, corner0, corner1, corner2 };
 
 struct OnTriangle {
     std::array<double, 3> weights;  // of the corners, not negative, sum 1

@@ -10,15 +10,16 @@ namespace taut::contact {
 using glm::dvec3;
 
 struct ContactConstraint {
-    std::array<int, 4> points;      // a point and the corners of a triangle, or the ends of two edges
-    std::array<double, 4> weights;  // first side positive, second negative: Σ w x is the vector between the closest points
-    dvec3 normal;                   // unit, towards the first side
-    double distance;                // [m] at x0
-    double thickness;               // [m] distance to keep
-    double friction;                // Coulomb's μ [-]
-    int a, b;                       // as CandidatePair
-    bool isPoint;                   // a point and a triangle; else two edges
-    bool isActive;                  // the solver gets it; else it only needs a certificate
+    std::array<int, 4> points;  // a point and the corners of a triangle, or the ends of two edges
+    std::array<double, 4>
+        weights;       // first side positive, second negative: Σ w x is the vector between the closest points
+    dvec3 normal;      // unit, towards the first side
+    double distance;   // [m] at x0
+    double thickness;  // [m] distance to keep
+    double friction;   // Coulomb's μ [-]
+    int a, b;          // as CandidatePair
+    bool isPoint;      // a point and a triangle; else two edges
+    bool isActive;     // the solver gets it; else it only needs a certificate
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]
 };

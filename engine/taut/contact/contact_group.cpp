@@ -190,7 +190,8 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
         moved.push_back(i);
     };
     std::vector<int> points(solver_.points().begin(), solver_.points().end());
-    for (const Crossing& crossing : crossings_) points.insert(points.end(), crossing.points.begin(), crossing.points.end());
+    for (const Crossing& crossing : crossings_)
+        points.insert(points.end(), crossing.points.begin(), crossing.points.end());
     makeAscending(points);
     for (int i : points) apply(i);
     return moved;

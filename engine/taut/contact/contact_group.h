@@ -17,9 +17,9 @@
 // approach by it in one instant, and no root of a cubic is sought (compare Bridson, Fedkiw and Anderson 2002, which
 // finds the time of impact).
 //
-// No memory. The solver starts at impulse 0 every time: nothing is warm started. The broad phase keeps lists from instant
-// to instant, but a list only says what to measure, and never leaves out what matters (broad_phase.h). So the result
-// depends on the instant alone. A restored world that has no lists yet goes on with the same bits.
+// No memory. The solver starts at impulse 0 every time: nothing is warm started. The broad phase keeps lists from
+// instant to instant, but a list only says what to measure, and never leaves out what matters (broad_phase.h). So the
+// result depends on the instant alone. A restored world that has no lists yet goes on with the same bits.
 //
 // The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
 // (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as impact zones
@@ -47,11 +47,11 @@ struct ContactOptions {
 
 // All arrays (points).
 struct Instant {
-    double h = 0;                            // [s] since the last instant
-    std::span<const dvec3> x0;               // [m] at the last instant
-    std::span<dvec3> x1;                     // [m] now
-    std::span<dvec3> v;                      // [m/s] as the integrator of each island stores them
-    std::span<const double> inverseMass;     // [1/kg]; 0: pinned or kinematic, contact does not move it
+    double h = 0;                                 // [s] since the last instant
+    std::span<const dvec3> x0;                    // [m] at the last instant
+    std::span<dvec3> x1;                          // [m] now
+    std::span<dvec3> v;                           // [m/s] as the integrator of each island stores them
+    std::span<const double> inverseMass;          // [1/kg]; 0: pinned or kinematic, contact does not move it
     std::span<const KinematicContact> kinematic;  // contacts of points with colliders, ascending by point
     // Called with the points (ascending) of which the group has changed x1 and v. Their island places them, and may
     // change both once more: by rounding, or where a collider is. May be empty.
@@ -71,9 +71,9 @@ struct InstantResult {
 
 // What a straight flight would lead to.
 struct Forecast {
-    bool meets = false;         // a pair is active, or surfaces cross already
-    double closing = 0.0;       // [m/s] largest closing speed of an active pair
-    double leastThickness = 0;  // [m] smallest thickness of an active pair
+    bool meets = false;          // a pair is active, or surfaces cross already
+    double closing = 0.0;        // [m/s] largest closing speed of an active pair
+    double leastThickness = 0;   // [m] smallest thickness of an active pair
     double deformationRate = 0;  // [1/s] mean over the leaves: speed of points against their leaf, over thickness / 2
     std::vector<int> surfaces;   // that have a movable point in an active pair, ascending
 };

@@ -1,4 +1,5 @@
-// The surface of a body, or of a collider: triangles and edges, in the numbering of points of the whole group. Plain data.
+// The surface of a body, or of a collider: triangles and edges, in the numbering of points of the whole group. Plain
+// data.
 #pragma once
 
 #include <array>
@@ -13,8 +14,8 @@ struct Surface {
     std::vector<int> points;                    // of the group
     std::vector<std::array<int, 3>> triangles;  // of points
     std::vector<std::array<int, 2>> lines;      // edges of no triangle: of ropes and nets
-    // (lines) Of a rigid surface: a point on each of the two faces beside a line, off the line; -1: no face. They are not
-    // in `points`.
+    // (lines) Of a rigid surface: a point on each of the two faces beside a line, off the line; -1: no face. They are
+    // not in `points`.
     std::vector<std::array<int, 2>> wings;
     double thickness = 0.005;  // [m] two surfaces keep a distance of the sum of theirs
     double friction = 1.0;     // factor on the friction of the group [-]

@@ -22,8 +22,8 @@ dvec3 normalOf(const Triangle& triangle, std::span<const dvec3> x) {
     return unit(glm::cross(at(1) - at(0), at(2) - at(0)));
 }
 
-// The direction in which the contour grows shorter: Volino and Magnenat-Thalmann, "Resolving surface collisions through intersection
-// contour minimization", 2006.
+// The direction in which the contour grows shorter: Volino and Magnenat-Thalmann, "Resolving surface collisions through
+// intersection contour minimization", 2006.
 dvec3 shortening(const Elements& elements, const Edge& edge, const Triangle& triangle, std::span<const dvec3> x) {
     const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
     if (elements.isRigid(edge.surface)) return -outOfEdge(edge, triangle, x);
@@ -217,8 +217,8 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
     std::vector<LeafPair> near;
     leaves.findNear(boxes, 0.0, near);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
-    // Edges of the one leaf against triangles of the other, by boxes first. Over 60 lines with this, which needs most of
-    // what is here.
+    // Edges of the one leaf against triangles of the other, by boxes first. Over 60 lines with this, which needs most
+    // of what is here.
     struct Boxed {
         int item;
         Box box;

@@ -3,13 +3,13 @@
 // Two sheets cut each other along contours. If a contour parts a sheet, the smaller part is what went through, and goes
 // back (Baraff, Witkin and Kass 2003, "Untangling cloth"):
 //
-//        ______|____         The edges that are cut go straight through the other sheet, towards the larger part. So the
-//       small  |  large  ->  contour moves over the small part until nothing of it is left. It may be closed, or end at
-//                            the borders of the sheet.
+//        ______|____         The edges that are cut go straight through the other sheet, towards the larger part.
+//       small  |  large  ->  So the contour moves over the small part until nothing of it is left. It may be closed,
+//                            or end at the borders of the sheet.
 //
 // A contour that parts neither sheet begins at a border of one and ends at a border of the other, or crosses edges only
-// there and back. It is made shorter until it leaves over the borders (Volino and Magnenat-Thalmann 2006). This alone is
-// not enough: a straight contour has no shorter one beside it, so a sheet right through another would stay.
+// there and back. It is made shorter until it leaves over the borders (Volino and Magnenat-Thalmann 2006). This alone
+// is not enough: a straight contour has no shorter one beside it, so a sheet right through another would stay.
 //
 // All edges of a contour go the same way. The direction depends on places and connectivity alone: nothing is remembered
 // from the time when the sheets were apart.

@@ -1,4 +1,5 @@
-// The triangles and edges of all surfaces of a group in one numbering, and their connectivity. Knows places at rest only.
+// The triangles and edges of all surfaces of a group in one numbering, and their connectivity. Knows places at rest
+// only.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +32,8 @@ class Elements {
     // rest (points) [m].
     Elements(std::vector<Surface> surfaces, std::vector<dvec3> rest);
 
-    // Removes triangles (by their number in the surface) and edges (by their points) of a surface. An edge stays while one
-    // of its triangles does. Points that are left without both become balls, which come last among the edges.
+    // Removes triangles (by their number in the surface) and edges (by their points) of a surface. An edge stays while
+    // one of its triangles does. Points that are left without both become balls, which come last among the edges.
     void setGone(int surface, const std::function<bool(std::size_t triangle)>& isTriangleGone,
                  const std::function<bool(int a, int b)>& isEdgeSevered);
     // To be called after the last setGone().

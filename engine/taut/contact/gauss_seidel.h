@@ -1,5 +1,5 @@
-// Projected Gauss-Seidel for one velocity field: sweeps over the pairs in their order, one impulse after the other, each
-// clamped to what its pair may do. The problem and its energy stand in solver.h.
+// Projected Gauss-Seidel for one velocity field: sweeps over the pairs in their order, one impulse after the other,
+// each clamped to what its pair may do. The problem and its energy stand in solver.h.
 //
 // A sweep passes an impulse on by one layer of a pile, so sweeps alone are slow for high piles. Between two sweeps the
 // impulses are extrapolated along the sum of the last changes, as in nonlinear conjugate gradients: Silcowitz-Abel,
@@ -39,8 +39,8 @@ struct Row {
     Impulse impulse{};
 };
 
-// A contact of a point with a collider in the solver. Its impulse is what the pairs cause, beyond what the point's island
-// has already given it.
+// A contact of a point with a collider in the solver. Its impulse is what the pairs cause, beyond what the point's
+// island has already given it.
 struct KinematicRow {
     KinematicContact contact;
     double mass = 0;  // [kg] of the point

@@ -4,11 +4,6 @@
 // A pair is active where its gap would close in this instant along its normal, or is closed. It must also be the pair
 // whose contact this is: in a sheet one point is close to several triangles and edges, and only the feature that is
 // closest of all pushes.
-//
-//              o                     o                          o
-//              |                      \   face: edge 1           |     the edge of a flat sheet is no ridge:
-//        ______|______                 \___ does not push    ____|____  its faces are as close, and push
-//
 #include <algorithm>
 #include <cmath>
 
@@ -37,8 +32,8 @@ void limitListTo(BroadPhase::CandidateList& list, double travelBudget, double ap
 
 }  // namespace
 
-// Whether a constraint would keep crossed surfaces crossed: a side is on the wrong side of a contour, and the other is at
-// a contour too. Pairs of the parts that did not cross stay constraints.
+// Whether a constraint would keep crossed surfaces crossed: a side is on the wrong side of a contour, and the other is
+// at a contour too. Pairs of the parts that did not cross stay constraints.
 bool ContactGroup::isTangled(const ContactConstraint& pair) const {
     char first = unmarked, second = unmarked;
     for (int k = 0; k < 4; ++k) {
@@ -169,8 +164,7 @@ bool ContactGroup::isOnOwnFeature(const ContactConstraint& pair, long where, std
     if (pair.isPoint) {
         const int feature = static_cast<int>(where) - static_cast<int>(Feature::edge0);  // below 0: the face
         if (feature >= 0 && !isFeatureNearest(pair, feature, x)) return false;
-        return !elements_.isRigid(elements_.surfaceOf(pair.a)) ||
-               isCornerNearest(elements_, pair.a, -pair.normal, x);
+        return !elements_.isRigid(elements_.surfaceOf(pair.a)) || isCornerNearest(elements_, pair.a, -pair.normal, x);
     }
     const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],
                &second = elements_.edges()[static_cast<std::size_t>(pair.b)];

@@ -17,8 +17,8 @@ bool isCornerNearest(const Elements& elements, int point, const dvec3& outward, 
 // Whether the faces beside an edge are behind it, seen from outward.
 bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec3> x);
 
-// Whether contact can move a pair: on one side, movable points have a share in the closest point. Otherwise a tiny share
-// would be a long lever: a point beside a pinned one would be thrown far to move the pinned place a little.
+// Whether contact can move a pair: on one side, movable points have a share in the closest point. Otherwise a tiny
+// share would be a long lever: a point beside a pinned one would be thrown far to move the pinned place a little.
 bool mayYield(const ContactConstraint& pair, std::span<const double> inverseMass);
 bool mayYield(const Crossing& crossing, std::span<const double> inverseMass);
 

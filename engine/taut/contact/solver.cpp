@@ -185,7 +185,8 @@ void ContactSolver::correctPositions(const Cluster& cluster, std::span<const Con
     }
 }
 
-// u, then v and the position correction, which both need the impulses of u but not each other. Returns the sweeps for u.
+// u, then v and the position correction, which both need the impulses of u but not each other. Returns the sweeps for
+// u.
 int ContactSolver::solveCluster(const Cluster& cluster, std::span<const ContactConstraint> pairs, double h,
                                 const SolverOptions& options, std::span<dvec3> u, std::span<dvec3> v,
                                 std::span<dvec3> shift) {
@@ -208,7 +209,8 @@ int ContactSolver::solveCluster(const Cluster& cluster, std::span<const ContactC
         correct();
         solveV();
     } else {
-        core::parallelFor(2, [&](int which) { which == 0 ? correct() : solveV(); });
+        core::parallelFor(
+            2, [&](int which) { which == 0 ? correct() : solveV(); });
     }
     return sweeps;
 }

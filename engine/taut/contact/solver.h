@@ -8,20 +8,21 @@
 //
 //     E(λ) = ½ λᵀ A λ + λᵀ (W u0 + g⁺/h),  λ >= 0,       A = W M⁻¹ Wᵀ,  u = u0 + M⁻¹ Wᵀ λ
 //
-// Energy. Projected Gauss-Seidel visits one λ after the other and minimises E over it, so E only descends from E(0) = 0.
-// The kinetic energy is ½ u0ᵀMu0 + E(λ) - λᵀ g⁺/h, and the last term only lowers it. So contact adds no energy, converged
-// or not. Between two sweeps gauss_seidel.h extrapolates, which may raise E; but a sweep is always last.
+// Energy. Projected Gauss-Seidel visits one λ after the other and minimises E over it, so E only descends from 0.
+// The kinetic energy is ½ u0ᵀMu0 + E(λ) - λᵀ g⁺/h, and the last term only lowers it. So contact without restitution
+// adds none, converged or not. Between sweeps gauss_seidel.h extrapolates, which may raise E; but a sweep is always
+// last.
 //
 // Two velocity fields. u decides where points are, v is what the integrator stores: leap-frog has it half a step later,
 // and the mean velocity of an accelerated point is not the one at its end. Impulses that are right for u would make v
 // bounce, and the other way round. So u is solved first, for all pairs; then v by the same rule, for the pairs that
 // got an impulse.
 //
-// Position correction. A pair that overlaps at x0 (g < 0) is moved apart by a share of the overlap, as a shift of places.
-// The shift is no velocity, so it adds no energy of motion (split impulses, as in Bullet and Jolt).
+// Position correction. A pair that overlaps at x0 (g < 0) is moved apart by a share of the overlap, as a shift of
+// places. The shift is no velocity, so it adds no energy of motion (split impulses, as in Bullet).
 //
-// Clusters are sets of pairs that share movable points. They are solved in parallel, each in the order of its pairs: the
-// bits do not depend on threads.
+// Clusters are sets of pairs that share movable points. They are solved in parallel, each in the order of its pairs:
+// the bits do not depend on threads.
 #pragma once
 
 #include <span>

@@ -61,12 +61,12 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
     const double thin = roundCells * cellOf(surfaces, rest);
     for (std::size_t c = 0; c < colliders.size(); ++c) {
         Collider own{static_cast<int>(c),
-                    {},
-                    static_cast<int>(rest.size()),
-                    static_cast<int>(surfaces.size()),
-                    0,
-                    colliders[c].pose,
-                    colliders[c].pose};
+                     {},
+                     static_cast<int>(rest.size()),
+                     static_cast<int>(surfaces.size()),
+                     0,
+                     colliders[c].pose,
+                     colliders[c].pose};
         const Placing place(colliders[c].pose);
         for (const collision::Outline& outline : colliders[c].outlines) {
             if (outline.radius > thin) continue;

@@ -21,14 +21,14 @@ struct TouchedCollider {
 class ColliderSurfaces {
   public:
     ColliderSurfaces() = default;
-    // Colliders in their order. Appends their surfaces and points (points) [m] to those of a group. A ball or a capsule only
-    // if it is thin enough to slip through the cells of the surfaces that touch it.
+    // Colliders in their order. Appends their surfaces and points (points) [m] to those of a group. A ball or a capsule
+    // only if it is thin enough to slip through the cells of the surfaces that touch it.
     ColliderSurfaces(const std::vector<TouchedCollider>& colliders, std::vector<contact::Surface>& surfaces,
                      std::vector<dvec3>& rest);
 
     bool isEmpty() const { return colliders_.empty(); }
-    // A tick begins in which these colliders move. Sets the velocities of their points (points) [m/s]. Returns whether a
-    // collider jumps: like in Colliders::move it is then at the end of its motion at once.
+    // A tick begins in which these colliders move. Sets the velocities of their points (points) [m/s]. Returns whether
+    // a collider jumps: like in Colliders::move it is then at the end of its motion at once.
     bool move(std::span<const ColliderMotion> moving, double tickSeconds, contact::Elements& elements,
               std::span<dvec3> v);
     // Sets the places (points) [m] of the colliders that move, at a share of the tick; of all colliders, at its end.

@@ -170,8 +170,8 @@ int ContactStage::mostInstants() const {
     return most;
 }
 
-// Makes the islands' substeps a multiple of the pace, and returns the number of instants: needed, or a few more, so that
-// it divides all substeps.
+// Makes the islands' substeps a multiple of the pace, and returns the number of instants: needed, or a few more, so
+// that it divides all substeps.
 int ContactStage::takeInstants(const TickTime& time, int needed) {
     if (pace_.isExceededBy(needed)) pace_.shorten(needed);
     for (Island* island : islands_) island->takeParts(time, pace_.substeps());
@@ -282,8 +282,8 @@ bool ContactStage::movesAny() const {
         islands_.begin(), islands_.end(), [](const Island* island) { return !island->frozen(); });
 }
 
-// Whether an instant was too long for what it found: in a trial any impulse, else a pair that went too deep or had to be
-// slid apart. Where nothing moves, shorter instants would find the same.
+// Whether an instant was too long for what it found: in a trial any impulse, else a pair that went too deep or had to
+// be slid apart. Where nothing moves, shorter instants would find the same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
     if (instants_ < instantsFor(result_.surfaces) || (isTrial && result_.active > 0)) return true;
@@ -323,7 +323,8 @@ void ContactStage::resolveInstant(double h) {
     kinematic_.clear();
     for (const Part& part : parts_)
         for (const collision::Contact& c : part.island->contacts())
-            kinematic_.push_back({part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
+            kinematic_.push_back(
+                {part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
     contact::Instant instant;
     instant.h = h;
     instant.x0 = x0_;

@@ -9,18 +9,18 @@
 // - Nothing is forecast to touch: a trial with few, often one. It stands only if no pair got an impulse.
 // - Something is: at least one per 1.1 ms; so many that what touches follows the islands' own motion (instantsToPress);
 //   and so many that two sides close by no more than 0.35 of their thickness in one.
-// - An instant turns out too coarse: a trial found contact, a pair went too deep, or pairs had to be slid apart. Then the
-//   whole tick is undone and repeated with at least twice as many, up to 64.
+// - An instant turns out too coarse: a trial found contact, a pair went too deep, or pairs had to be slid apart. The
+//   whole tick is undone then, and repeated with at least twice as many, up to 64.
 // A tick is also repeated when an island asks for it (its step was too long), and when one diverged and is frozen: the
 // others then go on beside it as it stands. Islands keep what they need to go back in beginTry().
 //
 // Deterministic. Each choice is a function of the state at the start of the tick and of what the tries found, and an
-// instant depends on its places and velocities alone (contact_group.h). No clock, thread or list age has a say; wall time
-// is measured for reports only.
+// instant depends on its places and velocities alone (contact_group.h). No clock, thread or list age has a say; wall
+// time is measured for reports only.
 //
 // Restorable. All that outlives a tick is saved by its owner: the islands' states, and the pace, the number of substeps
-// that all islands' steps are multiples of. The stage itself saves nothing. It is made anew when a body comes or goes, or
-// a world is restored, and goes on with the same bits.
+// that all islands' steps are multiples of. The stage itself saves nothing. It is made anew when a body comes or goes,
+// or a world is restored, and goes on with the same bits.
 #pragma once
 
 #include <functional>
@@ -47,8 +47,9 @@ contact::Surface surfaceOf(const Body& body, int offset, int bond);
 
 class ContactStage {
   public:
-    // Takes the islands with bodies that may touch. Keeps references to them and to `pace`: it follows how many instants
-    // are needed, and each island's substeps are a multiple of it. `colliders` is called if any body touches colliders.
+    // Takes the islands with bodies that may touch. Keeps references to them and to `pace`: it follows how many
+    // instants are needed, and each island's substeps are a multiple of it. `colliders` is called if any body touches
+    // colliders.
     ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds,
                  StepFollowing& pace, const std::function<std::vector<TouchedCollider>()>& colliders);
 
@@ -73,7 +74,9 @@ class ContactStage {
     std::span<const contact::Crossing> crossingsBefore() const;  // at its start
     bool hasMet() const { return hasMet_; }                      // a pair had an impulse, in any tick
     const std::vector<contact::Crossing>& crossings();           // now
-    dvec3 position(int point) const { return x1_[static_cast<std::size_t>(point)]; }  // [m] when the last of these was called
+    dvec3 position(int point) const {
+        return x1_[static_cast<std::size_t>(point)];
+    }  // [m] when the last of these was called
     const contact::Elements& elements() const { return group_->elements(); }
     // The body of a surface. Surfaces of bodies come first, then those of colliders.
     const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }

@@ -1,9 +1,9 @@
 // Nearest places, certificates and piercings, against sampling.
 #include "contact_support.h"
-#include "taut/contact/closest_points.h"
-#include "taut/contact/certificate.h"
 #include "taut/contact/broad_phase.h"
+#include "taut/contact/certificate.h"
 #include "taut/contact/closest_batch.h"
+#include "taut/contact/closest_points.h"
 #include "taut/core/instruction_set.h"
 
 namespace taut::contact {
@@ -210,12 +210,12 @@ TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
     BroadPhase near(elements);
     near.find(rest, rest);
     int listed = 0;
-    for (std::size_t r = 0; r < near.awakeCount(); ++r)
-        for (std::size_t k = 0; k < near.awake(r).pairs.size(); ++k) {
-            const CandidatePair& pair = near.awake(r).pairs[k];
+    for (std::size_t r = 0; r < near.dueCount(); ++r)
+        for (std::size_t k = 0; k < near.due(r).pairs.size(); ++k) {
+            const CandidatePair& pair = near.due(r).pairs[k];
             const int between = std::abs(pair.a - pair.b) - 1;  // segments
             EXPECT_NEAR(pair.thickness, std::min(2 * thickness, 0.7 * between * L), 1e-15) << pair.a << ", " << pair.b;
-            EXPECT_NEAR(near.awake(r).nearApproached[k] + nearShare * pair.thickness, between * L, 1e-15);
+            EXPECT_NEAR(near.due(r).approachBudget[k] + nearShare * pair.thickness, between * L, 1e-15);
             ++listed;
         }
     EXPECT_GE(listed, 4 + 3);  // those that are up to 2 L apart

@@ -10,14 +10,16 @@
 namespace taut::contact {
 namespace {
 
-constexpr int atOnce = 8;          // lists a task
-constexpr double bentShare = 0.4;  // of the largest thickness: leaves bent further are remembered anew
-constexpr double roomShare = 0.5;  // of it: room between boxes that are found near beforehand
-constexpr double flatShare = 0.1;  // of the thickness: what is flat with less to spare is listed nevertheless
-constexpr double mostAhead = 8;    // instants for which a search is to last
-constexpr double mostRoom = 4;     // of that room, that boxes may grow for it
+constexpr int atOnce = 8;  // lists a task
+// Of the largest thickness.
+constexpr double referenceShare = 0.4;  // a leaf that has deformed further takes a new reference shape
+constexpr double boxMarginShare = 0.5;  // margin of fat boxes
+constexpr double flatShare = 0.1;       // of the thickness: what is flat with less to spare keeps its list
+// Fat boxes reach ahead along the motion of their leaf.
+constexpr double searchAhead = 8;    // instants, if
+constexpr double mostBoxMargin = 4;  // that adds no more than so many margins
 
-// [m] between two boxes, at least.
+// [m] Lower bound of the distance between what is in two boxes.
 double gapOf(const Box& a, const Box& b) {
     return length(glm::max(dvec3(0.0), glm::max(a.low - b.high, b.low - a.high)));
 }
@@ -27,19 +29,19 @@ double gapOf(const Box& a, const Box& b) {
 void BroadPhase::drop() {
     lists_.clear();
     unused_.clear();
-    known_.clear();
-    awake_.clear();
-    roomy_.clear();
+    tracked_.clear();
+    due_.clear();
+    fatBoxes_.clear();
     bvh_.takeBalls();
-    looked_.clear();
-    stray_.assign(static_cast<std::size_t>(bvh_.count()), 0.0);
-    gone_.assign(static_cast<std::size_t>(bvh_.count()), 0.0);
+    checked_.clear();
+    deviation_.assign(static_cast<std::size_t>(bvh_.count()), 0.0);
+    travel_.assign(static_cast<std::size_t>(bvh_.count()), 0.0);
 }
 
 void BroadPhase::clear(CandidateList& list) {
     list.pairs.clear();
-    list.nearTravelled.clear();
-    list.nearApproached.clear();
+    list.travelBudget.clear();
+    list.approachBudget.clear();
     list.pointPairs = 0;
 }
 
@@ -49,49 +51,54 @@ BroadPhase::CandidateList* BroadPhase::newList(LeafPair pair) {
     unused_.pop_back();
     CandidateList fresh;
     fresh.pairs = std::move(list->pairs);
-    fresh.nearTravelled = std::move(list->nearTravelled);
-    fresh.nearApproached = std::move(list->nearApproached);
+    fresh.travelBudget = std::move(list->travelBudget);
+    fresh.approachBudget = std::move(list->approachBudget);
     *list = std::move(fresh);
     clear(*list);
     list->a = lowOf(pair);
     list->b = highOf(pair);
-    list->about = bvh_.about(list->a, list->b);
+    list->between = bvh_.leavesBetween(list->a, list->b);
     const int a = bvh_[list->a].surface, b = bvh_[list->b].surface;
-    list->most = elements_.surface(a).thickness + elements_.surface(b).thickness;
+    list->thickness = elements_.surface(a).thickness + elements_.surface(b).thickness;
     if (!elements_.shareBond(a, b))
-        list->apartAtLeast = list->most;
+        list->unlistedDistance = list->thickness;
     else if (a == b && bvh_.isPlane(a))
-        list->apartAtLeast = std::min(list->most, restShare * bvh_.leastAltitude(a));
+        list->unlistedDistance = std::min(list->thickness, restShare * bvh_.leastAltitude(a));
     return list;
 }
 
-double BroadPhase::comingOf(const CandidateList& list) const {
+double BroadPhase::relativeMotionOf(const CandidateList& list) const {
     const LeafMotion &a = bvh_.motion(list.a), &b = bvh_.motion(list.b);
-    return (list.a == list.b ? 0.0 : length(a.way - b.way)) + a.stray + b.stray;
+    return (list.a == list.b ? 0.0 : length(a.way - b.way)) + a.deviation + b.deviation;
 }
 
-void BroadPhase::approach(CandidateList& list) const {
+// What the motion of this instant adds to travelled and approached.
+void BroadPhase::measureMotion(CandidateList& list) const {
     const LeafMotion &a = bvh_.motion(list.a), &b = bvh_.motion(list.b);
-    const double strayA = stray_[static_cast<std::size_t>(list.a)] - list.strayA;
-    const double strayB = stray_[static_cast<std::size_t>(list.b)] - list.strayB;
+    // Sums of deviations since the list was made.
+    const double ownDeviationA = deviation_[static_cast<std::size_t>(list.a)] - list.deviationA;
+    const double ownDeviationB = deviation_[static_cast<std::size_t>(list.b)] - list.deviationB;
     const bool isOne = list.a == list.b;
-    list.coming = comingOf(list);
-    // Between the means, before and after; and of the points about them.
-    double between = 0;
+    list.relativeMotion = relativeMotionOf(list);
+    // How the offset of the centres has changed, at x0 and at x1.
+    double ofCentres = 0;
     if (!isOne) {
-        const dvec3 before = a.centre - b.centre - list.apart, after = before + a.way - b.way;
-        between = std::sqrt(std::max(glm::dot(before, before), glm::dot(after, after)));
+        const dvec3 before = a.centre - b.centre - list.offset, after = before + a.way - b.way;
+        ofCentres = std::sqrt(std::max(glm::dot(before, before), glm::dot(after, after)));
     }
-    const double ownA = strayA + a.stray, ownB = strayB + b.stray;
-    const double bentA = a.times == list.timesA ? a.bent + list.bentA : ownA;
-    const double bentB = b.times == list.timesB ? b.bent + list.bentB : ownB;
-    list.approached = between + std::min(ownA, bentA) + std::min(ownB, bentB);
-    list.travelled = list.way + list.coming;
+    // How points have moved about their centre. With the reference shape that the list was made with: there and back
+    // again by the two deformations.
+    const double sumA = ownDeviationA + a.deviation, sumB = ownDeviationB + b.deviation;
+    const double netA = a.reference == list.referenceA ? a.deformation + list.deformationA : sumA;
+    const double netB = b.reference == list.referenceB ? b.deformation + list.deformationB : sumB;
+    list.approached = ofCentres + std::min(sumA, netA) + std::min(sumB, netB);
+    list.travelled = list.travelledBefore + list.relativeMotion;
 }
 
-// Whether all of one leaf stays further from all of the other than any pair of them is near, along the way between
-// their middles, before and after, and so in between.
-bool BroadPhase::passesBy(const CandidateList& list, std::span<const dvec3> x0, std::span<const dvec3> x1) const {
+// Whether an axis keeps all of leaf a above all of leaf b, by more than near, at x0 and at x1: on straight ways in
+// between too (certificate.h). The axis is the line between the centres, halfway.
+bool BroadPhase::isSeparatedOnTheWay(const CandidateList& list, std::span<const dvec3> x0,
+                                     std::span<const dvec3> x1) const {
     const LeafMotion &a = bvh_.motion(list.a), &b = bvh_.motion(list.b);
     const dvec3 between = a.centre - b.centre + 0.5 * (a.way - b.way);
     const double size = length(between);
@@ -101,219 +108,258 @@ bool BroadPhase::passesBy(const CandidateList& list, std::span<const dvec3> x0, 
         double low = 1e300, high = -1e300;
         for (int i : bvh_[list.a].corners) low = std::min(low, glm::dot(axis, x[static_cast<std::size_t>(i)]));
         for (int i : bvh_[list.b].corners) high = std::max(high, glm::dot(axis, x[static_cast<std::size_t>(i)]));
-        if (!(low - high > nearShare * list.most)) return false;
+        if (!(low - high > nearShare * list.thickness)) return false;
     }
     return true;
 }
 
-bool BroadPhase::staysWhereSearched(std::span<const dvec3> x0, std::span<const dvec3> x1, double bent) {
-    if (roomy_.empty()) return false;
+// Whether the last search of the tree still holds. Only leaves that have gone further than freeTravel_ are measured.
+bool BroadPhase::areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed) {
+    if (fatBoxes_.empty()) return false;
     leafList_.clear();
     for (int p = 0; p < bvh_.count(); ++p) {
         const auto k = static_cast<std::size_t>(p);
-        if (gone_[k] + bvh_.going(p) - goneThen_[k] > lasting_) leafList_.push_back(p);
+        if (travel_[k] + bvh_.travel(p) - travelAtSearch_[k] > freeTravel_) leafList_.push_back(p);
     }
-    bvh_.follow(leafList_, x0, x1, bent);
+    bvh_.follow(leafList_, x0, x1, mostDeformed);
     for (int p : leafList_) {
-        const Box &box = bvh_.motion(p).box, &roomy = roomy_[static_cast<std::size_t>(p)];
-        if (!(box.low.x >= roomy.low.x && box.low.y >= roomy.low.y && box.low.z >= roomy.low.z &&
-              box.high.x <= roomy.high.x && box.high.y <= roomy.high.y && box.high.z <= roomy.high.z))
+        const Box &box = bvh_.motion(p).box, &fat = fatBoxes_[static_cast<std::size_t>(p)];
+        if (!(box.low.x >= fat.low.x && box.low.y >= fat.low.y && box.low.z >= fat.low.z && box.high.x <= fat.high.x &&
+              box.high.y <= fat.high.y && box.high.z <= fat.high.z))
             return false;
     }
     return true;
 }
 
-// For as many instants like this one as pay.
-void BroadPhase::search(double room) {
+// Makes the fat boxes, and tracks the pairs whose boxes overlap. Pairs that were tracked before keep their lists.
+void BroadPhase::searchTree(double boxMargin) {
+    // Boxes reach ahead for so many instants like this one; none where points go too far even in one.
     double most = 0;
-    for (int p = 0; p < bvh_.count(); ++p) most = std::max(most, bvh_.going(p));
-    const double instants = mostAhead * most > mostRoom * room ? mostRoom * room / most : mostAhead;
-    roomy_.resize(static_cast<std::size_t>(bvh_.count()));
-    goneThen_ = gone_;
-    lasting_ = instants < 1 ? 0.0 : room;
+    for (int p = 0; p < bvh_.count(); ++p) most = std::max(most, bvh_.travel(p));
+    const double instants =
+        searchAhead * most > mostBoxMargin * boxMargin ? mostBoxMargin * boxMargin / most : searchAhead;
+    fatBoxes_.resize(static_cast<std::size_t>(bvh_.count()));
+    travelAtSearch_ = travel_;
+    freeTravel_ = instants < 1 ? 0.0 : boxMargin;
     for (int p = 0; p < bvh_.count(); ++p) {
         const LeafMotion& motion = bvh_.motion(p);
-        Box& roomy = roomy_[static_cast<std::size_t>(p)];
-        roomy = motion.box;
+        Box& fat = fatBoxes_[static_cast<std::size_t>(p)];
+        fat = motion.box;
         if (instants < 1) continue;
         const dvec3 way = instants * motion.way;
-        const double aside = room + instants * motion.stray;
-        roomy.low += glm::min(way, dvec3(0.0)) - aside;
-        roomy.high += glm::max(way, dvec3(0.0)) + aside;
+        const double aside = boxMargin + instants * motion.deviation;
+        fat.low += glm::min(way, dvec3(0.0)) - aside;
+        fat.high += glm::max(way, dvec3(0.0)) + aside;
     }
-    bvh_.findNear(roomy_, room, found_);
+    bvh_.findNear(fatBoxes_, boxMargin, found_);
 
+    // Merges the pairs found with those tracked so far; both are ascending.
     merged_.clear();
-    auto old = known_.begin();
-    const auto forgetUntil = [&](LeafPair pair) {
-        for (; old != known_.end() && old->pair < pair; ++old) unused_.push_back(old->list);
+    auto old = tracked_.begin();
+    const auto releaseUntil = [&](LeafPair pair) {
+        for (; old != tracked_.end() && old->pair < pair; ++old) unused_.push_back(old->list);
     };
     for (LeafPair pair : found_) {
-        forgetUntil(pair);
-        if (old != known_.end() && old->pair == pair)
+        releaseUntil(pair);
+        if (old != tracked_.end() && old->pair == pair)
             merged_.push_back(*old++);
         else
-            merged_.push_back({pair, newList(pair), -1, 0, goneOf(pair)});
+            merged_.push_back({pair, newList(pair), -1, 0, travelOf(pair)});
     }
-    forgetUntil(~LeafPair{0});
-    std::swap(known_, merged_);
+    releaseUntil(~LeafPair{0});
+    std::swap(tracked_, merged_);
 }
 
-double BroadPhase::goneOf(LeafPair pair) const {
-    return gone_[static_cast<std::size_t>(lowOf(pair))] + gone_[static_cast<std::size_t>(highOf(pair))];
+double BroadPhase::travelOf(LeafPair pair) const {
+    return travel_[static_cast<std::size_t>(lowOf(pair))] + travel_[static_cast<std::size_t>(highOf(pair))];
 }
 
-// Whether the list of a list holds in this instant, or need not.
-void BroadPhase::look(Known& known, std::span<const dvec3> x0, std::span<const dvec3> x1) const {
-    CandidateList& list = *known.list;
-    const double gone = goneOf(known.pair);
-    list.way += gone - known.counted;
-    known.counted = gone;
-    known.quiet = -1;
-    approach(list);
-    list.isFlat = list.isPassing = false;
-    list.isNew = list.approached > list.valid;
-    if (!list.isNew) return;
-    const double between = gapOf(bvh_.motion(list.a).before, bvh_.motion(list.b).before);
-    const double apart = between - nearShare * list.most;
-    if (apart > list.coming) {
-        list.isNew = false;
-        restart(list, apart);
-    } else if (apart > 0 && passesBy(list, x0, x1)) {
-        list.isNew = false;
-        list.isPassing = true;
+// Brings the motion of a pair's list up to date, and says whether it has expired.
+void BroadPhase::check(TrackedPair& tracked, std::span<const dvec3> x0, std::span<const dvec3> x1) const {
+    CandidateList& list = *tracked.list;
+    // Instants since the last check count with the travel of the leaves, which is no less than their relative motion.
+    const double travel = travelOf(tracked.pair);
+    list.travelledBefore += travel - tracked.countedTravel;
+    tracked.countedTravel = travel;
+    tracked.motionBudget = -1;
+    measureMotion(list);
+    list.isFlat = list.isSeparated = false;
+    list.isExpired = list.approached > list.margin;
+    if (!list.isExpired) return;
+    // No new list is needed where the boxes are too far apart, or an axis separates the leaves in this instant.
+    const double gap = gapOf(bvh_.motion(list.a).before, bvh_.motion(list.b).before);
+    const double spare = gap - nearShare * list.thickness;
+    if (spare > list.relativeMotion) {
+        list.isExpired = false;
+        restart(list, spare);
+    } else if (spare > 0 && isSeparatedOnTheWay(list, x0, x1)) {
+        list.isExpired = false;
+        list.isSeparated = true;
     }
 }
 
 void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    stray_.resize(static_cast<std::size_t>(bvh_.count()), 0.0);
-    gone_.resize(static_cast<std::size_t>(bvh_.count()), 0.0);
+    deviation_.resize(static_cast<std::size_t>(bvh_.count()), 0.0);
+    travel_.resize(static_cast<std::size_t>(bvh_.count()), 0.0);
     double thickest = 0;
     for (const Surface& surface : elements_.surfaces())
         if (!surface.isRigid) thickest = std::max(thickest, surface.thickness);
-    const double room = roomShare * thickest, bent = bentShare * thickest;
+    const double boxMargin = boxMarginShare * thickest, mostDeformed = referenceShare * thickest;
+
+    // Pairs of leaves.
     bvh_.start(x0, x1);
-    if (!staysWhereSearched(x0, x1, bent)) {
-        bvh_.followAll(x0, x1, bent);
-        search(room);
+    if (!areInFatBoxes(x0, x1, mostDeformed)) {
+        bvh_.followAll(x0, x1, mostDeformed);
+        searchTree(boxMargin);
     }
 
-    const int count = static_cast<int>(known_.size()), tasks = (count + atOnce - 1) / atOnce;
-    isLooked_.resize(known_.size());
-    slacks_.assign(static_cast<std::size_t>(tasks), room);
+    // Those that may have used up a budget.
+    selectForCheck(boxMargin);
+    bvh_.follow(leafList_, x0, x1, mostDeformed);
+    const int count = static_cast<int>(checked_.size());
+    core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
+        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k)
+            check(*checked_[static_cast<std::size_t>(k)], x0, x1);
+    });
+
+    // Those that have.
+    selectDue();
+    bvh_.measureFlatness(between_, x0, x1);
+    refreshDue(x0);
+    limitSlack(boxMargin);
+}
+
+// The tracked pairs whose leaves may have used up the motion budget -> checked_, and their leaves -> leafList_. The
+// slack of the others -> slacks_.
+void BroadPhase::selectForCheck(double boxMargin) {
+    const int count = static_cast<int>(tracked_.size()), tasks = (count + atOnce - 1) / atOnce;
+    needsCheck_.resize(tracked_.size());
+    slacks_.assign(static_cast<std::size_t>(tasks), boxMargin);
     core::parallelFor(tasks, [&](int task) {
         double& slack = slacks_[static_cast<std::size_t>(task)];
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
-            const Known& known = known_[static_cast<std::size_t>(k)];
-            const double going = bvh_.going(lowOf(known.pair)) + bvh_.going(highOf(known.pair));
-            const double left = known.quiet - (goneOf(known.pair) + going - known.since);
-            isLooked_[static_cast<std::size_t>(k)] = left > 0 ? 0 : 1;
-            if (left > 0) slack = std::min({slack, left + known.apartAtLeast, watchShare * known.leastThickness});
+            const TrackedPair& tracked = tracked_[static_cast<std::size_t>(k)];
+            const double travel = bvh_.travel(lowOf(tracked.pair)) + bvh_.travel(highOf(tracked.pair));
+            const double left = tracked.motionBudget - (travelOf(tracked.pair) + travel - tracked.budgetStart);
+            needsCheck_[static_cast<std::size_t>(k)] = left > 0 ? 0 : 1;
+            if (left > 0)
+                slack = std::min({slack, left + tracked.unlistedDistance, watchShare * tracked.leastThickness});
         }
     });
-    looked_.clear();
+    checked_.clear();
     leafList_.clear();
-    for (std::size_t k = 0; k < known_.size(); ++k) {
-        if (isLooked_[k] == 0) continue;
-        looked_.push_back(&known_[k]);
-        leafList_.push_back(lowOf(known_[k].pair));
-        leafList_.push_back(highOf(known_[k].pair));
+    for (std::size_t k = 0; k < tracked_.size(); ++k) {
+        if (needsCheck_[k] == 0) continue;
+        checked_.push_back(&tracked_[k]);
+        leafList_.push_back(lowOf(tracked_[k].pair));
+        leafList_.push_back(highOf(tracked_[k].pair));
     }
-    bvh_.follow(leafList_, x0, x1, bent);
-    const int looked = static_cast<int>(looked_.size());
-    core::parallelFor((looked + atOnce - 1) / atOnce, [&](int task) {
-        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, looked); ++k)
-            look(*looked_[static_cast<std::size_t>(k)], x0, x1);
-    });
-    awake_.clear();
-    about_.clear();
-    for (const Known* known : looked_) {
-        CandidateList* list = known->list;
-        if (list->isPassing) continue;
-        if (!list->isNew && list->travelled < list->asleepTravelled && list->approached < list->asleepApproached)
-            continue;
-        awake_.push_back(list);
-        about_.insert(about_.end(), list->about.begin(), list->about.end());
+}
+
+// The checked lists that have expired, or have a pair that may be near -> due_; the leaves between theirs -> between_.
+void BroadPhase::selectDue() {
+    due_.clear();
+    between_.clear();
+    for (const TrackedPair* tracked : checked_) {
+        CandidateList* list = tracked->list;
+        if (list->isSeparated) continue;
+        const bool hasBudget =
+            list->travelled < list->leastTravelBudget && list->approached < list->leastApproachBudget;
+        if (!list->isExpired && hasBudget) continue;
+        due_.push_back(list);
+        between_.insert(between_.end(), list->between.begin(), list->between.end());
     }
-    bvh_.measureFlatness(about_, x0, x1);
+}
+
+// Makes expired lists anew, and empties those of flat leaves.
+void BroadPhase::refreshDue(std::span<const dvec3> x0) {
     std::atomic<std::size_t> made{0};
-    const int stirring = static_cast<int>(awake_.size());
-    core::parallelFor((stirring + atOnce - 1) / atOnce, [&](int task) {
+    const int count = static_cast<int>(due_.size());
+    core::parallelFor((count + atOnce - 1) / atOnce, [&](int task) {
         std::size_t own = 0;
-        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, stirring); ++k) {
-            CandidateList& list = *awake_[static_cast<std::size_t>(k)];
+        for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
+            CandidateList& list = *due_[static_cast<std::size_t>(k)];
             const int surface = bvh_[list.a].surface;
-            const double more = bvh_.flatness(list.about) - bvh_.enough(surface);
-            const double apart = more * bvh_.leastAltitude(surface);
-            list.isFlat = more >= 0;
-            if (list.isFlat && apart >= flatShare * elements_.surface(surface).thickness) {
-                restart(list, apart);
-            } else if (list.isNew) {
+            // Flat with so much to spare: no two parts are in contact until they have approached by that much.
+            const double spareShare = bvh_.flatness(list.between) - bvh_.requiredFlatness(surface);
+            const double spare = spareShare * bvh_.leastAltitude(surface);
+            list.isFlat = spareShare >= 0;
+            if (list.isFlat && spare >= flatShare * elements_.surface(surface).thickness) {
+                restart(list, spare);
+            } else if (list.isExpired) {
                 makeList(list, x0);
                 ++own;
             }
         }
         made += own;
     });
-    listed_ += made;
-    slack_ = room;
+    listsMade_ += made;
+}
+
+// What points may go further than was told: see holdWithin(). Pairs that are in no list have the rest of its margin,
+// and what is left between them then; pairs in a list that need no certificate have watchShare of their thickness.
+void BroadPhase::limitSlack(double boxMargin) {
+    slack_ = boxMargin;
     for (double slack : slacks_) slack_ = std::min(slack_, slack);
-    for (const Known* known : looked_) {
-        const CandidateList& list = *known->list;
-        const double unlisted = list.isPassing ? 0.0 : list.valid - list.approached;
-        slack_ = std::min({slack_, unlisted + list.apartAtLeast, watchShare * list.leastThickness});
+    for (const TrackedPair* tracked : checked_) {
+        const CandidateList& list = *tracked->list;
+        const double left = list.isSeparated ? 0.0 : list.margin - list.approached;
+        slack_ = std::min({slack_, left + list.unlistedDistance, watchShare * list.leastThickness});
     }
 }
 
-void BroadPhase::go(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+void BroadPhase::advance(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     bvh_.start(x0, x1);
-    looked_.clear();
-    addWays();
+    checked_.clear();
+    accumulateTravel();
 }
 
-void BroadPhase::arrive(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1) {
+void BroadPhase::finish(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1) {
     bvh_.correct(moved, x0, x1);
-    addWays();
+    accumulateTravel();
 }
 
-// Those that were looked at know how far they have come nearer, the others only how far their leaves have gone.
-void BroadPhase::addWays() {
-    for (Known* known : looked_) {
-        const CandidateList& list = *known->list;
-        known->since = goneOf(known->pair);
-        known->quiet = std::min({list.valid - list.approached, list.asleepTravelled - list.travelled,
-                                 list.asleepApproached - list.approached});
-        known->apartAtLeast = list.apartAtLeast;
-        known->leastThickness = list.leastThickness;
+// The instant ends. Checked pairs count their relative motion, the others the travel of their leaves; check() adds
+// that.
+void BroadPhase::accumulateTravel() {
+    // What is left of the budgets of checked pairs. Leaves that travel less do not use it up.
+    for (TrackedPair* tracked : checked_) {
+        const CandidateList& list = *tracked->list;
+        tracked->budgetStart = travelOf(tracked->pair);
+        tracked->motionBudget = std::min({list.margin - list.approached, list.leastTravelBudget - list.travelled,
+                                          list.leastApproachBudget - list.approached});
+        tracked->unlistedDistance = list.unlistedDistance;
+        tracked->leastThickness = list.leastThickness;
     }
+    // Leaves that were not followed deviate by no more than two ways: a point's, and the mean's.
     for (int p = 0; p < bvh_.count(); ++p) {
         const auto k = static_cast<std::size_t>(p);
-        stray_[k] += bvh_.isFollowed(p) ? bvh_.motion(p).stray : 2 * bvh_.going(p);
-        gone_[k] += bvh_.going(p);
+        deviation_[k] += bvh_.isFollowed(p) ? bvh_.motion(p).deviation : 2 * bvh_.travel(p);
+        travel_[k] += bvh_.travel(p);
     }
-    for (Known* known : looked_) {
-        known->list->way += comingOf(*known->list);
-        known->counted = goneOf(known->pair);
+    for (TrackedPair* tracked : checked_) {
+        tracked->list->travelledBefore += relativeMotionOf(*tracked->list);
+        tracked->countedTravel = travelOf(tracked->pair);
     }
-    looked_.clear();
+    checked_.clear();
 }
 
-// Nothing of it is near until it has come that much nearer [m].
-void BroadPhase::restart(CandidateList& list, double valid) const {
+// Empties the list. No pair is near until it has approached by the margin [m].
+void BroadPhase::restart(CandidateList& list, double margin) const {
     clear(list);
-    list.asleepTravelled = list.asleepApproached = 1e300;
+    list.leastTravelBudget = list.leastApproachBudget = 1e300;
     list.leastThickness = 1e300;
-    list.valid = valid;
-    list.apart = bvh_.motion(list.a).centre - bvh_.motion(list.b).centre;
-    list.strayA = stray_[static_cast<std::size_t>(list.a)];
-    list.strayB = stray_[static_cast<std::size_t>(list.b)];
-    list.approached = list.travelled = list.coming;
-    list.way = 0;
+    list.margin = margin;
+    list.offset = bvh_.motion(list.a).centre - bvh_.motion(list.b).centre;
+    list.deviationA = deviation_[static_cast<std::size_t>(list.a)];
+    list.deviationB = deviation_[static_cast<std::size_t>(list.b)];
+    list.approached = list.travelled = list.relativeMotion;
+    list.travelledBefore = 0;
     const LeafMotion &motionA = bvh_.motion(list.a), &motionB = bvh_.motion(list.b);
-    list.bentA = motionA.bent;
-    list.bentB = motionB.bent;
-    list.timesA = motionA.times;
-    list.timesB = motionB.times;
+    list.deformationA = motionA.deformation;
+    list.deformationB = motionB.deformation;
+    list.referenceA = motionA.reference;
+    list.referenceB = motionB.reference;
 }
 
 std::uint64_t BroadPhase::bytes() const {

@@ -1,6 +1,30 @@
-// Which points may meet which triangles, and which edges which, in an instant: lists that outlive the instant they were
-// made in, for as long as what they are about has not come nearer than they reach. They may name too much, never too
-// little: what comes out of an instant does not depend on when they were made.
+// Broad phase: which points may touch which triangles in an instant, and which edges which.
+//
+//     leaves of the tree                          (bvh.h: some fifteen triangles each)
+//       |   fat boxes overlap                     valid while all leaves stay in their fat boxes
+//     tracked pairs of leaves
+//       |   the leaves have used up a budget      until then no look at their motion is needed
+//     checked pairs
+//       |   a candidate has used up its budgets   until then no distance is measured
+//     lists that are due  --->  narrow phase      a list that has expired is made anew first
+//
+// All of it rests on one bound. The points of a leaf move by the mean way of the leaf, but for a deviation. So between
+// two leaves no distance changes in an instant by more than
+//
+//     relative motion = |way A - way B| + deviation A + deviation B
+//
+// The sum of these over instants is `travelled`. `approached` bounds the same change as a net displacement: it does not
+// grow when leaves swing to and fro. The smaller one counts. As with the skin of a Verlet list in molecular dynamics:
+// - A list is made with a margin. It names all pairs closer than near (nearShare of their thickness) plus the margin.
+//   While approached <= margin, any pair that is near is in the list. Then the list expires.
+// - Each pair in it has the distance that was measured last, less near, as a budget. It is not near before the leaves
+//   have used it up, and is not measured again until then.
+// - Two leaves whose boxes are apart, or which a separating axis holds apart for this instant, need no list. Neither do
+//   leaves of a flat surface that is still nearly flat (bvh_flatness.cpp).
+//
+// So a list may name too much, never too little. What it names too much the narrow phase drops, by a test that knows
+// this instant alone. Pairs come in the order of their leaves and elements. That is why the result of an instant does
+// not depend on when lists were made: after a restored state, or drop(), the same bits come out.
 #pragma once
 
 #include <deque>
@@ -11,110 +35,120 @@
 
 namespace taut::contact {
 
-// A point and a triangle, or two edges, of which at least one pair of points may come into contact.
+// A point and a triangle, or two edges, that may come into contact.
 struct CandidatePair {
     int a, b;          // point and triangle; or edges, the lower first
-    double thickness;  // [m] that they keep
+    double thickness;  // [m] distance that they keep
 };
 
-// Pairs that are further apart than what is coming, and that share of what they keep, cannot meet in an instant, and
-// need not be watched.
+// A pair needs a certificate if its distance is below the relative motion of its leaves plus this share of its
+// thickness: the share is for the ways that contact adds.
 inline constexpr double watchShare = 0.5;
 
 class BroadPhase {
   public:
     explicit BroadPhase(const Elements& elements) : elements_(elements), bvh_(elements) {}
 
-    // Forgets all lists: to be called when points have jumped, or something is gone.
+    // Forgets all lists. To be called when points have jumped, or elements are gone.
     void drop();
 
-    // Lists all that comes within reach on the way from x0 to x1 (points) [m].
+    // Finds the lists that are due on the way from x0 to x1 (points) [m].
     void find(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // On the way from x0 to x1 nobody meets anybody.
-    void go(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // Nobody went further than that [m] beyond the ways that were found: whether the lists hold for them too, and no
-    // pair that was not near can have met.
+    // Whether the result of find() holds if each point goes at most `way` [m] further than it was told: no pair that is
+    // not measured can have passed through itself.
     bool holdWithin(double way) const { return 2 * way <= slack_; }
-    // The end of the instant: of these points (ascending) x1 is not what it was when pairs were found.
-    void arrive(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
+    // The end of the instant. x1 of these points (ascending) is no longer what find() was told.
+    void finish(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
+    // Points went from x0 to x1 and nothing is to be found on the way.
+    void advance(std::span<const dvec3> x0, std::span<const dvec3> x1);
 
     Bvh& bvh() { return bvh_; }
 
+    // The candidates of two leaves.
     struct CandidateList {
         int a = 0, b = 0;  // leaves
         std::vector<CandidatePair> pairs;
-        std::size_t pointPairs = 0;  // the first of them: of points and triangles
-        // (pairs) [m] Until it has travelled that far, by what was last found between them, and come that much nearer,
-        // by what was between them when they were listed, none of a pair is near.
-        std::vector<double> nearTravelled, nearApproached;
-        double travelled = 0;    // [m] at most, since they were listed, the coming way included: a sum of ways
-        double approached = 0;   // [m] likewise, from where they were then
-        double coming = 0;       // [m] of that the coming way
-        bool isNew = false;      // its list has expired in this instant
-        bool isPassing = false;  // both pass each other by in this instant
-        bool isFlat = false;     // nothing of it meets in this instant
+        std::size_t pointPairs = 0;  // so many pairs of points and triangles come first, then pairs of edges
+        // (pairs) [m] The pair is near only when travelled and approached have both reached these.
+        std::vector<double> travelBudget, approachBudget;
+        double leastTravelBudget = 0,
+               leastApproachBudget = 0;  // [m] of all pairs: the list is due when both are reached
+        double thickness = 0;            // [m] sum of the two surfaces' thicknesses
+        double leastThickness = 0;       // [m] of the pairs
+        double margin = -1;              // [m] the list expires when approached exceeds it
+        double unlistedDistance = 0;     // [m] pairs that are not in the list are further apart than this until then
+        std::vector<int> between;        // leaves at rest between a and b: see Bvh::leavesBetween()
 
-        double most = 0;            // [m] that pairs keep: the sum of the thicknesses
-        double leastThickness = 0;  // [m] of the pairs
-        // None of them is near until it has travelled that far, or come that much nearer [m].
-        double asleepTravelled = 0, asleepApproached = 0;
-        double valid = -1;              // [m] until it may have come that much nearer it names all that is near
-        dvec3 apart{0.0};               // [m] of the centres when they were listed
-        double strayA = 0, strayB = 0;  // [m] of the leaves until then
-        double bentA = 0, bentB = 0;    // [m] of them then
-        int timesA = -1, timesB = -1;   // that they were remembered until then
-        double way = 0;                 // [m] sum of the ways since then, the coming one left out
-        double apartAtLeast = 0;        // [m] of what it does not name, when it ceases to be valid
-        std::vector<int> about;         // leaves
+        // Of this instant.
+        double relativeMotion = 0;  // [m] bound above
+        double travelled = 0;       // [m] since the list was made, this instant included: sum of relative motions
+        double approached = 0;      // [m] likewise, net
+        bool isExpired = false;     // has to be made anew
+        bool isSeparated = false;   // expired, but a separating axis spares it in this instant
+        bool isFlat = false;        // flat enough that no pair touches in this instant
+
+        // When the list was made, and since.
+        double travelledBefore = 0;                 // [m] travelled, without this instant
+        dvec3 offset{0.0};                          // [m] from centre to centre
+        double deviationA = 0, deviationB = 0;      // [m] sums of the leaves' deviations until then
+        double deformationA = 0, deformationB = 0;  // [m] of the leaves from their reference shapes
+        int referenceA = -1, referenceB = -1;       // numbers of these reference shapes
     };
-    // In the order of the leaves; those of which a pair may be near in an instant.
-    std::size_t awakeCount() const { return awake_.size(); }
-    CandidateList& awake(std::size_t i) { return *awake_[i]; }
+    // Lists to be measured in this instant, in the order of the leaves.
+    std::size_t dueCount() const { return due_.size(); }
+    CandidateList& due(std::size_t i) { return *due_[i]; }
 
-    std::size_t listed() const { return listed_; }  // lists made so far
+    std::size_t listsMade() const { return listsMade_; }
     std::uint64_t bytes() const;
 
   private:
-    struct Known {
+    // Two leaves whose fat boxes overlap.
+    struct TrackedPair {
         LeafPair pair;
         CandidateList* list;
-        // Nothing about it changes until its leaves have gone that far in sum [m] since they had gone so far.
-        double quiet = -1, since = 0;
-        double counted = 0;                           // [m] of their ways that the list's way has in it
-        double apartAtLeast = 0, leastThickness = 0;  // [m] of the list
+        // [m] The pair is not checked until the travel of its leaves has grown from budgetStart by motionBudget.
+        double motionBudget = -1, budgetStart = 0;
+        double countedTravel = 0;  // [m] travel of its leaves that list->travelledBefore includes
+        double unlistedDistance = 0, leastThickness = 0;  // [m] copies of the list's
     };
 
-    void search(double room);
-    void addWays();
-    double goneOf(LeafPair pair) const;
-    void look(Known& known, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
-    bool staysWhereSearched(std::span<const dvec3> x0, std::span<const dvec3> x1, double bent);
-    bool passesBy(const CandidateList& list, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
-    static void clear(CandidateList& list);
+    // Steps of find().
+    bool areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed);
+    void searchTree(double boxMargin);
+    void selectForCheck(double boxMargin);
+    void check(TrackedPair& tracked, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
+    void selectDue();
+    void refreshDue(std::span<const dvec3> x0);
+    void limitSlack(double boxMargin);
+
+    double relativeMotionOf(const CandidateList& list) const;
+    void measureMotion(CandidateList& list) const;
+    bool isSeparatedOnTheWay(const CandidateList& list, std::span<const dvec3> x0, std::span<const dvec3> x1) const;
     CandidateList* newList(LeafPair pair);
-    double comingOf(const CandidateList& list) const;
-    void approach(CandidateList& list) const;
-    void restart(CandidateList& list, double valid) const;
-    void makeList(CandidateList& list, std::span<const dvec3> x0) const;
+    static void clear(CandidateList& list);
+    void restart(CandidateList& list, double margin) const;
+    void makeList(CandidateList& list, std::span<const dvec3> x0) const;  // candidate_list.cpp
+    double travelOf(LeafPair pair) const;
+    void accumulateTravel();
 
     const Elements& elements_;
     Bvh bvh_;
-    std::deque<CandidateList> lists_;     // in no order
-    std::vector<CandidateList*> unused_;  // of them
-    std::vector<Known> known_, merged_;   // ascending
-    std::vector<Known*> looked_;          // those that were not quiet
-    std::vector<CandidateList*> awake_;
-    std::vector<double> stray_;          // [m] (leaves) sum over all instants
-    std::vector<double> gone_;           // [m] (leaves) likewise, how far any of its points has gone at most
-    std::vector<char> isLooked_;         // (known) scratch
-    std::vector<Box> roomy_;             // (leaves) while all stay within, all that are near are known
-    std::vector<double> goneThen_;       // [m] (leaves) until then
-    double lasting_ = 0;                 // [m] that they may go since then at least, and stay
-    std::vector<double> slacks_;         // (tasks) scratch
-    std::vector<int> about_, leafList_;  // leaves, scratch
+    std::deque<CandidateList> lists_;            // in no order
+    std::vector<CandidateList*> unused_;         // of lists_
+    std::vector<TrackedPair> tracked_, merged_;  // ascending; scratch
+    std::vector<TrackedPair*> checked_;          // in this instant
+    std::vector<CandidateList*> due_;
+    std::vector<double> deviation_;        // (leaves) [m] sum over all instants
+    std::vector<double> travel_;           // (leaves) [m] sum over all instants of the furthest way of a point
+    std::vector<Box> fatBoxes_;            // (leaves) of the last search of the tree
+    std::vector<double> travelAtSearch_;   // (leaves) [m]
+    double freeTravel_ = 0;                // [m] a leaf that went less since the search is in its fat box
+    std::vector<char> needsCheck_;         // (tracked) scratch
+    std::vector<double> slacks_;           // (tasks) [m] scratch
+    std::vector<int> between_, leafList_;  // leaves, scratch
     std::vector<LeafPair> found_;
-    double slack_ = 0;
-    std::size_t listed_ = 0;
+    double slack_ = 0;  // [m] see holdWithin()
+    std::size_t listsMade_ = 0;
 };
 
 }  // namespace taut::contact

@@ -12,13 +12,13 @@ namespace {
 
 constexpr int atOnce = 16;  // leaves a task
 
-constexpr double alike = 1e-6;       // what differs by that share is the same but for rounding
-constexpr double middleShare = 0.2;  // of the items: as far from the middle as that they may be parted
-constexpr double wideShare = 0.6;    // of the widest gap there, which another has to have
+constexpr double alike = 1e-6;       // sizes that differ by this share are equal but for rounding
+constexpr double middleShare = 0.2;  // of the items: a node may be split this far from the middle
+constexpr double wideShare = 0.6;    // of the widest gap there: the least gap to split at
 
-// Each on any thread.
+// Calls each(leaf) in parallel.
 template <class Each>
-void forEachPatch(std::size_t count, Each&& each) {
+void forEachLeaf(std::size_t count, Each&& each) {
     constexpr std::size_t chunk = 32;
     core::parallelFor(static_cast<int>((count + chunk - 1) / chunk), [&](int task) {
         const std::size_t from = static_cast<std::size_t>(task) * chunk;
@@ -34,8 +34,9 @@ dvec3 unitAcross(const dvec3& along) {
     return across / length(across);
 }
 
-// Axes that turn with a surface: along the shortest edge of its first triangle, beside that in its plane, and across;
-// along its first edge where there are no triangles.
+// Axes that turn with a surface, so that the tree does too: the shortest edge of its first triangle, the direction
+// beside it in the triangle's plane, and the normal. Without triangles its first edge, and the point furthest from
+// that.
 Axes axesOf(const Elements& elements, int surface) {
     const auto at = [&](int i) { return elements.rest()[static_cast<std::size_t>(i)]; };
     dvec3 along(1.0, 0.0, 0.0), beside(0.0);
@@ -69,8 +70,8 @@ Axes axesOf(const Elements& elements, int surface) {
     return {along, beside, glm::cross(along, beside)};
 }
 
-// How many of places in order are the lower half: the gap nearest to the middle that is about as wide as any near it,
-// so that the rows of a grid stay whole.
+// Where to split sorted places: at the gap closest to the middle that is about as wide as any near it. So the rows of a
+// grid stay whole.
 std::size_t halfOf(const std::vector<double>& places) {
     const std::size_t n = places.size(), middle = n / 2;
     const auto off = std::max<std::size_t>(1, static_cast<std::size_t>(middleShare * static_cast<double>(n)));
@@ -90,6 +91,7 @@ Bvh::Bvh(const Elements& elements)
     : elements_(elements),
       leafOfPoint_(static_cast<std::size_t>(elements.pointCount()), -1),
       leafOfEdge_(static_cast<std::size_t>(elements.edgesWithoutBalls()), -1) {
+    // Over 60 lines: the parts of the tree one after the other, then the arrays that have their size.
     std::vector<int> roots;
     const std::vector<dvec3>& rest = elements.rest();
     const auto at = [&](int i) { return rest[static_cast<std::size_t>(i)]; };
@@ -109,7 +111,7 @@ Bvh::Bvh(const Elements& elements)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
         if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
         if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, axes, false));
-        // Points of neither, of which damage may have made balls.
+        // Points of neither, which damage has made balls, or may.
         std::vector<int> others;
         for (int i : elements.surface(s).points)
             if (elements.surfaceOf(i) == s && leafOfPoint_[static_cast<std::size_t>(i)] < 0) others.push_back(i);
@@ -124,13 +126,14 @@ Bvh::Bvh(const Elements& elements)
     }
     if (!roots.empty()) root_ = joinRoots(roots);
     motions_.resize(leaves_.size());
-    times_.resize(leaves_.size());
+    references_.resize(leaves_.size());
+    // Reference shapes, and the leaves at each point.
     std::size_t corners = 0;
     for (const BvhLeaf& leaf : leaves_) {
-        firstRemembered_.push_back(corners);
+        firstReference_.push_back(corners);
         corners += leaf.corners.size();
     }
-    remembered_.assign(corners, dvec3(1e150));
+    referenceShape_.assign(corners, dvec3(1e150));
     firstAt_.assign(static_cast<std::size_t>(elements.pointCount()) + 1, 0);
     for (const BvhLeaf& leaf : leaves_)
         for (int i : leaf.corners) ++firstAt_[static_cast<std::size_t>(i) + 1];
@@ -143,10 +146,10 @@ Bvh::Bvh(const Elements& elements)
     flatness_.resize(leaves_.size());
     isMeasured_.assign(leaves_.size(), 0);
     isFollowed_.assign(leaves_.size(), 0);
-    going_.assign(leaves_.size(), 0.0);
+    travel_.assign(leaves_.size(), 0.0);
     all_.resize(leaves_.size());
     std::iota(all_.begin(), all_.end(), 0);
-    isKnown_.assign(leaves_.size(), 0);
+    isStillFollowed_.assign(leaves_.size(), 0);
     prepareFlatness();
     takeBalls();
 }
@@ -154,6 +157,7 @@ Bvh::Bvh(const Elements& elements)
 int Bvh::addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, const Axes& axes,
                  bool areTriangles) {
     if (items.size() <= leafSize) return addLeaf(items, surface, areTriangles);
+    // Split along the axis on which the items extend furthest.
     std::size_t longest = 0;
     double size = -1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -239,11 +243,11 @@ void Bvh::takeBalls() {
     }
 }
 
-void Bvh::remember(std::size_t number, std::span<const dvec3> x) {
+void Bvh::takeReference(std::size_t number, std::span<const dvec3> x) {
     const LeafMotion& motion = motions_[number];
-    dvec3* remembered = remembered_.data() + firstRemembered_[number];
-    for (int i : leaves_[number].corners) *remembered++ = x[static_cast<std::size_t>(i)] - motion.centre;
-    ++times_[number];
+    dvec3* shape = referenceShape_.data() + firstReference_[number];
+    for (int i : leaves_[number].corners) *shape++ = x[static_cast<std::size_t>(i)] - motion.centre;
+    ++references_[number];
 }
 
 void Bvh::findWay(std::size_t number, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -259,20 +263,21 @@ void Bvh::findWay(std::size_t number, std::span<const dvec3> x0, std::span<const
         ways += to - from;
     }
     motion.box.add(motion.before);
+    // The mean, then how far points are from it, and from the reference shape.
     const double share = 1.0 / static_cast<double>(leaf.corners.size());
     motion.centre = share * sum;
     motion.way = share * ways;
-    const dvec3* remembered = remembered_.data() + firstRemembered_[number];
-    double stray = 0, bent = 0;
+    const dvec3* shape = referenceShape_.data() + firstReference_[number];
+    double deviation = 0, deformation = 0;
     for (int i : leaf.corners) {
         const dvec3 before = x0[static_cast<std::size_t>(i)] - motion.centre, after = x1[static_cast<std::size_t>(i)];
         const dvec3 own = after - motion.centre - motion.way - before;
-        const dvec3 bend = before - *remembered++, bendAfter = bend + own;
-        stray = std::max(stray, glm::dot(own, own));
-        bent = std::max(bent, std::max(glm::dot(bend, bend), glm::dot(bendAfter, bendAfter)));
+        const dvec3 bend = before - *shape++, bendAfter = bend + own;
+        deviation = std::max(deviation, glm::dot(own, own));
+        deformation = std::max(deformation, std::max(glm::dot(bend, bend), glm::dot(bendAfter, bendAfter)));
     }
-    motion.stray = std::sqrt(stray);
-    motion.bent = std::sqrt(bent);
+    motion.deviation = std::sqrt(deviation);
+    motion.deformation = std::sqrt(deformation);
 }
 
 void Bvh::correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -283,23 +288,23 @@ void Bvh::correct(std::span<const int> points, std::span<const dvec3> x0, std::s
             isCorrected_[static_cast<std::size_t>(leavesAt_[at])] = 1;
         ways_[k] = glm::dot(x1[k] - x0[k], x1[k] - x0[k]);
     }
-    forEachPatch(leaves_.size(), [&](std::size_t p) {
+    forEachLeaf(leaves_.size(), [&](std::size_t p) {
         if (isCorrected_[p] == 0) return;
-        findGoing(p);
+        findTravel(p);
         findWay(p, x0, x1);
     });
 }
 
-void Bvh::findGoing(std::size_t number) {
+void Bvh::findTravel(std::size_t number) {
     double most = 0;
     for (int i : leaves_[number].corners) most = std::max(most, ways_[static_cast<std::size_t>(i)]);
-    going_[number] = std::sqrt(most);
+    travel_[number] = std::sqrt(most);
 }
 
 void Bvh::start(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     ways_.resize(x0.size());
     for (std::size_t i = 0; i < x0.size(); ++i) ways_[i] = glm::dot(x1[i] - x0[i], x1[i] - x0[i]);
-    forEachPatch(leaves_.size(), [&](std::size_t p) { findGoing(p); });
+    forEachLeaf(leaves_.size(), [&](std::size_t p) { findTravel(p); });
     std::fill(isMeasured_.begin(), isMeasured_.end(), 0);
     std::fill(isFollowed_.begin(), isFollowed_.end(), 0);
 }
@@ -316,17 +321,17 @@ void Bvh::follow(std::span<const int> leaves, std::span<const dvec3> x0, std::sp
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
             const auto p = static_cast<std::size_t>(toFollow_[static_cast<std::size_t>(k)]);
             const bool isStill = elements_.isStill(leaves_[p].surface);
-            char& isKnown = isKnown_[p];
-            if (isStill && isKnown != 0) continue;
-            isKnown = isStill ? 1 : 0;
+            char& isStillFollowed = isStillFollowed_[p];
+            if (isStill && isStillFollowed != 0) continue;
+            isStillFollowed = isStill ? 1 : 0;
             LeafMotion& motion = motions_[p];
             motion.box = {};
             findWay(p, x0, x1);
-            if (most > 0 && !(motion.bent <= most)) {
-                remember(p, x0);
-                motion.bent = motion.stray;
+            if (most > 0 && !(motion.deformation <= most)) {
+                takeReference(p, x0);
+                motion.deformation = motion.deviation;
             }
-            motion.times = times_[p];
+            motion.reference = references_[p];
         }
     });
 }
@@ -346,20 +351,20 @@ void Bvh::findNear(std::span<const Box> boxes, double more, std::vector<LeafPair
         }
     }
     pairs.clear();
-    if (root_ >= 0) meetItself(root_, more, pairs);
+    if (root_ >= 0) findPairsWithin(root_, more, pairs);
     std::sort(pairs.begin(), pairs.end());
 }
 
-void Bvh::meetItself(int number, double more, std::vector<LeafPair>& pairs) const {
+void Bvh::findPairsWithin(int number, double more, std::vector<LeafPair>& pairs) const {
     const Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.surface >= 0 && !elements_.mayMeet(node.surface, node.surface)) return;
     if (node.leaf >= 0) return pairs.push_back(leafPair(node.leaf, node.leaf));
-    meetItself(node.left, more, pairs);
-    meetItself(node.right, more, pairs);
-    meet(node.left, node.right, more, pairs);
+    findPairsWithin(node.left, more, pairs);
+    findPairsWithin(node.right, more, pairs);
+    findPairsBetween(node.left, node.right, more, pairs);
 }
 
-void Bvh::meet(int a, int b, double more, std::vector<LeafPair>& pairs) const {
+void Bvh::findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pairs) const {
     const Node &first = nodes_[static_cast<std::size_t>(a)], &second = nodes_[static_cast<std::size_t>(b)];
     const Box &boxA = boxes_[static_cast<std::size_t>(a)], &boxB = boxes_[static_cast<std::size_t>(b)];
     if (!boxA.overlaps(boxB, nearShare * (first.thickness + second.thickness) + more)) return;
@@ -373,11 +378,11 @@ void Bvh::meet(int a, int b, double more, std::vector<LeafPair>& pairs) const {
         return size.x + size.y + size.z;
     };
     if (second.leaf >= 0 || (first.leaf < 0 && sizeOf(boxA) >= sizeOf(boxB))) {
-        meet(first.left, b, more, pairs);
-        meet(first.right, b, more, pairs);
+        findPairsBetween(first.left, b, more, pairs);
+        findPairsBetween(first.right, b, more, pairs);
     } else {
-        meet(a, second.left, more, pairs);
-        meet(a, second.right, more, pairs);
+        findPairsBetween(a, second.left, more, pairs);
+        findPairsBetween(a, second.right, more, pairs);
     }
 }
 

@@ -1,5 +1,23 @@
-// Surfaces in leaves of some fifteen triangles, or edges where there are none, and a tree over them: which leaves
-// come near each other in an instant. Bvh hang on what the surfaces are at rest, never on where they are.
+// Bounding volume hierarchy over all surfaces: leaves of some fifteen triangles (or edges, where there are no
+// triangles), and a binary tree of boxes over them. It says which leaves come close in an instant, and how each leaf
+// moves.
+//
+// The tree is built once, from the surfaces at rest. It never depends on where points are, so a restored world has the
+// same tree. Boxes are refitted; the tree is searched only when leaves left their fat boxes (broad_phase.h).
+//
+// Leaf motion. Points of a leaf move nearly alike. The motion is stored as the mean way of its points and the largest
+// deviation from it, so that two leaves need one subtraction to bound how distances between them change.
+//
+// Flatness certificate. A sheet's neighbouring leaves always overlap in space. They would fill the broad phase, though
+// a sheet that is nearly flat cannot touch itself. Let the sheet be flat and convex at rest, F the deformation gradient
+// of its triangles and R one rotation. For two places p, q at rest, integrate along the straight line between them,
+// unit t:
+//
+//     |f(p) - f(q)|  >=  R t · (f(p) - f(q))  =  ∫ t·RᵀF t ds  >=  least |p - q|         least = min t·RᵀF t over F, t
+//
+// (the line stays inside, since the sheet is convex). So no two places come closer than `least` times their distance at
+// rest. If that is no less than what is asked of parts of one body, no pair of these leaves touches. It is tested at x0
+// and at x1; F is linear in time on straight ways, so the bound holds in between.
 #pragma once
 
 #include <array>
@@ -35,33 +53,31 @@ using Axes = std::array<dvec3, 3>;
 
 struct BvhLeaf {
     int surface = 0;
-    // All that there is belongs to one leaf; an edge or a point to the first that has it.
+    // Each element belongs to one leaf; an edge or a point to the first leaf that has it.
     std::vector<int> triangles, edges, points;
-    std::vector<int> corners;  // all points of those
+    std::vector<int> corners;  // all points of these elements, shared ones too
 };
 
 // How a leaf moves in an instant.
 struct LeafMotion {
-    Box before, box;     // of its points; of those before and after
-    dvec3 centre{0.0};   // [m] mean of its points, before
-    dvec3 way{0.0};      // [m] of that mean
-    double stray = 0.0;  // [m] no point goes further than that from the way of the mean
-    // Seen from the mean no point is further than that from where it was when the leaf was last remembered, before and
-    // after [m]; and how often that has been.
-    double bent = 0.0;
-    int times = 0;
+    Box before, box;         // of its points at x0; at x0 and x1
+    dvec3 centre{0.0};       // [m] mean of its points at x0
+    dvec3 way{0.0};          // [m] mean of their ways
+    double deviation = 0.0;  // [m] largest difference of a point's way from that mean
+    // [m] Largest difference of a point from the reference shape, both relative to the centre, at x0 and x1. The
+    // reference shape is the leaf at some instant before; it is taken anew when the leaf has deformed too much.
+    double deformation = 0.0;
+    int reference = 0;  // number of the reference shape
 };
 
-// How far a leaf of a surface that is flat at rest is from being moved as one, before and after: for all directions t
-// of all of its triangles t·Rᵀ F t is at least `least` and F t at most `most`, F the gradient of the deformation and R
-// the mean of those.
+// Bounds over the triangles of a flat leaf, at x0 and at x1; F the deformation gradient, R its mean made a rotation.
 struct Flatness {
-    dvec3 right{0.0}, up{0.0}, normal{0.0};  // columns of R, and across
-    double least = -1.0;
-    double most = 0.0;
+    dvec3 right{0.0}, up{0.0}, normal{0.0};  // columns of R
+    double least = -1.0;                     // t·RᵀF t is no less for any unit t in the plane
+    double most = 0.0;                       // |F t| is no more
 };
 
-// Two leaves, the lower above the higher: pairs in order are in the order of the first, then of the second.
+// Two leaves in one number, the lower one in the high bits: sorted by the lower leaf, then by the higher.
 using LeafPair = std::uint64_t;
 inline LeafPair leafPair(int a, int b) {
     const auto low = static_cast<LeafPair>(a < b ? a : b), high = static_cast<LeafPair>(a < b ? b : a);
@@ -81,50 +97,46 @@ class Bvh {
     int count() const { return static_cast<int>(leaves_.size()); }
     const BvhLeaf& operator[](int i) const { return leaves_[static_cast<std::size_t>(i)]; }
 
-    // The balls there are have become others.
+    // Takes over the balls of the elements: to be called when they have changed.
     void takeBalls();
 
-    // An instant from x0 to x1 (points) [m] begins: of leaves is known only how far any of their points goes.
+    // An instant from x0 to x1 (points) [m] begins. Finds travel() of all leaves, and nothing else.
     void start(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    double going(int leaf) const { return going_[static_cast<std::size_t>(leaf)]; }  // [m]
-    // The motions of those of them that were not followed since. Bvh that have bent further than `most` [m] are
-    // remembered anew.
-    void follow(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1, double most);
+    double travel(int leaf) const { return travel_[static_cast<std::size_t>(leaf)]; }  // [m] furthest way of a point
+    // Finds the motion of these leaves, if that is not done in this instant. A leaf that has deformed more than
+    // mostDeformed [m] takes a new reference shape; 0: none does.
+    void follow(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed);
+    void followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed = 0.0);
     bool isFollowed(int leaf) const { return isFollowed_[static_cast<std::size_t>(leaf)] != 0; }
-    void followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double most = 0.0);
-    // Of these points x1 has changed since: how far their leaves go, and points stray from them.
+    const LeafMotion& motion(int leaf) const { return motions_[static_cast<std::size_t>(leaf)]; }  // if it is followed
+    // x1 of these points has changed in this instant.
     void correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // Of a leaf that was followed.
-    const LeafMotion& motion(int leaf) const { return motions_[static_cast<std::size_t>(leaf)]; }
 
-    // Pairs a <= b of leaves whose boxes (leaves) come within the sum of the thicknesses, and that much more [m], and
-    // which may meet; ascending.
+    // Pairs a <= b of leaves that may touch, and whose boxes (leaves) are closer than near plus `more` [m]; ascending.
     void findNear(std::span<const Box> boxes, double more, std::vector<LeafPair>& pairs);
 
-    // How flat all of what lies about two leaves of one surface is in this instant: no two parts of it come nearer
-    // than that share of their distance at rest. For where the surface is flat and convex at rest and all of it about
-    // them is moved nearly as one, |f(p) - f(q)| >= ∫ t·RᵀF t ds >= least |p - q| along the straight way at rest.
-    // Negative where that cannot be told. Expects that what lies about them was measured.
-    double flatness(std::span<const int> about) const;
-    // Of leaves followed from x0 to x1; those that were measured since then already stand.
+    // The flatness certificate of leaves of one surface: `least` above; negative where there is none. Expects that they
+    // were measured in this instant.
+    double flatness(std::span<const int> leaves) const;
     void measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // Parts that stay further apart than this share of their distance at rest are not in contact.
-    double enough(int surface) const { return enough_[static_cast<std::size_t>(surface)]; }
+    // The least flatness at which parts of a surface are not in contact.
+    double requiredFlatness(int surface) const { return requiredFlatness_[static_cast<std::size_t>(surface)]; }
     bool isPlane(int surface) const { return planes_[static_cast<std::size_t>(surface)].has_value(); }
-    // The least distance at rest of parts of a surface that do not hang together; of those that are flat. [m]
+    // [m] Smallest altitude of a triangle at rest: elements of the surface that share no point are no closer at rest.
     double leastAltitude(int surface) const { return altitudes_[static_cast<std::size_t>(surface)]; }
-    // What lies about them: all leaves that the box at rest of both overlaps. None where that cannot be told, or of
-    // more than a few.
-    std::vector<int> about(int a, int b) const;
+    // The leaves that every straight line at rest between leaves a and b stays in: all that overlap the box of both.
+    // Empty where they have no common plane, or there are too many.
+    std::vector<int> leavesBetween(int a, int b) const;
 
   private:
     struct Node {
         int left = -1, right = -1;  // nodes
-        int leaf = -1;              // of a leaf
+        int leaf = -1;              // -1: has children
         int surface = -1;           // -1: several
-        double thickness = 0;       // [m] largest
+        double thickness = 0;       // [m] largest in it
     };
-    struct Plane {  // of a surface that is flat and convex at rest
+    // The plane of a surface that is flat and convex at rest.
+    struct Plane {
         dvec3 right, up;
     };
     using Rest2 = glm::dvec2;
@@ -137,50 +149,52 @@ class Bvh {
     int addLeaf(const std::vector<int>& items, int surface, bool areTriangles);
     int joinRoots(std::span<const int> roots);
     void shareOut();
-    void remember(std::size_t leaf, std::span<const dvec3> x);
-    void findGoing(std::size_t leaf);
+    void takeReference(std::size_t leaf, std::span<const dvec3> x);
+    void findTravel(std::size_t leaf);
     void findWay(std::size_t leaf, std::span<const dvec3> x0, std::span<const dvec3> x1);
     void findPlane(int surface, const dvec3& along);
     void prepareFlatness();
     void measureOne(std::size_t leaf, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    void meetItself(int node, double more, std::vector<LeafPair>& pairs) const;
-    void meet(int a, int b, double more, std::vector<LeafPair>& pairs) const;
+    void findPairsWithin(int node, double more, std::vector<LeafPair>& pairs) const;
+    void findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pairs) const;
 
     const Elements& elements_;
     std::vector<BvhLeaf> leaves_;
-    std::vector<int> all_;  // their numbers
+    std::vector<int> all_;  // 0, 1, 2, … (leaves)
     std::vector<int> leafOfPoint_, leafOfEdge_;
-    std::vector<int> leavesAt_;         // of which points are corners, point by point
-    std::vector<std::size_t> firstAt_;  // (points + 1) of those
+    std::vector<int> leavesAt_;         // leaves that a point is a corner of, point by point
+    std::vector<std::size_t> firstAt_;  // (points + 1) in leavesAt_
     std::vector<char> isCorrected_;     // (leaves) scratch
     std::vector<int> toFollow_;         // leaves, scratch
     std::vector<Node> nodes_;           // children before parents
     int root_ = -1;
-    std::vector<double> ways_;                  // [m²] (points) of the instant, squared
-    std::vector<double> going_;                 // [m] (leaves)
-    std::vector<char> isFollowed_;              // (leaves)
-    std::vector<LeafMotion> motions_;           // (leaves)
-    std::vector<dvec3> remembered_;             // [m] of the corners of all leaves, from the mean
-    std::vector<std::size_t> firstRemembered_;  // (leaves)
-    std::vector<int> times_;                    // (leaves) remembered
-    std::vector<Box> boxes_;                    // (nodes) scratch
-    std::vector<std::optional<Plane>> planes_;  // (surfaces)
+    std::vector<double> ways_;                 // (points) [m²] of the instant, squared
+    std::vector<double> travel_;               // (leaves) [m]
+    std::vector<char> isFollowed_;             // (leaves) in this instant
+    std::vector<LeafMotion> motions_;          // (leaves)
+    std::vector<dvec3> referenceShape_;        // [m] corners of all leaves, from the centre
+    std::vector<std::size_t> firstReference_;  // (leaves) in referenceShape_
+    std::vector<int> references_;              // (leaves) reference shapes so far
+    std::vector<Box> boxes_;                   // (nodes) scratch
+    std::vector<char> isStillFollowed_;        // (leaves) of surfaces that stand still: the motion is known for good
+
+    // Flatness.
     struct Inverse {
-        double a, b, c, d;  // of the two edges at corner 0, in the plane
+        double a, b, c, d;  // of the matrix of the two edges at corner 0, in the plane
     };
-    std::vector<double> altitudes_;   // (surfaces) [m] smallest of a triangle
-    std::vector<double> enough_;      // (surfaces) see enough()
-    std::vector<Inverse> inverses_;   // (triangles) of those in planes
-    std::vector<RestBox> restBoxes_;  // (leaves) likewise
     struct Gradient {
-        dvec3 right, up;  // where those of the plane are led
+        dvec3 right, up;  // F of the plane's two axes
     };
-    std::vector<Flatness> flatness_;          // (leaves)
-    std::vector<Gradient> gradients_;         // of the triangles of leaves, before and after
-    std::vector<std::size_t> firstGradient_;  // (leaves + 1)
-    std::vector<char> isMeasured_;            // (leaves) since they were followed last
-    std::vector<int> toMeasure_;              // leaves, scratch
-    std::vector<char> isKnown_;               // (leaves) of still surfaces: where they are
+    std::vector<std::optional<Plane>> planes_;  // (surfaces)
+    std::vector<double> altitudes_;             // (surfaces) [m] see leastAltitude()
+    std::vector<double> requiredFlatness_;      // (surfaces)
+    std::vector<Inverse> inverses_;             // (triangles) of those in planes
+    std::vector<RestBox> restBoxes_;            // (leaves) likewise
+    std::vector<Flatness> flatness_;            // (leaves)
+    std::vector<Gradient> gradients_;           // leaf by leaf, triangle by triangle: at x0, at x1
+    std::vector<std::size_t> firstGradient_;    // (leaves + 1) in gradients_
+    std::vector<char> isMeasured_;              // (leaves) in this instant
+    std::vector<int> toMeasure_;                // leaves, scratch
 };
 
 }  // namespace taut::contact

@@ -1,4 +1,12 @@
-// Which leaves are moved nearly as one, so that nothing of them can meet.
+// The flatness certificate (bvh.h): leaves of a flat surface that are moved nearly as a rigid body, so that no two of
+// their parts touch.
+//
+// Bounds are taken from cheap to dear. Each leaf has its own R and `least`. For several leaves one R is needed: turning
+// R by an angle φ takes a unit vector t to another direction, and t·RᵀF t loses at most
+//
+//     least (1 - cos φ) + sqrt(most² - least²) sin φ
+//
+// Where this bound is too weak, the gradients of the leaf are tested against the common R one by one.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,11 +18,12 @@
 namespace taut::contact {
 namespace {
 
-constexpr double bumps = 0.05, gaps = 2e-3;  // of an edge, of the area
-constexpr double plenty = 1.15;              // of what is enough: no more is asked for
-constexpr double reachIn = 1e-3;             // of an edge
-constexpr std::size_t mostAbout = 48;        // leaves
-constexpr int measuredAtOnce = 16;           // leaves a task
+constexpr double bumps = 0.05;           // of an edge: a surface that rises less is flat
+constexpr double gaps = 2e-3;            // of the area: a surface that fills its hull but for this is convex
+constexpr double plenty = 1.15;          // of what is required: a bound above it needs no closer look
+constexpr double reachIn = 1e-3;         // of an edge
+constexpr std::size_t mostBetween = 48;  // leaves
+constexpr int measuredAtOnce = 16;       // leaves a task
 
 double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -48,8 +57,8 @@ double leastAlong(const dvec3& right, const dvec3& up, const dvec3& fRight, cons
 
 }  // namespace
 
-// Flat if all points lie in one plane, and convex if the triangles fill their convex hull; but for what breaks
-// symmetry.
+// A surface is flat if all points lie in one plane, and convex if its triangles fill their convex hull. Both but for
+// small bumps and gaps: bodies are built with some, to break symmetry.
 void Bvh::findPlane(int number, const dvec3& along) {
     planes_.emplace_back();
     const Surface& surface = elements_.surface(number);
@@ -108,10 +117,10 @@ void Bvh::prepareFlatness() {
         }
     }
     gradients_.resize(firstGradient_.back());
-    constexpr double hair = 1.02;  // for what is not quite flat or convex
+    constexpr double hair = 1.02;  // for the bumps and gaps
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
-        enough_.push_back(hair * nearShare *
-                          std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
+        requiredFlatness_.push_back(hair * nearShare *
+                                    std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
 }
 
 void Bvh::measureFlatness(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1) {
@@ -151,6 +160,7 @@ void Bvh::measureOne(std::size_t number, std::span<const dvec3> x0, std::span<co
             ++count;
         }
     }
+    // R: the mean of all F, made orthonormal.
     const double size = length(flatness.right);
     if (!(size > 0)) return void(flatness_[number] = {});
     flatness.right /= size;
@@ -158,6 +168,7 @@ void Bvh::measureOne(std::size_t number, std::span<const dvec3> x0, std::span<co
     const double height = length(flatness.up);
     if (!(height > 0)) return void(flatness_[number] = {});
     flatness.up /= height;
+    // Bounds over all F; `most` is the root of the larger eigenvalue of FᵀF.
     double least = 1e300, most = 0;
     for (std::size_t g = 0; g < count; ++g) {
         const Gradient& f = gradients[g];
@@ -171,13 +182,13 @@ void Bvh::measureOne(std::size_t number, std::span<const dvec3> x0, std::span<co
     flatness_[number] = flatness;
 }
 
-std::vector<int> Bvh::about(int a, int b) const {
+std::vector<int> Bvh::leavesBetween(int a, int b) const {
     const int surface = leaves_[static_cast<std::size_t>(a)].surface;
     std::vector<int> found;
     if (surface != leaves_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
         return found;
     const RestBox &boxA = restBoxes_[static_cast<std::size_t>(a)], &boxB = restBoxes_[static_cast<std::size_t>(b)];
-    // A straight way between both stays in it; and what reaches into it by a hair need not be looked at.
+    // A straight line between both stays in this box. Leaves that reach into it by a hair are left out.
     const double in = reachIn * elements_.shortestEdge(surface);
     const RestBox box{glm::min(boxA.low, boxB.low) + in, glm::max(boxA.high, boxB.high) - in};
     for (std::size_t p = 0; p < leaves_.size(); ++p) {
@@ -185,17 +196,18 @@ std::vector<int> Bvh::about(int a, int b) const {
         const RestBox& own = restBoxes_[p];
         if (own.low.x > box.high.x || own.low.y > box.high.y || box.low.x > own.high.x || box.low.y > own.high.y)
             continue;
-        if (found.size() == mostAbout) return {};
+        if (found.size() == mostBetween) return {};
         found.push_back(static_cast<int>(p));
     }
     return found;
 }
 
-double Bvh::flatness(std::span<const int> about) const {
-    if (about.empty()) return -1.0;
-    const double least = enough(leaves_[static_cast<std::size_t>(about.front())].surface);
+double Bvh::flatness(std::span<const int> leaves) const {
+    if (leaves.empty()) return -1.0;
+    const double least = requiredFlatness(leaves_[static_cast<std::size_t>(leaves.front())].surface);
+    // The common R: the mean of all R, made orthonormal.
     dvec3 right(0.0), up(0.0);
-    for (int p : about) {
+    for (int p : leaves) {
         const Flatness& own = flatness_[static_cast<std::size_t>(p)];
         if (own.least < least) return -1.0;
         right += own.right;
@@ -210,9 +222,9 @@ double Bvh::flatness(std::span<const int> about) const {
     up /= height;
     const dvec3 normal = glm::cross(right, up);
     double flattest = 1e300;
-    for (int p : about) {
+    for (int p : leaves) {
         const Flatness& own = flatness_[static_cast<std::size_t>(p)];
-        // Turned by an angle, from R of the leaf to that of all, F t may be led that much further away from R t.
+        // The angle from R of the leaf to the common R, by its trace.
         const double trace = glm::dot(right, own.right) + glm::dot(up, own.up) + glm::dot(normal, own.normal);
         const double cosine = std::min(1.0, 0.5 * (trace - 1.0));
         if (!(cosine > 0)) return -1.0;

@@ -1,4 +1,8 @@
-// Which pairs of two leaves are within reach.
+// Makes the list of two leaves: boxes of elements first, many at once; then the distances of what overlaps, many at
+// once.
+//
+// Two surfaces of one body keep less than their thickness where they are closer at rest: at most restShare of the
+// distance at rest. So pairs of one body are measured twice, at x0 and at rest.
 #include <algorithm>
 #include <array>
 
@@ -8,10 +12,10 @@
 namespace taut::contact {
 namespace {
 
-constexpr double leastMargin = 0.4;  // of the distance kept
-constexpr double waysAhead = 4.0;    // like the coming one, for which a list is to last
+constexpr double leastMargin = 0.4;    // of the thickness
+constexpr double instantsAhead = 4.0;  // like this one, that a list is to last
 
-// Boxes of elements in rows, so that many are tried at once.
+// Boxes of elements, one coordinate a row, for the kernel that tests many at once.
 struct BoxRows {
     std::vector<int> item;
     std::vector<double> low[3], high[3];
@@ -31,7 +35,7 @@ struct BoxRows {
     }
 };
 
-struct Listed {
+struct MeasuredPair {
     CandidatePair pair;
     double distance;  // [m]
 };
@@ -39,12 +43,34 @@ struct Listed {
 struct Scratch {
     BoxRows first, second;
     std::vector<int> hits;
-    std::vector<CandidatePair> tried;
+    std::vector<CandidatePair> overlapping;
     ClosestBatch batch;
-    std::vector<Listed> listed;
+    std::vector<MeasuredPair> inReach;
 };
 
-// Calls each(item) for those of the rows, from one on, that overlap the box.
+// What is looked for.
+struct Query {
+    const Elements& elements;
+    std::span<const dvec3> x0;  // (points) [m]
+    ClosestKernels kernels;
+    double thickness;  // [m] sum of both
+    double margin;     // [m] of the list
+    double reach;      // [m] largest distance of a pair in it
+    bool isBond;       // both surfaces are of one body
+    bool isOne;        // both leaves are one
+
+    const dvec3& at(int i) const { return x0[static_cast<std::size_t>(i)]; }
+    const Triangle& triangle(int t) const { return elements.triangles()[static_cast<std::size_t>(t)]; }
+    const Edge& edge(int e) const { return elements.edges()[static_cast<std::size_t>(e)]; }
+    Box boxOfEdge(int e) const {
+        Box box;
+        box.add(at(edge(e).a));
+        box.add(at(edge(e).b));
+        return box;
+    }
+};
+
+// Calls each(item) for the rows from `from` on that overlap the box.
 template <class Each>
 void forEachHit(const ClosestKernels& kernels, const BoxRows& rows, const Box& box, std::size_t from,
                 std::vector<int>& hits, Each&& each) {
@@ -65,140 +91,149 @@ Box grown(Box box, double by) {
     return box;
 }
 
+// Points of the one leaf and triangles of the other whose boxes are within reach -> scratch.overlapping.
+void overlapPoints(const Query& query, const BvhLeaf& ofPoints, const BvhLeaf& ofTriangles, const Box& pointBox,
+                   const Box& triangleBox, Scratch& scratch) {
+    scratch.first.clear();
+    for (int i : ofPoints.points) {
+        Box box;
+        box.add(query.at(i));
+        if (box.overlaps(triangleBox, query.reach)) scratch.first.add(i, box);
+    }
+    if (scratch.first.item.empty()) return;
+    for (int t : ofTriangles.triangles) {
+        const Triangle& triangle = query.triangle(t);
+        if (triangle.isGone) continue;
+        const std::array<int, 3>& c = triangle.points;
+        Box box;
+        for (int i : c) box.add(query.at(i));
+        if (!box.overlaps(pointBox, query.reach)) continue;
+        forEachHit(query.kernels, scratch.first, grown(box, query.reach), 0, scratch.hits, [&](int i) {
+            if (i != c[0] && i != c[1] && i != c[2]) scratch.overlapping.push_back({i, t, query.thickness});
+        });
+    }
+}
+
+// Edges of both leaves whose boxes are within reach -> scratch.overlapping.
+void overlapEdges(const Query& query, const BvhLeaf& a, const BvhLeaf& b, const Box& boxA, const Box& boxB,
+                  Scratch& scratch) {
+    const auto gather = [&](const BvhLeaf& leaf, const Box& other, BoxRows& rows) {
+        rows.clear();
+        for (int e : leaf.edges) {
+            if (query.edge(e).isGone) continue;
+            const Box box = query.boxOfEdge(e);
+            if (box.overlaps(other, query.reach)) rows.add(e, box);
+        }
+    };
+    gather(b, boxA, scratch.second);
+    if (!query.isOne) gather(a, boxB, scratch.first);
+    const BoxRows& firsts = query.isOne ? scratch.second : scratch.first;
+    for (std::size_t k = 0; k < firsts.item.size(); ++k) {
+        const int e = firsts.item[k];
+        const Edge& first = query.edge(e);
+        const Box box = grown(query.boxOfEdge(e), query.reach);
+        forEachHit(query.kernels, scratch.second, box, query.isOne ? k + 1 : 0, scratch.hits, [&](int f) {
+            const Edge& second = query.edge(f);
+            if (first.a != second.a && first.a != second.b && first.b != second.a && first.b != second.b)
+                scratch.overlapping.push_back({std::min(e, f), std::max(e, f), query.thickness});
+        });
+    }
+}
+
+// Measures scratch.overlapping, and appends what is within the margin to the list, sorted by isBefore. pointsOf(pair):
+// the four points that the kernel gets.
+template <class PointsOf, class IsBefore>
+void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), PointsOf&& pointsOf, IsBefore&& isBefore,
+                   Scratch& scratch, BroadPhase::CandidateList& list) {
+    const auto measure = [&](std::span<const dvec3> x) {
+        scratch.batch.clear();
+        for (const CandidatePair& pair : scratch.overlapping) {
+            const std::array<int, 4> i = pointsOf(pair);
+            scratch.batch.add(x[static_cast<std::size_t>(i[0])], x[static_cast<std::size_t>(i[1])],
+                              x[static_cast<std::size_t>(i[2])], x[static_cast<std::size_t>(i[3])]);
+        }
+        scratch.batch.solve(kernel);
+    };
+
+    // Now.
+    measure(query.x0);
+    scratch.inReach.clear();
+    std::size_t within = 0;
+    for (std::size_t k = 0; k < scratch.overlapping.size(); ++k) {
+        const double distance = scratch.batch.distance(static_cast<int>(k));
+        if (distance > query.reach) continue;
+        scratch.inReach.push_back({scratch.overlapping[k], distance});
+        scratch.overlapping[within++] = scratch.overlapping[k];
+    }
+    scratch.overlapping.resize(within);
+
+    // At rest.
+    if (query.isBond) {
+        measure(query.elements.rest());
+        for (std::size_t k = 0; k < within; ++k) {
+            double& thickness = scratch.inReach[k].pair.thickness;
+            thickness = std::min(thickness, restShare * scratch.batch.distance(static_cast<int>(k)));
+        }
+    }
+    scratch.overlapping.clear();
+
+    // What is left before the pair is near is its first budget.
+    std::sort(scratch.inReach.begin(), scratch.inReach.end(),
+              [&](const MeasuredPair& p, const MeasuredPair& q) { return isBefore(p.pair, q.pair); });
+    for (const MeasuredPair& measured : scratch.inReach) {
+        const double left = measured.distance - nearShare * measured.pair.thickness;
+        if (left > query.margin) continue;
+        list.pairs.push_back(measured.pair);
+        list.travelBudget.push_back(left);
+        list.leastThickness = std::min(list.leastThickness, measured.pair.thickness);
+        list.leastTravelBudget = std::min(list.leastTravelBudget, left);
+    }
+}
+
 }  // namespace
 
 void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const {
     const BvhLeaf &a = bvh_[list.a], &b = bvh_[list.b];
-    const double most = list.most;
+    const double thickness = list.thickness;
     const bool isBond = elements_.shareBond(a.surface, b.surface);
-    const double cell = std::min(elements_.shortestEdge(a.surface), elements_.shortestEdge(b.surface));
-    // More would list a surface's own neighbours.
-    const double own = isBond ? std::min(most, restShare * cell - most) : most;
-    const double ahead = std::min(waysAhead * list.coming, std::max(2 * most, list.coming));
-    const double margin = std::max({leastMargin * most, own, ahead});
-    const double reach = nearShare * most + margin;
-    const bool isOne = list.a == list.b;
-    const std::span<const dvec3> rest(elements_.rest());
-    const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
-    const auto triangleAt = [&](int t) -> const Triangle& {
-        return elements_.triangles()[static_cast<std::size_t>(t)];
-    };
-    const auto edgeAt = [&](int e) -> const Edge& { return elements_.edges()[static_cast<std::size_t>(e)]; };
 
+    // The margin: a share of the thickness, more if the leaves move fast. Within one body, not so much that each
+    // element lists its neighbours.
+    const double cell = std::min(elements_.shortestEdge(a.surface), elements_.shortestEdge(b.surface));
+    const double slow = isBond ? std::min(thickness, restShare * cell - thickness) : thickness;
+    const double fast = std::min(instantsAhead * list.relativeMotion, std::max(2 * thickness, list.relativeMotion));
+    const double margin = std::max({leastMargin * thickness, slow, fast});
     restart(list, margin);
-    const Box &boxA = bvh_.motion(list.a).before, &boxB = bvh_.motion(list.b).before;
 
     const ClosestKernels kernels = closestKernels();
+    const double reach = nearShare * thickness + margin;
+    const Query query{elements_, x0, kernels, thickness, margin, reach, isBond, list.a == list.b};
+    const Box &boxA = bvh_.motion(list.a).before, &boxB = bvh_.motion(list.b).before;
     thread_local Scratch scratch;
-    scratch.tried.clear();
-    // Measures what was tried, and takes what is within reach in an order of its own.
-    const auto measure = [&](void (*kernel)(ClosestLanes&, int), auto&& placesOf, auto&& isBefore) {
-        const auto solve = [&](std::span<const dvec3> x) {
-            scratch.batch.clear();
-            for (const CandidatePair& pair : scratch.tried) {
-                const std::array<int, 4> i = placesOf(pair);
-                scratch.batch.add(x[static_cast<std::size_t>(i[0])], x[static_cast<std::size_t>(i[1])],
-                                  x[static_cast<std::size_t>(i[2])], x[static_cast<std::size_t>(i[3])]);
-            }
-            scratch.batch.solve(kernel);
-        };
-        solve(x0);
-        scratch.listed.clear();
-        std::size_t within = 0;
-        for (std::size_t k = 0; k < scratch.tried.size(); ++k) {
-            const double distance = scratch.batch.distance(static_cast<int>(k));
-            if (distance > reach) continue;
-            scratch.listed.push_back({scratch.tried[k], distance});
-            scratch.tried[within++] = scratch.tried[k];
-        }
-        scratch.tried.resize(within);
-        if (isBond) {
-            solve(rest);
-            for (std::size_t k = 0; k < within; ++k) {
-                double& thickness = scratch.listed[k].pair.thickness;
-                thickness = std::min(thickness, restShare * scratch.batch.distance(static_cast<int>(k)));
-            }
-        }
-        scratch.tried.clear();
-        std::sort(
-            scratch.listed.begin(), scratch.listed.end(),
-            [&](const Listed& p, const Listed& q) { return isBefore(p.pair, q.pair); });
-        for (const Listed& listed : scratch.listed) {
-            const double left = listed.distance - nearShare * listed.pair.thickness;
-            if (left > margin) continue;
-            list.pairs.push_back(listed.pair);
-            list.nearTravelled.push_back(left);
-            list.leastThickness = std::min(list.leastThickness, listed.pair.thickness);
-            list.asleepTravelled = std::min(list.asleepTravelled, left);
-        }
-    };
+    scratch.overlapping.clear();
 
-    const auto tryPoints = [&](const BvhLeaf& points, const BvhLeaf& triangles, const Box& pointBox,
-                               const Box& triangleBox) {
-        scratch.first.clear();
-        for (int i : points.points) {
-            Box box;
-            box.add(at(i));
-            if (box.overlaps(triangleBox, reach)) scratch.first.add(i, box);
-        }
-        if (scratch.first.item.empty()) return;
-        for (int t : triangles.triangles) {
-            const Triangle& triangle = triangleAt(t);
-            if (triangle.isGone) continue;
-            const std::array<int, 3>& c = triangle.points;
-            Box box;
-            for (int i : c) box.add(at(i));
-            if (!box.overlaps(pointBox, reach)) continue;
-            forEachHit(kernels, scratch.first, grown(box, reach), 0, scratch.hits, [&](int i) {
-                if (i != c[0] && i != c[1] && i != c[2]) scratch.tried.push_back({i, t, most});
-            });
-        }
-    };
-    tryPoints(a, b, boxA, boxB);
-    if (!isOne) tryPoints(b, a, boxB, boxA);
-    measure(
-        kernels.onTriangles,
+    overlapPoints(query, a, b, boxA, boxB, scratch);
+    if (!query.isOne) overlapPoints(query, b, a, boxB, boxA, scratch);
+    appendInReach(
+        query, kernels.onTriangles,
         [&](const CandidatePair& pair) -> std::array<int, 4> {
-            const std::array<int, 3>& c = triangleAt(pair.b).points;
+            const std::array<int, 3>& c = query.triangle(pair.b).points;
             return {pair.a, c[0], c[1], c[2]};
         },
-        [](const CandidatePair& p, const CandidatePair& q) { return p.b < q.b || (p.b == q.b && p.a < q.a); });
+        [](const CandidatePair& p, const CandidatePair& q) { return p.b < q.b || (p.b == q.b && p.a < q.a); }, scratch,
+        list);
     list.pointPairs = list.pairs.size();
 
-    const auto boxOfEdge = [&](int e) {
-        Box box;
-        box.add(at(edgeAt(e).a));
-        box.add(at(edgeAt(e).b));
-        return box;
-    };
-    const auto gather = [&](const BvhLeaf& leaf, const Box& other, BoxRows& rows) {
-        rows.clear();
-        for (int e : leaf.edges) {
-            if (edgeAt(e).isGone) continue;
-            const Box box = boxOfEdge(e);
-            if (box.overlaps(other, reach)) rows.add(e, box);
-        }
-    };
-    gather(b, boxA, scratch.second);
-    if (!isOne) gather(a, boxB, scratch.first);
-    const BoxRows& firsts = isOne ? scratch.second : scratch.first;
-    for (std::size_t k = 0; k < firsts.item.size(); ++k) {
-        const int e = firsts.item[k];
-        const Edge& first = edgeAt(e);
-        forEachHit(kernels, scratch.second, grown(boxOfEdge(e), reach), isOne ? k + 1 : 0, scratch.hits, [&](int f) {
-            const Edge& second = edgeAt(f);
-            if (first.a != second.a && first.a != second.b && first.b != second.a && first.b != second.b)
-                scratch.tried.push_back({std::min(e, f), std::max(e, f), most});
-        });
-    }
-    measure(
-        kernels.onSegments,
+    overlapEdges(query, a, b, boxA, boxB, scratch);
+    appendInReach(
+        query, kernels.onSegments,
         [&](const CandidatePair& pair) -> std::array<int, 4> {
-            const Edge &first = edgeAt(pair.a), &second = edgeAt(pair.b);
+            const Edge &first = query.edge(pair.a), &second = query.edge(pair.b);
             return {first.a, first.b, second.a, second.b};
         },
-        [](const CandidatePair& p, const CandidatePair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); });
-    list.nearApproached = list.nearTravelled;
+        [](const CandidatePair& p, const CandidatePair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); }, scratch,
+        list);
+    list.approachBudget = list.travelBudget;
 }
 
 }  // namespace taut::contact

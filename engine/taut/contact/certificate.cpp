@@ -10,10 +10,10 @@
 namespace taut::contact {
 namespace {
 
-constexpr double aslant = 0.98;      // cosine of the angle by which a way past turns the direction between the sides
-constexpr double leftApart = 0.2;    // of the distance at the start of the instant
-constexpr double into = -0.5;        // cosine of a way with a normal: more into a surface than along it
-constexpr double leastApart = 0.02;  // of the distance kept: what is pinched stays clear of rounding
+constexpr double aslant = 0.98;      // cosine of the least angle between the normal and the axis of sides that pass by
+constexpr double leftApart = 0.2;    // of the distance at x0, after sliding apart
+constexpr double leastApart = 0.02;  // of the thickness, likewise
+constexpr double into = -0.5;        // cosine of a way with a collider's normal: below it the way leads in
 
 using Corners = std::array<dvec3, 4>;
 
@@ -23,7 +23,7 @@ Corners cornersOf(const ContactConstraint& pair, std::span<const dvec3> x) {
     return corners;
 }
 
-// How far the first side lies above the second along an axis.
+// How far all of the first side is above all of the second along an axis; negative: it is not.
 double height(const Corners& corners, int firstSide, const dvec3& axis) {
     double low = 1e300, high = -1e300;
     for (int k = 0; k < 4; ++k) {
@@ -36,16 +36,19 @@ double height(const Corners& corners, int firstSide, const dvec3& axis) {
     return low - high;
 }
 
+// Along the axis or against it.
 bool separates(const Corners& before, const Corners& after, int firstSide, const dvec3& axis) {
     if (height(before, firstSide, axis) > 0) return height(after, firstSide, axis) > 0;
     return height(before, firstSide, -axis) > 0 && height(after, firstSide, -axis) > 0;
 }
 
+// Of the triangle, or of both edges.
 dvec3 normalOf(const Corners& c, bool isPoint) {
     return isPoint ? glm::cross(c[2] - c[1], c[3] - c[1]) : glm::cross(c[1] - c[0], c[3] - c[2]);
 }
 
-dvec3 nearestWay(const Corners& c, bool isPoint) {
+// The vector between the closest points of both sides, towards the first.
+dvec3 separationOf(const Corners& c, bool isPoint) {
     if (isPoint) {
         const OnTriangle on = closestOnTriangle(c[0], c[1], c[2], c[3]);
         return c[0] - (on.weights[0] * c[1] + on.weights[1] * c[2] + on.weights[2] * c[3]);
@@ -54,13 +57,14 @@ dvec3 nearestWay(const Corners& c, bool isPoint) {
     return c[0] + on.s * (c[1] - c[0]) - (c[2] + on.t * (c[3] - c[2]));
 }
 
-struct OnSides {
+// The closest points of both sides, as weights, and the vector between them.
+struct Closest {
     std::array<double, 4> weights;
-    dvec3 apart;
+    dvec3 separation;
 };
 
-OnSides nearestPlaces(const Corners& c, bool isPoint) {
-    OnSides found{{}, dvec3(0.0)};
+Closest closestPoints(const Corners& c, bool isPoint) {
+    Closest found{{}, dvec3(0.0)};
     if (isPoint) {
         const OnTriangle on = closestOnTriangle(c[0], c[1], c[2], c[3]);
         found.weights = {1.0, -on.weights[0], -on.weights[1], -on.weights[2]};
@@ -68,12 +72,14 @@ OnSides nearestPlaces(const Corners& c, bool isPoint) {
         const OnSegments on = closestOnSegments(c[0], c[1], c[2], c[3]);
         found.weights = {1 - on.s, on.s, on.t - 1, -on.t};
     }
-    for (std::size_t k = 0; k < 4; ++k) found.apart += found.weights[k] * c[k];
+    for (std::size_t k = 0; k < 4; ++k) found.separation += found.weights[k] * c[k];
     return found;
 }
 
-// Whether the direction between the sides at some moment of the way, halved down to where they are nearest, separates
-// them by that much at both ends. Of sides that are moved without turning it does if any does.
+// Bisects the time of closest approach, and tries the direction between the closest points at each time as an axis. The
+// axis has to separate by more than `enough` [m] at both ends, and have a cosine with the normal below mostAlike. Where
+// the sides do not turn, their Minkowski difference is a rigid body on a straight way, and the direction at the closest
+// time is the best axis there is.
 bool separatesOnTheWay(const ContactConstraint& pair, const Corners& before, const Corners& after, double enough,
                        double mostAlike) {
     constexpr int halvings = 12;
@@ -82,13 +88,14 @@ bool separatesOnTheWay(const ContactConstraint& pair, const Corners& before, con
     for (int k = 0; k <= halvings; ++k) {
         Corners now;
         for (std::size_t i = 0; i < 4; ++i) now[i] = before[i] + t * (after[i] - before[i]);
-        const OnSides on = nearestPlaces(now, pair.isPoint);
-        const double size = length(on.apart);
+        const Closest on = closestPoints(now, pair.isPoint);
+        const double size = length(on.separation);
         if (!(size > enough)) return false;
-        const dvec3 axis = on.apart / size;
+        const dvec3 axis = on.separation / size;
         if (glm::dot(axis, pair.normal) < mostAlike && height(before, side, axis) > enough &&
             height(after, side, axis) > enough)
             return true;
+        // Before the closest time they close, after it they part.
         double parting = 0;
         for (std::size_t i = 0; i < 4; ++i) parting += on.weights[i] * glm::dot(axis, after[i] - before[i]);
         if (k == 0 && parting <= 0) return false;
@@ -103,6 +110,8 @@ bool separatesOnTheWay(const ContactConstraint& pair, const Corners& before, con
 bool isCertified(const ContactConstraint& pair, std::span<const dvec3> x0, std::span<const dvec3> x1) {
     const Corners before = cornersOf(pair, x0), after = cornersOf(pair, x1);
     const int side = pair.firstSide();
+
+    // The ways relative to the first point are shorter than the distance: no axis is needed.
     const dvec3 reference = after[0] - before[0];
     double first = 0, second = 0;
     for (int k = 1; k < 4; ++k) {
@@ -112,13 +121,17 @@ bool isCertified(const ContactConstraint& pair, std::span<const dvec3> x0, std::
         most = std::max(most, glm::dot(way, way));
     }
     if (std::sqrt(first) + std::sqrt(second) < pair.distance) return true;
+
+    // Axes that cost little: the normal at x0, that of the elements at either end, the separation at x1, and the mean.
     if (separates(before, after, side, pair.normal)) return true;
     if (separates(before, after, side, normalOf(before, pair.isPoint))) return true;
     if (separates(before, after, side, normalOf(after, pair.isPoint))) return true;
-    const dvec3 last = nearestWay(after, pair.isPoint);
+    const dvec3 last = separationOf(after, pair.isPoint);
     if (separates(before, after, side, last)) return true;
     const double size = length(last);
     if (size > 0 && separates(before, after, side, pair.normal + last / size)) return true;
+
+    // Then a search.
     return separatesOnTheWay(pair, before, after, 0.0, 2.0);
 }
 
@@ -127,8 +140,9 @@ bool misses(const ContactConstraint& pair, std::span<const dvec3> x0, std::span<
 }
 
 bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMass,
-                std::span<const KinematicContact> held, std::span<dvec3> x1, std::span<dvec3> v,
+                std::span<const KinematicContact> kinematic, std::span<dvec3> x1, std::span<dvec3> v,
                 std::vector<int>& moved) {
+    // The two points that went deepest.
     int lowest = -1, highest = -1;
     double low = 1e300, high = -1e300;
     for (int k = 0; k < 4; ++k) {
@@ -143,15 +157,17 @@ bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMa
         }
     }
     const auto a = static_cast<std::size_t>(lowest), b = static_cast<std::size_t>(highest);
+    // A collider in the way makes a point immovable.
     const auto inverseMassOf = [&](int point, const dvec3& way) {
-        auto own = std::lower_bound(held.begin(), held.end(), point,
-                                    [](const KinematicContact& h, int i) { return h.point < i; });
-        for (; own != held.end() && own->point == point; ++own)
+        auto own = std::lower_bound(kinematic.begin(), kinematic.end(), point,
+                                    [](const KinematicContact& contact, int i) { return contact.point < i; });
+        for (; own != kinematic.end() && own->point == point; ++own)
             if (glm::dot(own->normal, way) < into) return 0.0;
         return inverseMass[static_cast<std::size_t>(point)];
     };
     const double inverseA = inverseMassOf(lowest, pair.normal), inverseB = inverseMassOf(highest, -pair.normal);
     const double inverse = inverseA + inverseB;
+    // Places, then velocities.
     const double wanted = std::max(leftApart * pair.distance, leastApart * pair.thickness);
     const double missing = wanted - (low - high);
     if (!(inverse > 0) || !(missing > 0)) return false;
@@ -170,6 +186,7 @@ bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMa
 
 void moveAsImpactZones(std::span<const ContactConstraint* const> pairs, std::span<const double> inverseMass, double h,
                        std::span<const dvec3> x0, std::span<dvec3> x1, std::span<dvec3> v, std::vector<int>& moved) {
+    // Zones by union-find: the root is the lowest point.
     std::map<int, int> parent;
     const auto root = [&](int i) {
         while (parent.at(i) != i) i = parent.at(i);
@@ -182,10 +199,12 @@ void moveAsImpactZones(std::span<const ContactConstraint* const> pairs, std::spa
             parent.at(std::max(a, b)) = std::min(a, b);
         }
     }
+    // Sums over the points of a zone.
     struct Zone {
-        dvec3 way{0.0}, fixedWay{0.0};
-        double mass = 0;
-        int fixed = 0;
+        dvec3 way{0.0};       // [kg m] mass × way
+        dvec3 fixedWay{0.0};  // [m] of points that nothing moves
+        double mass = 0;      // [kg]
+        int fixed = 0;        // points that nothing moves
     };
     std::map<int, Zone> zones;
     for (const auto& entry : parent) {
@@ -201,6 +220,7 @@ void moveAsImpactZones(std::span<const ContactConstraint* const> pairs, std::spa
             ++zone.fixed;
         }
     }
+    // Each point goes the mean way; its velocity changes by what that takes.
     for (const auto& entry : parent) {
         const auto k = static_cast<std::size_t>(entry.first);
         if (!(inverseMass[k] > 0)) continue;

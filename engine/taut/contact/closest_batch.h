@@ -1,4 +1,4 @@
-// Pairs of which the nearest places are found together; slots are counted from 0.
+// A batch of pairs whose closest points are found together, with the kernels. Slots count from 0.
 #pragma once
 
 #include <array>
@@ -35,16 +35,16 @@ class ClosestBatch {
                    count_ - from < closestBatch ? count_ - from : closestBatch);
     }
 
-    // After that.
+    // After solve().
     std::array<double, 4> weights(int slot) const {
         const ClosestLanes& from = lanesOf(slot);
         const int lane = slot % closestBatch;
         return {from.weights[0][lane], from.weights[1][lane], from.weights[2][lane], from.weights[3][lane]};
     }
-    glm::dvec3 apart(int slot) const {
+    glm::dvec3 separation(int slot) const {
         const ClosestLanes& from = lanesOf(slot);
         const int lane = slot % closestBatch;
-        return {from.apart[0][lane], from.apart[1][lane], from.apart[2][lane]};
+        return {from.separation[0][lane], from.separation[1][lane], from.separation[2][lane]};
     }
     double distance(int slot) const { return lanesOf(slot).distance[slot % closestBatch]; }
     long where(int slot) const { return lanesOf(slot).where[slot % closestBatch]; }

@@ -1,6 +1,6 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 //
-// What closest.h does to one pair, in its order of operations; where that branches, all sides are worked out and one is
+// The same operations in the same order as closest_points.h. Where that branches, all cases are computed and one is
 // chosen.
 #include "taut/contact/closest_kernel.h"
 
@@ -13,7 +13,7 @@ namespace {
 // Numbers of Feature.
 constexpr long face = 0, edge0 = 1, edge1 = 2, edge2 = 3, corner0 = 4, corner1 = 5, corner2 = 6;
 
-constexpr int room = 64;  // of scratch
+constexpr int room = 64;  // boxes or pairs at a time
 
 inline double clampShare(double s) {
     const double above = s < 0 ? 0.0 : s;
@@ -28,15 +28,16 @@ inline void sumUp(ClosestLanes& lanes, int n) {
             sum[k] = ((lanes.weights[0][i] * lanes.at[0][k][i] + lanes.weights[1][i] * lanes.at[1][k][i]) +
                       lanes.weights[2][i] * lanes.at[2][k][i]) +
                      lanes.weights[3][i] * lanes.at[3][k][i];
-        lanes.apart[0][i] = sum[0];
-        lanes.apart[1][i] = sum[1];
-        lanes.apart[2][i] = sum[2];
+        lanes.separation[0][i] = sum[0];
+        lanes.separation[1][i] = sum[1];
+        lanes.separation[2][i] = sum[2];
         lanes.distance[i] = __builtin_sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
     }
 }
 
 }  // namespace
 
+// Ericson 2005, 5.1.5, see closest_points.h. Over 60 lines: one formula, case by case.
 void onTriangles(ClosestLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -57,7 +58,7 @@ void onTriangles(ClosestLanes& lanes, int n) {
         const bool onAb = (areaC <= 0) & (abAp >= 0) & (abBp <= 0) & (abAp > abBp);
         const bool onAc = (areaB <= 0) & (acAp >= 0) & (acCp <= 0);
         const bool onBc = (areaA <= 0) & (alongB >= 0) & (alongC >= 0);
-        // Weights of b and c as fractions of one denominator: chosen from the last case to the first.
+        // Weights of b and c over a common denominator: from the last case to the first, so that the first wins.
         double below = (areaA + areaB) + areaC, shareB = areaB, shareC = areaC;
         long where = face;
         const double bc = alongB + alongC, ac = acAp - acCp;
@@ -150,44 +151,45 @@ int findOverlapping(const BoxLanes& boxes, const double* low, const double* high
     return count;
 }
 
-int findAwake(CandidateRows& rows) {
+// Minima are taken as maxima of negative numbers, for the wide vectors have those.
+int findDue(CandidateRows& rows) {
     using core::TAUT_ISA::larger, core::TAUT_ISA::load;
     using V = core::TAUT_ISA::WideVector<double>;
     constexpr int width = sizeof(V) / sizeof(double);
-    alignas(64) double byTravelled[room], byApproached[room];  // minus what is asked for, of those asleep
-    alignas(64) long isAwake[room];
+    alignas(64) double byTravelled[room], byApproached[room];  // negative budgets of the pairs that are not due
+    alignas(64) long isDue[room];
     int count = 0;
     for (int from = 0; from < rows.n; from += room) {
         const int n = rows.n - from < room ? rows.n - from : room;
-        const double *near = rows.nearTravelled + from, *nearFirst = rows.nearApproached + from;
+        const double *travel = rows.travelBudget + from, *approach = rows.approachBudget + from;
         const double travelled = rows.travelled, approached = rows.approached;
         TAUT_INDEPENDENT
         for (int i = 0; i < n; ++i) {
-            const double left = near[i] - travelled, leftFirst = nearFirst[i] - approached;
-            const bool isAsleep = (left > 0) | (leftFirst > 0), isFurther = left > leftFirst;
-            isAwake[i] = isAsleep ? 0L : 1L;
-            byTravelled[i] = (isAsleep & isFurther) ? -near[i] : -1e300;
-            byApproached[i] = (isAsleep & !isFurther) ? -nearFirst[i] : -1e300;
+            const double left = travel[i] - travelled, leftApproach = approach[i] - approached;
+            const bool hasBudget = (left > 0) | (leftApproach > 0), isFurther = left > leftApproach;
+            isDue[i] = hasBudget ? 0L : 1L;
+            byTravelled[i] = (hasBudget & isFurther) ? -travel[i] : -1e300;
+            byApproached[i] = (hasBudget & !isFurther) ? -approach[i] : -1e300;
         }
         int full = 0;
         if (n >= width) {
-            V most = load<V>(byTravelled), mostFirst = load<V>(byApproached);
+            V most = load<V>(byTravelled), mostApproach = load<V>(byApproached);
             for (full = width; full + width <= n; full += width) {
                 most = larger(load<V>(byTravelled + full), most);
-                mostFirst = larger(load<V>(byApproached + full), mostFirst);
+                mostApproach = larger(load<V>(byApproached + full), mostApproach);
             }
             for (int k = 0; k < width; ++k) {
-                rows.asleepTravelled = -larger(-rows.asleepTravelled, most[k]);
-                rows.asleepApproached = -larger(-rows.asleepApproached, mostFirst[k]);
+                rows.leastTravelBudget = -larger(-rows.leastTravelBudget, most[k]);
+                rows.leastApproachBudget = -larger(-rows.leastApproachBudget, mostApproach[k]);
             }
         }
         for (int i = full; i < n; ++i) {
-            rows.asleepTravelled = -larger(-rows.asleepTravelled, byTravelled[i]);
-            rows.asleepApproached = -larger(-rows.asleepApproached, byApproached[i]);
+            rows.leastTravelBudget = -larger(-rows.leastTravelBudget, byTravelled[i]);
+            rows.leastApproachBudget = -larger(-rows.leastApproachBudget, byApproached[i]);
         }
         for (int i = 0; i < n; ++i) {
-            rows.awake[count] = from + i;
-            count += static_cast<int>(isAwake[i]);
+            rows.due[count] = from + i;
+            count += static_cast<int>(isDue[i]);
         }
     }
     return count;

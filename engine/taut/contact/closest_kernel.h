@@ -1,21 +1,21 @@
-// Nearest places of a batch of points and triangles, or of segments, and which boxes overlap; one copy an instruction
-// set, every copy gives the bits that closest.h gives one by one. Plain data only.
+// Kernels that work on many pairs at once: closest points of points and triangles, or of segments; overlap of boxes;
+// budgets of candidates. One copy for each instruction set. Every copy gives the bits that closest_points.h gives.
+// Plain data only.
 #pragma once
 
 namespace taut::contact {
 
 inline constexpr int closestBatch = 64;  // pairs at most
 
-// Room for them in a row, and for a line of the cache more: rows a page apart would get in each other's way.
+// Length of a row: a batch and one cache line, so that rows do not all fall into the same cache sets.
 inline constexpr int closestRow = closestBatch + 8;
 
 struct ClosestLanes {
     alignas(64) double at[4][3][closestRow];  // [m] a point and the corners of a triangle, or the ends of two segments
-    alignas(
-        64) double weights[4][closestRow];  // as of a ContactConstraint: Σ w x is the way from the second to the first
-    alignas(64) double apart[3][closestRow];  // [m] that way
-    alignas(64) double distance[closestRow];  // [m]
-    // Of triangles the Feature that is nearest; of segments 1 if both places are within them, 0 if one is at an end.
+    alignas(64) double weights[4][closestRow];     // as of a ContactConstraint
+    alignas(64) double separation[3][closestRow];  // [m] from the second side to the first
+    alignas(64) double distance[closestRow];       // [m]
+    // Of triangles the closest Feature; of segments 1 if both places are inside, 0 if one is at an end.
     alignas(64) long where[closestRow];
 };
 
@@ -26,25 +26,26 @@ struct BoxLanes {
     const double* high[3];
 };
 
-// Pairs of a list, as there; `awake` (n) gets the numbers of those that may be near.
+// The budgets of a list's pairs (CandidateList). A pair is due when both budgets are used up.
 struct CandidateRows {
     int n;
-    const double* nearTravelled;
-    const double* nearApproached;
+    const double* travelBudget;
+    const double* approachBudget;
     double travelled, approached;
-    int* awake;
-    double asleepTravelled = 1e300, asleepApproached = 1e300;  // [m] of the others: whichever of the two is further
+    int* due;  // (n) gets the numbers of the pairs that are due
+    // [m] Least over the other pairs, of the budget that has more left.
+    double leastTravelBudget = 1e300, leastApproachBudget = 1e300;
 };
 
 struct ClosestKernels {
     void (*onTriangles)(ClosestLanes& lanes, int n);
     void (*onSegments)(ClosestLanes& lanes, int n);
-    // `hits` (n) gets the numbers of the boxes that overlap the one from low to high (3) [m]; returns how many.
+    // hits (n) gets the numbers of the boxes that overlap the box from low to high (3) [m]. Returns how many.
     int (*findOverlapping)(const BoxLanes& boxes, const double* low, const double* high, int* hits);
-    int (*findAwake)(CandidateRows& rows);  // returns how many
+    int (*findDue)(CandidateRows& rows);  // returns how many
 };
 
-// Of the instruction set in use.
+// For the instruction set in use.
 ClosestKernels closestKernels();
 
 }  // namespace taut::contact

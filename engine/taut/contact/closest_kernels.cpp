@@ -8,7 +8,7 @@ namespace taut::contact {
     void onTriangles(ClosestLanes&, int);                                     \
     void onSegments(ClosestLanes&, int);                                      \
     int findOverlapping(const BoxLanes&, const double*, const double*, int*); \
-    int findAwake(CandidateRows&);                                            \
+    int findDue(CandidateRows&);                                              \
     }
 TAUT_DECLARE(sse2)
 TAUT_DECLARE(avx2)
@@ -18,12 +18,12 @@ TAUT_DECLARE(avx512)
 ClosestKernels closestKernels() {
     switch (core::instructionSet()) {
         case core::InstructionSet::avx512:
-            return {avx512::onTriangles, avx512::onSegments, avx512::findOverlapping, avx512::findAwake};
+            return {avx512::onTriangles, avx512::onSegments, avx512::findOverlapping, avx512::findDue};
         case core::InstructionSet::avx2:
-            return {avx2::onTriangles, avx2::onSegments, avx2::findOverlapping, avx2::findAwake};
+            return {avx2::onTriangles, avx2::onSegments, avx2::findOverlapping, avx2::findDue};
         case core::InstructionSet::sse2: break;
     }
-    return {sse2::onTriangles, sse2::onSegments, sse2::findOverlapping, sse2::findAwake};
+    return {sse2::onTriangles, sse2::onSegments, sse2::findOverlapping, sse2::findDue};
 }
 
 }  // namespace taut::contact

@@ -1,5 +1,5 @@
-// Nearest points of a point and a triangle, and of two segments, and where a segment pierces a triangle. Only
-// + - × ÷ and comparisons, so that all machines agree.
+// Closest points of a point and a triangle, and of two segments; where a segment pierces a triangle. Only + - × ÷ and
+// comparisons, so that all machines agree.
 #pragma once
 
 #include <array>
@@ -14,23 +14,15 @@ inline double length(const dvec3& v) {
     return std::sqrt(glm::dot(v, v));
 }
 
-// Of a triangle, with its corners in the order in which they were given.
-enum class Feature : unsigned char {
-    face,
-    edge0,
-    edge1,
-    edge2,
-    corner0,
-    corner1,
-    corner2
-};  // edge k: corners k, k + 1
+// Of a triangle. Edge k has the corners k and k + 1.
+enum class Feature : unsigned char { face, edge0, edge1, edge2, corner0, corner1, corner2 };
 
 struct OnTriangle {
     std::array<double, 3> weights;  // of the corners, not negative, sum 1
     Feature feature;
 };
 
-// By the region of the triangle's plane that the point lies above; Ericson, Real-Time Collision Detection, 2005, 5.1.5.
+// By Voronoi regions: Ericson, Real-Time Collision Detection, 2005, 5.1.5.
 inline OnTriangle closestOnTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
     const dvec3 ab = b - a, ac = c - a, ap = p - a;
     const double abAp = glm::dot(ab, ap), acAp = glm::dot(ac, ap);
@@ -39,7 +31,7 @@ inline OnTriangle closestOnTriangle(const dvec3& p, const dvec3& a, const dvec3&
     const double abBp = glm::dot(ab, bp), acBp = glm::dot(ac, bp);
     if (abBp >= 0 && acBp <= abBp) return {{0, 1, 0}, Feature::corner1};
     const double areaC = abAp * acBp - abBp * acAp;
-    // Of corners a and b in one place the edge to c has it.
+    // Corners a and b in one place: the edge to c is closest.
     if (areaC <= 0 && abAp >= 0 && abBp <= 0 && abAp > abBp) {
         const double s = abAp / (abAp - abBp);
         return {{1 - s, s, 0}, Feature::edge0};
@@ -64,15 +56,15 @@ inline OnTriangle closestOnTriangle(const dvec3& p, const dvec3& a, const dvec3&
 }
 
 struct OnSegments {
-    double s, t;     // shares of the way along the first and the second
-    bool areInside;  // neither is at an end
+    double s, t;     // place along the first and the second, from 0 to 1
+    bool areInside;  // neither place is at an end
 };
 
 inline double clampShare(double s) {
     return s < 0 ? 0.0 : (s > 1 ? 1.0 : s);
 }
 
-// Of segments that may be points.
+// Segments may be points. Ericson 2005, 5.1.9.
 inline OnSegments closestOnSegments(const dvec3& a0, const dvec3& a1, const dvec3& b0, const dvec3& b1) {
     const dvec3 a = a1 - a0, b = b1 - b0, r = a0 - b0;
     const double aa = glm::dot(a, a), bb = glm::dot(b, b), ab = glm::dot(a, b);
@@ -80,7 +72,7 @@ inline OnSegments closestOnSegments(const dvec3& a0, const dvec3& a1, const dvec
     double s = 0, t = 0;
     if (aa > 0 && bb > 0) {
         const double det = aa * bb - ab * ab;
-        // Nearly parallel: any place along them is as near as any other.
+        // Nearly parallel: any place on the first is as close as any other.
         s = det > 1e-12 * aa * bb ? clampShare((ab * br - ar * bb) / det) : 0.5;
         t = (ab * s + br) / bb;
         if (t < 0 || t > 1) {
@@ -98,11 +90,11 @@ inline OnSegments closestOnSegments(const dvec3& a0, const dvec3& a1, const dvec
 }
 
 struct Piercing {
-    double s;                       // share of the way along the segment
+    double s;                       // place along the segment, from 0 to 1
     std::array<double, 3> weights;  // of the corners
 };
 
-// Whether a segment goes through a triangle; of segments in its plane never. Möller and Trumbore 1997.
+// Whether a segment goes through a triangle. Segments in its plane do not. Möller and Trumbore 1997.
 inline bool pierces(const dvec3& p, const dvec3& q, const dvec3& a, const dvec3& b, const dvec3& c,
                     Piercing& piercing) {
     const dvec3 ab = b - a, ac = c - a, way = q - p;

@@ -1,4 +1,5 @@
-// A pair in an instant: where its two sides are nearest, and what it would take to press them apart.
+// A contact constraint: where the two sides of a pair are closest at x0, and the direction that keeps them apart. Plain
+// data.
 #pragma once
 
 #include <array>
@@ -9,16 +10,17 @@ namespace taut::contact {
 using glm::dvec3;
 
 struct ContactConstraint {
-    std::array<int, 4> points;      // of the group; a point and the corners of a triangle, or the ends of two edges
-    std::array<double, 4> weights;  // of the first side positive, of the second negative: Σ w x is the way between them
-    dvec3 normal;                   // unit, towards the first side
-    double distance;                // [m] at the start of the instant
-    double thickness;               // [m] that they keep
-    double friction;                // Coulomb's μ [-]
-    int a, b;                       // as CandidatePair
-    bool isPoint;                   // of a point and a triangle; else of edges
-    bool isActive;                  // else it is only watched
-    double recovery = 1.0;          // 0 … 1: share by which an overlap is taken back
+    std::array<int, 4> points;  // a point and the corners of a triangle, or the ends of two edges
+    std::array<double, 4>
+        weights;            // first side positive, second negative: Σ w x is the vector between the closest points
+    dvec3 normal;           // unit, towards the first side
+    double distance;        // [m] at x0
+    double thickness;       // [m] distance to keep
+    double friction;        // Coulomb's μ [-]
+    int a, b;               // as CandidatePair
+    bool isPoint;           // a point and a triangle; else two edges
+    bool isActive;          // the solver gets it; else it only needs a certificate
+    double recovery = 1.0;  // 0 … 1: share by which an overlap is taken back, see ContactGroup::convexity()
     int firstSide() const { return isPoint ? 1 : 2; }    // points of the first side
     double gap() const { return distance - thickness; }  // [m]
 };

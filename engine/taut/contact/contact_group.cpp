@@ -11,17 +11,18 @@ namespace taut::contact {
 namespace {
 
 constexpr int mostSlides = 8, mostZones = 12;
-constexpr double apartSpeed = 0.3;  // [m/s] that crossings are led apart with
+constexpr double apartSpeed = 0.3;  // [m/s] at which crossings come apart
 
-// Each once; mostly they are so already.
+// Sorts, and removes duplicates. Mostly there is nothing to do.
 void makeAscending(std::vector<int>& points) {
     if (std::adjacent_find(points.begin(), points.end(), std::greater_equal<>()) == points.end()) return;
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-void addYielding(const Elements& elements, const ContactConstraint& pair, std::span<const double> inverseMass,
-                 std::vector<int>& surfaces) {
+// Appends the surfaces of those points of the pair that contact can move.
+void addMovable(const Elements& elements, const ContactConstraint& pair, std::span<const double> inverseMass,
+                std::vector<int>& surfaces) {
     for (int i : pair.points)
         if (inverseMass[static_cast<std::size_t>(i)] > 0) surfaces.push_back(elements.surfaceOf(i));
 }
@@ -35,7 +36,7 @@ ContactGroup::ContactGroup(std::vector<Surface> surfaces, std::vector<dvec3> res
     u_.resize(count);
     v_.resize(count);
     shift_.resize(count);
-    xIs_.resize(count);
+    xTested_.resize(count);
     marks_.assign(count, unmarked);
 }
 
@@ -44,16 +45,16 @@ void ContactGroup::drop() {
     active_.clear();
 }
 
-void ContactGroup::goBack(std::span<const dvec3> from, std::span<const dvec3> to) {
-    broadPhase_.go(from, to);
+void ContactGroup::rewind(std::span<const dvec3> from, std::span<const dvec3> to) {
+    broadPhase_.advance(from, to);
 }
 
 void ContactGroup::begin(std::span<const dvec3> x) {
     for (const Crossing& crossing : crossings_)
         for (int i : crossing.points) marks_[static_cast<std::size_t>(i)] = unmarked;
-    crossings_.clear();
     crossings_ = crossingsAt(x);
     if (!options_.untangles) return;
+    // The narrow phase leaves out pairs with points on the wrong side: see isTangled().
     for (const Crossing& crossing : crossings_)
         for (std::size_t k = 0; k < 5; ++k) {
             char& mark = marks_[static_cast<std::size_t>(crossing.points[k])];
@@ -67,43 +68,81 @@ std::vector<Crossing> ContactGroup::crossingsAt(std::span<const dvec3> x) {
 
 Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
                                 double seconds) {
-    for (std::size_t i = 0; i < x.size(); ++i) xIs_[i] = x[i] + seconds * v[i];
-    broadPhase_.find(x, xIs_);
-    runNarrowPhase(x, xIs_);
-    Forecast outlook;
-    outlook.leastThickness = 1e300;
+    for (std::size_t i = 0; i < x.size(); ++i) xTested_[i] = x[i] + seconds * v[i];
+    detect(x, xTested_);
+    Forecast forecast;
+
+    // How fast leaves deform.
     Bvh& leaves = broadPhase_.bvh();
-    leaves.followAll(x, xIs_);
-    int moving = 0;
+    leaves.followAll(x, xTested_);
+    int soft = 0;
     for (int p = 0; p < leaves.count(); ++p) {
         const Surface& surface = elements_.surface(leaves[p].surface);
         if (surface.isRigid) continue;
-        outlook.stir += 2 * leaves.motion(p).stray / surface.thickness;
-        ++moving;
+        forecast.deformationRate += 2 * leaves.motion(p).deviation / surface.thickness;
+        ++soft;
     }
-    if (moving > 0) outlook.stir /= moving * seconds;
-    for (const ContactConstraint& pair : contacts_) {
+    if (soft > 0) forecast.deformationRate /= soft * seconds;
+
+    // What comes into contact.
+    forecast.leastThickness = 1e300;
+    for (const ContactConstraint& pair : tested_) {
         if (!pair.isActive) continue;
-        outlook.meets = true;
-        dvec3 speed(0.0);
-        for (std::size_t k = 0; k < 4; ++k) speed += pair.weights[k] * v[static_cast<std::size_t>(pair.points[k])];
-        outlook.closing = std::max(outlook.closing, -glm::dot(pair.normal, speed));
-        outlook.leastThickness = std::min(outlook.leastThickness, pair.thickness);
-        addYielding(elements_, pair, inverseMass, outlook.surfaces);
+        forecast.meets = true;
+        dvec3 velocity(0.0);
+        for (std::size_t k = 0; k < 4; ++k) velocity += pair.weights[k] * v[static_cast<std::size_t>(pair.points[k])];
+        forecast.closing = std::max(forecast.closing, -glm::dot(pair.normal, velocity));
+        forecast.leastThickness = std::min(forecast.leastThickness, pair.thickness);
+        addMovable(elements_, pair, inverseMass, forecast.surfaces);
     }
-    makeAscending(outlook.surfaces);
-    outlook.meets = outlook.meets || !crossings_.empty();
-    return outlook;
+    makeAscending(forecast.surfaces);
+    forecast.meets = forecast.meets || !crossings_.empty();
+    return forecast;
 }
 
 const InstantResult& ContactGroup::resolve(const Instant& instant) {
     result_ = {};
     moved_.clear();
-    std::copy(instant.x1.begin(), instant.x1.end(), xIs_.begin());
-    broadPhase_.find(instant.x0, instant.x1);
-    runNarrowPhase(instant.x0, instant.x1);
+
+    // Detection: which pairs are in reach, and where they are.
+    detect(instant.x0, instant.x1);
+
+    // Response: impulses for the pairs that would close their gap, then the crossings.
+    selectActive(instant);
+    if (!active_.empty() || !crossings_.empty()) {
+        solveActive(instant);
+        if (options_.untangles) untangle(instant);
+        handOver(instant, applyVelocities(instant));
+    }
+
+    // Certificate: rounds until every pair has one. The first use slide apart, the others impact zones.
+    for (int round = 0; options_.certifies; ++round) {
+        if (!moved_.empty()) detectAgain(instant);
+        const std::vector<const ContactConstraint*> bad = uncertified(instant);
+        result_.uncertified = static_cast<int>(bad.size());
+        if (bad.empty() || round == mostSlides + mostZones) break;
+        const std::vector<int> moved = separate(instant, bad, round);
+        if (moved.empty()) break;
+        handOver(instant, moved);
+    }
+
+    // The lists live on: what the points went in this instant counts against their budgets.
+    makeAscending(moved_);
+    broadPhase_.finish(moved_, instant.x0, instant.x1);
+    result_.moved = moved_;
+    return result_;
+}
+
+void ContactGroup::detect(std::span<const dvec3> x0, std::span<const dvec3> x1) {
+    broadPhase_.find(x0, x1);
+    runNarrowPhase(x0, x1);
+    if (x1.data() != xTested_.data()) std::copy(x1.begin(), x1.end(), xTested_.begin());
+}
+
+// The active pairs that contact can move, and how deep they would go without it.
+void ContactGroup::selectActive(const Instant& instant) {
     active_.clear();
-    for (const ContactConstraint& pair : contacts_) {
+    for (const ContactConstraint& pair : tested_) {
         if (!pair.isActive || !mayYield(pair, instant.inverseMass)) continue;
         active_.push_back(pair);
         dvec3 way(0.0);
@@ -111,66 +150,64 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
             const auto i = static_cast<std::size_t>(pair.points[k]);
             way += pair.weights[k] * (instant.x1[i] - instant.x0[i]);
         }
-        const double deep = -std::max(pair.gap(), 0.0) - glm::dot(pair.normal, way);
-        result_.deepest = std::max(result_.deepest, deep / pair.thickness);
+        const double depth = -std::max(pair.gap(), 0.0) - glm::dot(pair.normal, way);
+        result_.deepest = std::max(result_.deepest, depth / pair.thickness);
     }
-    if (!active_.empty() || !crossings_.empty()) press(instant);
-    if (options_.certifies) certify(instant);
-    makeAscending(moved_);
-    broadPhase_.arrive(moved_, instant.x0, instant.x1);
-    result_.moved = moved_;
-    return result_;
 }
 
-// Points (ascending) have been moved.
-void ContactGroup::handOver(const Instant& instant, std::span<const int> points) {
-    moved_.insert(moved_.end(), points.begin(), points.end());
-    if (instant.take) instant.take(points);
-}
-
-void ContactGroup::press(const Instant& instant) {
-    // Only of points that may be pressed; the others are not asked for.
-    const auto prepare = [&](int i) {
+void ContactGroup::solveActive(const Instant& instant) {
+    // Only points of active pairs and crossings are read.
+    const auto load = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         u0_[k] = u_[k] = (instant.x1[k] - instant.x0[k]) / instant.h;
         v_[k] = instant.v[k];
         shift_[k] = dvec3(0.0);
     };
     for (const ContactConstraint& pair : active_)
-        for (int i : pair.points) prepare(i);
+        for (int i : pair.points) load(i);
     for (const Crossing& crossing : crossings_)
-        for (int i : crossing.points) prepare(i);
-    solver_.solve(active_, instant.held, instant.inverseMass, instant.h, options_.solver, u_, v_, shift_);
+        for (int i : crossing.points) load(i);
+
+    solver_.solve(active_, instant.kinematic, instant.inverseMass, instant.h, options_.solver, u_, v_, shift_);
+
     for (std::size_t p = 0; p < active_.size(); ++p) {
         if (!(solver_.impulses()[p] > 0)) continue;
         ++result_.active;
-        addYielding(elements_, active_[p], instant.inverseMass, result_.surfaces);
+        addMovable(elements_, active_[p], instant.inverseMass, result_.surfaces);
     }
     makeAscending(result_.surfaces);
     result_.sweeps = solver_.sweeps();
-    if (options_.untangles) untangle(instant);
+}
 
+std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
     std::vector<int> moved;
-    const auto take = [&](int i) {
+    const auto apply = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         if (!(instant.inverseMass[k] > 0)) return;
         if (u_[k] == u0_[k] && v_[k] == instant.v[k] && shift_[k] == dvec3(0.0)) return;
         instant.x1[k] += instant.h * (u_[k] - u0_[k]) + shift_[k];
         instant.v[k] = v_[k];
-        u0_[k] = u_[k];
-        shift_[k] = dvec3(0.0);
         moved.push_back(i);
     };
-    for (int i : solver_.points()) take(i);
+    std::vector<int> points(solver_.points().begin(), solver_.points().end());
     for (const Crossing& crossing : crossings_)
-        for (int i : crossing.points) take(i);
-    if (moved.empty()) return;
-    makeAscending(moved);
-    handOver(instant, moved);
+        points.insert(points.end(), crossing.points.begin(), crossing.points.end());
+    makeAscending(points);
+    for (int i : points) apply(i);
+    return moved;
 }
 
+// Their islands place these points (ascending), and may change x1 and v once more.
+void ContactGroup::handOver(const Instant& instant, std::span<const int> points) {
+    if (points.empty()) return;
+    moved_.insert(moved_.end(), points.begin(), points.end());
+    if (instant.place) instant.place(points);
+}
+
+// An impulse for each edge that pierces a triangle, one after the other, along the way out (crossings.h).
 void ContactGroup::untangle(const Instant& instant) {
     for (const Crossing& crossing : crossings_) {
+        // Effective inverse mass along the way out, speeds along it, and the largest gain of a point.
         double inverse = 0, speed = 0, speedV = 0, most = 0;
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
@@ -181,8 +218,8 @@ void ContactGroup::untangle(const Instant& instant) {
         }
         if (!(inverse > 0) || crossing.apart == dvec3(0.0)) continue;
         if (!mayYield(crossing, instant.inverseMass)) continue;
-        // No more than from rest, whatever comes against it, and no point faster than that, whatever lever it is on: a
-        // pinch is held until it opens.
+        // Up to apartSpeed. Limited twice: to the impulse that is needed from rest, whatever pushes against it; and so
+        // that no point gains more than apartSpeed, however small its weight. A pinch then stays until it opens.
         const auto impulseAgainst = [&](double before) {
             return std::min(std::clamp(apartSpeed - before, 0.0, apartSpeed) / inverse, apartSpeed / most);
         };
@@ -198,45 +235,35 @@ void ContactGroup::untangle(const Instant& instant) {
 
 std::vector<const ContactConstraint*> ContactGroup::uncertified(const Instant& instant) const {
     std::vector<const ContactConstraint*> bad;
-    for (const ContactConstraint& pair : contacts_)
+    for (const ContactConstraint& pair : tested_)
         if (!isCertified(pair, instant.x0, instant.x1)) bad.push_back(&pair);
     return bad;
 }
 
-// Points went elsewhere than the near pairs were found for; only where that may have brought others near.
-void ContactGroup::findAgain(const Instant& instant, std::span<const int> moved) {
-    double most = 0;
-    for (int i : moved) {
-        const dvec3 d = instant.x1[static_cast<std::size_t>(i)] - xIs_[static_cast<std::size_t>(i)];
-        most = std::max(most, glm::dot(d, d));
+// Points were moved after the detection. It is repeated only where that may have brought new pairs into reach.
+void ContactGroup::detectAgain(const Instant& instant) {
+    double furthest = 0;  // [m²]
+    for (int i : moved_) {
+        const dvec3 d = instant.x1[static_cast<std::size_t>(i)] - xTested_[static_cast<std::size_t>(i)];
+        furthest = std::max(furthest, glm::dot(d, d));
     }
-    if (broadPhase_.holdWithin(std::sqrt(most))) return;
-    broadPhase_.find(instant.x0, instant.x1);
-    runNarrowPhase(instant.x0, instant.x1);
-    std::copy(instant.x1.begin(), instant.x1.end(), xIs_.begin());
+    if (!broadPhase_.holdWithin(std::sqrt(furthest))) detect(instant.x0, instant.x1);
 }
 
-void ContactGroup::certify(const Instant& instant) {
-    if (!moved_.empty()) findAgain(instant, moved_);
-    for (int round = 0; round < mostSlides + mostZones; ++round) {
-        const std::vector<const ContactConstraint*> bad = uncertified(instant);
-        result_.uncertified = static_cast<int>(bad.size());
-        if (bad.empty()) return;
-        std::vector<int> moved;
-        if (round < mostSlides && options_.slides) {
-            for (const ContactConstraint* pair : bad)
-                slideApart(*pair, instant.inverseMass, instant.held, instant.x1, instant.v, moved);
-            result_.slides += static_cast<int>(bad.size());
-        } else {
-            moveAsImpactZones(bad, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);
-            ++result_.zones;
-        }
-        if (moved.empty()) break;
-        makeAscending(moved);
-        handOver(instant, moved);
-        findAgain(instant, moved_);
+// Moves pairs that have no certificate. Returns the points that it moved, ascending.
+std::vector<int> ContactGroup::separate(const Instant& instant, std::span<const ContactConstraint* const> pairs,
+                                        int round) {
+    std::vector<int> moved;
+    if (round < mostSlides && options_.slides) {
+        for (const ContactConstraint* pair : pairs)
+            slideApart(*pair, instant.inverseMass, instant.kinematic, instant.x1, instant.v, moved);
+        result_.slides += static_cast<int>(pairs.size());
+    } else {
+        moveAsImpactZones(pairs, instant.inverseMass, instant.h, instant.x0, instant.x1, instant.v, moved);
+        ++result_.zones;
     }
-    result_.uncertified = static_cast<int>(uncertified(instant).size());
+    makeAscending(moved);
+    return moved;
 }
 
 std::vector<ContactPoint> ContactGroup::contactPoints(std::span<const dvec3> x) const {
@@ -257,10 +284,11 @@ std::vector<ContactPoint> ContactGroup::contactPoints(std::span<const dvec3> x) 
 }
 
 std::uint64_t ContactGroup::bytes() const {
-    return elements_.bytes() + broadPhase_.bytes() + contacts_.capacity() * sizeof(ContactConstraint) +
-           xIs_.size() * 5 * sizeof(dvec3);
+    return elements_.bytes() + broadPhase_.bytes() + tested_.capacity() * sizeof(ContactConstraint) +
+           xTested_.size() * 5 * sizeof(dvec3);
 }
 
+// Over 60 lines: its steps share the least distance so far, and each is short.
 double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dvec3> x,
                        const std::function<bool(int surface)>& isFirst,
                        const std::function<bool(int surface)>& isSecond) {
@@ -268,7 +296,7 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
     leaves.followAll(x, x);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
     double least = 1e300;
-    // Calls each(a, b) for leaves of both sides whose boxes are nearer than the least so far.
+    // Calls each(a, b, bound) for leaves of both kinds whose boxes are closer than the least distance so far.
     const auto forEachNear = [&](auto&& each) {
         for (int a = 0; a < leaves.count(); ++a) {
             if (!isFirst(leaves[a].surface)) continue;
@@ -281,7 +309,8 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
             }
         }
     };
-    const auto points = [&](const BvhLeaf& of, const BvhLeaf& triangles) {
+    // Points of the one leaf against triangles of the other.
+    const auto measurePoints = [&](const BvhLeaf& of, const BvhLeaf& triangles) {
         for (int i : of.points)
             for (int t : triangles.triangles) {
                 const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
@@ -293,10 +322,11 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
                 least = std::min(least, glm::dot(d, d));
             }
     };
+    // All of two leaves.
     const auto measure = [&](int first, int second) {
         const BvhLeaf &a = leaves[first], &b = leaves[second];
-        points(a, b);
-        points(b, a);
+        measurePoints(a, b);
+        measurePoints(b, a);
         for (int e : a.edges)
             for (int f : b.edges) {
                 const Edge &own = elements.edges()[static_cast<std::size_t>(e)],
@@ -308,7 +338,7 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
                 least = std::min(least, glm::dot(d, d));
             }
     };
-    // The two that are nearest by their boxes, and then what may be nearer still.
+    // First the leaves whose boxes are closest, for a good bound. Then all that may still be closer.
     int first = -1, second = -1;
     double nearest = 1e300;
     forEachNear([&](int a, int b, double bound) {

@@ -1,10 +1,29 @@
-// Surfaces that may touch: at instants a few milliseconds apart, what has been moved from x0 to x1 is kept from going
-// through itself and others. It knows places and velocities of points, nothing of why they move; no stiffness and no
-// memory is in it, so that it limits no step, and what comes out depends on the instant alone.
+// One instant of contact: what was moved from x0 to x1 is kept from going through itself and others.
 //
-//   find near pairs -> locate -> press, push -> colliders again -> certify -> slide apart, zones
+//     x0, x1, v                                                                                   x1, v, impulses
+//       |                                                                                               ^
+//   broad phase ---> narrow phase ---> active constraints ---> solver ---> untangle ---> islands        |
+//   pairs of         distance,         those that would        impulses,   crossings     place their    |
+//   elements in      normal, gap       close their gap         friction,   are pulled    points         |
+//   reach            of each pair      in this instant         positions   apart           |            |
+//                        ^                                                                 v            |
+//                        |                        slide apart,              no       certificate   yes  |
+//                        +----------------------- impact zones, islands <----------- for all pairs? ----+
 //
-// After Bridson, Fedkiw and Anderson 2002 and Harmon et al. 2008, with speculative gaps instead of the roots of cubics.
+// The group knows places, velocities and inverse masses of points. It does not know why the points move.
+//
+// No stiffness. A penalty spring k would limit the step of the islands by sqrt(m / k). Here the impulses solve a
+// complementarity problem for the instant alone, so contact limits no step. The gap at x0 is speculative: two sides may
+// approach by it in one instant, and no root of a cubic is sought (compare Bridson, Fedkiw and Anderson 2002, which
+// finds the time of impact).
+//
+// No memory. The solver starts at impulse 0 every time: nothing is warm started. The broad phase keeps lists from
+// instant to instant, but a list only says what to measure, and never leaves out what matters (broad_phase.h). So the
+// result depends on the instant alone. A restored world that has no lists yet goes on with the same bits.
+//
+// The certificate has the last word. Every pair in reach needs an axis that proves that it did not pass through itself
+// (certificate.h). Pairs without one are slid apart (Harmon et al. 2008), and after some rounds moved as impact zones
+// (Provot 1997). Islands may change what they are handed, so the pairs are tested again after every round.
 #pragma once
 
 #include <cstdint>
@@ -22,46 +41,47 @@ namespace taut::contact {
 struct ContactOptions {
     double friction = 0.3;  // Coulomb's μ between two surfaces, times the factors of both [-]
     SolverOptions solver{};
-    // For tests of what each is for.
+    // Tests switch these off to show what each is for.
     bool certifies = true, slides = true, untangles = true;
 };
 
 // All arrays (points).
 struct Instant {
-    double h = 0;                            // [s] since the last instant
-    std::span<const dvec3> x0;               // [m] at the last
-    std::span<dvec3> x1;                     // [m] now
-    std::span<dvec3> v;                      // [m/s] as their method stores them
-    std::span<const double> inverseMass;     // [1/kg]; 0 of points that go their way whatever they meet
-    std::span<const char> isSingle;          // whether x1 is kept in single precision; empty: none
-    std::span<const KinematicContact> held;  // ascending by point
-    // Points (ascending) of which x1 and v have changed: their owner takes them over, and may change both once more, by
-    // rounding or where a collider is. May be empty.
-    std::function<void(std::span<const int> points)> take;
+    double h = 0;                                 // [s] since the last instant
+    std::span<const dvec3> x0;                    // [m] at the last instant
+    std::span<dvec3> x1;                          // [m] now
+    std::span<dvec3> v;                           // [m/s] as the integrator of each island stores them
+    std::span<const double> inverseMass;          // [1/kg]; 0: pinned or kinematic, contact does not move it
+    std::span<const KinematicContact> kinematic;  // contacts of points with colliders, ascending by point
+    // Called with the points (ascending) of which the group has changed x1 and v. Their island places them, and may
+    // change both once more: by rounding, or where a collider is. May be empty.
+    std::function<void(std::span<const int> points)> place;
 };
 
-// What an instant found.
 struct InstantResult {
     std::vector<int> moved;     // points of which x1 or v has changed, ascending
     int active = 0;             // pairs with an impulse
-    double deepest = 0;         // how far a pair would have gone beyond touching, over the distance it keeps
-    std::vector<int> surfaces;  // of which points that may yield were pressed, ascending
-    int sweeps = 0, slides = 0, zones = 0, uncertified = 0;
+    double deepest = 0;         // largest penetration that the motion alone would have led to, over the thickness [-]
+    std::vector<int> surfaces;  // that have a movable point in a pair with an impulse, ascending
+    int sweeps = 0;             // of the solver, in the cluster that took most
+    int slides = 0;             // pairs slid apart, in all rounds
+    int zones = 0;              // rounds in which pairs were moved as impact zones
+    int uncertified = 0;        // pairs that have no certificate in the end
 };
 
-// What comes in a time, if all go on as they are.
+// What a straight flight would lead to.
 struct Forecast {
-    bool meets = false;         // something is or comes in contact
-    double closing = 0.0;       // [m/s] of what does, at most
-    double leastThickness = 0;  // [m] that it keeps, at least
-    double stir = 0;  // [1/s] speed of points against their leaves, over a quarter of the distance kept, in the mean
-    std::vector<int> surfaces;  // with points that may yield, of what does; ascending
+    bool meets = false;          // a pair is active, or surfaces cross already
+    double closing = 0.0;        // [m/s] largest closing speed of an active pair
+    double leastThickness = 0;   // [m] smallest thickness of an active pair
+    double deformationRate = 0;  // [1/s] mean over the leaves: speed of points against their leaf, over thickness / 2
+    std::vector<int> surfaces;   // that have a movable point in an active pair, ascending
 };
 
-// Two surfaces in contact, for pictures.
+// A pair with an impulse, for pictures.
 struct ContactPoint {
-    dvec3 place, normal;  // [m] in the middle between both; towards the first
-    double impulse;       // [N s] of the last instant
+    dvec3 place, normal;  // [m] midpoint; unit, towards surface A
+    double impulse;       // [N s] in the last instant
     int surfaceA, surfaceB;
 };
 
@@ -75,28 +95,41 @@ class ContactGroup {
     Elements& elements() { return elements_; }
     const Elements& elements() const { return elements_; }
 
-    // Points have jumped, or something is gone: what was known of them is not true any more.
+    // Forgets all lists. To be called when points have jumped, or elements are gone.
     void drop();
-    // Points that went from `from` to `to` without contact, back where they were before some instants of this tick.
-    void goBack(std::span<const dvec3> from, std::span<const dvec3> to);
-    // Before the instants of a tick: looks for crossings if there may be any. Their pairs are not pressed until the
-    // next tick, but led apart.
+    // Some instants of the tick are to be repeated: the points went back from `from` to `to`, without contact.
+    void rewind(std::span<const dvec3> from, std::span<const dvec3> to);
+    // Before the instants of a tick: finds the edges that pierce triangles. Their pairs are untangled in this tick, not
+    // solved.
     void begin(std::span<const dvec3> x);
+    // If all points fly on at v for so many seconds.
     Forecast forecast(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
                       double seconds);
+    // One instant, see above.
     const InstantResult& resolve(const Instant& instant);
 
     const std::vector<Crossing>& crossings() const { return crossings_; }  // at the start of the tick
+    std::vector<Crossing> crossingsAt(std::span<const dvec3> x);
     // Of the last instant.
     std::vector<ContactPoint> contactPoints(std::span<const dvec3> x) const;
-    std::vector<Crossing> crossingsAt(std::span<const dvec3> x);
-    // Pairs that the last instant looked at, and those of them that came near enough to be pressed.
-    std::size_t located() const { return contacts_.size(); }
-    std::size_t near() const { return active_.size(); }
-    std::size_t listed() const { return broadPhase_.listed(); }
+    std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
+    std::size_t activeCount() const { return active_.size(); }  // pairs that the solver got
+    std::size_t listsMade() const { return broadPhase_.listsMade(); }
     std::uint64_t bytes() const;
 
   private:
+    // Steps of resolve(), in its order. What a step gives to the next is a member that it names.
+    void detect(std::span<const dvec3> x0, std::span<const dvec3> x1);  // broad and narrow phase -> tested_
+    void selectActive(const Instant& instant);                          // tested_ -> active_
+    void solveActive(const Instant& instant);                           // active_ -> u_, v_, shift_
+    void untangle(const Instant& instant);                              // crossings_ -> u_, v_
+    std::vector<int> applyVelocities(const Instant& instant) const;     // u_, v_, shift_ -> x1, v; the moved points
+    void handOver(const Instant& instant, std::span<const int> points);
+    void detectAgain(const Instant& instant);  // where moved_ may have brought new pairs together -> tested_
+    std::vector<const ContactConstraint*> uncertified(const Instant& instant) const;
+    std::vector<int> separate(const Instant& instant, std::span<const ContactConstraint* const> pairs, int round);
+
+    // narrow_phase.cpp
     void runNarrowPhase(std::span<const dvec3> x0, std::span<const dvec3> x1);
     struct Measured;
     struct NarrowPhaseScratch;
@@ -104,33 +137,33 @@ class ContactGroup {
                 NarrowPhaseScratch& scratch) const;
     void classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
                   const NarrowPhaseScratch& scratch, std::vector<ContactConstraint>& pairs) const;
+    ContactConstraint constraintOf(const Measured& measured, const NarrowPhaseScratch& scratch,
+                                   std::span<const dvec3> x0) const;
+    double convexity(const ContactConstraint& pair, long where, std::span<const dvec3> x) const;
+    bool meetInside(const ContactConstraint& pair, long where) const;
     bool isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const;
-    double ridge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const;
+    double convexity(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const;
     bool isTangled(const ContactConstraint& pair) const;
-    void press(const Instant& instant);
-    void untangle(const Instant& instant);
-    void certify(const Instant& instant);
-    std::vector<const ContactConstraint*> uncertified(const Instant& instant) const;
-    void handOver(const Instant& instant, std::span<const int> points);
-    void findAgain(const Instant& instant, std::span<const int> moved);
 
     ContactOptions options_;
     Elements elements_;
     BroadPhase broadPhase_;
     std::vector<Crossing> crossings_;
     enum Mark : char { unmarked, anySide, wrongSide };
-    std::vector<char> marks_;                            // (points) of crossings
-    std::vector<ContactConstraint> contacts_;            // all that were located
-    std::vector<ContactConstraint> active_;              // of them those that press
-    std::vector<std::vector<ContactConstraint>> found_;  // (tasks) scratch
+    std::vector<char> marks_;                              // (points) of crossings_
+    std::vector<ContactConstraint> tested_;                // pairs that need a certificate
+    std::vector<ContactConstraint> active_;                // pairs of tested_ that the solver gets
+    std::vector<std::vector<ContactConstraint>> perTask_;  // (tasks) scratch
     ContactSolver solver_;
-    std::vector<dvec3> u0_, u_, v_, shift_;  // (points)
-    std::vector<dvec3> xIs_;                 // (points) [m] that near pairs were found for
-    std::vector<int> moved_;
+    // (points) [m/s] mean velocity in the instant before and after the solver; [m/s] stored velocity after it; [m]
+    // position correction. Set where active pairs or crossings have points.
+    std::vector<dvec3> u0_, u_, v_, shift_;
+    std::vector<dvec3> xTested_;  // (points) [m] the x1 that tested_ was found for
+    std::vector<int> moved_;      // points that were handed over in this instant
     InstantResult result_;
 };
 
-// The least distance between two of the surfaces of elements at places x [m]; infinite where one has nothing.
+// The least distance [m] at places x (points) [m] between surfaces of two kinds; infinite where one kind has none.
 double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dvec3> x,
                        const std::function<bool(int surface)>& isFirst,
                        const std::function<bool(int surface)>& isSecond);

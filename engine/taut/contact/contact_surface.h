@@ -1,4 +1,5 @@
-// What of a body others touch: its triangles and edges, as points of a group that is numbered together. Plain data.
+// The surface of a body, or of a collider: triangles and edges, in the numbering of points of the whole group. Plain
+// data.
 #pragma once
 
 #include <array>
@@ -12,26 +13,27 @@ using glm::dvec3;
 struct Surface {
     std::vector<int> points;                    // of the group
     std::vector<std::array<int, 3>> triangles;  // of points
-    std::vector<std::array<int, 2>> lines;      // edges besides those of the triangles: of ropes and nets
-    // Of a rigid surface (lines): points on the faces beside a line, off it; -1: none. They are none of its points.
+    std::vector<std::array<int, 2>> lines;      // edges of no triangle: of ropes and nets
+    // (lines) Of a rigid surface: a point on each of the two faces beside a line, off the line; -1: no face. They are
+    // not in `points`.
     std::vector<std::array<int, 2>> wings;
-    double thickness = 0.005;  // [m] two surfaces keep the sum of theirs
-    double friction = 1.0;     // factor on the friction of a group [-]
+    double thickness = 0.005;  // [m] two surfaces keep a distance of the sum of theirs
+    double friction = 1.0;     // factor on the friction of the group [-]
     bool meetsItself = true;
     bool meetsOthers = true;
-    bool meetsRigid = true;  // besides the others
-    // Surfaces of one bond are one body, whose parts may be as near as they are at rest, and need not be further apart
-    // than `restShare` of that.
+    bool meetsRigid = true;  // touches rigid surfaces
+    // Surfaces of the same bond are of one body. Its parts are close at rest, so they keep at most restShare of their
+    // distance at rest.
     int bond = 0;
-    // Moved by others than the group: a collider's corners and edges, which meet triangles and edges from outside;
-    // points of others meet its faces elsewhere, so that it has no triangles. Two of them never meet.
+    // A collider's corners and edges, which the group does not move. It has no triangles: points meet the faces of
+    // colliders in `collision`. Two rigid surfaces never touch.
     bool isRigid = false;
 };
 
-// Share of the distance at rest that parts of one body keep at most.
+// Parts of one body keep at most this share of their distance at rest.
 inline constexpr double restShare = 0.7;
 
-// Nearer than this share of the distance that two keep, they are in contact.
+// A pair is near, so that it has to be measured, when its distance is below this share of its thickness.
 inline constexpr double nearShare = 1.05;
 
 }  // namespace taut::contact

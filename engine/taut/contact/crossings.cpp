@@ -10,7 +10,7 @@
 namespace taut::contact {
 namespace {
 
-constexpr double leastSlope = 0.05;  // of an edge against the triangle, for its faces to have a say
+constexpr double leastSlope = 0.05;  // sine of the angle of edge and triangle; flatter ones have no direction
 
 dvec3 unit(const dvec3& v) {
     const double size = length(v);
@@ -22,8 +22,8 @@ dvec3 normalOf(const Triangle& triangle, std::span<const dvec3> x) {
     return unit(glm::cross(at(1) - at(0), at(2) - at(0)));
 }
 
-// By which the contour grows shorter: Volino and Magnenat-Thalmann, "Resolving surface collisions through intersection
-// contour minimization", 2006.
+// The direction in which the contour grows shorter: Volino and Magnenat-Thalmann, "Resolving surface collisions through
+// intersection contour minimization", 2006.
 dvec3 shortening(const Elements& elements, const Edge& edge, const Triangle& triangle, std::span<const dvec3> x) {
     const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
     if (elements.isRigid(edge.surface)) return -outOfEdge(edge, triangle, x);
@@ -37,7 +37,7 @@ dvec3 shortening(const Elements& elements, const Edge& edge, const Triangle& tri
         int apex = own.points[0];
         for (int i : own.points)
             if (i != edge.a && i != edge.b) apex = i;
-        dvec3 line = unit(glm::cross(normalOf(own, x), normal));  // of the two planes, to be led into the face
+        dvec3 line = unit(glm::cross(normalOf(own, x), normal));  // of the two planes, into the face
         const dvec3 inwards = at(apex) - at(edge.a);
         const dvec3 across = inwards - glm::dot(inwards, along) * along;
         if (glm::dot(line, across) < 0) line = -line;
@@ -46,7 +46,7 @@ dvec3 shortening(const Elements& elements, const Edge& edge, const Triangle& tri
     return sum;
 }
 
-// Where a contour runs on one of the two sheets that it is of.
+// One of the two curves of a contour: each sheet has one.
 struct Curve {
     int contour;  // its lowest crossing
     bool isOther;
@@ -54,8 +54,9 @@ struct Curve {
     auto operator<=>(const Curve&) const = default;
 };
 
-// Of each crossing. Two triangles that cut each other do so along a line from one crossing to the next: those are of
-// one contour, and the sides of an edge in one of them are the other way round in the other.
+// The curve of each crossing. Two triangles cut each other along a line, from one crossing to the next. So the two
+// crossings are of one contour: on the same curve if both edges are of the same triangle, else on different ones.
+// Union-find, with the curve relative to the parent.
 std::vector<Curve> findCurves(const Elements& elements, std::span<const Crossing> crossings) {
     struct Link {
         int low, high;  // triangles
@@ -96,9 +97,9 @@ std::vector<Curve> findCurves(const Elements& elements, std::span<const Crossing
 // Edges by their points, the lower first.
 using Cut = std::pair<int, int>;
 
-// The points on the smaller side of cuts (ascending) through a surface, ascending; none where they do not part it. From
-// both sides of the first cut what hangs together is gathered, always on the side that has less area at rest so far:
-// it is soon known.
+// The points on the smaller side of cuts (ascending) through a surface, ascending; none where they do not part it. Two
+// flood fills start at both ends of the first cut. The one with less area at rest goes on, so the cost is that of the
+// smaller side.
 std::vector<int> smallerSide(const Elements& elements, std::span<const Cut> cuts, std::vector<char>& sideOf) {
     std::array<std::vector<int>, 2> sides{std::vector{cuts[0].first}, std::vector{cuts[0].second}};
     std::array<std::size_t, 2> done{0, 0};
@@ -130,14 +131,14 @@ std::vector<int> smallerSide(const Elements& elements, std::span<const Cut> cuts
     return sides[own];
 }
 
-// What of the surface of a curve (crossings) went through: as smallerSide().
+// The points of the part that went through, of the sheet whose edges the curve (crossings) cuts: see smallerSide().
 std::vector<int> partThrough(const Elements& elements, std::span<const int> curve, std::span<const Crossing> crossings,
                              std::vector<char>& sideOf) {
     std::vector<Cut> cuts;
     for (int c : curve) {
         const Edge& edge = elements.edges()[static_cast<std::size_t>(crossings[static_cast<std::size_t>(c)].edge)];
         if (elements.isRigid(edge.surface)) return {};
-        // There and back again is not through.
+        // An edge that is crossed there and back is not cut.
         if (const Cut cut(edge.a, edge.b); !cuts.empty() && cuts.back() == cut)
             cuts.pop_back();
         else
@@ -147,7 +148,7 @@ std::vector<int> partThrough(const Elements& elements, std::span<const int> curv
     return cuts.empty() ? std::vector<int>{} : smallerSide(elements, cuts, sideOf);
 }
 
-// Straight through the triangle, so that the edge comes back from where it has one end; zero with both or none.
+// The normal of the triangle, turned so that the end that went through comes back; zero if both ends did, or none.
 dvec3 wayBack(const Crossing& crossing, const Triangle& triangle, std::span<const dvec3> x) {
     if (crossing.areThrough[0] == crossing.areThrough[1]) return dvec3(0.0);
     const dvec3 normal = normalOf(triangle, x);
@@ -156,6 +157,7 @@ dvec3 wayBack(const Crossing& crossing, const Triangle& triangle, std::span<cons
     return (glm::dot(ahead, normal) > 0) == crossing.areThrough[0] ? normal : -normal;
 }
 
+// Contour by contour: which part went through, and one direction for all of it.
 void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vector<Crossing>& crossings) {
     const std::vector<Curve> curves = findCurves(elements, crossings);
     std::vector<int> order(crossings.size());
@@ -169,7 +171,7 @@ void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vect
         last = middle;
         while (last < order.size() && curveOf(order[last]).contour == curveOf(order[first]).contour) ++last;
         const std::span all(order);
-        // Of the surface of the edges on this curve and on the other.
+        // Of the sheet whose edges are on this curve, and on the other.
         std::array parts{partThrough(elements, all.subspan(first, middle - first), crossings, sideOf),
                          partThrough(elements, all.subspan(middle, last - middle), crossings, sideOf)};
         const bool isParted = !parts[0].empty() || !parts[1].empty();
@@ -215,6 +217,8 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
     std::vector<LeafPair> near;
     leaves.findNear(boxes, 0.0, near);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
+    // Edges of the one leaf against triangles of the other, by boxes first. Over 60 lines with this, which needs most
+    // of what is here.
     struct Boxed {
         int item;
         Box box;
@@ -226,7 +230,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
         for (int e : ofEdges.edges) {
             const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
             if (edge.isGone || edge.a == edge.b) continue;
-            // What is round, or has one face, has no side that is out.
+            // A rigid edge with fewer than two faces has no side that is out.
             if (elements.isRigid(edge.surface) && (edge.wings[0] < 0 || edge.wings[1] < 0)) continue;
             Box box;
             box.add(at(edge.a));

@@ -1,16 +1,18 @@
-// Edges that pierce triangles, and which way they come apart.
+// Edges that pierce triangles, and the direction in which each comes apart.
 //
-// Two sheets cut each other along contours. Where a contour parts a sheet, the smaller part is what went through, and
-// goes back (Baraff, Witkin and Kass, "Untangling cloth", 2003):
+// Two sheets cut each other along contours. If a contour parts a sheet, the smaller part is what went through, and goes
+// back (Baraff, Witkin and Kass 2003, "Untangling cloth"):
 //
-//        ______|____         the edges that are cut go straight through the other sheet, towards the larger part:
-//       small  |  large  ->  the contour moves over the small part until nothing is left of it, whether it closes in
-//                            itself or ends at borders
+//        ______|____         The edges that are cut go straight through the other sheet, towards the larger part.
+//       small  |  large  ->  So the contour moves over the small part until nothing of it is left. It may be closed,
+//                            or end at the borders of the sheet.
 //
-// One that parts neither begins at a border of the one and ends at one of the other, or goes through no edge but there
-// and back: it is made shorter, until it is drawn out over the borders (Volino and Magnenat-Thalmann 2006). A straight
-// one has no shorter one beside it, so that this alone would leave a sheet that is right through another where it is.
-// All of a contour goes the same way. Places and what hangs together decide, nothing is remembered.
+// A contour that parts neither sheet begins at a border of one and ends at a border of the other, or crosses edges only
+// there and back. It is made shorter until it leaves over the borders (Volino and Magnenat-Thalmann 2006). This alone
+// is not enough: a straight contour has no shorter one beside it, so a sheet right through another would stay.
+//
+// All edges of a contour go the same way. The direction depends on places and connectivity alone: nothing is remembered
+// from the time when the sheets were apart.
 #pragma once
 
 #include <span>
@@ -23,22 +25,22 @@ namespace taut::contact {
 struct Crossing {
     int edge, triangle;
     dvec3 place;  // [m] where the edge goes through
-    // As ContactConstraint: the ends of the edge, and the corners of the triangle with less than nothing.
+    // The ends of the edge, and the corners of the triangle with negative weights. As in ContactConstraint: Σ w x is 0.
     std::array<int, 5> points;
     std::array<double, 5> weights;
-    dvec3 apart;  // unit, the way for the edge to go; or zero
-    // (points) Where its contour parts a surface, those of the smaller part, which are on the wrong side; else all.
+    dvec3 apart;  // unit, the direction in which the edge leaves; or zero
+    // (points) Whether it is on the wrong side: in the smaller part, where the contour parts a sheet; else all are.
     std::array<bool, 5> areThrough;
 };
 
-// From an edge towards a place on a face beside it, straight off the edge; unit, or zero.
+// The direction across an edge, towards the point `beside` on one of its faces; unit, or zero.
 dvec3 acrossEdge(const Edge& edge, int beside, std::span<const dvec3> x);
 
-// The normal of a triangle that an edge of a rigid surface goes through, on the side that is out of that surface; zero
-// where none is.
+// For an edge of a rigid surface: the normal of a triangle that it pierces, turned to leave the rigid body; zero where
+// the edge has only one face, or none.
 dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec3> x);
 
-// Among surfaces that may meet, at places x (points) [m]; ascending by edge and triangle.
+// Of surfaces that may touch, at places x (points) [m]; ascending by edge, then triangle.
 std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x);
 
 }  // namespace taut::contact

@@ -1,5 +1,5 @@
-// The triangles and edges of all surfaces of a group in one numbering, and what lies beside what. It knows no places
-// but those at rest.
+// The triangles and edges of all surfaces of a group in one numbering, and their connectivity. Knows places at rest
+// only.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct Triangle {
 };
 
 struct Edge {
-    int a, b;  // the same of a ball: a point that nothing holds any more
+    int a, b;  // the same point twice for a ball: a point without triangles and edges, left by damage
     int surface;
-    bool isLine;  // of no triangle: it pushes with its ends too
+    bool isLine;  // of no triangle: its ends push too in pairs of edges
     bool isGone = false;
     std::array<int, 2> triangles{-1, -1};  // on either side, the lower first; more than two count as a border
     std::array<int, 2> wings{-1, -1};      // points, as of a surface
@@ -32,11 +32,11 @@ class Elements {
     // rest (points) [m].
     Elements(std::vector<Surface> surfaces, std::vector<dvec3> rest);
 
-    // What is gone of a surface from now on: triangles by their number in it, edges by their points. An edge stays
-    // while a triangle of it does. Points without either become balls, which are the last of the edges.
+    // Removes triangles (by their number in the surface) and edges (by their points) of a surface. An edge stays while
+    // one of its triangles does. Points that are left without both become balls, which come last among the edges.
     void setGone(int surface, const std::function<bool(std::size_t triangle)>& isTriangleGone,
                  const std::function<bool(int a, int b)>& isEdgeSevered);
-    // To be called after the last of those.
+    // To be called after the last setGone().
     void refresh();
 
     const std::vector<Surface>& surfaces() const { return surfaces_; }
@@ -44,7 +44,7 @@ class Elements {
     const std::vector<Triangle>& triangles() const { return triangles_; }
     const std::vector<Edge>& edges() const { return edges_; }
     int edgesWithoutBalls() const { return firstBall_; }
-    // Those of a surface: from this one to before the next.
+    // The elements of a surface: from its first to before the first of the next surface.
     int firstTriangleOf(int surface) const {
         return static_cast<int>(firstTriangleOf_[static_cast<std::size_t>(surface)]);
     }
@@ -52,19 +52,19 @@ class Elements {
     int surfaceOf(int point) const { return surfaceOf_[static_cast<std::size_t>(point)]; }
     const std::vector<dvec3>& rest() const { return rest_; }
     int pointCount() const { return static_cast<int>(rest_.size()); }
-    // Of the points at the other ends of edges.
+    // The points at the other ends of its edges.
     std::span<const int> neighbours(int point) const {
         const auto i = static_cast<std::size_t>(point);
         return {ring_.data() + ringStart_[i], ring_.data() + ringStart_[i + 1]};
     }
-    // The lowest triangle at a point; -1 without.
+    // The lowest triangle at a point; -1: none.
     int firstTriangle(int point) const { return firstTriangle_[static_cast<std::size_t>(point)]; }
     double shortestEdge(int surface) const { return shortest_[static_cast<std::size_t>(surface)]; }  // [m] at rest
 
     bool shareBond(int surfaceA, int surfaceB) const {
         return surface(surfaceA).bond == surface(surfaceB).bond && !isRigid(surfaceA) && !isRigid(surfaceB);
     }
-    // Whether anything of the one may meet anything of the other.
+    // Whether two surfaces, or one with itself, may touch.
     bool mayMeet(int surfaceA, int surfaceB) const {
         const Surface &a = surface(surfaceA), &b = surface(surfaceB);
         if (surfaceA == surfaceB) return a.meetsItself && !a.isRigid;
@@ -73,7 +73,7 @@ class Elements {
     }
     bool isRigid(int number) const { return surface(number).isRigid; }
 
-    // Of a rigid surface: its points are where they were when it was last followed, and stay there.
+    // A rigid surface stands still: its leaves need not be followed again.
     void setStill(int surface, bool isStill) { isStill_[static_cast<std::size_t>(surface)] = isStill ? 1 : 0; }
     bool isStill(int surface) const { return isStill_[static_cast<std::size_t>(surface)] != 0; }
 

@@ -7,98 +7,107 @@
 namespace taut::contact {
 namespace {
 
-dvec3 within(const dvec3& rub, double limit) {
-    const double square = glm::dot(rub, rub);
-    if (!(square > limit * limit)) return rub;
-    return square > 0 ? rub * (limit / std::sqrt(square)) : dvec3(0.0);
+// Projection onto the disk of Coulomb's friction.
+dvec3 within(const dvec3& friction, double limit) {
+    const double square = glm::dot(friction, friction);
+    if (!(square > limit * limit)) return friction;
+    return square > 0 ? friction * (limit / std::sqrt(square)) : dvec3(0.0);
 }
 
-// Impulses by which those of the points change: u += gains * impulse.
-void handOver(const ContactConstraint& pair, const Row& row, const dvec3& impulse, std::span<dvec3> u) {
+// u += gains * impulse.
+void apply(const ContactConstraint& pair, const Row& row, const dvec3& impulse, std::span<dvec3> u) {
     for (std::size_t i = 0; i < 4; ++i) u[static_cast<std::size_t>(pair.points[i])] += row.gains[i] * impulse;
 }
-void handOver(const KinematicRow& support, const dvec3& impulse, std::span<dvec3> u) {
-    u[static_cast<std::size_t>(support.held.point)] += impulse / support.mass;
+void apply(const KinematicRow& row, const dvec3& impulse, std::span<dvec3> u) {
+    u[static_cast<std::size_t>(row.contact.point)] += impulse / row.mass;
 }
-dvec3 along(const Impulse& impulse, const dvec3& normal) {
-    return impulse.normal * normal + impulse.rub;
+dvec3 total(const Impulse& impulse, const dvec3& normal) {
+    return impulse.normal * normal + impulse.friction;
 }
 
-// One visit, which changes the impulse by what it returns.
+// Solves one row for the velocities as they are, normal first. Returns by how much its impulse changed.
 Impulse visit(const ContactConstraint& pair, Row& row, std::span<dvec3> u) {
-    dvec3 way(0.0);
-    for (std::size_t i = 0; i < 4; ++i) way += pair.weights[i] * u[static_cast<std::size_t>(pair.points[i])];
-    const double closing = glm::dot(pair.normal, way);
+    dvec3 velocity(0.0);  // of the first side against the second
+    for (std::size_t i = 0; i < 4; ++i) velocity += pair.weights[i] * u[static_cast<std::size_t>(pair.points[i])];
+    const double parting = glm::dot(pair.normal, velocity);
     Impulse next = row.impulse;
-    next.normal = std::max(0.0, next.normal - row.mass * (closing + row.open - row.bounce));
+    next.normal = std::max(0.0, next.normal - row.mass * (parting + row.gapSpeed - row.rebound));
     if (pair.friction > 0)
-        next.rub = within(next.rub - row.mass * (way - closing * pair.normal), pair.friction * next.normal);
-    const Impulse change{next.normal - row.impulse.normal, next.rub - row.impulse.rub};
+        next.friction =
+            within(next.friction - row.mass * (velocity - parting * pair.normal), pair.friction * next.normal);
+    const Impulse change{next.normal - row.impulse.normal, next.friction - row.impulse.friction};
     row.impulse = next;
-    if (change.normal != 0 || change.rub != dvec3(0.0)) handOver(pair, row, along(change, pair.normal), u);
+    if (change.normal != 0 || change.friction != dvec3(0.0)) apply(pair, row, total(change, pair.normal), u);
     return change;
 }
 
-Impulse visit(KinematicRow& support, std::span<dvec3> u) {
-    const KinematicContact& held = support.held;
-    const double closing = glm::dot(u[static_cast<std::size_t>(held.point)], held.normal) - held.speed;
-    Impulse next = support.impulse;
-    next.normal = std::max(0.0, next.normal - support.mass * closing);
-    if (held.friction > 0) {
-        // What friction has to stop is what goes along the surface, seen from it.
-        const dvec3 way = u[static_cast<std::size_t>(held.point)] - held.carried;
-        const dvec3 across = way - glm::dot(way, held.normal) * held.normal;
-        next.rub = within(next.rub - support.mass * across, held.friction * next.normal);
+Impulse visit(KinematicRow& row, std::span<dvec3> u) {
+    const KinematicContact& contact = row.contact;
+    const double parting = glm::dot(u[static_cast<std::size_t>(contact.point)], contact.normal) - contact.speed;
+    Impulse next = row.impulse;
+    next.normal = std::max(0.0, next.normal - row.mass * parting);
+    if (contact.friction > 0) {
+        // Sliding is the tangential velocity relative to the collider's surface.
+        const dvec3 velocity = u[static_cast<std::size_t>(contact.point)] - contact.carried;
+        const dvec3 sliding = velocity - glm::dot(velocity, contact.normal) * contact.normal;
+        next.friction = within(next.friction - row.mass * sliding, contact.friction * next.normal);
     }
-    const Impulse change{next.normal - support.impulse.normal, next.rub - support.impulse.rub};
-    support.impulse = next;
-    if (change.normal != 0 || change.rub != dvec3(0.0)) handOver(support, along(change, held.normal), u);
+    const Impulse change{next.normal - row.impulse.normal, next.friction - row.impulse.friction};
+    row.impulse = next;
+    if (change.normal != 0 || change.friction != dvec3(0.0)) apply(row, total(change, contact.normal), u);
     return change;
 }
 
 }  // namespace
 
 int projectedGaussSeidel(std::span<const ContactConstraint> pairs, std::span<Row> rows,
-                         std::span<KinematicRow> kinematicRows, int sweeps, double little, std::span<dvec3> u) {
+                         std::span<KinematicRow> kinematicRows, int sweeps, double tolerance, std::span<dvec3> u) {
     const auto pairOf = [&](const Row& row) -> const ContactConstraint& {
         return pairs[static_cast<std::size_t>(row.pair)];
     };
-    for (const Row& row : rows) handOver(pairOf(row), row, along(row.impulse, pairOf(row).normal), u);
-    for (const KinematicRow& one : kinematicRows) handOver(one, along(one.impulse, one.held.normal), u);
+    for (const Row& row : rows) apply(pairOf(row), row, total(row.impulse, pairOf(row).normal), u);
+    for (const KinematicRow& row : kinematicRows) apply(row, total(row.impulse, row.contact.normal), u);
 
-    thread_local std::vector<Impulse> changes, on;  // (rows, then kinematicRows)
+    // (rows, then kinematicRows) The change of each impulse in the last sweep, and the direction of extrapolation.
+    thread_local std::vector<Impulse> changes, direction;
     changes.assign(rows.size() + kinematicRows.size(), {});
-    on.assign(changes.size(), {});
+    direction.assign(changes.size(), {});
     double squareBefore = 0;
     for (int sweep = 1;; ++sweep) {
-        double most = 0, square = 0;  // of the changes [(m/s)²], [(N s)²]
-        const auto count = [&](std::size_t k, const Impulse& change, double gain) {
+        // A sweep. Largest squared change of a velocity [(m/s)²], sum of the squared changes of impulses [(N s)²].
+        double largest = 0, square = 0;
+        const auto record = [&](std::size_t k, const Impulse& change, double gain) {
             changes[k] = change;
-            const double own = change.normal * change.normal + glm::dot(change.rub, change.rub);
-            most = std::max(most, gain * gain * own);
+            const double own = change.normal * change.normal + glm::dot(change.friction, change.friction);
+            largest = std::max(largest, gain * gain * own);
             square += own;
         };
-        for (std::size_t r = 0; r < rows.size(); ++r) count(r, visit(pairOf(rows[r]), rows[r], u), rows[r].most);
+        for (std::size_t r = 0; r < rows.size(); ++r)
+            record(r, visit(pairOf(rows[r]), rows[r], u), rows[r].largestGain);
         for (std::size_t s = 0; s < kinematicRows.size(); ++s)
-            count(rows.size() + s, visit(kinematicRows[s], u), 1.0 / kinematicRows[s].mass);
-        if (sweep == sweeps || most < little * little) return sweep;
+            record(rows.size() + s, visit(kinematicRows[s], u), 1.0 / kinematicRows[s].mass);
+        if (sweep == sweeps || largest < tolerance * tolerance) return sweep;
+
+        // How far to go on, after Fletcher and Reeves. Where changes grow, the direction starts anew.
         const double share = squareBefore > 0 ? square / squareBefore : 0.0;
         squareBefore = square;
-        if (share > 1.0) {  // it went astray
-            on.assign(on.size(), {});
+        if (share > 1.0) {
+            direction.assign(direction.size(), {});
             continue;
         }
-        const auto goOn = [&](std::size_t k, Impulse& impulse) {
-            const Impulse step{share * on[k].normal, share * on[k].rub};
-            on[k] = {step.normal + changes[k].normal, step.rub + changes[k].rub};
-            impulse = {impulse.normal + step.normal, impulse.rub + step.rub};
+
+        // The extrapolation. The next sweep clamps what it does too much.
+        const auto extrapolate = [&](std::size_t k, Impulse& impulse) {
+            const Impulse step{share * direction[k].normal, share * direction[k].friction};
+            direction[k] = {step.normal + changes[k].normal, step.friction + changes[k].friction};
+            impulse = {impulse.normal + step.normal, impulse.friction + step.friction};
             return step;
         };
         for (std::size_t r = 0; r < rows.size(); ++r)
-            handOver(pairOf(rows[r]), rows[r], along(goOn(r, rows[r].impulse), pairOf(rows[r]).normal), u);
+            apply(pairOf(rows[r]), rows[r], total(extrapolate(r, rows[r].impulse), pairOf(rows[r]).normal), u);
         for (std::size_t s = 0; s < kinematicRows.size(); ++s)
-            handOver(kinematicRows[s],
-                     along(goOn(rows.size() + s, kinematicRows[s].impulse), kinematicRows[s].held.normal), u);
+            apply(kinematicRows[s],
+                  total(extrapolate(rows.size() + s, kinematicRows[s].impulse), kinematicRows[s].contact.normal), u);
     }
 }
 

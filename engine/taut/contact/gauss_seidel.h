@@ -1,7 +1,9 @@
-// Impulses of pairs that hang together, for one field of velocities: projected Gauss-Seidel over them in their order,
-// and between two sweeps a step on along the way of the sweeps before, as in nonlinear conjugate gradients
-// (Silcowitz-Abel, Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate gradient method for interactive contact
-// force problems"). Sweeps alone pass an impulse on by one layer of a pile each.
+// Projected Gauss-Seidel for one velocity field: sweeps over the pairs in their order, one impulse after the other,
+// each clamped to what its pair may do. The problem and its energy stand in solver.h.
+//
+// A sweep passes an impulse on by one layer of a pile, so sweeps alone are slow for high piles. Between two sweeps the
+// impulses are extrapolated along the sum of the last changes, as in nonlinear conjugate gradients: Silcowitz-Abel,
+// Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems".
 #pragma once
 
 #include <span>
@@ -11,41 +13,43 @@
 
 namespace taut::contact {
 
-// A point that a collider holds: it does not go into it, and what presses it there lets friction hold it the more.
+// A point in contact with a collider. It does not go into the collider, and the impulses of pairs that press it there
+// raise the limit of its friction.
 struct KinematicContact {
     int point;
     dvec3 normal;           // unit, out of the collider
-    double speed;           // [m/s] of the surface along it
-    dvec3 carried{0.0};     // [m/s] of the surface
+    double speed;           // [m/s] of the collider's surface along the normal
+    dvec3 carried{0.0};     // [m/s] velocity of the collider's surface
     double friction = 0.0;  // Coulomb's μ of point and surface [-]
 };
 
 struct Impulse {
-    double normal = 0;  // [N s]
-    dvec3 rub{0.0};     // [N s] of friction
+    double normal = 0;    // [N s]
+    dvec3 friction{0.0};  // [N s] tangential
 };
 
-// A pair.
+// A pair in the solver.
 struct Row {
     int pair;
-    std::array<double, 4> gains{};  // [1/kg] of its points, by its weights
-    double most = 0;                // [1/kg] of them
-    double mass = 0;                // [kg] that the pair's points have along the normal together
-    double open = 0;                // [m/s] they may approach each other with
-    double bounce = 0;              // [m/s] they have to part with
+    std::array<double, 4> gains{};  // [1/kg] velocity of its points for an impulse of 1: weight × inverse mass
+    double largestGain = 0;         // [1/kg]
+    double mass = 0;                // [kg] effective mass along the normal
+    double gapSpeed = 0;            // [m/s] at which the pair may close in this instant
+    double rebound = 0;             // [m/s] at which it has to part
     Impulse impulse{};
 };
 
-// What a collider gives a point besides what it gave it before.
+// A contact of a point with a collider in the solver. Its impulse is what the pairs cause, beyond what the point's
+// island has already given it.
 struct KinematicRow {
-    KinematicContact held;
+    KinematicContact contact;
     double mass = 0;  // [kg] of the point
     Impulse impulse{};
 };
 
-// Velocities u [m/s] (points) become what they are after impulses, first of all those that rows and kinematicRows have
-// already. Ends after `sweeps`, or when no velocity changes by `little` [m/s] any more. Returns how many there were.
+// u (points) [m/s] becomes what it is after the impulses. Impulses that the rows have already are applied first. Ends
+// after `sweeps`, or when a sweep changes no velocity by `tolerance` [m/s]. Returns the number of sweeps.
 int projectedGaussSeidel(std::span<const ContactConstraint> pairs, std::span<Row> rows,
-                         std::span<KinematicRow> kinematicRows, int sweeps, double little, std::span<dvec3> u);
+                         std::span<KinematicRow> kinematicRows, int sweeps, double tolerance, std::span<dvec3> u);
 
 }  // namespace taut::contact

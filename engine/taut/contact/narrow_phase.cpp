@@ -1,4 +1,9 @@
-// Where near pairs are in an instant, and which of them press.
+// Narrow phase: the distance of each candidate pair that is due, and which pairs become constraints.
+//
+// Per task of some lists: gather the pairs that are due, measure all of them at once (closest_kernel.h), classify each.
+// A pair is active where its gap would close in this instant along its normal, or is closed. It must also be the pair
+// whose contact this is: in a sheet one point is close to several triangles and edges, and only the feature that is
+// closest of all pushes.
 #include <algorithm>
 #include <cmath>
 
@@ -13,21 +18,22 @@ namespace taut::contact {
 namespace {
 
 constexpr int listsAtOnce = 16;
-constexpr double activeShare = 0.05;  // of the distance kept: a gap below it is a contact
-constexpr double nothing = 1e-9;      // [m] no direction can be told of less
-constexpr double rounding = 1e-9;     // of sums that two ways reach
+constexpr double activeShare = 0.05;  // of the thickness: a gap below it is a contact
+constexpr double noDistance = 1e-9;   // [m] two places closer than that have no direction
+constexpr double rounding = 1e-9;     // relative, of the list's sums of motion
 
-// It may come near only once its list has gone so far.
-void sleep(BroadPhase::CandidateList& list, double nearTravelled, double nearApproached) {
-    if (nearTravelled - list.travelled > nearApproached - list.approached)
-        list.asleepTravelled = std::min(list.asleepTravelled, nearTravelled);
+// The list is due when the first of its pairs is. Of a pair's two budgets the one with more left counts.
+void limitListTo(BroadPhase::CandidateList& list, double travelBudget, double approachBudget) {
+    if (travelBudget - list.travelled > approachBudget - list.approached)
+        list.leastTravelBudget = std::min(list.leastTravelBudget, travelBudget);
     else
-        list.asleepApproached = std::min(list.asleepApproached, nearApproached);
+        list.leastApproachBudget = std::min(list.leastApproachBudget, approachBudget);
 }
 
 }  // namespace
 
-// Pairs of crossed surfaces would be held where they are; but those of what is not through keep it so.
+// Whether a constraint would keep crossed surfaces crossed: a side is on the wrong side of a contour, and the other is
+// at a contour too. Pairs of the parts that did not cross stay constraints.
 bool ContactGroup::isTangled(const ContactConstraint& pair) const {
     char first = unmarked, second = unmarked;
     for (int k = 0; k < 4; ++k) {
@@ -37,24 +43,26 @@ bool ContactGroup::isTangled(const ContactConstraint& pair) const {
     return std::min(first, second) != unmarked && std::max(first, second) == wrongSide;
 }
 
-// How far the faces beside an edge stay behind what lies outward of a place on it: 1 of a ridge, 0 where one rises beside
-// it by `valley`, and less where it is nearer than the edge.
-double ContactGroup::ridge(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const {
-    double most = 0;  // sine of the steepest
+// How convex the edge is towards `outward`: 1 where no face beside it rises that way by half of `valley`, 0 where one
+// rises by all of it, below 0 beyond, where the face is closer than the edge. Continuous, so that a crumpled cloth does
+// not tremble between an edge that pushes and one that does not.
+double ContactGroup::convexity(const Edge& edge, const dvec3& on, const dvec3& outward,
+                               std::span<const dvec3> x) const {
+    double steepest = 0;  // sine of the angle
     for (int t : edge.triangles) {
         if (t < 0) continue;
         for (int i : elements_.triangles()[static_cast<std::size_t>(t)].points) {
             if (i == edge.a || i == edge.b) continue;
             const dvec3 inwards = x[static_cast<std::size_t>(i)] - on;
             const double rise = glm::dot(inwards, outward);
-            if (rise > most * length(inwards)) most = rise / length(inwards);
+            if (rise > steepest * length(inwards)) steepest = rise / length(inwards);
         }
     }
-    return areWingsBehind(edge, outward, x) ? std::min(1.0, 2.0 * (1.0 - most / valley)) : -1.0;
+    return areWingsBehind(edge, outward, x) ? std::min(1.0, 2.0 * (1.0 - steepest / valley)) : -1.0;
 }
 
-// Of a point whose nearest place on a triangle is on an edge or a corner: whether that is so of all triangles there,
-// and this is the first of them, so that the point is pressed away from it once.
+// For a point whose closest place on the triangle is on an edge or at a corner: whether that place is closest on all
+// triangles there. Only the first of these triangles says yes, so that the point is pushed once.
 bool ContactGroup::isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const {
     const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(pair.b)];
     if (feature < 3) {
@@ -77,157 +85,180 @@ bool ContactGroup::isFeatureNearest(const ContactConstraint& pair, int feature, 
     return true;
 }
 
-// A pair of which the distance is found.
+// A candidate pair, and its slot in the batch that measures it.
 struct ContactGroup::Measured {
     BroadPhase::CandidateList* list;
     std::size_t pair;  // of the list
     int slot;
 };
 
-// Of lists: first what has to be measured, then all of that together, then what comes of it, pair by pair in order.
 struct ContactGroup::NarrowPhaseScratch {
     ClosestBatch points, edges;
-    std::vector<Measured> measured;
-    std::vector<int> awake;
+    std::vector<Measured> measured;  // list by list, pair by pair
+    std::vector<int> due;
 };
 
+// Adds the pairs of a list that are due to the batches.
 void ContactGroup::gather(BroadPhase::CandidateList& list, std::span<const dvec3> x0, const ClosestKernels& kernels,
                           NarrowPhaseScratch& scratch) const {
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
-    scratch.awake.resize(list.pairs.size());
+    // Which pairs have used up both budgets. The list gets the least budget of the others.
+    scratch.due.resize(list.pairs.size());
     CandidateRows rows{static_cast<int>(list.pairs.size()),
-                       list.nearTravelled.data(),
-                       list.nearApproached.data(),
+                       list.travelBudget.data(),
+                       list.approachBudget.data(),
                        list.travelled,
                        list.approached,
-                       scratch.awake.data()};
-    const int awake = kernels.findAwake(rows);
-    list.asleepTravelled = rows.asleepTravelled;
-    list.asleepApproached = rows.asleepApproached;
-    for (int n = 0; n < awake; ++n) {
-        const auto k = static_cast<std::size_t>(scratch.awake[static_cast<std::size_t>(n)]);
-        const CandidatePair& near = list.pairs[k];
+                       scratch.due.data()};
+    const int dueCount = kernels.findDue(rows);
+    list.leastTravelBudget = rows.leastTravelBudget;
+    list.leastApproachBudget = rows.leastApproachBudget;
+    for (int n = 0; n < dueCount; ++n) {
+        const auto k = static_cast<std::size_t>(scratch.due[static_cast<std::size_t>(n)]);
+        const CandidatePair& candidate = list.pairs[k];
         int slot;
         if (k < list.pointPairs) {
-            const std::array<int, 3>& c = elements_.triangles()[static_cast<std::size_t>(near.b)].points;
-            slot = scratch.points.add(at(near.a), at(c[0]), at(c[1]), at(c[2]));
+            const std::array<int, 3>& c = elements_.triangles()[static_cast<std::size_t>(candidate.b)].points;
+            slot = scratch.points.add(at(candidate.a), at(c[0]), at(c[1]), at(c[2]));
         } else {
-            const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
-                       &second = elements_.edges()[static_cast<std::size_t>(near.b)];
+            const Edge &first = elements_.edges()[static_cast<std::size_t>(candidate.a)],
+                       &second = elements_.edges()[static_cast<std::size_t>(candidate.b)];
             slot = scratch.edges.add(at(first.a), at(first.b), at(second.a), at(second.b));
         }
         scratch.measured.push_back({&list, k, slot});
     }
 }
 
-void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
-                            const NarrowPhaseScratch& scratch, std::vector<ContactConstraint>& pairs) const {
-    BroadPhase::CandidateList& list = *measured.list;
-    const CandidatePair& near = list.pairs[measured.pair];
-    const bool isPoint = measured.pair < list.pointPairs;
-    const ClosestBatch& batch = isPoint ? scratch.points : scratch.edges;
-    const double apart = batch.distance(measured.slot), gap = apart - near.thickness;
-    double& nearTravelled = list.nearTravelled[measured.pair];
-    nearTravelled = std::max(nearTravelled, apart + list.way - nearShare * near.thickness);
-    sleep(list, nearTravelled, list.nearApproached[measured.pair]);
-    // No pair comes nearer than its list.
-    if (list.isFlat || gap > std::max(activeShare * near.thickness, (1 + rounding) * list.coming)) return;
-
-    const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
+// The constraint of a pair that was measured: points, weights, normal, distance. Whether it is active is not said yet.
+ContactConstraint ContactGroup::constraintOf(const Measured& measured, const NarrowPhaseScratch& scratch,
+                                             std::span<const dvec3> x0) const {
+    const CandidatePair& candidate = measured.list->pairs[measured.pair];
     ContactConstraint pair;
-    pair.a = near.a;
-    pair.b = near.b;
-    pair.isPoint = isPoint;
-    pair.thickness = near.thickness;
-    pair.distance = apart;
+    pair.isPoint = measured.pair < measured.list->pointPairs;
+    const ClosestBatch& batch = pair.isPoint ? scratch.points : scratch.edges;
+    pair.a = candidate.a;
+    pair.b = candidate.b;
+    pair.thickness = candidate.thickness;
+    pair.distance = batch.distance(measured.slot);
     pair.weights = batch.weights(measured.slot);
-    const auto where = batch.where(measured.slot);
-    int feature = -1;
-    bool areInside = true;
-    int surfaceA = 0, surfaceB = 0;
-    if (isPoint) {
-        const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(near.b)];
-        const std::array<int, 3>& c = triangle.points;
-        pair.points = {near.a, c[0], c[1], c[2]};
-        feature = static_cast<int>(where) - static_cast<int>(Feature::edge0);
-        surfaceA = elements_.surfaceOf(near.a);
-        surfaceB = triangle.surface;
+    if (pair.isPoint) {
+        const std::array<int, 3>& c = elements_.triangles()[static_cast<std::size_t>(pair.b)].points;
+        pair.points = {pair.a, c[0], c[1], c[2]};
     } else {
-        const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
-                   &second = elements_.edges()[static_cast<std::size_t>(near.b)];
+        const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],
+                   &second = elements_.edges()[static_cast<std::size_t>(pair.b)];
         pair.points = {first.a, first.b, second.a, second.b};
-        surfaceA = first.surface;
-        surfaceB = second.surface;
-        areInside = where != 0 || first.isLine || second.isLine;
-        // Ends of a rigid edge meet triangles as corners; ends of others meet its faces elsewhere.
-        const bool isRigidFirst = elements_.isRigid(surfaceA), isRigidSecond = elements_.isRigid(surfaceB);
-        if (isRigidFirst || isRigidSecond) {
-            const Edge& soft = isRigidFirst ? second : first;
-            const double share = isRigidFirst ? -pair.weights[3] : pair.weights[1];
-            areInside = where != 0 || (soft.isLine && share > 0 && share < 1);
-        }
     }
-    if (apart > nothing) {
-        pair.normal = batch.apart(measured.slot) / apart;
+    if (pair.distance > noDistance) {
+        pair.normal = batch.separation(measured.slot) / pair.distance;
     } else {
-        // Through each other, or nearly: which side is which cannot be told.
-        const dvec3 p = at(pair.points[1]) - at(pair.points[pair.isPoint ? 3 : 0]);
-        const dvec3 q = at(pair.points[pair.isPoint ? 2 : 3]) - at(pair.points[pair.isPoint ? 3 : 2]);
+        // The two touch or cross: the distance has no direction. The normal of the triangle, or of both edges, has.
+        const auto at = [&](std::size_t k) -> const dvec3& { return x0[static_cast<std::size_t>(pair.points[k])]; };
+        const dvec3 p = at(1) - at(pair.isPoint ? 3 : 0), q = at(pair.isPoint ? 2 : 3) - at(pair.isPoint ? 3 : 2);
         const dvec3 across = glm::cross(p, q);
         const double size = length(across);
         pair.normal = size > 0 ? across / size : dvec3(0.0, 1.0, 0.0);
     }
-    dvec3 way(0.0);
-    for (std::size_t i = 0; i < 4; ++i)
-        way += pair.weights[i] * (x1[static_cast<std::size_t>(pair.points[i])] - at(pair.points[i]));
-    pair.isActive = areInside && (gap < activeShare * pair.thickness || gap + glm::dot(pair.normal, way) < 0);
-    if (pair.isActive && pair.isPoint && feature >= 0) pair.isActive = isFeatureNearest(pair, feature, x0);
-    if (pair.isActive && pair.isPoint && elements_.isRigid(surfaceA))
-        pair.isActive = isCornerNearest(elements_, near.a, -pair.normal, x0);
-    if (pair.isActive && !pair.isPoint) {
-        const Edge &first = elements_.edges()[static_cast<std::size_t>(near.a)],
-                   &second = elements_.edges()[static_cast<std::size_t>(near.b)];
-        const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
-        const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
-        // A ball beside a triangle is a point of a pair with it.
-        const bool isBall = first.a == first.b || second.a == second.b;
-        if (isBall && (first.triangles[0] >= 0 || second.triangles[0] >= 0))
-            pair.isActive = false;
-        else
-            pair.recovery = std::min(ridge(first, onFirst, -pair.normal, x0), ridge(second, onSecond, pair.normal, x0));
-        if (pair.recovery < 0) pair.isActive = false;
+    return pair;
+}
+
+// Not below 0 if the pair is the one that pushes here: no other feature of the two surfaces is closer. Then 1, or less
+// for edges that are hardly convex. `where` as the kernel says it.
+double ContactGroup::convexity(const ContactConstraint& pair, long where, std::span<const dvec3> x) const {
+    if (pair.isPoint) {
+        const int feature = static_cast<int>(where) - static_cast<int>(Feature::edge0);  // below 0: the face
+        if (feature >= 0 && !isFeatureNearest(pair, feature, x)) return -1.0;
+        const bool isCorner = elements_.isRigid(elements_.surfaceOf(pair.a));
+        return isCorner && !isCornerNearest(elements_, pair.a, -pair.normal, x) ? -1.0 : 1.0;
     }
-    if (pair.isActive && gap >= activeShare * pair.thickness && misses(pair, x0, x1, 1.0 - activeShare))
-        pair.isActive = false;
-    if (!pair.isActive && apart > list.coming + watchShare * pair.thickness) return;
+    const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],
+               &second = elements_.edges()[static_cast<std::size_t>(pair.b)];
+    // A ball beside a triangle is a point in a pair with that triangle.
+    const bool isBall = first.a == first.b || second.a == second.b;
+    if (isBall && (first.triangles[0] >= 0 || second.triangles[0] >= 0)) return -1.0;
+    const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
+    const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
+    const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
+    return std::min(convexity(first, onFirst, -pair.normal, x), convexity(second, onSecond, pair.normal, x));
+}
+
+// Whether two edges are closest where neither is at an end. Ends of a triangle's edges are left to pairs of points and
+// triangles. Ends of lines push here too: two ropes have no triangles.
+bool ContactGroup::meetInside(const ContactConstraint& pair, long where) const {
+    if (pair.isPoint || where != 0) return true;
+    const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],
+               &second = elements_.edges()[static_cast<std::size_t>(pair.b)];
+    const bool isRigidFirst = elements_.isRigid(first.surface), isRigidSecond = elements_.isRigid(second.surface);
+    if (!isRigidFirst && !isRigidSecond) return first.isLine || second.isLine;
+    // Ends of a rigid edge meet triangles as corners. Ends of a soft line meet the collider's faces elsewhere.
+    const Edge& soft = isRigidFirst ? second : first;
+    const double share = isRigidFirst ? -pair.weights[3] : pair.weights[1];
+    return soft.isLine && share > 0 && share < 1;
+}
+
+// Appends the pair if it is active, or close enough to need a certificate.
+void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0, std::span<const dvec3> x1,
+                            const NarrowPhaseScratch& scratch, std::vector<ContactConstraint>& pairs) const {
+    BroadPhase::CandidateList& list = *measured.list;
+    const CandidatePair& candidate = list.pairs[measured.pair];
+    const bool isPoint = measured.pair < list.pointPairs;
+    const ClosestBatch& batch = isPoint ? scratch.points : scratch.edges;
+    const double distance = batch.distance(measured.slot), gap = distance - candidate.thickness;
+
+    // The distance is the new budget: no matter how the two sides move, they are not in reach before they have gone so
+    // far in sum.
+    double& travelBudget = list.travelBudget[measured.pair];
+    travelBudget = std::max(travelBudget, distance + list.travelledBefore - nearShare * candidate.thickness);
+    limitListTo(list, travelBudget, list.approachBudget[measured.pair]);
+    // The leaves do not move enough in this instant to close the gap.
+    if (list.isFlat || gap > std::max(activeShare * candidate.thickness, (1 + rounding) * list.relativeMotion)) return;
+
+    // Active: closed, or closing along the normal, on a feature of its own, and not passing by. From cheap to dear.
+    ContactConstraint pair = constraintOf(measured, scratch, x0);
+    const long where = batch.where(measured.slot);
+    dvec3 way(0.0);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto i = static_cast<std::size_t>(pair.points[k]);
+        way += pair.weights[k] * (x1[i] - x0[i]);
+    }
+    const bool isClosed = gap < activeShare * pair.thickness;
+    const bool mayPush = meetInside(pair, where) && (isClosed || gap + glm::dot(pair.normal, way) < 0);
+    if (mayPush) pair.recovery = convexity(pair, where, x0);
+    pair.isActive = mayPush && pair.recovery >= 0 && (isClosed || !misses(pair, x0, x1, 1.0 - activeShare));
+
+    if (!pair.isActive && distance > list.relativeMotion + watchShare * pair.thickness) return;
     if (!crossings_.empty() && isTangled(pair)) return;
-    const Surface &a = elements_.surface(surfaceA), &b = elements_.surface(surfaceB);
+    const auto i = static_cast<std::size_t>(pair.a), j = static_cast<std::size_t>(pair.b);
+    const Surface &a = elements_.surface(isPoint ? elements_.surfaceOf(pair.a) : elements_.edges()[i].surface),
+                  &b = elements_.surface(isPoint ? elements_.triangles()[j].surface : elements_.edges()[j].surface);
     pair.friction = (a.isRigid || b.isRigid ? 1.0 : options_.friction) * a.friction * b.friction;
     pairs.push_back(pair);
 }
 
 void ContactGroup::runNarrowPhase(std::span<const dvec3> x0, std::span<const dvec3> x1) {
-    const int count = static_cast<int>(broadPhase_.awakeCount());
+    const int count = static_cast<int>(broadPhase_.dueCount());
     const int tasks = (count + listsAtOnce - 1) / listsAtOnce;
     const ClosestKernels kernels = closestKernels();
-    found_.resize(static_cast<std::size_t>(std::max(tasks, static_cast<int>(found_.size()))));
+    perTask_.resize(static_cast<std::size_t>(std::max(tasks, static_cast<int>(perTask_.size()))));
     core::parallelFor(tasks, [&](int task) {
-        std::vector<ContactConstraint>& own = found_[static_cast<std::size_t>(task)];
+        std::vector<ContactConstraint>& own = perTask_[static_cast<std::size_t>(task)];
         own.clear();
         thread_local NarrowPhaseScratch scratch;
         scratch.points.clear();
         scratch.edges.clear();
         scratch.measured.clear();
+        // Gather, measure together, classify in order.
         for (int k = task * listsAtOnce; k < std::min((task + 1) * listsAtOnce, count); ++k)
-            gather(broadPhase_.awake(static_cast<std::size_t>(k)), x0, kernels, scratch);
+            gather(broadPhase_.due(static_cast<std::size_t>(k)), x0, kernels, scratch);
         scratch.points.solve(kernels.onTriangles);
         scratch.edges.solve(kernels.onSegments);
         for (const Measured& measured : scratch.measured) classify(measured, x0, x1, scratch, own);
     });
-    contacts_.clear();
+    // Task by task: the order does not depend on threads.
+    tested_.clear();
     for (int task = 0; task < tasks; ++task) {
-        const std::vector<ContactConstraint>& own = found_[static_cast<std::size_t>(task)];
-        contacts_.insert(contacts_.end(), own.begin(), own.end());
+        const std::vector<ContactConstraint>& own = perTask_[static_cast<std::size_t>(task)];
+        tested_.insert(tested_.end(), own.begin(), own.end());
     }
 }
 

@@ -8,15 +8,16 @@
 namespace taut::contact {
 namespace {
 
+// Where an edge pierces a triangle.
 struct Passage {
     int surface;
     double share;  // of the way along the edge
     dvec3 normal;  // out, unit
-    double steep;  // sine of the edge's angle with the triangle; above 0: it goes out
+    double steep;  // sine of the edge's angle with the triangle; above 0: the edge goes out
     dvec3 place;
 };
 
-// Of the piece before or after a passage, out of it.
+// [m] Of a piece with one triangle, by its end.
 double heightOf(const Passage& passage, const dvec3& end) {
     return std::abs(glm::dot(passage.normal, end - passage.place));
 }

@@ -1,4 +1,5 @@
-// How far edges of rigid surfaces stand out of what they have gone through: a measure, of which nothing else knows.
+// How far edges of rigid surfaces stick out of triangles that they pierce: a measure for reports. The solver does not
+// use it.
 #pragma once
 
 #include <functional>
@@ -8,11 +9,13 @@
 
 namespace taut::contact {
 
-// [m] 0 where none does. Along an edge that goes through triangles of a surface there are pieces that are out: from one
-// place where it goes out, as outOfEdge() says, to where it comes in again, or to its end. An end stands out by its
-// height over the plane of the triangle; a piece with two triangles by the height over both planes where they are
-// equal: L sin α sin β / (sin α + sin β), L its length, α and β its angles with them. The largest of those with a
-// triangle of a surface that is wanted; crossings as found at x (points) [m], in their order.
+// [m] The largest height of a piece of a rigid edge over the surface it sticks out of; 0 where none does. Crossings as
+// found at x (points) [m], in their order; only triangles of surfaces that are wanted count.
+//
+// A piece begins where the edge leaves the surface, in the direction of outOfEdge(), and ends where it enters again or
+// at the end of the edge. With one triangle the height is that of the end over the triangle's plane. With two it is the
+// height over both planes where they are equal: L sin α sin β / (sin α + sin β), L the length of the piece, α and β its
+// angles with the planes.
 double penetrationOf(const Elements& elements, std::span<const Crossing> crossings, std::span<const dvec3> x,
                      const std::function<bool(int surface)>& isWanted);
 

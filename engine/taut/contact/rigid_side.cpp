@@ -3,9 +3,9 @@
 namespace taut::contact {
 namespace {
 
-constexpr double leastFree = 0.02;  // of the squares of the weights
+constexpr double leastFree = 0.02;  // of the sum of the squares of the weights
 
-// One side: of points with those weights.
+// One side.
 bool mayYield(std::span<const int> points, std::span<const double> weights, std::span<const double> inverseMass) {
     double all = 0, free = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {

@@ -1,4 +1,4 @@
-// What holds of pairs of which one side does not yield, or is rigid, besides what holds of all.
+// Rules for pairs in which one side is rigid, or cannot be moved.
 #pragma once
 
 #include <span>
@@ -8,16 +8,17 @@
 
 namespace taut::contact {
 
-// Sine of the angle by which a face, or an edge at a corner, may rise beside what presses.
+// Sine of the angle by which a face beside an edge, or an edge at a corner, may rise towards the other side and still
+// count as behind it.
 inline constexpr double valley = 0.2;
 
-// Whether no edge at a corner leads nearer to what lies outward of it.
+// Whether the corner is closest to what lies outward of it: none of its edges rises that way.
 bool isCornerNearest(const Elements& elements, int point, const dvec3& outward, std::span<const dvec3> x);
-// Whether neither face beside an edge does.
+// Whether the faces beside an edge are behind it, seen from outward.
 bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec3> x);
 
-// What cannot go away itself, and meets what cannot, is not to be moved by a long lever beside a point that is held, or
-// by none at all: whether what moves of either side has its share in the place that is pressed.
+// Whether contact can move a pair: on one side, movable points have a share in the closest point. Otherwise a tiny
+// share would be a long lever: a point beside a pinned one would be thrown far to move the pinned place a little.
 bool mayYield(const ContactConstraint& pair, std::span<const double> inverseMass);
 bool mayYield(const Crossing& crossing, std::span<const double> inverseMass);
 

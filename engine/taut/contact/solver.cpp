@@ -9,11 +9,12 @@
 namespace taut::contact {
 namespace {
 
-constexpr double fastestOut = 1.0;  // [m/s] that it is taken back with
-constexpr std::size_t shared = 64;  // rows; fewer are solved sooner than they are shared out
-constexpr double settled = 1e-6;    // of the distance kept, an instant: smaller changes end the sweeps
+constexpr double fastestOut = 1.0;        // [m/s] limit of the position correction
+constexpr std::size_t parallelRows = 64;  // fewer are solved sooner than they are handed to threads
+constexpr double settled = 1e-6;          // of the thickness, an instant: smaller changes end the sweeps
 
-dvec3 between(const ContactConstraint& pair, std::span<const dvec3> u) {
+// Velocity, or way, of the first side against the second.
+dvec3 relative(const ContactConstraint& pair, std::span<const dvec3> u) {
     dvec3 sum(0.0);
     for (int k = 0; k < 4; ++k) {
         const auto i = static_cast<std::size_t>(k);
@@ -22,25 +23,28 @@ dvec3 between(const ContactConstraint& pair, std::span<const dvec3> u) {
     return sum;
 }
 
-void press(const ContactConstraint& pair, const std::array<double, 4>& gains, const dvec3& impulse,
+void apply(const ContactConstraint& pair, const std::array<double, 4>& gains, const dvec3& impulse,
            std::span<dvec3> u) {
     for (std::size_t i = 0; i < 4; ++i) u[static_cast<std::size_t>(pair.points[i])] += gains[i] * impulse;
 }
 
-// A point that is held does not go further into what holds it: way is how far [m] it was kept from that so far.
-void hold(const KinematicContact& held, std::span<dvec3> shift, double& way) {
-    dvec3& own = shift[static_cast<std::size_t>(held.point)];
-    const double wanted = std::max(0.0, way - glm::dot(own, held.normal));
-    own += (wanted - way) * held.normal;
-    way = wanted;
+// The shift of a point does not lead into its collider. sum [m]: what has been added along the normal so far.
+void keepOut(const KinematicContact& contact, std::span<dvec3> shift, double& sum) {
+    dvec3& own = shift[static_cast<std::size_t>(contact.point)];
+    const double wanted = std::max(0.0, sum - glm::dot(own, contact.normal));
+    own += (wanted - sum) * contact.normal;
+    sum = wanted;
 }
 
-// Calls until it says that it is settled. Returns how often.
-template <class Once>
-int sweep(int atMost, Once&& once) {
-    int sweeps = 1;
-    while (!once() && sweeps < atMost) ++sweeps;
-    return sweeps;
+// [m/s] at which a pair has to part; 0: it may come to rest.
+double reboundOf(const ContactConstraint& pair, const SolverOptions& options, std::span<const dvec3> u) {
+    const double closing = -glm::dot(pair.normal, relative(pair, u));
+    return closing > options.restSpeed ? options.restitution * closing : 0.0;
+}
+
+// Points that nothing moves pass no impulse on, and join no cluster.
+bool isFixed(int point, std::span<const double> inverseMass) {
+    return !(inverseMass[static_cast<std::size_t>(point)] > 0);
 }
 
 }  // namespace
@@ -54,23 +58,18 @@ int ContactSolver::root(int point) {
     return point;
 }
 
-void ContactSolver::findClusters(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> held,
-                                 std::size_t pointCount, std::span<const double> inverseMass) {
+// Union-find over the points of pairs -> parent_, touched_. The root of a cluster is its lowest point.
+void ContactSolver::joinPoints(std::span<const ContactConstraint> pairs, std::size_t pointCount,
+                               std::span<const double> inverseMass) {
     if (parent_.size() != pointCount)
         parent_.assign(pointCount, -1);
     else
         for (int i : touched_) parent_[static_cast<std::size_t>(i)] = -1;
-    const auto join = [&](int i) {
-        if (parent_[static_cast<std::size_t>(i)] >= 0) return;
-        parent_[static_cast<std::size_t>(i)] = i;
-    };
-    // Points that nothing moves pass nothing on.
-    const auto isFixed = [&](int i) { return !(inverseMass[static_cast<std::size_t>(i)] > 0); };
     for (const ContactConstraint& pair : pairs) {
         int first = -1;
         for (int i : pair.points) {
-            join(i);
-            if (isFixed(i)) continue;
+            if (parent_[static_cast<std::size_t>(i)] < 0) parent_[static_cast<std::size_t>(i)] = i;
+            if (isFixed(i, inverseMass)) continue;
             const int own = root(i);
             if (first < 0) {
                 first = own;
@@ -84,35 +83,42 @@ void ContactSolver::findClusters(std::span<const ContactConstraint> pairs, std::
     touched_.clear();
     for (std::size_t i = 0; i < pointCount; ++i)
         if (parent_[i] >= 0) touched_.push_back(static_cast<int>(i));
+}
+
+// Sorts pairs and contacts with colliders by cluster -> rows_, kinematicRows_, and where each cluster starts.
+void ContactSolver::findClusters(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
+                                 std::size_t pointCount, std::span<const double> inverseMass) {
+    joinPoints(pairs, pointCount, inverseMass);
 
     std::vector<std::pair<int, int>> order;  // cluster, pair
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         int cluster = -1;
         for (int i : pairs[p].points)
-            if (!isFixed(i)) cluster = root(i);
+            if (!isFixed(i, inverseMass)) cluster = root(i);
         if (cluster >= 0) order.emplace_back(cluster, static_cast<int>(p));
     }
     std::sort(order.begin(), order.end());
+    std::vector<std::pair<int, std::size_t>> supports;  // cluster, contact with a collider
+    for (std::size_t k = 0; k < kinematic.size(); ++k) {
+        const int i = kinematic[k].point;
+        if (parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i, inverseMass)) supports.emplace_back(root(i), k);
+    }
+    std::sort(supports.begin(), supports.end());
+
     rows_.clear();
     clusterStart_.clear();
     kinematicRows_.clear();
     kinematicStart_.clear();
-    std::vector<std::pair<int, std::size_t>> holds;
-    for (std::size_t h = 0; h < held.size(); ++h) {
-        const int i = held[h].point;
-        if (parent_[static_cast<std::size_t>(i)] >= 0 && !isFixed(i)) holds.emplace_back(root(i), h);
-    }
-    std::sort(holds.begin(), holds.end());
     std::size_t next = 0;
     for (std::size_t k = 0; k < order.size(); ++k) {
         if (k == 0 || order[k].first != order[k - 1].first) {
             clusterStart_.push_back(k);
             kinematicStart_.push_back(kinematicRows_.size());
-            for (; next < holds.size() && holds[next].first <= order[k].first; ++next)
-                if (holds[next].first == order[k].first) {
-                    const KinematicContact& own = held[holds[next].second];
-                    kinematicRows_.push_back({own, 1.0 / inverseMass[static_cast<std::size_t>(own.point)]});
-                }
+            for (; next < supports.size() && supports[next].first <= order[k].first; ++next) {
+                if (supports[next].first != order[k].first) continue;
+                const KinematicContact& own = kinematic[supports[next].second];
+                kinematicRows_.push_back({own, 1.0 / inverseMass[static_cast<std::size_t>(own.point)]});
+            }
         }
         rows_.push_back({order[k].second});
     }
@@ -120,45 +126,9 @@ void ContactSolver::findClusters(std::span<const ContactConstraint> pairs, std::
     kinematicStart_.push_back(kinematicRows_.size());
 }
 
-// Of a cluster, by a shift: of pairs that overlap or press.
-void ContactSolver::takeBack(std::span<const ContactConstraint> pairs, std::span<const Row> rows,
-                             std::span<const KinematicRow> kinematicRows, double h, const SolverOptions& options,
-                             double little, std::span<dvec3> shift) const {
-    std::vector<Push> pushes;
-    bool overlaps = false;
-    for (const Row& row : rows) {
-        const ContactConstraint& pair = pairs[static_cast<std::size_t>(row.pair)];
-        const double recover = pair.gap() < 0 ? std::min(-options.recovery * pair.recovery * pair.gap(), fastestOut * h) : 0.0;
-        overlaps = overlaps || recover > 0;
-        if (recover > 0 || row.impulse.normal > 0) pushes.push_back({row.pair, row.gains, row.mass, recover});
-    }
-    if (!overlaps) return;
-    std::vector<double> held(kinematicRows.size(), 0.0);
-    sweep(options.sweeps, [&] {
-        double most = 0;
-        for (Push& push : pushes) {
-            const ContactConstraint& pair = pairs[static_cast<std::size_t>(push.pair)];
-            const double along = glm::dot(pair.normal, between(pair, shift));
-            const double wanted = std::max(0.0, push.way + push.mass * (push.recover - along));
-            const double change = wanted - push.way;
-            push.way = wanted;
-            press(pair, push.gains, change * pair.normal, shift);
-            most = std::max(most, std::abs(change) / push.mass / h);
-        }
-        for (std::size_t i = 0; i < kinematicRows.size(); ++i) hold(kinematicRows[i].held, shift, held[i]);
-        return most < little;
-    });
-}
-
-void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> held,
-                          std::span<const double> inverseMass, double h, const SolverOptions& options,
-                          std::span<dvec3> u, std::span<dvec3> v, std::span<dvec3> shift) {
-    impulses_.assign(pairs.size(), 0.0);
-    findClusters(pairs, held, u.size(), inverseMass);
-    const auto bounceOf = [&](const ContactConstraint& pair, std::span<const dvec3> velocities) {
-        const double arrival = -glm::dot(pair.normal, between(pair, velocities));
-        return arrival > options.restSpeed ? options.restitution * arrival : 0.0;
-    };
+// Effective mass, gains, gap and rebound of each row.
+void ContactSolver::prepareRows(std::span<const ContactConstraint> pairs, std::span<const double> inverseMass, double h,
+                                const SolverOptions& options, std::span<const dvec3> u) {
     for (Row& row : rows_) {
         const ContactConstraint& pair = pairs[static_cast<std::size_t>(row.pair)];
         double inverse = 0;
@@ -166,50 +136,106 @@ void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<co
             const double own = inverseMass[static_cast<std::size_t>(pair.points[i])];
             inverse += pair.weights[i] * pair.weights[i] * own;
             row.gains[i] = pair.weights[i] * own;
-            row.most = std::max(row.most, std::abs(row.gains[i]));
+            row.largestGain = std::max(row.largestGain, std::abs(row.gains[i]));
         }
         row.mass = 1.0 / inverse;
-        row.open = std::max(pair.gap(), 0.0) / h;
-        row.bounce = bounceOf(pair, u);
-        if (row.bounce > 0) row.open = 0;
+        row.gapSpeed = std::max(pair.gap(), 0.0) / h;
+        row.rebound = reboundOf(pair, options, u);
+        if (row.rebound > 0) row.gapSpeed = 0;
     }
-    const int count = clusters();
-    std::vector<int> sweepsOf(static_cast<std::size_t>(count), 0);
-    const auto solveCluster = [&](int c) {
-        const auto k = static_cast<std::size_t>(c);
-        const std::span<Row> rows(rows_.data() + clusterStart_[k], clusterStart_[k + 1] - clusterStart_[k]);
-        const std::span<KinematicRow> kinematicRows(kinematicRows_.data() + kinematicStart_[k],
-                                                    kinematicStart_[k + 1] - kinematicStart_[k]);
-        double thickness = 1e300;
-        for (const Row& row : rows)
-            thickness = std::min(thickness, pairs[static_cast<std::size_t>(row.pair)].thickness);
-        const double little = settled * thickness / h;
-        sweepsOf[k] = projectedGaussSeidel(pairs, rows, kinematicRows, options.sweeps, little, u);
-        for (const Row& row : rows) impulses_[static_cast<std::size_t>(row.pair)] = row.impulse.normal;
-        const auto pressV = [&] {
-            std::vector<Row> pressing;
-            for (const Row& row : rows)
-                if (row.impulse.normal > 0) {
-                    pressing.push_back(row);
-                    pressing.back().bounce = bounceOf(pairs[static_cast<std::size_t>(row.pair)], v);
-                }
-            std::vector<KinematicRow> holding(kinematicRows.begin(), kinematicRows.end());
-            projectedGaussSeidel(pairs, pressing, holding, options.sweeps, little, v);
-        };
-        const auto recover = [&] { takeBack(pairs, rows, kinematicRows, h, options, little, shift); };
-        if (rows.size() < shared) {
-            recover();
-            pressV();
-        } else {
-            core::parallelFor(2, [&](int which) { which == 0 ? recover() : pressV(); });
+}
+
+ContactSolver::Cluster ContactSolver::clusterAt(std::size_t k, std::span<const ContactConstraint> pairs, double h) {
+    const std::span<Row> rows(rows_.data() + clusterStart_[k], clusterStart_[k + 1] - clusterStart_[k]);
+    const std::span<KinematicRow> kinematicRows(kinematicRows_.data() + kinematicStart_[k],
+                                                kinematicStart_[k + 1] - kinematicStart_[k]);
+    double thickness = 1e300;
+    for (const Row& row : rows) thickness = std::min(thickness, pairs[static_cast<std::size_t>(row.pair)].thickness);
+    return {rows, kinematicRows, settled * thickness / h};
+}
+
+// 0 <= multiplier  ⊥  n·shift - target >= 0, by Gauss-Seidel, of the pairs that overlap or have an impulse. The latter
+// have the target 0: a correction does not press them together.
+void ContactSolver::correctPositions(const Cluster& cluster, std::span<const ContactConstraint> pairs, double h,
+                                     const SolverOptions& options, std::span<dvec3> shift) const {
+    std::vector<PositionRow> rows;
+    bool overlaps = false;
+    for (const Row& row : cluster.rows) {
+        const ContactConstraint& pair = pairs[static_cast<std::size_t>(row.pair)];
+        const double target = pair.gap() < 0 ? std::min(-options.recovery * pair.recovery * pair.gap(), fastestOut * h) : 0.0;
+        overlaps = overlaps || target > 0;
+        if (target > 0 || row.impulse.normal > 0) rows.push_back({row.pair, row.gains, row.mass, target});
+    }
+    if (!overlaps) return;
+
+    std::vector<double> sums(cluster.kinematicRows.size(), 0.0);
+    for (int sweep = 1;; ++sweep) {
+        double largest = 0;  // [m/s]
+        for (PositionRow& row : rows) {
+            const ContactConstraint& pair = pairs[static_cast<std::size_t>(row.pair)];
+            const double along = glm::dot(pair.normal, relative(pair, shift));
+            const double wanted = std::max(0.0, row.multiplier + row.mass * (row.target - along));
+            const double change = wanted - row.multiplier;
+            row.multiplier = wanted;
+            apply(pair, row.gains, change * pair.normal, shift);
+            largest = std::max(largest, std::abs(change) / row.mass / h);
         }
+        for (std::size_t i = 0; i < sums.size(); ++i) keepOut(cluster.kinematicRows[i].contact, shift, sums[i]);
+        if (largest < cluster.tolerance || sweep >= options.sweeps) return;
+    }
+}
+
+// u, then v and the position correction, which both need the impulses of u but not each other. Returns the sweeps for
+// u.
+int ContactSolver::solveCluster(const Cluster& cluster, std::span<const ContactConstraint> pairs, double h,
+                                const SolverOptions& options, std::span<dvec3> u, std::span<dvec3> v,
+                                std::span<dvec3> shift) {
+    const int sweeps =
+        projectedGaussSeidel(pairs, cluster.rows, cluster.kinematicRows, options.sweeps, cluster.tolerance, u);
+    for (const Row& row : cluster.rows) impulses_[static_cast<std::size_t>(row.pair)] = row.impulse.normal;
+
+    const auto solveV = [&] {
+        std::vector<Row> rows;
+        for (const Row& row : cluster.rows)
+            if (row.impulse.normal > 0) {
+                rows.push_back(row);
+                rows.back().rebound = reboundOf(pairs[static_cast<std::size_t>(row.pair)], options, v);
+            }
+        std::vector<KinematicRow> kinematicRows(cluster.kinematicRows.begin(), cluster.kinematicRows.end());
+        projectedGaussSeidel(pairs, rows, kinematicRows, options.sweeps, cluster.tolerance, v);
     };
-    if (rows_.size() < shared)
-        for (int c = 0; c < count; ++c) solveCluster(c);
+    const auto correct = [&] { correctPositions(cluster, pairs, h, options, shift); };
+    if (cluster.rows.size() < parallelRows) {
+        correct();
+        solveV();
+    } else {
+        core::parallelFor(
+            2, [&](int which) { which == 0 ? correct() : solveV(); });
+    }
+    return sweeps;
+}
+
+void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
+                          std::span<const double> inverseMass, double h, const SolverOptions& options,
+                          std::span<dvec3> u, std::span<dvec3> v, std::span<dvec3> shift) {
+    impulses_.assign(pairs.size(), 0.0);
+    findClusters(pairs, kinematic, u.size(), inverseMass);
+    prepareRows(pairs, inverseMass, h, options, u);
+
+    // No two clusters share a point that moves.
+    const int count = clusters();
+    std::vector<int> sweeps(static_cast<std::size_t>(count), 0);
+    const auto solveOne = [&](int c) {
+        const auto k = static_cast<std::size_t>(c);
+        sweeps[k] = solveCluster(clusterAt(k, pairs, h), pairs, h, options, u, v, shift);
+    };
+    if (rows_.size() < parallelRows)
+        for (int c = 0; c < count; ++c) solveOne(c);
     else
-        core::parallelFor(count, solveCluster);
+        core::parallelFor(count, solveOne);
+
     mostSweeps_ = 0;
-    for (int s : sweepsOf) mostSweeps_ = std::max(mostSweeps_, s);
+    for (int own : sweeps) mostSweeps_ = std::max(mostSweeps_, own);
 }
 
 }  // namespace taut::contact

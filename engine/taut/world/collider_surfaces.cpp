@@ -8,7 +8,7 @@
 namespace taut::world {
 namespace {
 
-constexpr double roundCells = 2.0;   // a ball or a capsule of a smaller radius reaches between points
+constexpr double roundCells = 2.0;   // radius of a ball or a capsule that slips between points, over the longest edge
 constexpr double jumpSpeed = 100.0;  // [m/s] of any vertex; above it a collider jumps
 
 struct Placing {
@@ -22,7 +22,7 @@ struct Placing {
     dvec3 operator()(const dvec3& x) const { return rotation * x + position; }
 };
 
-// [m] the longest edge of what meets colliders.
+// [m] The longest edge of surfaces that touch colliders.
 double cellOf(std::span<const contact::Surface> surfaces, std::span<const dvec3> rest) {
     double square = 0;
     const auto take = [&](int a, int b) {
@@ -60,70 +60,70 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
                                    std::vector<contact::Surface>& surfaces, std::vector<dvec3>& rest) {
     const double thin = roundCells * cellOf(surfaces, rest);
     for (std::size_t c = 0; c < colliders.size(); ++c) {
-        Rigid rigid{static_cast<int>(c),
-                    {},
-                    static_cast<int>(rest.size()),
-                    static_cast<int>(surfaces.size()),
-                    0,
-                    colliders[c].pose,
-                    colliders[c].pose};
+        Collider own{static_cast<int>(c),
+                     {},
+                     static_cast<int>(rest.size()),
+                     static_cast<int>(surfaces.size()),
+                     0,
+                     colliders[c].pose,
+                     colliders[c].pose};
         const Placing place(colliders[c].pose);
         for (const collision::Outline& outline : colliders[c].outlines) {
             if (outline.radius > thin) continue;
-            const int bond = -1 - static_cast<int>(surfaces.size());  // of none else
+            const int bond = -1 - static_cast<int>(surfaces.size());  // shared with no other
             surfaces.push_back(surfaceOf(outline, colliders[c].friction, static_cast<int>(rest.size()), bond));
             for (const dvec3& vertex : outline.vertices) rest.push_back(place(vertex));
-            rigid.vertices.insert(rigid.vertices.end(), outline.vertices.begin(), outline.vertices.end());
+            own.vertices.insert(own.vertices.end(), outline.vertices.begin(), outline.vertices.end());
         }
-        rigid.lastSurface = static_cast<int>(surfaces.size());
-        if (!rigid.vertices.empty()) rigids_.push_back(std::move(rigid));
+        own.lastSurface = static_cast<int>(surfaces.size());
+        if (!own.vertices.empty()) colliders_.push_back(std::move(own));
     }
 }
 
-bool ColliderSurfaces::lead(std::span<const ColliderMotion> moving, double tickSeconds, contact::Elements& elements,
+bool ColliderSurfaces::move(std::span<const ColliderMotion> moving, double tickSeconds, contact::Elements& elements,
                             std::span<dvec3> v) {
     bool hasJumped = false;
-    for (Rigid& rigid : rigids_) {
-        const bool moved = rigid.moves;
-        rigid.moves = false;
-        rigid.from = rigid.to;
+    for (Collider& own : colliders_) {
+        const bool moved = own.moves;
+        own.moves = false;
+        own.from = own.to;
         for (const ColliderMotion& motion : moving) {
-            if (motion.collider != rigid.collider) continue;
-            rigid.from = motion.from;
-            rigid.to = motion.to;
-            rigid.moves = true;
+            if (motion.collider != own.collider) continue;
+            own.from = motion.from;
+            own.to = motion.to;
+            own.moves = true;
         }
-        for (int s = rigid.firstSurface; s < rigid.lastSurface; ++s) elements.setStill(s, !rigid.moves);
-        if (!rigid.moves && !moved) continue;
-        const Placing from(rigid.from), to(rigid.to);
-        const std::span<dvec3> own = v.subspan(static_cast<std::size_t>(rigid.firstPoint), rigid.vertices.size());
+        for (int s = own.firstSurface; s < own.lastSurface; ++s) elements.setStill(s, !own.moves);
+        if (!own.moves && !moved) continue;
+        const Placing from(own.from), to(own.to);
+        const std::span<dvec3> velocities = v.subspan(static_cast<std::size_t>(own.firstPoint), own.vertices.size());
         double square = 0;
-        for (std::size_t i = 0; i < own.size(); ++i) {
-            own[i] = (to(rigid.vertices[i]) - from(rigid.vertices[i])) / tickSeconds;
-            square = std::max(square, glm::dot(own[i], own[i]));
+        for (std::size_t i = 0; i < velocities.size(); ++i) {
+            velocities[i] = (to(own.vertices[i]) - from(own.vertices[i])) / tickSeconds;
+            square = std::max(square, glm::dot(velocities[i], velocities[i]));
         }
         if (!(square > jumpSpeed * jumpSpeed)) continue;
-        rigid.from = rigid.to;
-        std::fill(own.begin(), own.end(), dvec3(0.0));
+        own.from = own.to;
+        std::fill(velocities.begin(), velocities.end(), dvec3(0.0));
         hasJumped = true;
     }
     return hasJumped;
 }
 
 void ColliderSurfaces::place(double share, std::span<dvec3> x) const {
-    for (const Rigid& rigid : rigids_) {
-        if (!rigid.moves) continue;
-        const Placing place(between(rigid.from, rigid.to, share));
-        for (std::size_t i = 0; i < rigid.vertices.size(); ++i)
-            x[static_cast<std::size_t>(rigid.firstPoint) + i] = place(rigid.vertices[i]);
+    for (const Collider& own : colliders_) {
+        if (!own.moves) continue;
+        const Placing place(between(own.from, own.to, share));
+        for (std::size_t i = 0; i < own.vertices.size(); ++i)
+            x[static_cast<std::size_t>(own.firstPoint) + i] = place(own.vertices[i]);
     }
 }
 
 void ColliderSurfaces::placeAll(std::span<dvec3> x) const {
-    for (const Rigid& rigid : rigids_) {
-        const Placing place(rigid.to);
-        for (std::size_t i = 0; i < rigid.vertices.size(); ++i)
-            x[static_cast<std::size_t>(rigid.firstPoint) + i] = place(rigid.vertices[i]);
+    for (const Collider& own : colliders_) {
+        const Placing place(own.to);
+        for (std::size_t i = 0; i < own.vertices.size(); ++i)
+            x[static_cast<std::size_t>(own.firstPoint) + i] = place(own.vertices[i]);
     }
 }
 

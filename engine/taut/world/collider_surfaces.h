@@ -1,5 +1,5 @@
-// Corners and edges of colliders among the surfaces that touch: rigid ones, which go where the colliders go. It knows
-// no bodies.
+// Corners and edges of colliders as rigid surfaces of a ContactGroup, which go where the colliders go. They catch what
+// points of bodies miss: a cloth that hangs over a corner between two of its points. Knows no bodies.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace taut::world {
 
-// What of a collider bodies meet between their points, in the order of the colliders.
+// Corners and edges of one collider.
 struct TouchedCollider {
     std::vector<collision::Outline> outlines;
     double friction = 0;   // Coulomb's μ [-]
@@ -21,22 +21,22 @@ struct TouchedCollider {
 class ColliderSurfaces {
   public:
     ColliderSurfaces() = default;
-    // Appends their surfaces and points to those of a group (points) [m]; of what is round only what is thinner than
-    // some cells of the surfaces that meet it.
+    // Colliders in their order. Appends their surfaces and points (points) [m] to those of a group. A ball or a capsule
+    // only if it is thin enough to slip through the cells of the surfaces that touch it.
     ColliderSurfaces(const std::vector<TouchedCollider>& colliders, std::vector<contact::Surface>& surfaces,
                      std::vector<dvec3>& rest);
 
-    bool isEmpty() const { return rigids_.empty(); }
-    // Their ways in a tick, and the velocities of their points in it (points) [m/s]. Returns whether any jumps: as in
-    // Colliders::move it is at its end then.
-    bool lead(std::span<const ColliderMotion> moving, double tickSeconds, contact::Elements& elements,
+    bool isEmpty() const { return colliders_.empty(); }
+    // A tick begins in which these colliders move. Sets the velocities of their points (points) [m/s]. Returns whether
+    // a collider jumps: like in Colliders::move it is then at the end of its motion at once.
+    bool move(std::span<const ColliderMotion> moving, double tickSeconds, contact::Elements& elements,
               std::span<dvec3> v);
-    // Points (points) [m] of those that move, at a share of the tick; and of all, at its end.
+    // Sets the places (points) [m] of the colliders that move, at a share of the tick; of all colliders, at its end.
     void place(double share, std::span<dvec3> x) const;
     void placeAll(std::span<dvec3> x) const;
 
   private:
-    struct Rigid {
+    struct Collider {
         int collider;
         std::vector<dvec3> vertices;    // [m] of the collider at the origin
         int firstPoint;                 // of the group
@@ -44,7 +44,7 @@ class ColliderSurfaces {
         collision::Pose from, to;       // in this tick
         bool moves = false;
     };
-    std::vector<Rigid> rigids_;
+    std::vector<Collider> colliders_;
 };
 
 }  // namespace taut::world

@@ -10,7 +10,7 @@
 namespace taut::world {
 namespace {
 
-// Of an edge and a triangle's plane: how far the nearer end is from it.
+// [m] How far the closer end of the edge is from the triangle's plane.
 double depthOf(const ContactStage& stage, const contact::Crossing& crossing) {
     const auto at = [&](std::size_t k) { return stage.position(crossing.points[k]); };
     const dvec3 normal = glm::cross(at(3) - at(2), at(4) - at(2));
@@ -61,6 +61,7 @@ void ContactReport::look(const ContactStage& stage, double start) {
     for (const contact::ContactPoint& c : stage.contacts())
         if (stage.isOfBody(c.surfaceA) && stage.isOfBody(c.surfaceB))
             contacts_.push_back({c.place, c.normal, c.impulse, &stage.bodyOf(c.surfaceA), &stage.bodyOf(c.surfaceB)});
+    // Edges that cross, by the names of both bodies.
     std::map<std::pair<std::string, std::string>, std::set<int>> edges;
     for (const contact::Crossing& crossing : stage.crossingsBefore()) {
         const auto& elements = stage.elements();
@@ -71,6 +72,7 @@ void ContactReport::look(const ContactStage& stage, double start) {
         if (sortsBefore(*b, *a)) std::swap(a, b);
         edges[{a->fullName(), b->fullName()}].insert(crossing.edge);
     }
+    // Warnings that there are: which go on, which ended, which came back.
     for (Said& said : said_) {
         const bool isOn = edges.count({said.first, said.second}) > 0;
         if (said.isOn) said.until = start;
@@ -78,6 +80,7 @@ void ContactReport::look(const ContactStage& stage, double start) {
         if (!isOn || said.isOn) edges.erase({said.first, said.second});
         said.isOn = isOn;
     }
+    // What is left began in this tick.
     for (const auto& [names, crossed] : edges) {
         const std::string &first = names.first, &second = names.second;
         auto said = std::find_if(said_.begin(), said_.end(),

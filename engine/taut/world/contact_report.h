@@ -1,5 +1,5 @@
-// What bodies that touch are seen to do: what presses on what, and since when they cross. Unlike what keeps them apart
-// it outlives the tick, and goes with the state.
+// What a scene is told of contact: which bodies press on each other now, and which have crossed since when. Unlike the
+// contact stage it outlives body changes, and is saved with the state.
 #pragma once
 
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace taut::world {
 
-// Two parts of bodies that press on each other.
+// Two bodies that press on each other, at one place.
 struct BodyContact {
-    dvec3 place{0.0}, normal{0.0};  // [m] in the middle between both; unit, towards the first
+    dvec3 place{0.0}, normal{0.0};  // [m] midpoint; unit, towards the first
     double impulse = 0;             // [N s] of the last instant
     const Body *first = nullptr, *second = nullptr;
 };
 
-// An edge through a triangle.
+// An edge that pierces a triangle.
 struct BodyCrossing {
     dvec3 place{0.0};  // [m] where the edge goes through
-    double depth = 0;  // [m] by which the nearer end of the edge is through
+    double depth = 0;  // [m] of the closer end of the edge behind the triangle's plane
     const Body *ofEdge = nullptr, *ofTriangle = nullptr;
     int edge = 0;
 };
 
-// Those that there are now.
+// The crossings of bodies now.
 std::vector<BodyCrossing> crossingsOf(ContactStage& stage);
 
 class ContactReport {
@@ -36,7 +36,7 @@ class ContactReport {
 
     const std::vector<BodyContact>& contacts() const { return contacts_; }  // at the end of the last tick
     bool hasMet() const { return hasMet_; }                                 // since it was made
-    // Which bodies cross, or have.
+    // One for each two bodies that cross, or have crossed.
     std::vector<std::string> warnings() const;
 
     bool isWorthSaving() const { return !said_.empty() || !contacts_.empty(); }
@@ -44,12 +44,14 @@ class ContactReport {
     void visit(StateBytes& bytes, std::span<const Body* const> bodies);
 
   private:
+    // A warning.
     struct Said {
-        std::string first, second;          // bodies; of one that has crossed itself the same
-        std::string text;                   // as long as they do
-        double since = 0, until = 0;        // [s] the last time
-        std::int64_t edges = 0, times = 1;  // the last time, as it began; how often in all
-        bool isOn = true;
+        std::string first, second;    // bodies; the same one if it crosses itself
+        std::string text;             // while they cross
+        double since = 0, until = 0;  // [s] the last time
+        std::int64_t edges = 0;       // that crossed when it began the last time
+        std::int64_t times = 1;       // how often
+        bool isOn = true;             // they cross now
     };
     std::vector<BodyContact> contacts_;
     std::vector<Said> said_;

@@ -13,35 +13,36 @@ namespace taut::world {
 namespace {
 
 constexpr double longestInstant = 1.1e-3;  // [s] in which anything touches
-constexpr int mostForWays = 64;            // instants of a tick, for what is fast
-constexpr double calmWay = 4.0;     // of the distance kept, that neighbours may move in an instant without contact
-constexpr double wayOfKeep = 0.35;  // of the distance kept, that two may approach in an instant
+constexpr int mostInstantsForSpeed = 64;   // of a tick, for what is fast
+// Of the thickness, in an instant.
+constexpr double mostDeformation = 4.0;  // of leaves in a tick without contact, in the mean
+constexpr double mostClosing = 0.35;     // of a pair
 
-using Clock = std::chrono::steady_clock;  // of what is reported only
+using Clock = std::chrono::steady_clock;  // for reports only
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool meetsColliders(const BodySpec& spec) {
+bool touchesColliders(const BodySpec& spec) {
     return spec.collide && (spec.meetsFaces || spec.touch != Touch::nothing);
 }
 
-bool isMet(const BodySpec& spec) {
-    return spec.touch != Touch::nothing || meetsColliders(spec);
+bool mayTouch(const BodySpec& spec) {
+    return spec.touch != Touch::nothing || touchesColliders(spec);
 }
 
 }  // namespace
 
 int fewestInstants(double tickSeconds) {
     int instants = 1;
-    while (instants < mostForWays && tickSeconds / instants > longestInstant) instants *= 2;
+    while (instants < mostInstantsForSpeed && tickSeconds / instants > longestInstant) instants *= 2;
     return instants;
 }
 
 bool touches(const IslandPlan& plan) {
     return std::any_of(
-        plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return isMet(*body->spec); });
+        plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return mayTouch(*body->spec); });
 }
 
 contact::Surface surfaceOf(const Body& body, int offset, int bond) {
@@ -51,7 +52,7 @@ contact::Surface surfaceOf(const Body& body, int offset, int bond) {
     surface.friction = body.spec->friction;
     surface.meetsItself = body.spec->touch == Touch::all;
     surface.meetsOthers = body.spec->touch != Touch::nothing;
-    surface.meetsRigid = meetsColliders(*body.spec);
+    surface.meetsRigid = touchesColliders(*body.spec);
     surface.bond = bond;
     const auto at = [&](int i) { return offset + body.pointOf[static_cast<std::size_t>(i)]; };
     std::vector<std::array<int, 3>> triangles = model.triangles;
@@ -81,7 +82,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
         const std::vector<dvec3>& start = island->plan().positions;
         rest.insert(rest.end(), start.begin(), start.end());
         for (const Body* body : island->plan().bodies) {
-            if (!isMet(*body->spec)) continue;
+            if (!mayTouch(*body->spec)) continue;
             surfaces.push_back(surfaceOf(*body, offset, static_cast<int>(islands_.size())));
             bodies_.push_back(body);
             for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
@@ -90,23 +91,23 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
             }
         }
         islands_.push_back(island.get());
-        rooms_.push_back({island.get(), offset, static_cast<int>(rest.size())});
+        parts_.push_back({island.get(), offset, static_cast<int>(rest.size())});
     }
     if (islands_.empty()) return;
-    if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return meetsColliders(*body->spec); }))
-        rigids_ = ColliderSurfaces(colliders(), surfaces, rest);
+    if (std::any_of(bodies_.begin(), bodies_.end(), [](const Body* body) { return touchesColliders(*body->spec); }))
+        colliders_ = ColliderSurfaces(colliders(), surfaces, rest);
     for (auto* list : {&x0_, &x1_, &v_}) list->resize(rest.size());
     inverseMass_.resize(rest.size());
     damage_.assign(bodies_.size(), 0);
     contact::ContactOptions options;
     options.friction = spec.friction;
     group_ = std::make_unique<contact::ContactGroup>(std::move(surfaces), std::move(rest), options);
-    rigids_.placeAll(x1_);
+    colliders_.placeAll(x1_);
     x0_ = x1_;
 }
 
 double ContactStage::facePenetration(const std::function<bool(const Body&)>& wanted) {
-    if (isEmpty() || rigids_.isEmpty()) return 0.0;
+    if (isEmpty() || colliders_.isEmpty()) return 0.0;
     return contact::penetrationOf(group_->elements(), crossings(), x1_,
                                   [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); });
 }
@@ -120,8 +121,8 @@ void ContactStage::takeDamage() {
         damage_[s] = severed;
         isOther = true;
         int offset = 0;
-        for (const Part& room : rooms_)
-            if (room.island == body.island) offset = room.first;
+        for (const Part& part : parts_)
+            if (part.island == body.island) offset = part.first;
         std::vector<int> own(static_cast<std::size_t>(body.island->plan().points.size()), -1);
         for (std::size_t i = 0; i < body.pointOf.size(); ++i)
             own[static_cast<std::size_t>(body.pointOf[i])] = static_cast<int>(i);
@@ -138,9 +139,9 @@ void ContactStage::takeDamage() {
 }
 
 void ContactStage::readAll() {
-    for (const Part& room : rooms_) {
-        const auto first = static_cast<std::size_t>(room.first), count = static_cast<std::size_t>(room.last) - first;
-        room.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
+    for (const Part& part : parts_) {
+        const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.last) - first;
+        part.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
     }
 }
 
@@ -151,7 +152,7 @@ int ContactStage::commonSubsteps() const {
     return std::max(common, 1);
 }
 
-// What presses each other these surfaces need, of bodies or not: whatever else is in the group.
+// How many instants bodies with these surfaces need while they press. Whatever else is in the group has no say.
 int ContactStage::instantsFor(std::span<const int> surfaces) const {
     int needed = 1;
     for (int s : surfaces)
@@ -160,7 +161,7 @@ int ContactStage::instantsFor(std::span<const int> surfaces) const {
     return needed;
 }
 
-// Whatever presses what, of those that move.
+// The same for all bodies, whichever touch.
 int ContactStage::mostInstants() const {
     int most = spec_.instants.value_or(fewest_);
     if (!spec_.instants)
@@ -169,7 +170,8 @@ int ContactStage::mostInstants() const {
     return most;
 }
 
-// That many, or a few more: all bodies take their steps in as many parts.
+// Makes the islands' substeps a multiple of the pace, and returns the number of instants: needed, or a few more, so
+// that it divides all substeps.
 int ContactStage::takeInstants(const TickTime& time, int needed) {
     if (pace_.isExceededBy(needed)) pace_.shorten(needed);
     for (Island* island : islands_) island->takeParts(time, pace_.substeps());
@@ -179,60 +181,66 @@ int ContactStage::takeInstants(const TickTime& time, int needed) {
     return instants;
 }
 
-// How many the tick is to have; less than nothing where it is a trial, in which nothing should meet.
+// How many instants the tick is to have. Negative: it is a trial, in which nothing should touch.
 int ContactStage::chooseInstants(const TickTime& time) {
     if (spec_.instants) return takeInstants(time, *spec_.instants);
-    const contact::Forecast outlook = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
-    // As many as it takes for a way at that speed [m/s] to be no longer in any.
+    const contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
+    // Doubles until a motion of that speed goes no further than `way` in an instant.
     const auto enough = [&](int instants, double speed, double way) {
-        while (instants < mostForWays && tickSeconds_ * speed > instants * way) instants *= 2;
+        while (instants < mostInstantsForSpeed && tickSeconds_ * speed > instants * way) instants *= 2;
         return instants;
     };
-    // Where nothing meets, by what is cheapest.
-    if (!outlook.meets) {
+    // Nothing touches: what is cheapest for the broad phase.
+    if (!forecast.meets) {
         const int common = commonSubsteps();
-        return -takeInstants(time, std::min(common, enough(1, outlook.stir, calmWay)));
+        return -takeInstants(time, std::min(common, enough(1, forecast.deformationRate, mostDeformation)));
     }
-    return takeInstants(time, enough(std::max(fewest_, instantsFor(outlook.surfaces)), outlook.closing,
-                                     wayOfKeep * outlook.leastThickness));
+    return takeInstants(time, enough(std::max(fewest_, instantsFor(forecast.surfaces)), forecast.closing,
+                                     mostClosing * forecast.leastThickness));
 }
 
 std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
+    // The tick begins: damage, masses, colliders, places.
     for (Island* island : islands_) {
         island->takeParts(time, pace_.substeps());
         island->beginTick(time);
     }
     areCrossingsKnown_ = false;
     takeDamage();
-    for (const Part& room : rooms_) {
-        const IslandPlan& plan = room.island->plan();
-        for (int i = room.first; i < room.last; ++i) {
-            const int own = i - room.first;
-            const bool moves = room.island->frozen() == nullptr && isFree(plan, own);
+    for (const Part& part : parts_) {
+        const IslandPlan& plan = part.island->plan();
+        for (int i = part.first; i < part.last; ++i) {
+            const int own = i - part.first;
+            const bool moves = part.island->frozen() == nullptr && isFree(plan, own);
             inverseMass_[static_cast<std::size_t>(i)] =
                 moves ? 1.0 / plan.points[static_cast<std::size_t>(own)].mass : 0.0;
         }
     }
-    hasJumped_ = rigids_.lead(moving, tickSeconds_, group_->elements(), v_) || hasJumped_;
+    hasJumped_ = colliders_.move(moving, tickSeconds_, group_->elements(), v_) || hasJumped_;
     readAll();
-    rigids_.place(0.0, x1_);
+    colliders_.place(0.0, x1_);
     if (hasJumped_) group_->drop();
     hasJumped_ = false;
+
+    // Crossings, and how many instants. An island that keeps its step needs the most there can be from the first tick.
     const auto start = Clock::now();
     group_->begin(x1_);
-    // Steps that stay are such from the first tick on that anything may press anything.
     if (islands_.front()->keepsStep()) takeInstants(time, mostInstants());
     int instants = chooseInstants(time);
     total_.seconds += secondsSince(start);
+
+    // Tries, until one stands.
     for (;;) {
         std::vector<std::optional<Fault>> faults(islands_.size());
         for (Island* island : islands_) island->beginTry();
         readAll();
-        rigids_.place(0.0, x1_);
+        colliders_.place(0.0, x1_);
         const bool isTrial = instants < 0;
         instants_ = std::abs(instants);
         const bool isCoarse = tryTick(time, moving, instants_, faults, isTrial);
         std::vector<Verdict> verdicts(islands_.size(), Verdict::stands);
+
+        // Does it stand? Each island has a say, and one that diverged may be frozen: the others go on beside it.
         bool isAgain = isCoarse;
         for (std::size_t k = 0; k < islands_.size(); ++k) {
             if (isCoarse) continue;
@@ -242,23 +250,27 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
                     return Outcome{islands_[k], *faults[k]};
                 islands_[k]->freeze(*faults[k], time);
                 verdicts[k] = Verdict::stands;
-                const Part& room = rooms_[k];
-                std::fill(inverseMass_.begin() + room.first, inverseMass_.begin() + room.last, 0.0);
-                isAgain = true;  // the others, beside it as it stays
+                const Part& part = parts_[k];
+                std::fill(inverseMass_.begin() + part.first, inverseMass_.begin() + part.last, 0.0);
+                isAgain = true;
             }
             isAgain = isAgain || verdicts[k] == Verdict::again;
         }
         if (!isAgain) break;
+
+        // Back to the start of the tick, and a new number of instants.
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
         std::swap(x0_, x1_);
         readAll();
-        rigids_.place(0.0, x1_);
-        group_->goBack(x0_, x1_);
+        colliders_.place(0.0, x1_);
+        group_->rewind(x0_, x1_);
         instants = isCoarse ? takeInstants(time, std::max({fewest_, 2 * instants_, instantsFor(result_.surfaces)}))
                             : chooseInstants(time);
     }
+
+    // The tick ends.
     for (Island* island : islands_) island->endTick(time);
-    bear();
+    reportAccelerations();
     pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : instants_);
     total_.instants += instants_;
     ++total_.ticks;
@@ -270,19 +282,20 @@ bool ContactStage::movesAny() const {
         islands_.begin(), islands_.end(), [](const Island* island) { return !island->frozen(); });
 }
 
-// Whether an instant was too long for what it found: of a trial anything at all, else what went deep. Where nothing
-// moves no shorter one finds less.
+// Whether an instant was too long for what it found: in a trial any impulse, else a pair that went too deep or had to
+// be slid apart. Where nothing moves, shorter instants would find the same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
     if (instants_ < instantsFor(result_.surfaces) || (isTrial && result_.active > 0)) return true;
-    return instants_ < mostForWays && (result_.deepest > wayOfKeep || result_.slides > 0);
+    return instants_ < mostInstantsForSpeed && (result_.deepest > mostClosing || result_.slides > 0);
 }
 
-// Ends early where there have to be more instants, and then returns true.
+// One try at the tick. Returns true, early, if it needs more instants. Ends early on a fault too.
 bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
                            std::vector<std::optional<Fault>>& faults, bool isTrial) {
     const double h = tickSeconds_ / instants;
     for (int c = 0; c < instants; ++c) {
+        // The islands move alone.
         std::swap(x0_, x1_);
         core::parallelFor(
             static_cast<int>(islands_.size()),
@@ -293,9 +306,11 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
             });
         if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); }))
             return false;
+
+        // Contact at the end of it.
         readAll();
-        rigids_.place(static_cast<double>(c + 1) / instants, x1_);
-        meet(h);
+        colliders_.place(static_cast<double>(c + 1) / instants, x1_);
+        resolveInstant(h);
         settle();
         if (findFaults(time.at(c + 1, instants), faults)) return false;
         if (isTooCoarse(isTrial)) return true;
@@ -303,61 +318,65 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
     return false;
 }
 
-void ContactStage::meet(double h) {
-    held_.clear();
-    for (const Part& room : rooms_)
-        for (const collision::Contact& c : room.island->contacts())
-            held_.push_back({room.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
+// One instant of contact, h [s] after the last.
+void ContactStage::resolveInstant(double h) {
+    kinematic_.clear();
+    for (const Part& part : parts_)
+        for (const collision::Contact& c : part.island->contacts())
+            kinematic_.push_back(
+                {part.first + c.point, c.normal, glm::dot(c.normal, c.carried), c.carried, c.friction});
     contact::Instant instant;
     instant.h = h;
     instant.x0 = x0_;
     instant.x1 = x1_;
     instant.v = v_;
     instant.inverseMass = inverseMass_;
-    instant.held = held_;
-    instant.take = [&](std::span<const int> points) {
+    instant.kinematic = kinematic_;
+    // Islands place the points that contact moved, and say where they came to be.
+    instant.place = [&](std::span<const int> points) {
         std::vector<int> own;
         std::vector<dvec3> x, v;
-        for (const Part& room : rooms_) {
-            const auto first = std::lower_bound(points.begin(), points.end(), room.first);
-            const auto last = std::lower_bound(first, points.end(), room.last);
+        for (const Part& part : parts_) {
+            const auto first = std::lower_bound(points.begin(), points.end(), part.first);
+            const auto last = std::lower_bound(first, points.end(), part.last);
             if (first == last) continue;
             own.clear();
             x.clear();
             v.clear();
             for (auto i = first; i != last; ++i) {
-                own.push_back(*i - room.first);
+                own.push_back(*i - part.first);
                 x.push_back(x1_[static_cast<std::size_t>(*i)]);
                 v.push_back(v_[static_cast<std::size_t>(*i)]);
             }
-            room.island->place(own, x, v);
+            part.island->place(own, x, v);
             for (std::size_t k = 0; k < own.size(); ++k) {
-                x1_[static_cast<std::size_t>(own[k] + room.first)] = x[k];
-                v_[static_cast<std::size_t>(own[k] + room.first)] = v[k];
+                x1_[static_cast<std::size_t>(own[k] + part.first)] = x[k];
+                v_[static_cast<std::size_t>(own[k] + part.first)] = v[k];
             }
         }
     };
+
     vBefore_ = v_;
     const auto start = Clock::now();
     result_ = group_->resolve(instant);
     total_.seconds += secondsSince(start);
-    total_.locatedInAll += static_cast<std::int64_t>(group_->located());
+    total_.locatedInAll += static_cast<std::int64_t>(group_->testedCount());
     hasMet_ = hasMet_ || result_.active > 0;
     total_.slides += result_.slides;
     total_.zones += result_.zones;
     total_.uncertified += result_.uncertified;
 }
 
-// What contact gave points that constraints tie is shared, so that others go elsewhere too.
+// Constraints inside islands share out what contact gave their points, which moves others too.
 void ContactStage::settle() {
-    for (const Part& room : rooms_) {
-        if (!room.island->settle()) continue;
-        const auto first = static_cast<std::size_t>(room.first), count = static_cast<std::size_t>(room.last) - first;
-        room.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
+    for (const Part& part : parts_) {
+        if (!part.island->settle()) continue;
+        const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.last) - first;
+        part.island->read(std::span(x1_).subspan(first, count), std::span(v_).subspan(first, count));
     }
 }
 
-// Whether contact left any point without bounds, of whose islands nothing is to go on.
+// Whether contact gave a point a place or velocity that is no number, or too fast: a fault of its island.
 bool ContactStage::findFaults(double t, std::vector<std::optional<Fault>>& faults) const {
     bool areAny = false;
     for (int i : result_.moved) {
@@ -365,26 +384,26 @@ bool ContactStage::findFaults(double t, std::vector<std::optional<Fault>>& fault
         const double square = glm::dot(v, v);
         const bool isNumber = std::isfinite(square + glm::dot(x, x));
         if (isNumber && square < mechanics::speedLimit * mechanics::speedLimit) continue;
-        for (std::size_t k = 0; k < rooms_.size(); ++k)
-            if (i >= rooms_[k].first && i < rooms_[k].last && !faults[k])
-                faults[k] = Fault{.point = i - rooms_[k].first, .time = t, .isNumber = isNumber, .byContact = true};
+        for (std::size_t k = 0; k < parts_.size(); ++k)
+            if (i >= parts_[k].first && i < parts_[k].last && !faults[k])
+                faults[k] = Fault{.point = i - parts_[k].first, .time = t, .isNumber = isNumber, .byContact = true};
         areAny = true;
     }
     return areAny;
 }
 
-// What the last instant gave.
-void ContactStage::bear() {
+// Tells the islands what accelerations contact gave their points in the last instant.
+void ContactStage::reportAccelerations() {
     const double h = tickSeconds_ / instants_;
-    std::vector<ContactAcceleration> pressed;
+    std::vector<ContactAcceleration> accelerations;
     auto moved = result_.moved.begin();
-    for (const Part& room : rooms_) {
-        pressed.clear();
-        for (; moved != result_.moved.end() && *moved < room.last; ++moved) {
+    for (const Part& part : parts_) {
+        accelerations.clear();
+        for (; moved != result_.moved.end() && *moved < part.last; ++moved) {
             const auto i = static_cast<std::size_t>(*moved);
-            pressed.push_back({*moved - room.first, (v_[i] - vBefore_[i]) / h});
+            accelerations.push_back({*moved - part.first, (v_[i] - vBefore_[i]) / h});
         }
-        room.island->bear(pressed);
+        part.island->bear(accelerations);
     }
 }
 
@@ -399,9 +418,9 @@ ContactInfo ContactStage::info() const {
     info.points = static_cast<int>(x1_.size());
     info.mostInstants = mostInstants();
     info.lastInstants = instants_;
-    info.located = static_cast<int>(group_->located());
+    info.located = static_cast<int>(group_->testedCount());
     info.pressing = result_.active;
-    info.lists = static_cast<std::int64_t>(group_->listed());
+    info.lists = static_cast<std::int64_t>(group_->listsMade());
     info.bytes = group_->bytes();
     return info;
 }

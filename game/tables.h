@@ -1,0 +1,12 @@
+// What commands choose from by name: tables that are values, to which another program adds rows of its own.
+#pragma once
+
+#include "taut/geometry/format_table.h"
+
+namespace taut::game {
+
+struct Tables {
+    geometry::Formats formats = geometry::builtInFormats();  // of geometry, chosen by how names of files end
+};
+
+}  // namespace taut::game

@@ -3,7 +3,7 @@
 // A line a command, in the order in which the help names them: the function that returns its row. CHOOSING: it takes
 // the tables that the command chooses from.
 #define TAUT_COMMANDS(COMMAND, CHOOSING) \
-    COMMAND(renderCommand)               \
+    CHOOSING(renderCommand)              \
     COMMAND(joinCommand)                 \
     COMMAND(playCommand)                 \
     CHOOSING(exportCommand)              \

@@ -107,7 +107,8 @@ std::string endingAndReaders(const Format& format) {
 }
 
 std::string endingsWithDigits(const Formats& formats) {
-    return oneOf(ofEach(formats, Holds::surfaces, endingOf, [](const Format& format) { return format.hasDigits; }),
+    return oneOf(ofEach(
+                     formats, Holds::surfaces, endingOf, [](const Format& format) { return format.hasDigits; }),
                  " and ");
 }
 
@@ -132,11 +133,13 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
     };
     if (flags.output.empty() && flags.points.empty() && flags.web.empty())
         failUsage("say where the geometry goes: " + allKindsOfFiles(formats, page));
-    add(flags.output, geometry::formatOf(formats, Holds::surfaces, flags.output), [&] {
-        return fmt::format(
-            "geometry goes to {}{}", oneOf(ofEach(formats, Holds::surfaces, endingAndReaders)),
-            geometry::isIn(page, flags.output) ? "; a page that shows it is --web " + flags.output : "");
-    });
+    add(
+        flags.output, geometry::formatOf(formats, Holds::surfaces, flags.output),
+        [&] {
+            return fmt::format(
+                "geometry goes to {}{}", oneOf(ofEach(formats, Holds::surfaces, endingAndReaders)),
+                geometry::isIn(page, flags.output) ? "; a page that shows it is --web " + flags.output : "");
+        });
     add(flags.web, geometry::isIn(page, flags.web) ? &page : nullptr,
         [&] { return "--web writes a page, " + endingOf(page); });
     if (flags.web.empty() && !flags.viewer.empty()) failUsage("--viewer is what draws in a page: add --web out.html");
@@ -146,7 +149,8 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
         [&] { return "points go to " + oneOf(ofEach(formats, Holds::points, endingAndReaders)); });
     if (flags.points.empty() && !flags.of.empty()) failUsage("--of says whose points: add --points out.npz");
     if (flags.digits > 0 && std::none_of(all.begin(), all.end(), [](const auto& to) { return to.format->hasDigits; }))
-        failUsage(fmt::format("--digits are those of {}; other formats hold all of a number", endingsWithDigits(formats)));
+        failUsage(
+            fmt::format("--digits are those of {}; other formats hold all of a number", endingsWithDigits(formats)));
     if (flags.output.empty() && flags.web.empty() && (flags.noNormals || !flags.only.empty()))
         failUsage("--only and --no-normals are for geometry: add -o, or name points with --of");
     return all;
@@ -257,8 +261,8 @@ void printLost(const geometry::LostMotion& lost, std::int64_t every) {
 void noteTooManyKeys(std::int64_t keys, const pipeline::GeometryRun& run, const Format& format) {
     const auto most = static_cast<std::int64_t>(format.mostKeys);
     if (most == 0 || keys <= most) return;
-    printNote("note: {} keys: {} promise room for {} a mesh; --every {} has fewer\n", keys, format.limitingReaders, most,
-              (run.lastFrame - run.firstFrame) / most + 1);
+    printNote("note: {} keys: {} promise room for {} a mesh; --every {} has fewer\n", keys, format.limitingReaders,
+              most, (run.lastFrame - run.firstFrame) / most + 1);
 }
 
 int exportScene(const ExportFlags& flags, const Formats& formats) {
@@ -272,7 +276,8 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
         if (const std::string fault = scene::targetFault(spec, target, true); !fault.empty())
             failUsage("--of: " + fault);
     pipeline::GeometryRun run = runOf(flags, spec);
-    run.mayTear = oneOf(ofEach(formats, Holds::surfaces, endingOf, [](const Format& format) { return format.mayTear; }));
+    run.mayTear =
+        oneOf(ofEach(formats, Holds::surfaces, endingOf, [](const Format& format) { return format.mayTear; }));
     if (!flags.web.empty()) {
         const std::string name = std::filesystem::path(flags.scene).stem().string();
         if (!flags.quiet && (!spec.lamps.empty() || !spec.environment.image.empty()))
@@ -353,8 +358,7 @@ Action declareExport(Options& options, const Formats& formats) {
         .typeName("FOLDER");
     options
         .value("--points", flags->points,
-               "Positions and velocities of points: " +
-                   oneOf(ofEach(formats, Holds::points, fileAndReaders), ", or "))
+               "Positions and velocities of points: " + oneOf(ofEach(formats, Holds::points, fileAndReaders), ", or "))
         .typeName("FILE");
     options.value("--of", flags->of, "Whose points, such as cloth.flag@left; all bodies when not given")
         .typeName("TARGET,…")

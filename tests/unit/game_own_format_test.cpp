@@ -58,19 +58,24 @@ Outcome exportWithPly(std::vector<std::string> arguments) {
     return run(arguments, game::builtInCommands(tables));
 }
 
-// One cell, held at all corners, which comes apart after a tenth of a second; beside it another.
+// A cell that is held at all corners; beside it another cloth, which is cut after a tenth of a second.
 std::string sceneIn(const TemporaryFolder& folder) {
     const auto path = folder / "cells.toml";
     writeText(path, R"(schema = 1
 [run]
 fps = 20
 seconds = 0.2
+[material.silk]
+density_kg_per_m2 = 0.1
+stretch_N_per_m = 200.0
 [cloth.cell]
+material = "silk"
 size = [1.0, 1.0]
 cells = [1, 1]
 origin = [0, 2, 0]
 hold = ["left", "right"]
 [cloth.other]
+material = "silk"
 size = [1.0, 1.0]
 cells = [2, 1]
 origin = [2, 2, 0]
@@ -79,7 +84,7 @@ hold = ["left", "right"]
 t = 0.1
 do = "cut"
 target = "cloth.other"
-segment = [[2.5, 2.5], [2.5, 0.5]]
+segment = [[0.25, 1.0], [0.25, 0.0]]
 )");
     return path.string();
 }
@@ -102,7 +107,8 @@ TEST(OwnFormat, StandsInTheHelpAndInWhatIsSaidOfOthers) {
                     "Blender, VTK) or .ply (MeshLab; may tear)\n"));
     const std::string torn = exportWithPly({scene, "-o", (folder / "a.glb").string(), "--quiet"}).err;
     EXPECT_TRUE(has(torn, "): write .usda or .ply, where they may change, or end before it with --frames 0-")) << torn;
-    EXPECT_TRUE(has(exportWithPly({scene, "-o", "a.glb", "--digits", "3"}).err, "--digits are those of .usda and .ply;"));
+    EXPECT_TRUE(
+        has(exportWithPly({scene, "-o", "a.glb", "--digits", "3"}).err, "--digits are those of .usda and .ply;"));
     EXPECT_FALSE(has(run({"export", "--help"}).out, "ply"));
 }
 

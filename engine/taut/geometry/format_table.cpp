@@ -26,8 +26,7 @@ Formats builtInFormats() {
 std::vector<const Format*> formatsThat(const Formats& formats, Holds what) {
     std::vector<const Format*> found;
     for (const Format& format : formats.all())
-        if (what == Holds::points ? format.makePoints != nullptr : format.makeSink != nullptr)
-            found.push_back(&format);
+        if (what == Holds::points ? format.makePoints != nullptr : format.makeSink != nullptr) found.push_back(&format);
     return found;
 }
 

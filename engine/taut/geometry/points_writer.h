@@ -13,8 +13,8 @@ struct PointSet {
     std::span<const glm::dvec3> x, v;
 };
 
-// The engine's: .npz, not compressed, numbers of eight bytes: `frame` and `time` (frames), and of each target NAME.x and
-// NAME.v (frames, points, 3). .csv: a row a point and frame, numbers to the last bit.
+// The engine's: .npz, not compressed, numbers of eight bytes: `frame` and `time` (frames), and of each target NAME.x
+// and NAME.v (frames, points, 3). .csv: a row a point and frame, numbers to the last bit.
 class PointsWriter {
   public:
     virtual ~PointsWriter() = default;

@@ -100,10 +100,9 @@ void write(const Delivery& delivery, geometry::GeometrySink* sink, geometry::Poi
     if (!run.mayTear.empty()) advice.push_back(fmt::format("write {}, where they may change", run.mayTear));
     if (torn.frame() > run.firstFrame)
         advice.push_back(fmt::format("end before it with --frames {}-{}", run.firstFrame, torn.frame() - 1));
-    throw core::Error(core::ErrorKind::badContent,
-                      fmt::format("{}; it is tick {} ({:.6g} s){}{}", torn.what(), tick,
-                                  static_cast<double>(tick) * world.tickSeconds(), advice.empty() ? "" : ": ",
-                                  fmt::join(advice, ", or ")));
+    throw core::Error(core::ErrorKind::badContent, fmt::format("{}; it is tick {} ({:.6g} s){}{}", torn.what(), tick,
+                                                               static_cast<double>(tick) * world.tickSeconds(),
+                                                               advice.empty() ? "" : ": ", fmt::join(advice, ", or ")));
 }
 
 }  // namespace

@@ -69,9 +69,8 @@ FrameRecord recordIn(std::span<const Word> words, std::size_t frame) {
     for (double* seconds : {&record.simulating, &record.drawing, &record.encoding}) take(words, *seconds);
     take(words, hasMetrics);
     world::Metrics metrics;
-    world::eachNumber(metrics, [&](world::MetricNumber of) {
-        std::visit([&](auto* number) { take(words, *number); }, of);
-    });
+    world::eachNumber(metrics,
+                      [&](world::MetricNumber of) { std::visit([&](auto* number) { take(words, *number); }, of); });
     if (hasMetrics) record.metrics = metrics;
     for (const Word word : words) record.figures.push_back(std::bit_cast<double>(word));
     return record;

@@ -28,14 +28,14 @@ constexpr MetricSource done = {
 
 constexpr MetricSource totalEnergy = {[](const Metrics& metrics) -> MetricValue { return metrics.energy(); }};
 
-constexpr MetricSource volumeRatio = {
-    [](const Metrics& metrics) -> MetricValue {
-        return metrics.restVolume > 0 ? metrics.volume / metrics.restVolume : 1.0;  // of nothing nothing is missing
-    },
-    [](Metrics& metrics, const NumberVisitor& visit) {
-        visitNumber(metrics.volume, visit);
-        visitNumber(metrics.restVolume, visit);
-    }};
+constexpr MetricSource volumeRatio = {[](const Metrics& metrics) -> MetricValue {
+                                          return metrics.restVolume > 0 ? metrics.volume / metrics.restVolume
+                                                                        : 1.0;  // of nothing nothing is missing
+                                      },
+                                      [](Metrics& metrics, const NumberVisitor& visit) {
+                                          visitNumber(metrics.volume, visit);
+                                          visitNumber(metrics.restVolume, visit);
+                                      }};
 
 }  // namespace
 

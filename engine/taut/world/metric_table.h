@@ -1,5 +1,5 @@
-// What is measured of bodies, one row each: claims call it, metrics.csv has it a frame, the records of a run keep it. To
-// add a metric, measure it (Metrics), and write its row.
+// What is measured of bodies, one row each: claims call it, metrics.csv has it a frame, the records of a run keep it.
+// To add a metric, measure it (Metrics), and write its row.
 #pragma once
 
 #include <cstdint>

@@ -95,7 +95,11 @@ TEST(OwnFormat, IsChosenByTheEndingOfTheFile) {
     const Outcome outcome =
         exportWithPly({sceneIn(folder), "-o", file, "--only", "cloth.cell", "--digits", "1", "--quiet"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(core::fileContent(file), "");
+    // The corners are where they are held.
+    EXPECT_EQ(core::fileContent(file),
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 2\nproperty list uchar uint vertex_indices\nend_header\n"
+              "0.0 2.0 0.0\n0.0 1.0 0.0\n1.0 1.0 0.0\n1.0 2.0 0.0\n3 0 1 2\n3 0 2 3\n");
 }
 
 TEST(OwnFormat, StandsInTheHelpAndInWhatIsSaidOfOthers) {

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "game/command_line.h"
+#include "game/tables.h"
 
 namespace taut::game {
 
 // In the order in which the help names them.
-std::vector<Command> builtInCommands();
+std::vector<Command> builtInCommands(const Tables& tables = {});
 
 }  // namespace taut::game

@@ -15,16 +15,14 @@
 #include "game/messages.h"
 #include "game/outputs.h"
 #include "game/scene_file.h"
+#include "game/tables.h"
 #include "game/web_page.h"
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
 #include "taut/core/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/geometry/every_nth.h"
-#include "taut/geometry/glb_writer.h"
-#include "taut/geometry/points_writer.h"
-#include "taut/geometry/usda_writer.h"
-#include "taut/geometry/web_page_writer.h"
+#include "taut/geometry/format_table.h"
 #include "taut/pipeline/geometry_run.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/load.h"
@@ -41,13 +39,16 @@ struct ExportFlags {
     double fps = 0.0, seconds = 0.0;
     int threads = 0;
     bool noNormals = false, yes = false, no = false, quiet = false, isConfined = false;
-    std::vector<std::string> files() const {
-        std::vector<std::string> all = {output, web, points};
-        std::erase(all, "");
-        return all;
-    }
-    bool isUsd() const { return std::filesystem::path(output).extension() == ".usda"; }
-    bool isGlb() const { return std::filesystem::path(output).extension() == ".glb"; }
+};
+
+using geometry::Format;
+using geometry::Formats;
+using geometry::Holds;
+
+// A file that is asked for.
+struct Destination {
+    std::string file;
+    const Format* format;
 };
 
 [[noreturn]] void failUsage(const std::string& message) {
@@ -76,28 +77,83 @@ std::vector<std::string> targetsIn(const std::vector<std::string>& texts) {
     return targets;
 }
 
-bool isPage(const std::filesystem::path& path) {
-    return path.extension() == ".html" || path.extension() == ".htm";
+// "a", "a or b", "a, b or c".
+std::string oneOf(const std::vector<std::string>& texts, const char* last = " or ") {
+    std::string all;
+    for (std::size_t i = 0; i < texts.size(); ++i) all += (i == 0 ? "" : i + 1 < texts.size() ? ", " : last) + texts[i];
+    return all;
 }
 
-void checkFlags(const ExportFlags& flags) {
+// Of each format that holds that and is wanted: what `text` says of it.
+std::vector<std::string> ofEach(const Formats& formats, Holds what,
+                                const std::function<std::string(const Format&)>& text,
+                                const std::function<bool(const Format&)>& isWanted = {}) {
+    std::vector<std::string> texts;
+    for (const Format* format : geometry::formatsThat(formats, what))
+        if (!isWanted || isWanted(*format)) texts.push_back(text(*format));
+    return texts;
+}
+
+std::string endingOf(const Format& format) {
+    return format.endings.front();
+}
+
+// ".npz (numpy.load)"
+std::string endingAndReaders(const Format& format) {
+    std::vector<std::string> facts;
+    if (!format.readers.empty()) facts.push_back(format.readers);
+    if (format.mayTear) facts.emplace_back("may tear");
+    return facts.empty() ? endingOf(format) : fmt::format("{} ({})", endingOf(format), fmt::join(facts, "; "));
+}
+
+std::string endingsWithDigits(const Formats& formats) {
+    return oneOf(ofEach(
+                     formats, Holds::surfaces, endingOf, [](const Format& format) { return format.hasDigits; }),
+                 " and ");
+}
+
+std::string allKindsOfFiles(const Formats& formats, const Format& page) {
+    std::vector<std::string> kinds =
+        ofEach(formats, Holds::surfaces, [](const Format& format) { return "-o out" + endingOf(format); });
+    kinds.push_back("--web out" + endingOf(page));
+    for (const Format* format : geometry::formatsThat(formats, Holds::points)) {
+        kinds.push_back("--points out" + endingOf(*format));
+        break;
+    }
+    return oneOf(kinds, ", or ");
+}
+
+// What is asked for, and whether flags fit it.
+std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats& formats, const Format& page) {
+    std::vector<Destination> all;
+    const auto add = [&](const std::string& file, const Format* format, const auto& fault) {
+        if (file.empty()) return;
+        if (format == nullptr) failUsage(file + ": " + fault());
+        all.push_back({file, format});
+    };
     if (flags.output.empty() && flags.points.empty() && flags.web.empty())
-        failUsage("say where the geometry goes: -o out.usda, -o out.glb, --web out.html, or --points out.npz");
-    if (!flags.output.empty() && !flags.isUsd() && !flags.isGlb())
-        failUsage(
-            fmt::format("{}: geometry goes to .usda (Houdini, Omniverse, Unreal, Blender; may tear) or .glb (the "
-                        "web, Blender, VTK){}",
-                        flags.output, isPage(flags.output) ? "; a page that shows it is --web " + flags.output : ""));
-    if (!flags.web.empty() && !isPage(flags.web)) failUsage(fmt::format("{}: --web writes a page, .html", flags.web));
+        failUsage("say where the geometry goes: " + allKindsOfFiles(formats, page));
+    add(
+        flags.output, geometry::formatOf(formats, Holds::surfaces, flags.output),
+        [&] {
+            return fmt::format(
+                "geometry goes to {}{}", oneOf(ofEach(formats, Holds::surfaces, endingAndReaders)),
+                geometry::isIn(page, flags.output) ? "; a page that shows it is --web " + flags.output : "");
+        });
+    add(flags.web, geometry::isIn(page, flags.web) ? &page : nullptr,
+        [&] { return "--web writes a page, " + endingOf(page); });
     if (flags.web.empty() && !flags.viewer.empty()) failUsage("--viewer is what draws in a page: add --web out.html");
-    if (!flags.web.empty() && flags.noNormals) failUsage("--no-normals: a page is shaded by its normals");
-    if (!flags.points.empty() && !geometry::isPointsPath(flags.points))
-        failUsage(fmt::format("{}: points go to .npz (numpy.load) or .csv", flags.points));
+    for (const auto& [file, format] : all)
+        if (flags.noNormals && !format->needsNormals.empty()) failUsage("--no-normals: " + format->needsNormals);
+    add(flags.points, geometry::formatOf(formats, Holds::points, flags.points),
+        [&] { return "points go to " + oneOf(ofEach(formats, Holds::points, endingAndReaders)); });
     if (flags.points.empty() && !flags.of.empty()) failUsage("--of says whose points: add --points out.npz");
-    if (flags.digits > 0 && !flags.isUsd())
-        failUsage("--digits are those of .usda; other formats hold all of a number");
+    if (flags.digits > 0 && std::none_of(all.begin(), all.end(), [](const auto& to) { return to.format->hasDigits; }))
+        failUsage(
+            fmt::format("--digits are those of {}; other formats hold all of a number", endingsWithDigits(formats)));
     if (flags.output.empty() && flags.web.empty() && (flags.noNormals || !flags.only.empty()))
         failUsage("--only and --no-normals are for geometry: add -o, or name points with --of");
+    return all;
 }
 
 std::vector<std::string> allOverrides(const ExportFlags& flags) {
@@ -202,8 +258,17 @@ void printLost(const geometry::LostMotion& lost, std::int64_t every) {
     printResult("{}\n", text);
 }
 
-int exportScene(const ExportFlags& flags) {
-    checkFlags(flags);
+void noteTooManyKeys(std::int64_t keys, const pipeline::GeometryRun& run, const Format& format) {
+    const auto most = static_cast<std::int64_t>(format.mostKeys);
+    if (most == 0 || keys <= most) return;
+    printNote("note: {} keys: {} promise room for {} a mesh; --every {} has fewer\n", keys, format.limitingReaders,
+              most, (run.lastFrame - run.firstFrame) / most + 1);
+}
+
+int exportScene(const ExportFlags& flags, const Formats& formats) {
+    const auto page = std::make_shared<geometry::WebPage>();
+    const Format pages = pageFormat(page);
+    const std::vector<Destination> destinations = destinationsOf(flags, formats, pages);
     const world::SceneSpec spec = readScene(flags.scene, allOverrides(flags), flags.isConfined);
     for (const std::string& target : targetsIn(flags.only))
         if (const std::string fault = onlyFault(spec, target); !fault.empty()) failUsage("--only: " + fault);
@@ -211,23 +276,22 @@ int exportScene(const ExportFlags& flags) {
         if (const std::string fault = scene::targetFault(spec, target, true); !fault.empty())
             failUsage("--of: " + fault);
     pipeline::GeometryRun run = runOf(flags, spec);
-    geometry::WebPage page;
+    run.mayTear =
+        oneOf(ofEach(formats, Holds::surfaces, endingOf, [](const Format& format) { return format.mayTear; }));
     if (!flags.web.empty()) {
         const std::string name = std::filesystem::path(flags.scene).stem().string();
         if (!flags.quiet && (!spec.lamps.empty() || !spec.environment.image.empty()))
             printNote("note: lamps and the picture around are not in the page: it is lit by sun and sky alone\n");
-        page = spec.title.empty() ? webPage(name, "", flags.viewer) : webPage(spec.title, name, flags.viewer);
+        *page = spec.title.empty() ? webPage(name, "", flags.viewer) : webPage(spec.title, name, flags.viewer);
     }
     const Overwrite overwrite = flags.yes ? Overwrite::yes : flags.no ? Overwrite::no : Overwrite::ask;
-    for (const std::string& file : flags.files()) {
+    for (const auto& [file, format] : destinations) {
         permitOverwritingFile(file, overwrite);
         core::prepareFolderOf(file);
     }
     const std::int64_t keys = (run.lastFrame - run.firstFrame + run.every - 1) / run.every + 1;
-    if (flags.isGlb() && keys > static_cast<std::int64_t>(geometry::GlbWriter::mostWebKeys) && !flags.quiet)
-        printNote("note: {} keys: browsers promise room for {} a mesh; --every {} has fewer\n", keys,
-                  geometry::GlbWriter::mostWebKeys,
-                  (run.lastFrame - run.firstFrame) / static_cast<std::int64_t>(geometry::GlbWriter::mostWebKeys) + 1);
+    for (const auto& [file, format] : destinations)
+        if (!flags.quiet) noteTooManyKeys(keys, run, *format);
 
     const Interruption interruption;
     if (!flags.quiet) notePreparation(spec);
@@ -236,15 +300,15 @@ int exportScene(const ExportFlags& flags) {
     printWarnings(world.warnings());
     const geometry::GeometryOptions options = geometryOptions(flags, spec);
     Sinks sinks;
-    if (flags.isUsd()) sinks.all.push_back(std::make_unique<geometry::UsdaWriter>(flags.output, options));
-    if (flags.isGlb()) sinks.all.push_back(std::make_unique<geometry::GlbWriter>(flags.output, options));
-    if (!flags.web.empty())
-        sinks.all.push_back(std::make_unique<geometry::WebPageWriter>(flags.web, std::move(page), options));
+    std::unique_ptr<geometry::PointsWriter> points;
+    for (const auto& [file, format] : destinations)
+        if (format->makeSink)
+            sinks.all.push_back(format->makeSink(file, options));
+        else
+            points = format->makePoints(file, run.targets);
     std::unique_ptr<geometry::EveryNth> fewer;
     if (!sinks.all.empty())
         fewer = std::make_unique<geometry::EveryNth>(sinks, run.firstFrame, run.lastFrame, run.every, options.isWanted);
-    std::unique_ptr<geometry::PointsWriter> points;
-    if (!flags.points.empty()) points = geometry::makePointsWriter(flags.points, run.targets);
 
     const auto start = std::chrono::steady_clock::now();
     LabProgress progress("export", flags.quiet, interruption.flag());
@@ -267,17 +331,23 @@ int exportScene(const ExportFlags& flags) {
     if (fewer) printLost(fewer->lost(), flags.every);
     if (flags.quiet) return static_cast<int>(ExitCode::ok);
     std::string text;
-    for (const std::string& file : flags.files())
+    for (const auto& [file, format] : destinations)
         text += fmt::format("{}{} ({})", text.empty() ? "" : " and ", file, sizeText(file));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     printNote("{} frames in {}, {:.1f} s\n", keys, text, seconds);
     return static_cast<int>(ExitCode::ok);
 }
 
-Action declareExport(Options& options) {
+Action declareExport(Options& options, const Formats& formats) {
+    const auto fileFor = [](const Format& format) { return "out" + endingOf(format); };
+    const auto fileAndReaders = [&](const Format& format) {
+        return fileFor(format) + (format.readers.empty() ? "" : " for " + format.readers);
+    };
     const auto flags = std::make_shared<ExportFlags>();
     options.value("SCENE", flags->scene, "A scene file, or the name of a shipped scene").required();
-    options.value("-o,--output", flags->output, "Geometry: out.usda, or out.glb").typeName("FILE");
+    options
+        .value("-o,--output", flags->output, "Geometry: " + oneOf(ofEach(formats, Holds::surfaces, fileFor), ", or "))
+        .typeName("FILE");
     options
         .value("--web", flags->web,
                "A page that plays it in any browser, offline, to be looked at from all sides: out.html")
@@ -286,7 +356,9 @@ Action declareExport(Options& options) {
         .value("--viewer", flags->viewer,
                "The three.js that draws in the page; $TAUT_THREE, else Debian's libjs-three, when not given")
         .typeName("FOLDER");
-    options.value("--points", flags->points, "Positions and velocities of points: out.npz for numpy.load, or out.csv")
+    options
+        .value("--points", flags->points,
+               "Positions and velocities of points: " + oneOf(ofEach(formats, Holds::points, fileAndReaders), ", or "))
         .typeName("FILE");
     options.value("--of", flags->of, "Whose points, such as cloth.flag@left; all bodies when not given")
         .typeName("TARGET,…")
@@ -304,7 +376,9 @@ Action declareExport(Options& options) {
     options.value("--fps", flags->fps, "Frames a second of scene time").check(numberWithin(1e-3, 1e6));
     options.value("--seconds", flags->seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
     options.flag("--no-normals", flags->noNormals, "Leave normals out: half the size, and others shade as they like");
-    options.value("--digits", flags->digits, "Digits behind the point in .usda, 5 when not given: 0.01 mm")
+    options
+        .value("--digits", flags->digits,
+               fmt::format("Digits behind the point in {}, 5 when not given: 0.01 mm", endingsWithDigits(formats)))
         .within(1, 9);
     options.flag("--quiet", flags->quiet, "No progress; warnings and errors only");
     options.value("--threads", flags->threads, "Threads to use; all of the machine when not given").within(1, 1024);
@@ -326,13 +400,14 @@ Action declareExport(Options& options) {
         "  taut export flag -o flag.glb --every 2 --only cloth.flag\n"
         "  taut export flag --web flag.html\n"
         "  taut export flag --points corner.npz --of cloth.flag@bottom-right");
-    return [flags] { return exportScene(*flags); };
+    return [flags, formats] { return exportScene(*flags, formats); };
 }
 
 }  // namespace
 
-Command exportCommand() {
-    return {"export", "Write moving geometry for other programs: USD, GLB, points as numbers", declareExport};
+Command exportCommand(const Tables& tables) {
+    return {"export", "Write moving geometry for other programs: USD, GLB, points as numbers",
+            [formats = tables.formats](Options& options) { return declareExport(options, formats); }};
 }
 
 }  // namespace taut::game

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <filesystem>
+#include <utility>
 
 #include "game/flags.h"
 #include "taut/core/error.h"
@@ -12,37 +13,19 @@
 #include "taut/world/world.h"
 
 namespace taut::game {
-namespace {
-
-// Bits of the number go to the channels in turn, the lowest to what is seen best: numbers that follow each other look
-// different, and no two are the same.
-std::uint32_t flatColour(std::uint32_t number) {
-    std::uint32_t red = 0, green = 0, blue = 0;
-    for (std::uint32_t bit = 0; bit < 8; ++bit, number >>= 3) {
-        red |= (number & 1U) << (7 - bit);
-        green |= (number >> 1 & 1U) << (7 - bit);
-        blue |= (number >> 2 & 1U) << (7 - bit);
-    }
-    return red << 16 | green << 8 | blue;
-}
-
-double unitOf(const LayerFlags& flags) {
-    return flags.depthRange / (image::farDepth - 1);
-}
-
-}  // namespace
 
 void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug) {
     options
         .flag("--alpha", flags.alpha,
               "A transparent background, with shadows as alpha: frames, .webm (VP9) or .mov (ProRes 4444)")
         .excludes(debug);
-    options.flag("--depth", flags.depth,
-                 "Beside each frame a 16-bit grey NAME.depth.png: 0-65534 is 0 to --depth-range ahead of the camera "
-                 "along its axis, 1 mm a step if not given; 65535 is the background");
-    options.value("--depth-range", flags.depthRange, "What 65534 stands for in --depth [m]; farther counts as that")
-        .typeName("METRES")
-        .check(numberWithin(1e-3, 1e6));
+    for (LayerFlag& layer : flags.layers) {
+        options.flag("--" + layer.kind.name, layer.isGiven, layer.kind.help);
+        if (const auto& number = layer.kind.number)
+            options.value("--" + number->name, layer.number, number->help)
+                .typeName(number->unit)
+                .check(numberWithin(number->least, number->most));
+    }
     options
         .value("--motion-blur", flags.blurMoments,
                "Moments drawn of each picture while the shutter is open, half the time from one to the next")
@@ -57,8 +40,10 @@ void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug) {
         .value("--focus", flags.focus, "How far ahead things are sharp with --f-stop; the camera's target if not given")
         .typeName("METRES")
         .check(numberWithin(1e-3, 1e6));
-    options.flag("--mask", flags.mask,
-                 "Beside each frame a NAME.mask.png: one flat colour a body, black where none is; run.json says which");
+}
+
+std::vector<LayerFlag> flagsOf(const render::LayerKinds& kinds) {
+    return {kinds.all().begin(), kinds.all().end()};
 }
 
 void checkLayerFlags(const LayerFlags& flags, const std::string& output, const std::string& video) {
@@ -71,22 +56,28 @@ void checkLayerFlags(const LayerFlags& flags, const std::string& output, const s
                             std::filesystem::path(name).extension().string(),
                             std::filesystem::path(name).replace_extension().string(),
                             std::filesystem::path(name).replace_extension().string()));
-    if (flags.depthRange != LayerFlags{}.depthRange && !flags.depth)
-        fail("--depth-range says what the numbers of --depth are: give that too");
+    for (const LayerFlag& layer : flags.layers)
+        if (layer.hasOwnNumber() && !layer.isGiven)
+            fail(fmt::format("--{} says what the numbers of --{} are: give that too", layer.kind.number->name,
+                             layer.kind.name));
     if (flags.focus > 0.0 && flags.fStop == 0.0) fail("--focus says where --f-stop is sharp: give that too");
-    if ((flags.depth || flags.mask) && (output.empty() || image::isVideoPath(output)))
+    const std::vector<std::string> besides = filesBeside(flags);
+    if (!besides.empty() && (output.empty() || image::isVideoPath(output)))
         fail(
-            fmt::format("{} writes files beside frames: ask for those, -o out/frame_######.png; a video besides with "
+            fmt::format("--{} writes files beside frames: ask for those, -o out/frame_######.png; a video besides with "
                         "--video",
-                        flags.depth ? "--depth" : "--mask"));
+                        besides.front()));
 }
 
 std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags) {
     const auto bit = [](bool is) { return std::uint64_t{is ? 1U : 0U}; };
     std::vector<std::uint64_t> look{bit(debug), bit(overlay)};
-    if (flags.alpha || flags.depth || flags.mask)
-        look.insert(look.end(), {bit(flags.alpha), bit(flags.depth), bit(flags.mask),
-                                 flags.depth ? std::bit_cast<std::uint64_t>(flags.depthRange) : 0});
+    if (flags.alpha || !filesBeside(flags).empty()) {
+        look.push_back(bit(flags.alpha));
+        for (const LayerFlag& layer : flags.layers) look.push_back(bit(layer.isGiven));
+        for (const LayerFlag& layer : flags.layers)
+            if (layer.kind.number) look.push_back(layer.isGiven ? std::bit_cast<std::uint64_t>(layer.number) : 0);
+    }
     if (flags.blurMoments > 0) look.push_back(static_cast<std::uint64_t>(flags.blurMoments) << 32U);
     if (flags.fStop > 0.0)
         look.insert(look.end(), {std::bit_cast<std::uint64_t>(flags.fStop), std::bit_cast<std::uint64_t>(flags.focus)});
@@ -101,24 +92,18 @@ void expose(const LayerFlags& flags, pipeline::RunOptions& options) {
 
 std::vector<std::string> filesBeside(const LayerFlags& flags) {
     std::vector<std::string> kinds;
-    if (flags.depth) kinds.emplace_back("depth");
-    if (flags.mask) kinds.emplace_back("mask");
+    for (const LayerFlag& layer : flags.layers)
+        if (layer.isGiven) kinds.push_back(layer.kind.name);
     return kinds;
 }
 
-std::string depthComment(const LayerFlags& flags) {
-    return fmt::format(
-        "depth ahead of the camera along its axis; metres per unit: {:.9g}; range: 0 to {:.9g} m; "
-        "65535: background",
-        unitOf(flags), flags.depthRange);
-}
-
 pipeline::PictureLayers layersOf(const LayerFlags& flags, const world::World& world) {
-    pipeline::PictureLayers layers{flags.alpha, flags.depth ? unitOf(flags) : 0.0};
-    if (!flags.mask) return layers;
-    for (const view::Surface& surface : world.view(false).surfaces)
-        layers.maskColours.try_emplace(surface.name,
-                                       flatColour(static_cast<std::uint32_t>(layers.maskColours.size()) + 1));
+    pipeline::PictureLayers layers{flags.alpha};
+    for (const LayerFlag& layer : flags.layers) {
+        layers.kinds.push_back(layer.kind.name);
+        if (!layer.isGiven) continue;
+        if (auto asked = layer.kind.ask(layer.number, world.view(false))) layers.layers.push_back(std::move(asked));
+    }
     return layers;
 }
 

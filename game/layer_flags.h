@@ -1,5 +1,4 @@
-// The flags of what a picture has besides colours, and of its exposure: alpha, depth, a mask of bodies, motion blur. It
-// draws nothing.
+// The flags of what a picture has besides colours, and of its exposure: alpha, layers, motion blur. It draws nothing.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include "game/command_line.h"
 #include "taut/pipeline/run.h"
 #include "taut/pipeline/run_record.h"
+#include "taut/render/layer_table.h"
 
 namespace taut::world {
 class World;
@@ -16,15 +16,27 @@ class World;
 
 namespace taut::game {
 
-struct LayerFlags {
-    bool alpha = false, depth = false, mask = false;
-    int blurMoments = 0;              // 0: no motion blur
-    double fStop = 0.0, focus = 0.0;  // as of pipeline::RunOptions
-    double depthRange = 65.534;       // [m] that a depth of 65534 stands for: a millimetre a step
+// A row of the table of layers, and what was said of it.
+struct LayerFlag {
+    render::LayerKind kind;
+    bool isGiven = false;
+    double number = 0.0;  // that of the row; its standard when not given
+
+    explicit LayerFlag(const render::LayerKind& row) : kind(row), number(row.number ? row.number->standard : 0.0) {}
+    bool hasOwnNumber() const { return kind.number && number != kind.number->standard; }
 };
 
-// `debug` is the flag of the debug view, which is not transparent.
+struct LayerFlags {
+    bool alpha = false;
+    std::vector<LayerFlag> layers{};  // one for each row
+    int blurMoments = 0;              // 0: no motion blur
+    double fStop = 0.0, focus = 0.0;  // as of pipeline::RunOptions
+};
+
+// `debug` is the flag of the debug view, which is not transparent. Expects that the rows are there, and stay.
 void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug);
+
+std::vector<LayerFlag> flagsOf(const render::LayerKinds& kinds);
 
 // Throws core::Error(usage) where an output cannot hold what is asked for. `output` and `video` are as on the command
 // line, empty where there is none.
@@ -39,10 +51,7 @@ std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& fl
 // Kinds of files beside frames: image::FramePattern::beside.
 std::vector<std::string> filesBeside(const LayerFlags& flags);
 
-// What says in files of depths what their numbers are.
-std::string depthComment(const LayerFlags& flags);
-
-// What the renderer has to know; in the mask every surface of the world has a colour by its name.
+// What the renderer has to know; `world` is the one that is shown at first.
 pipeline::PictureLayers layersOf(const LayerFlags& flags, const world::World& world);
 
 }  // namespace taut::game

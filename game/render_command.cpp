@@ -29,6 +29,7 @@
 #include "game/renderers.h"
 #include "game/run_part.h"
 #include "game/scene_file.h"
+#include "game/tables.h"
 #include "taut/check/figures.h"
 #include "taut/core/error.h"
 #include "taut/core/hash.h"
@@ -308,16 +309,18 @@ int render(const RenderFlags& flags) {
     return static_cast<int>(interruption.exitCode().value_or(ExitCode::ok));
 }
 
-Action declareRender(Options& options) {
+Action declareRender(Options& options, const render::LayerKinds& layers) {
     const auto flags = std::make_shared<RenderFlags>();
+    flags->layers.layers = flagsOf(layers);
     addRenderFlags(options, *flags);
     return [flags] { return render(*flags); };
 }
 
 }  // namespace
 
-Command renderCommand() {
-    return {"render", "Play a scene into picture files or a video", declareRender};
+Command renderCommand(const Tables& tables) {
+    return {"render", "Play a scene into picture files or a video",
+            [layers = tables.layers](Options& options) { return declareRender(options, layers); }};
 }
 
 }  // namespace taut::game

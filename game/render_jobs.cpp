@@ -56,12 +56,15 @@ void addLook(const RenderFlags& flags, std::vector<std::string>& words) {
     addNumber(flags.layers.blurMoments, "--motion-blur");
     addNumber(flags.layers.fStop, "--f-stop");
     addNumber(flags.layers.focus, "--focus");
-    if (flags.layers.depth) addNumber(flags.layers.depthRange, "--depth-range");
     addFlag(flags.debug, "--debug");
     addFlag(flags.overlay, "--overlay");
     addFlag(flags.layers.alpha, "--alpha");
-    addFlag(flags.layers.depth, "--depth");
-    addFlag(flags.layers.mask, "--mask");
+    for (const LayerFlag& layer : flags.layers.layers) {
+        if (!layer.isGiven) continue;
+        words.push_back("--" + layer.kind.name);
+        if (layer.kind.number)
+            words.insert(words.end(), {"--" + layer.kind.number->name, fmt::format("{}", layer.number)});
+    }
     addFlag(flags.isConfined, "--confined");
     for (const std::string& text : flags.overrides) words.insert(words.end(), {"--set", text});
 }

@@ -48,8 +48,7 @@ std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const Ru
     if (overwrite == Overwrite::no && !flags.output.empty()) expectNoRecord(flags, part);
     if (sinks.empty()) return nullptr;
     if (flags.jobs == 0 && !filesBeside(flags.layers).empty())
-        sinks.push_back(
-            std::make_unique<image::LayerSequence>(image::FramePattern(flags.output), depthComment(flags.layers)));
+        sinks.push_back(std::make_unique<image::LayerSequence>(image::FramePattern(flags.output)));
     return std::make_unique<image::SeveralSinks>(std::move(sinks));
 }
 

@@ -65,8 +65,7 @@ render::RendererOptions optionsFor(const world::PictureSpec& picture, const pipe
     options.samples = picture.samples;
     options.shadowSize = picture.shadowSize;
     options.alpha = layers.alpha;
-    options.depthUnit = layers.depthUnit;
-    options.maskColours = layers.maskColours;
+    options.layers = layers.layers;
     options.shaders = shaderFolder();
     options.font = fontFile();
     return options;

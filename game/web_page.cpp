@@ -82,4 +82,14 @@ geometry::WebPage webPage(const std::string& title, const std::string& scene, co
     return {std::move(before), whole.substr(at + mark.size())};
 }
 
+geometry::Format pageFormat(std::shared_ptr<const geometry::WebPage> page) {
+    geometry::Format format{.name = "page", .endings = {".html", ".htm"}};
+    format.makeSink = [page = std::move(page)](const std::filesystem::path& path,
+                                               const geometry::GeometryOptions& options) {
+        return std::make_unique<geometry::WebPageWriter>(path, *page, options);
+    };
+    format.needsNormals = "a page is shaded by its normals";
+    return format;
+}
+
 }  // namespace taut::game

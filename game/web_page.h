@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
+#include "taut/geometry/format_table.h"
 #include "taut/geometry/web_page_writer.h"
 
 namespace taut::game {
@@ -16,5 +18,8 @@ std::filesystem::path viewerLibrary(const std::string& wish = "");
 // `title` heads the page, with `scene` below. Throws core::Error(inputOutput), with what to install, when there is no
 // library.
 geometry::WebPage webPage(const std::string& title, const std::string& scene, const std::string& wish);
+
+// The row of pages, which stand for themselves: --web asks for them. `page` is written around the film.
+geometry::Format pageFormat(std::shared_ptr<const geometry::WebPage> page);
 
 }  // namespace taut::game

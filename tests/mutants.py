@@ -93,7 +93,7 @@ MUTANTS = {
         "if (feature >= 0 && !isFeatureNearest(pair, feature, x))", "if (feature >= 6)"),
     "edges-are-ridges": (
         "edges in a flat sheet are obstacles", NARROW,
-        "if (rise > 0 && rise * rise > valley * valley * glm::dot(inwards, inwards))", "if (rise > 1e300)"),
+        "if (rise > steepest * length(inwards))", "if (rise > 1e300)"),
     "ridge-turned": (
         "a ridge is told from the wrong side", NARROW,
         "convexity(first, onFirst, -pair.normal, x)", "convexity(first, onFirst, pair.normal, x)"),

@@ -11,6 +11,7 @@
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/sealed_file.h"
+#include "taut/world/metric_table.h"
 
 namespace taut::pipeline {
 namespace {
@@ -113,6 +114,21 @@ void expectSame(const FrameRecord& back, const FrameRecord& record) {
     EXPECT_EQ(back.metrics->angularMomentum, record.metrics->angularMomentum);
     EXPECT_EQ(back.metrics->brokenSprings, record.metrics->brokenSprings);
     EXPECT_EQ(back.metrics->work.iterations, record.metrics->work.iterations);
+}
+
+// Whatever rows there are: every number that a row is made of has a value of its own here.
+TEST(RecordLog, KeepsWhatEveryMetricIsMadeOf) {
+    FrameRecord record;
+    double next = 0.0;
+    world::eachNumber(record.metrics.emplace(), [&](world::MetricNumber of) {
+        std::visit([&](auto* number) { *number = static_cast<std::decay_t<decltype(*number)>>(next += 1.0); }, of);
+    });
+    RecordLog log;
+    log.add(record);
+    for (const world::Metric& metric : world::metricTable()) {
+        EXPECT_EQ(metric.value(*log[0].metrics), metric.value(*record.metrics)) << metric.columns;
+        EXPECT_NE(metric.value(*record.metrics), metric.value({})) << metric.columns << ": a number is not visited";
+    }
 }
 
 void addUpTo(RecordLog& log, std::int64_t end) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "render_support.h"
+#include "taut/render/depth_layer.h"
+#include "taut/render/mask_layer.h"
 
 namespace taut::render::test {
 namespace {
@@ -22,14 +24,13 @@ view::FrameView edgeView(float hem) {
 // place half a thickness in front of the edge.
 TEST(RenderHem, AnEdgeSeenCloseIsAsThickAsTheCloth) {
     RendererOptions options = smallOptions();
-    options.maskColours = {{"sheet", 0xffffffU}};
-    options.depthUnit = 1e-3;
+    options.layers = {maskLayer({{"sheet", 0xffffffU}}), depthLayer(1e-3)};
     const image::Image picture = pictureOf(edgeView(0.1F), options);
     int rows = 0;
-    for (std::size_t y = 0; y < 180; ++y) rows += picture.mask[3 * (y * 320 + 160)] != 0 ? 1 : 0;
+    for (std::size_t y = 0; y < 180; ++y) rows += picture.layer("mask")->rgb[3 * (y * 320 + 160)] != 0 ? 1 : 0;
     EXPECT_NEAR(rows, 12.3, 1.0);
-    EXPECT_NEAR(picture.depth[90 * 320 + 160], 1950.0, 1.0);
-    EXPECT_EQ(picture.depth[80 * 320 + 160], image::farDepth);
+    EXPECT_NEAR(picture.layer("depth")->grey[90 * 320 + 160], 1950.0, 1.0);
+    EXPECT_EQ(picture.layer("depth")->grey[80 * 320 + 160], image::farDepth);
 }
 
 // 8 mm are 0.99 pixels.

@@ -5,12 +5,14 @@
 #include <set>
 
 #include "render_support.h"
+#include "taut/render/depth_layer.h"
+#include "taut/render/mask_layer.h"
 
 namespace taut::render::test {
 namespace {
 
 int depthAt(const image::Image& picture, int x, int y) {
-    return picture.depth[static_cast<std::size_t>(y * picture.width + x)];
+    return picture.layer("depth")->grey[static_cast<std::size_t>(y * picture.width + x)];
 }
 
 // A box of a metre in front of the camera, nothing else.
@@ -25,7 +27,7 @@ view::FrameView boxView() {
 
 TEST(RenderLayers, DepthIsTheDistanceAlongTheAxisToWithinAStep) {
     RendererOptions options = smallOptions();
-    options.depthUnit = 1e-3;
+    options.layers = {depthLayer(1e-3)};
     for (const int samples : {1, 4}) {
         options.samples = samples;
         view::FrameView view = boxView();
@@ -41,7 +43,7 @@ TEST(RenderLayers, DepthIsTheDistanceAlongTheAxisToWithinAStep) {
 
 TEST(RenderLayers, DepthOfTheGroundIsThatOfThePlane) {
     RendererOptions options = smallOptions();
-    options.depthUnit = 1e-3;
+    options.layers = {depthLayer(1e-3)};
     const view::FrameView view = floorView();
     const image::Image picture = pictureOf(view, options);
     // Eye (0, 3, 5), axis to the origin: sine and cosine of its slope are 3/√34, 5/√34. A ray through the middle of row
@@ -56,7 +58,7 @@ TEST(RenderLayers, DepthOfTheGroundIsThatOfThePlane) {
 
 TEST(RenderLayers, DepthBeyondItsRangeIsItsEnd) {
     RendererOptions options = smallOptions();
-    options.depthUnit = 1e-5;  // 0.65534 m
+    options.layers = {depthLayer(1e-5)};  // 0.65534 m
     const image::Image picture = pictureOf(boxView(), options);
     EXPECT_EQ(depthAt(picture, 160, 90), image::farDepth - 1);
     EXPECT_EQ(depthAt(picture, 0, 0), image::farDepth);
@@ -74,12 +76,14 @@ TEST(RenderLayers, TheMaskHasTheColoursOfWhatIsSeenAndNoOthers) {
     add("buried", 0.3F, {-1.2F, -0.5F, 0.0F});
     add("nameless", 0.2F, {-0.5F, 0.2F, 1.0F});
     RendererOptions options = smallOptions();
-    options.maskColours = {{"large", 0x800000U}, {"beside", 0x0080c0U}, {"hidden", 0x00ff00U}, {"buried", 0x0000ffU}};
+    options.layers = {
+        maskLayer({{"large", 0x800000U}, {"beside", 0x0080c0U}, {"hidden", 0x00ff00U}, {"buried", 0x0000ffU}})};
     const image::Image picture = pictureOf(view, options);
     std::set<std::uint32_t> seen;
-    for (std::size_t i = 0; i < picture.mask.size(); i += 3)
-        seen.insert(static_cast<std::uint32_t>(picture.mask[i]) << 16 |
-                    static_cast<std::uint32_t>(picture.mask[i + 1]) << 8 | picture.mask[i + 2]);
+    const std::vector<std::uint8_t>& mask = picture.layer("mask")->rgb;
+    for (std::size_t i = 0; i < mask.size(); i += 3)
+        seen.insert(static_cast<std::uint32_t>(mask[i]) << 16 | static_cast<std::uint32_t>(mask[i + 1]) << 8 |
+                    mask[i + 2]);
     EXPECT_EQ(seen, (std::set<std::uint32_t>{0, 0x800000U, 0x0080c0U}));
 }
 
@@ -120,7 +124,7 @@ TEST(RenderLayers, ShadowsOverTheGroundsOwnColourAreThoseOfTheGround) {
     view.surfaces.push_back(surface(view::sphereMesh(0.5F), {0.0F, 0.7F, 0.0F}, {0.6F, 0.2F, 0.1F}));
     view.surfaces.back().name = "ball";
     RendererOptions options = smallOptions();
-    options.maskColours = {{"ball", 0xffffffU}};
+    options.layers = {maskLayer({{"ball", 0xffffffU}})};
     options.alpha = true;
     const image::Image clear = pictureOf(view, options);
     options.alpha = false;
@@ -138,7 +142,7 @@ TEST(RenderLayers, ShadowsOverTheGroundsOwnColourAreThoseOfTheGround) {
             for (int x = 1; x < 319; ++x) {
                 bool isGround = true;
                 for (const int i : {-321, -320, -319, -1, 0, 1, 319, 320, 321})
-                    isGround = isGround && clear.mask[3 * static_cast<std::size_t>(y * 320 + x + i)] == 0;
+                    isGround = isGround && clear.layer("mask")->rgb[3 * static_cast<std::size_t>(y * 320 + x + i)] == 0;
                 if (!isGround) continue;
                 const auto at = static_cast<std::size_t>(y * 320 + x);
                 shaded += clear.alpha[at] > 64 ? 1 : 0;

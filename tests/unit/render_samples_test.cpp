@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render_support.h"
+#include "taut/render/mask_layer.h"
 #include "taut/view/tube.h"
 
 namespace taut::render::test {
@@ -154,7 +155,7 @@ TEST(RenderSamples, AThinTubeIsHiddenByWhatIsBeforeItAndHasTheSameColourAsAThick
         return result;
     };
     RendererOptions options = coverageOptions(4);
-    options.maskColours = {{"wall", 0xff0000U}};
+    options.layers = {maskLayer({{"wall", 0xff0000U}})};
     view.surfaces.push_back(tube(0.02F));
     view.surfaces.push_back(surface(view::quadMesh({0.0F, 0.0F, 1.0F}, 4.0F), {0.0F, 0.0F, 1.0F}, glm::vec3(0.5F)));
     view.surfaces.back().name = "wall";

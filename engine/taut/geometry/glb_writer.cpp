@@ -13,6 +13,7 @@
 
 #include "taut/core/whole_file.h"
 #include "taut/geometry/far_lights.h"
+#include "taut/geometry/format_table.h"
 #include "taut/geometry/gltf_text.h"
 #include "taut/geometry/parts.h"
 #include "taut/geometry/poses.h"
@@ -377,6 +378,16 @@ void GlbWriter::finish(const std::function<void(std::span<const std::byte>)>& ta
         w.data.bytes.visit({0, binary}, take);
     }
     impl_.reset();
+}
+
+Format glbFormat() {
+    Format format{.name = "GLB", .endings = {".glb"}, .readers = "the web, Blender, VTK"};
+    format.makeSink = [](const std::filesystem::path& path, const GeometryOptions& options) {
+        return std::make_unique<GlbWriter>(path, options);
+    };
+    format.mostKeys = GlbWriter::mostWebKeys;
+    format.limitingReaders = "browsers";
+    return format;
 }
 
 }  // namespace taut::geometry

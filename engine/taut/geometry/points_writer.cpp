@@ -8,6 +8,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
+#include "taut/geometry/format_table.h"
 #include "taut/geometry/number_text.h"
 #include "taut/geometry/scratch_file.h"
 
@@ -235,14 +236,20 @@ class NpzPoints : public PointsWriter {
 
 }  // namespace
 
-bool isPointsPath(const std::filesystem::path& path) {
-    return path.extension() == ".npz" || path.extension() == ".csv";
+Format npzFormat() {
+    Format format{.name = "NPZ", .endings = {".npz"}, .readers = "numpy.load"};
+    format.makePoints = [](const std::filesystem::path& path, const std::vector<std::string>& targets) {
+        return std::make_unique<NpzPoints>(path, targets);
+    };
+    return format;
 }
 
-std::unique_ptr<PointsWriter> makePointsWriter(const std::filesystem::path& path, std::vector<std::string> targets) {
-    TAUT_EXPECTS(isPointsPath(path));
-    if (path.extension() == ".csv") return std::make_unique<CsvPoints>(path, std::move(targets));
-    return std::make_unique<NpzPoints>(path, targets);
+Format csvFormat() {
+    Format format{.name = "CSV", .endings = {".csv"}};
+    format.makePoints = [](const std::filesystem::path& path, const std::vector<std::string>& targets) {
+        return std::make_unique<CsvPoints>(path, targets);
+    };
+    return format;
 }
 
 }  // namespace taut::geometry

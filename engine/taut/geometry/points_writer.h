@@ -3,12 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <glm/glm.hpp>
-#include <memory>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace taut::geometry {
 
@@ -17,6 +13,8 @@ struct PointSet {
     std::span<const glm::dvec3> x, v;
 };
 
+// The engine's: .npz, not compressed, numbers of eight bytes: `frame` and `time` (frames), and of each target NAME.x
+// and NAME.v (frames, points, 3). .csv: a row a point and frame, numbers to the last bit.
 class PointsWriter {
   public:
     virtual ~PointsWriter() = default;
@@ -26,13 +24,5 @@ class PointsWriter {
     // Gives the file its name; without it none comes into being. Throws core::Error(inputOutput).
     virtual void finish() = 0;
 };
-
-// Whether the name ends in .npz or .csv.
-bool isPointsPath(const std::filesystem::path& path);
-
-// .npz, not compressed, numbers of eight bytes: `frame` and `time` (frames), and of each target NAME.x and NAME.v
-// (frames, points, 3). .csv: a row a point and frame, numbers to the last bit. Expects isPointsPath(). Throws
-// core::Error(inputOutput).
-std::unique_ptr<PointsWriter> makePointsWriter(const std::filesystem::path& path, std::vector<std::string> targets);
 
 }  // namespace taut::geometry

@@ -11,6 +11,7 @@
 
 #include "taut/core/whole_file.h"
 #include "taut/geometry/far_lights.h"
+#include "taut/geometry/format_table.h"
 #include "taut/geometry/number_text.h"
 #include "taut/geometry/parts.h"
 #include "taut/geometry/poses.h"
@@ -310,6 +311,16 @@ void UsdaWriter::finish() {
     to.flush();
     file.commit();
     impl_.reset();
+}
+
+Format usdaFormat() {
+    Format format{.name = "USD", .endings = {".usda"}, .readers = "Houdini, Omniverse, Unreal, Blender"};
+    format.makeSink = [](const std::filesystem::path& path, const GeometryOptions& options) {
+        return std::make_unique<UsdaWriter>(path, options);
+    };
+    format.mayTear = true;
+    format.hasDigits = true;
+    return format;
 }
 
 }  // namespace taut::geometry

@@ -118,19 +118,21 @@ std::filesystem::path FrameSequence::companion(const std::string& name) const {
     return pattern_.folder() / name;
 }
 
-LayerSequence::LayerSequence(const FramePattern& pattern, std::string depthComment)
-    : pattern_(pattern), depthComment_(std::move(depthComment)) {
+LayerSequence::LayerSequence(const FramePattern& pattern) : pattern_(pattern) {
     core::prepareFolderOf(pattern_.pathOf(0));
 }
 
 void LayerSequence::write(std::int64_t frame, const Image& image) {
-    if (!image.depth.empty()) {
-        core::WholeFile file(pattern_.beside("depth").pathOf(frame));
-        file.write(greyPngBytes(image.width, image.height, image.depth, depthComment_));
+    for (const Layer& layer : image.layers) {
+        const std::filesystem::path path = pattern_.beside(layer.name).pathOf(frame);
+        if (!layer.rgb.empty()) {
+            writePng(path, Image{image.width, image.height, layer.rgb});
+            continue;
+        }
+        core::WholeFile file(path);
+        file.write(greyPngBytes(image.width, image.height, layer.grey, layer.comment));
         file.commit();
     }
-    if (!image.mask.empty())
-        writePng(pattern_.beside("mask").pathOf(frame), Image{image.width, image.height, image.mask});
 }
 
 std::filesystem::path LayerSequence::companion(const std::string& name) const {

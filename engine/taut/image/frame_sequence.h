@@ -57,12 +57,11 @@ class FrameSequence : public FrameSink {
     FramePattern pattern_;
 };
 
-// What lies beside the colours, in files of its own: "depth" of 16 bits and "mask" (FramePattern::beside). A picture
-// that has neither leaves nothing.
+// Image::layers, in files by their names (FramePattern::beside). A picture that has none leaves nothing.
 class LayerSequence : public FrameSink {
   public:
-    // `depthComment` goes into each file of depths. Makes the folder; throws core::Error(inputOutput).
-    LayerSequence(const FramePattern& pattern, std::string depthComment);
+    // Makes the folder; throws core::Error(inputOutput).
+    explicit LayerSequence(const FramePattern& pattern);
 
     void write(std::int64_t frame, const Image& image) override;
     void finish() override {}
@@ -70,7 +69,6 @@ class LayerSequence : public FrameSink {
 
   private:
     FramePattern pattern_;
-    std::string depthComment_;
 };
 
 }  // namespace taut::image

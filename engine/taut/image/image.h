@@ -3,20 +3,36 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace taut::image {
 
 inline constexpr std::uint16_t farDepth = 65535;  // where there is nothing
 
+// Of a picture, beside its colours: one number of 16 bits a pixel, or three of 8. The other array is empty.
+struct Layer {
+    std::string name;                   // "depth"
+    std::string comment{};              // what the numbers are, for the files
+    std::vector<std::uint16_t> grey{};  // (height × width)
+    std::vector<std::uint8_t> rgb{};    // (height × width × 3)
+};
+
 // 8-bit sRGB, three channels, rows from top to bottom. What lies beside the colours is empty where nobody asked for it.
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> rgb;       // (height × width × 3)
-    std::vector<std::uint8_t> alpha{};   // (height × width) straight: colours are not multiplied by it; empty: opaque
-    std::vector<std::uint16_t> depth{};  // (height × width) in units that the renderer was given; farDepth: nothing
-    std::vector<std::uint8_t> mask{};    // (height × width × 3) a flat colour for each thing
+    std::vector<std::uint8_t> rgb;      // (height × width × 3)
+    std::vector<std::uint8_t> alpha{};  // (height × width) straight: colours are not multiplied by it; empty: opaque
+    std::vector<Layer> layers{};
+
+    // nullptr when there is none of that name.
+    const Layer* layer(std::string_view wanted) const {
+        for (const Layer& each : layers)
+            if (each.name == wanted) return &each;
+        return nullptr;
+    }
 
     // Whether the array of colours has the length that width and height ask for, and there is at least one pixel.
     bool isWhole() const {

@@ -94,13 +94,15 @@ void write(const Delivery& delivery, geometry::GeometrySink* sink, geometry::Poi
 }
 
 [[noreturn]] void failTorn(const geometry::TopologyChanged& torn, const Source& source, const world::World& world,
-                           std::int64_t firstFrame) {
+                           const GeometryRun& run) {
     const std::int64_t tick = source.tickOf(torn.name(), torn.frame());
-    std::string text = fmt::format("{}; it is tick {} ({:.6g} s): write .usda, where they may change", torn.what(),
-                                   tick, static_cast<double>(tick) * world.tickSeconds());
-    if (torn.frame() > firstFrame)
-        text += fmt::format(", or end before it with --frames {}-{}", firstFrame, torn.frame() - 1);
-    throw core::Error(core::ErrorKind::badContent, text);
+    std::vector<std::string> advice;
+    if (!run.mayTear.empty()) advice.push_back(fmt::format("write {}, where they may change", run.mayTear));
+    if (torn.frame() > run.firstFrame)
+        advice.push_back(fmt::format("end before it with --frames {}-{}", run.firstFrame, torn.frame() - 1));
+    throw core::Error(core::ErrorKind::badContent, fmt::format("{}; it is tick {} ({:.6g} s){}{}", torn.what(), tick,
+                                                               static_cast<double>(tick) * world.tickSeconds(),
+                                                               advice.empty() ? "" : ": ", fmt::join(advice, ", or ")));
 }
 
 }  // namespace
@@ -126,7 +128,7 @@ bool exportGeometry(world::World& world, const GeometryRun& run, geometry::Geome
     } catch (const geometry::TopologyChanged& torn) {
         queue.abandon();
         simulating.join();
-        failTorn(torn, source, world, run.firstFrame);
+        failTorn(torn, source, world, run);
     } catch (...) {
         queue.abandon();
         simulating.join();

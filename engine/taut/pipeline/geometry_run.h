@@ -18,6 +18,7 @@ struct GeometryRun {
     std::int64_t lastFrame = 0;          // included
     std::int64_t every = 1;              // points are written of the frames first, first + every, …, and the last
     std::vector<std::string> targets{};  // whose points are written
+    std::string mayTear{};               // how files end that hold what tears, ".usda", for who wrote another
     std::function<void(std::int64_t frame)> frameSimulated{};  // called on a thread of its own
 };
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
+#include "taut/world/metric_table.h"
 
 namespace taut::pipeline {
 namespace {
@@ -23,32 +24,7 @@ namespace {
 using Word = std::uint64_t;
 static_assert(std::endian::native == std::endian::little, "words are copied as they lie in memory");
 constexpr Word mark = 0x7363657274756174;  // "tautrecs"
-constexpr Word version = 1;
-
-// Every number of a frame's metrics, in a fixed order.
-template <class Metrics, class Visit>
-void eachNumber(Metrics& m, const Visit& visit) {
-    visit(m.time);
-    visit(m.kinetic);
-    visit(m.elastic);
-    visit(m.gravitational);
-    for (int i = 0; i < 3; ++i) visit(m.momentum[i]);
-    for (int i = 0; i < 3; ++i) visit(m.angularMomentum[i]);
-    visit(m.maxStrain);
-    visit(m.contacts);
-    visit(m.invertedCells);
-    visit(m.brokenSprings);
-    visit(m.volume);
-    visit(m.restVolume);
-    visit(m.penetration);
-    visit(m.minVolumeRatio);
-    visit(m.facePenetration);
-    visit(m.work.evaluations);
-    visit(m.work.iterations);
-    visit(m.work.unconverged);
-    visit(m.bodyContacts);
-    visit(m.crossings);
-}
+constexpr Word version = 2;
 
 template <class Number>
 Word wordOf(Number number) {
@@ -75,8 +51,10 @@ std::vector<Word> wordsOf(const FrameRecord& record) {
                                wordOf(record.drawing),
                                wordOf(record.encoding),
                                wordOf(record.metrics.has_value())};
-    const world::Metrics metrics = record.metrics.value_or(world::Metrics{});
-    eachNumber(metrics, [&](const auto& number) { words.push_back(wordOf(number)); });
+    world::Metrics metrics = record.metrics.value_or(world::Metrics{});
+    world::eachNumber(metrics, [&](world::MetricNumber of) {
+        std::visit([&](const auto* number) { words.push_back(wordOf(*number)); }, of);
+    });
     return words;
 }
 
@@ -91,7 +69,8 @@ FrameRecord recordIn(std::span<const Word> words, std::size_t frame) {
     for (double* seconds : {&record.simulating, &record.drawing, &record.encoding}) take(words, *seconds);
     take(words, hasMetrics);
     world::Metrics metrics;
-    eachNumber(metrics, [&](auto& number) { take(words, number); });
+    world::eachNumber(metrics,
+                      [&](world::MetricNumber of) { std::visit([&](auto* number) { take(words, *number); }, of); });
     if (hasMetrics) record.metrics = metrics;
     for (const Word word : words) record.figures.push_back(std::bit_cast<double>(word));
     return record;

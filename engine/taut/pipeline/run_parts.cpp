@@ -22,7 +22,9 @@ constexpr std::uint64_t mostBytes = std::uint64_t{1} << 30U;  // of a record
 
 constexpr std::int64_t mostFrames = std::int64_t{1} << 40U;
 
-std::int64_t frameIn(const nlohmann::json& json, const std::filesystem::path& path) {
+using Json = nlohmann::ordered_json;  // layers in the order in which pictures are summed up
+
+std::int64_t frameIn(const Json& json, const std::filesystem::path& path) {
     if (!json.is_number_integer()) refuse(path, "a number of a frame is none");
     const auto frame = json.get<std::int64_t>();
     if (frame < 0 || frame > mostFrames) refuse(path, "a number of a frame is none");
@@ -37,12 +39,12 @@ void takeHash(Number& hash, const std::string& text, const std::filesystem::path
         refuse(path, fmt::format("\"{}\" is no hash", text.substr(0, 40)));
 }
 
-render::RendererInfo rendererIn(const nlohmann::json& gl) {
+render::RendererInfo rendererIn(const Json& gl) {
     return {gl.at("backend").get<std::string>(), gl.at("vendor").get<std::string>(),
             gl.at("renderer").get<std::string>(), gl.at("version").get<std::string>()};
 }
 
-PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& path) {
+PartRecord recordIn(const Json& json, const std::filesystem::path& path) {
     PartRecord record;
     record.path = path;
     record.ended = json.at("ended").get<std::string>();
@@ -56,19 +58,18 @@ PartRecord recordIn(const nlohmann::json& json, const std::filesystem::path& pat
     record.size = fmt::format("{} x {}", json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>());
     record.fps = json.at("fps").get<double>();
     record.hasAlpha = !json.at("layers").at("alpha").is_null();
-    for (const char* kind : {"depth", "mask"})
-        if (json.at("layers").contains(kind) && !json.at("layers").at(kind).is_null())
-            record.besides.emplace_back(kind);
+    for (const auto& [kind, facts] : json.at("layers").items())
+        if (kind != "alpha" && !facts.is_null()) record.besides.push_back(kind);
     const std::filesystem::path output = json.at("output").get<std::string>();
     record.files = output.extension() == ".png" ? output.filename().string() : image::FramePattern("folder").name();
-    const nlohmann::json& frames = json.at("frames");
+    const Json& frames = json.at("frames");
     record.first = frameIn(frames.at("first"), path);
     record.last = frameIn(frames.at("last"), path);
     record.count = frames.contains("of") ? frameIn(frames.at("of"), path) : record.last + 1;
     record.key = json.value("run", "");
-    for (const nlohmann::json& hash : json.at("state_hash"))
+    for (const Json& hash : json.at("state_hash"))
         takeHash(record.hashes.emplace_back(), hash.get<std::string>(), path);
-    for (const nlohmann::json& sum : json.value("picture_crc32", nlohmann::json::array()))
+    for (const Json& sum : json.value("picture_crc32", Json::array()))
         takeHash(record.pictures.emplace_back(), sum.get<std::string>(), path);
     if (record.last < record.first || record.count <= record.last || !(record.fps > 0.0))
         refuse(path, "its frames are none");
@@ -111,7 +112,7 @@ std::string partName(std::int64_t first, std::int64_t last, const std::string& s
 PartRecord readPartRecord(const std::filesystem::path& path) {
     const std::string text = core::fileContent(path, mostBytes);
     try {
-        return recordIn(nlohmann::json::parse(text), path);
+        return recordIn(Json::parse(text), path);
     } catch (const nlohmann::json::exception& error) {
         refuse(path, error.what());
     }

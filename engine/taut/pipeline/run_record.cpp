@@ -88,15 +88,12 @@ Json workJson(const ode::Work& work) {
 
 Json layersJson(const PictureLayers& layers) {
     Json json = {{"alpha", layers.alpha ? Json("straight") : Json(nullptr)}};
-    json["depth"] = nullptr;
-    if (layers.depthUnit > 0.0)
-        json["depth"] = {{"metres_per_unit", layers.depthUnit},
-                         {"range_m", {0.0, layers.depthUnit * (image::farDepth - 1)}},
-                         {"background", image::farDepth}};
-    json["mask"] = nullptr;
-    // Surfaces of colliders go by their own name alone.
-    for (const auto& [name, colour] : layers.maskColours)
-        json["mask"][name.find('.') == std::string::npos ? "collider." + name : name] = fmt::format("#{:06x}", colour);
+    for (const std::string& kind : layers.kinds) json[kind] = nullptr;
+    for (const auto& layer : layers.layers) {
+        Json& facts = json[layer->name()] = Json::object();
+        for (const auto& [name, fact] : layer->facts())
+            std::visit([&, &key = name](const auto& value) { facts[key] = value; }, fact);
+    }
     return json;
 }
 

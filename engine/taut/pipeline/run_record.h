@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,8 +20,8 @@ namespace taut::pipeline {
 // What pictures have besides colours.
 struct PictureLayers {
     bool alpha = false;
-    double depthUnit = 0.0;                              // [m] a step of depth; 0: none
-    std::map<std::string, std::uint32_t> maskColours{};  // 0xRRGGBB by the name of a surface; empty: no mask
+    std::vector<std::string> kinds{};  // names of all layers that there could have been
+    std::vector<std::shared_ptr<const render::Layer>> layers{};
 };
 
 // What was asked for, besides the scene itself.

@@ -1,11 +1,14 @@
 #include "taut/render/depth_layer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 
 #include "taut/image/image.h"
 #include "taut/render/camera_axes.h"
+#include "taut/render/layer_pass.h"
 
 namespace taut::render {
 
@@ -44,15 +47,22 @@ std::uint16_t units(double ahead, double unit) {
                                 : image::farDepth;
 }
 
-}  // namespace
+// What was drawn of surfaces in a part of a picture of that size, rows from below.
+struct DrawnDepth {
+    glm::ivec2 size;
+    PixelBox part;
+    std::span<const float> depth;     // (part.width · part.height) 0 … 1; 1: nothing
+    std::span<const float> nearness;  // (part.width · part.height) 1 / [m] along the camera's axis, where there is any
+};
 
-std::vector<std::uint16_t> depthLayer(const view::FrameView& view, const DrawnDepth& drawn, double unit) {
-    const GroundRays ground(view, drawn.width, drawn.height);
+// (width · height) rows from the top.
+std::vector<std::uint16_t> unitsOf(const view::FrameView& view, const DrawnDepth& drawn, double unit) {
+    const GroundRays ground(view, drawn.size.x, drawn.size.y);
     const PixelBox& part = drawn.part;
     std::vector<std::uint16_t> depth;
-    depth.reserve(static_cast<std::size_t>(drawn.width) * static_cast<std::size_t>(drawn.height));
-    for (int y = drawn.height - 1; y >= 0; --y) {
-        for (int x = 0; x < drawn.width; ++x) {
+    depth.reserve(static_cast<std::size_t>(drawn.size.x) * static_cast<std::size_t>(drawn.size.y));
+    for (int y = drawn.size.y - 1; y >= 0; --y) {
+        for (int x = 0; x < drawn.size.x; ++x) {
             double ahead = ground.ahead(x, y);
             const int column = x - part.x, row = y - part.y;
             if (column >= 0 && row >= 0 && column < part.width && row < part.height) {
@@ -63,6 +73,74 @@ std::vector<std::uint16_t> depthLayer(const view::FrameView& view, const DrawnDe
         }
     }
     return depth;
+}
+
+class DepthPass : public LayerPass {
+  public:
+    DepthPass(const Gl& gl, double unit, std::string comment) : gl_(&gl), unit_(unit), comment_(std::move(comment)) {}
+
+    void draw(const LayerScene& scene, image::Layer& layer) override {
+        scene.targets.bindSurfaces();
+        gl_->DepthMask(GL_TRUE);
+        gl_->Clear(GL_DEPTH_BUFFER_BIT);
+        scene.surfaces.draw(scene.items, scene.meshes);
+        std::vector<float> depths;
+        scene.targets.depths(scene.part, depths);
+        const std::vector<float> nearness = scene.targets.nearness(scene.part);
+        layer.grey = unitsOf(scene.view, {scene.size, scene.part, depths, nearness}, unit_);
+        layer.comment = comment_;
+    }
+
+  private:
+    const Gl* gl_;
+    double unit_;
+    std::string comment_;
+};
+
+class DepthLayer : public Layer {
+  public:
+    explicit DepthLayer(double unit) : unit_(unit) {}
+
+    std::string name() const override { return "depth"; }
+
+    LayerFacts facts() const override {
+        return {{"metres_per_unit", unit_},
+                {"range_m", std::vector<double>{0.0, range()}},
+                {"background", std::int64_t{image::farDepth}}};
+    }
+
+    std::unique_ptr<LayerPass> pass(const Gl& gl, const ShaderFolder&, glm::ivec2) const override {
+        return std::make_unique<DepthPass>(
+            gl, unit_,
+            fmt::format("depth ahead of the camera along its axis; metres per unit: {:.9g}; range: 0 to {:.9g} m; "
+                        "65535: background",
+                        unit_, range()));
+    }
+
+  private:
+    double range() const { return unit_ * (image::farDepth - 1); }
+
+    double unit_;  // [m]
+};
+
+}  // namespace
+
+std::shared_ptr<const Layer> depthLayer(double unit) {
+    return std::make_shared<DepthLayer>(unit);
+}
+
+LayerKind depthKind() {
+    LayerKind kind{"depth",
+                   "Beside each frame a 16-bit grey NAME.depth.png: 0-65534 is 0 to --depth-range ahead of the camera "
+                   "along its axis, 1 mm a step if not given; 65535 is the background"};
+    kind.number = {.name = "depth-range",
+                   .help = "What 65534 stands for in --depth [m]; farther counts as that",
+                   .unit = "METRES",
+                   .standard = 65.534,  // a millimetre a step
+                   .least = 1e-3,
+                   .most = 1e6};
+    kind.ask = [](double range, const view::FrameView&) { return depthLayer(range / (image::farDepth - 1)); };
+    return kind;
 }
 
 }  // namespace taut::render

@@ -10,7 +10,6 @@
 #include "taut/core/error.h"
 #include "taut/render/camera_axes.h"
 #include "taut/render/context.h"
-#include "taut/render/depth_layer.h"
 #include "taut/render/edge_kernels.h"
 #include "taut/render/edge_pass.h"
 #include "taut/render/environment_map.h"
@@ -18,9 +17,9 @@
 #include "taut/render/ground_pass.h"
 #include "taut/render/hem.h"
 #include "taut/render/label_pass.h"
+#include "taut/render/layer_pass.h"
 #include "taut/render/light_maps.h"
 #include "taut/render/marks_pass.h"
-#include "taut/render/mask_pass.h"
 #include "taut/render/mesh_cache.h"
 #include "taut/render/occlusion_pass.h"
 #include "taut/render/picture_mean.h"
@@ -109,7 +108,12 @@ struct RendererParts {
           labels(options.font),
           frameBlock(gl, GlKind::buffer) {
         addGrounds(gl, options);
-        if (!options.maskColours.empty()) mask.emplace(gl, shaders, targets.size(), options.maskColours);
+        addLayers(gl, options);
+    }
+
+    void addLayers(const Gl& gl, const RendererOptions& options) {
+        layers.clear();
+        for (const auto& layer : options.layers) layers.push_back(layer->pass(gl, shaders, targets.size()));
     }
 
     void addGrounds(const Gl& gl, const RendererOptions& options) {
@@ -129,7 +133,7 @@ struct RendererParts {
     std::vector<std::unique_ptr<GroundPass>> grounds;  // one for each shift, for each keeps its own picture
     MarksPass marks;
     LabelPass labels;
-    std::optional<MaskPass> mask;
+    std::vector<std::unique_ptr<LayerPass>> layers;  // of the options, in their order
     GlObject frameBlock;
 
     // Room that is used again from picture to picture.
@@ -203,7 +207,7 @@ void Renderer::change(const RendererOptions& options) {
     if (options.shadowSize != now.shadowSize) parts.lightMaps = LightMaps(gl, options.shadowSize);
     for (const auto& ground : parts.grounds) ground->forget();
     parts.addGrounds(gl, options);
-    if (parts.mask) parts.mask.emplace(gl, parts.shaders, parts.targets.size(), now.maskColours);
+    parts.addLayers(gl, now);
     now.width = options.width;
     now.height = options.height;
     now.samples = options.samples;
@@ -362,28 +366,23 @@ Drawn Renderer::Impl::drawAll(const Scene& scene) {
     return mean.mean();
 }
 
-// Of each pixel's middle, at the time of the view; without the maps that shading reads.
+// Without the maps that shading reads.
 void Renderer::Impl::addLayers(const Scene& scene, image::Image& picture) {
-    if (options.depthUnit == 0.0 && !parts->mask) return;
+    if (options.layers.empty()) return;
     const glm::mat4 projection = projectionOf(scene.view.camera, scene.aspect);
     const FrameBlock block = blockOf(scene.view, projection, {}, options.shadowSize, {});
     gl().BindBufferBase(GL_UNIFORM_BUFFER, frameBlockBinding, parts->frameBlock.id());
     gl().BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
     std::vector<DrawItem> items = scene.solid;
     items.insert(items.end(), scene.thin.begin(), scene.thin.end());
-    if (options.depthUnit > 0.0) {
-        const PixelBox part = pixelBox(items, projection, options.width, options.height);
-        parts->targets.bindSurfaces();
-        gl().DepthMask(GL_TRUE);
-        gl().Clear(GL_DEPTH_BUFFER_BIT);
-        parts->surfaces.draw(items, parts->meshes);
-        std::vector<float> depths;
-        parts->targets.depths(part, depths);
-        const std::vector<float> nearness = parts->targets.nearness(part);
-        picture.depth =
-            depthLayer(scene.view, {options.width, options.height, part, depths, nearness}, options.depthUnit);
+    const glm::ivec2 size(options.width, options.height);
+    const LayerScene seen{scene.view,     items,         pixelBox(items, projection, size.x, size.y),
+                          size,           parts->meshes, parts->targets,
+                          parts->surfaces};
+    for (std::size_t i = 0; i < options.layers.size(); ++i) {
+        picture.layers.push_back({.name = options.layers[i]->name()});
+        parts->layers[i]->draw(seen, picture.layers.back());
     }
-    if (parts->mask) picture.mask = parts->mask->draw(items, parts->meshes, seenSideOf(scene.view));
 }
 
 image::Image Renderer::draw(const view::FrameView& view) {

@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "taut/image/image.h"
+#include "taut/render/layer_table.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::render {
@@ -27,11 +28,7 @@ struct RendererOptions {
     bool occlusion = true;   // false: things do not darken the ground around them
     bool keepsStill = true;  // false: nothing is kept from picture to picture, to compare
     bool alpha = false;      // no sky, and of the ground its shadows alone; the picture has alpha then
-    double depthUnit = 0.0;  // [m] that a step of Image::depth stands for; 0: pictures have none
-
-    // 0xRRGGBB in Image::mask by the name of a surface; other surfaces, ground and sky are black. Empty: pictures have
-    // no mask.
-    std::map<std::string, std::uint32_t> maskColours{};
+    std::vector<std::shared_ptr<const Layer>> layers{};  // Image::layers, in that order
 
     Backend backend = Backend::osmesa;
     std::optional<int> device;      // of EGL, a number of eglDevices(); none: the best that works

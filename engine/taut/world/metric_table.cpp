@@ -1,26 +1,43 @@
 #include "taut/world/metric_table.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "taut/spec/spec.h"
 
 namespace taut::world {
 namespace {
 
-template <auto member>
-MetricValue plain(const Metrics& metrics) {
-    return std::invoke(member, metrics);
+void visitNumber(glm::dvec3& vector, const NumberVisitor& visit) {
+    for (int i = 0; i < 3; ++i) visit(&vector[i]);
 }
 
-MetricValue volumeRatio(const Metrics& metrics) {
-    return metrics.restVolume > 0 ? metrics.volume / metrics.restVolume : 1.0;  // of nothing nothing is missing
+template <class Number>
+void visitNumber(Number& number, const NumberVisitor& visit) {
+    visit(&number);
 }
 
+// A member of Metrics.
 template <auto member>
-MetricValue done(const Metrics& metrics) {
-    return metrics.work.*member;
-}
+constexpr MetricSource plain = {
+    [](const Metrics& metrics) -> MetricValue { return metrics.*member; },
+    [](Metrics& metrics, const NumberVisitor& visit) { visitNumber(metrics.*member, visit); }};
+
+// A count of the methods' work.
+template <auto member>
+constexpr MetricSource done = {
+    [](const Metrics& metrics) -> MetricValue { return metrics.work.*member; },
+    [](Metrics& metrics, const NumberVisitor& visit) { visitNumber(metrics.work.*member, visit); }};
+
+constexpr MetricSource totalEnergy = {[](const Metrics& metrics) -> MetricValue { return metrics.energy(); }};
+
+constexpr MetricSource volumeRatio = {[](const Metrics& metrics) -> MetricValue {
+                                          return metrics.restVolume > 0 ? metrics.volume / metrics.restVolume
+                                                                        : 1.0;  // of nothing nothing is missing
+                                      },
+                                      [](Metrics& metrics, const NumberVisitor& visit) {
+                                          visitNumber(metrics.volume, visit);
+                                          visitNumber(metrics.restVolume, visit);
+                                      }};
 
 }  // namespace
 
@@ -31,7 +48,7 @@ std::span<const Metric> metricTable() {
         {"elastic_J", "elastic_energy", "J", "Of springs and volumes.", plain<&M::elastic>, 1},
         {"gravitational_J", "potential_energy", "J", "Of gravity; 0 for a point at the origin.",
          plain<&M::gravitational>},
-        {"total_J", "energy", "J", "Kinetic, elastic and gravitational energy.", plain<&M::energy>},
+        {"total_J", "energy", "J", "Kinetic, elastic and gravitational energy.", totalEnergy},
         {"momentum_x_kg_m_per_s,momentum_y_kg_m_per_s,momentum_z_kg_m_per_s", "momentum", "kg m/s",
          "Sum of mass times velocity.", plain<&M::momentum>},
         {"angular_x_kg_m2_per_s,angular_y_kg_m2_per_s,angular_z_kg_m2_per_s", "angular_momentum", "kg m²/s",
@@ -60,6 +77,12 @@ std::span<const Metric> metricTable() {
          plain<&M::facePenetration>, 1, Measures::all, Counts::whatMeetsFaces},
     };
     return table;
+}
+
+void eachNumber(Metrics& metrics, const NumberVisitor& visit) {
+    visit(&metrics.time);
+    for (const Metric& metric : metricTable())
+        if (metric.source.eachNumber != nullptr) metric.source.eachNumber(metrics, visit);
 }
 
 bool isCounted(Counts counts, const BodySpec& body) {

@@ -1,8 +1,9 @@
-// What is measured of bodies, one row each: claims call it, metrics.csv has it a frame. To add a metric, measure it
-// (Metrics), and write its row.
+// What is measured of bodies, one row each: claims call it, metrics.csv has it a frame, the records of a run keep it.
+// To add a metric, measure it (Metrics), and write its row.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <variant>
@@ -20,20 +21,34 @@ using MetricValue = std::variant<double, std::int64_t, glm::dvec3>;
 // Of which bodies a value can be other than 0.
 enum class Counts { everyBody, whatTouches, whatMeetsFaces };
 
+// A number of Metrics, to be read or written.
+using MetricNumber = std::variant<double*, int*, std::int64_t*>;
+using NumberVisitor = std::function<void(MetricNumber)>;
+
+struct MetricSource {
+    MetricValue (*value)(const Metrics& metrics) = nullptr;
+    // Visits the numbers that the value is made of; null: they are those of other rows.
+    void (*eachNumber)(Metrics& metrics, const NumberVisitor& visit) = nullptr;
+};
+
 struct Metric {
     std::string_view columns;   // of metrics.csv, with their unit; of a vector three with commas between them
     std::string_view function;  // of claims; empty: none
     std::string_view unit;      // "kg m/s"; empty: a plain number
     std::string_view help;
-    MetricValue (*value)(const Metrics& metrics) = nullptr;
+    MetricSource source;
     int extreme = 0;  // which body a claim names as the place: 1 the one with the largest value, -1 smallest, 0 none
     Measures measures = Measures::butCrossings;  // what it needs
     Counts counts = Counts::everyBody;
 
+    MetricValue value(const Metrics& metrics) const { return source.value(metrics); }
     bool isVector() const { return std::holds_alternative<glm::dvec3>(value({})); }
 };
 
 std::span<const Metric> metricTable();
+
+// The time, and every number that a row of the table is made of, in the order of the table.
+void eachNumber(Metrics& metrics, const NumberVisitor& visit);
 
 bool isCounted(Counts counts, const BodySpec& body);
 // Whether any body of the scene is.

@@ -1,0 +1,55 @@
+// How a layer of pictures is drawn: of each pixel's middle, at the time of the view, after the colours. It knows no
+// layer.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "taut/image/image.h"
+#include "taut/render/edge_tiles.h"
+#include "taut/render/mesh_cache.h"
+#include "taut/render/program.h"
+#include "taut/render/surface_pass.h"
+#include "taut/render/targets.h"
+#include "taut/view/frame_view.h"
+
+namespace taut::render {
+
+// What is drawn; the frame block is in place.
+struct LayerScene {
+    const view::FrameView& view;
+    std::span<const DrawItem> items;  // the nearest first
+    PixelBox part;                    // in which they are
+    glm::ivec2 size;                  // [px] of the picture
+    const MeshCache& meshes;
+    // Those of the colours, free to be used.
+    Targets& targets;
+    SurfacePass& surfaces;
+};
+
+class LayerPass {
+  public:
+    virtual ~LayerPass() = default;
+    // Fills what the layer has of numbers; its name is there.
+    virtual void draw(const LayerScene& scene, image::Layer& layer) = 0;
+};
+
+// Draws what the camera sees into colours of 8 bits by a pair of shaders of its own, without smooth edges. The shaders
+// read `transform` and `seenSide`, like mask.vert.
+class FlatPass : public LayerPass {
+  public:
+    FlatPass(const Gl& gl, Program program, glm::ivec2 size);
+
+    void draw(const LayerScene& scene, image::Layer& layer) final;
+
+  private:
+    // Before each surface; the program is in use.
+    virtual void begin(Program& program, const LayerScene& scene, const view::Surface& surface) const = 0;
+
+    const Gl* gl_;
+    Program program_;
+    glm::ivec2 size_;
+    GlObject colour_, depth_, target_;
+};
+
+}  // namespace taut::render

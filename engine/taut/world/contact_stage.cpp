@@ -112,6 +112,7 @@ double ContactStage::facePenetration(const std::function<bool(const Body&)>& wan
                                   [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); });
 }
 
+// Tells the elements which triangles and edges damage has removed since the last time.
 void ContactStage::takeDamage() {
     bool isOther = false;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
@@ -123,6 +124,7 @@ void ContactStage::takeDamage() {
         int offset = 0;
         for (const Part& part : parts_)
             if (part.island == body.island) offset = part.first;
+        // Points of the body by their number in the island.
         std::vector<int> own(static_cast<std::size_t>(body.island->plan().points.size()), -1);
         for (std::size_t i = 0; i < body.pointOf.size(); ++i)
             own[static_cast<std::size_t>(body.pointOf[i])] = static_cast<int>(i);
@@ -161,7 +163,7 @@ int ContactStage::instantsFor(std::span<const int> surfaces) const {
     return needed;
 }
 
-// The same for all bodies, whichever touch.
+// How many instants any body may need, whatever touches.
 int ContactStage::mostInstants() const {
     int most = spec_.instants.value_or(fewest_);
     if (!spec_.instants)
@@ -199,8 +201,8 @@ int ContactStage::chooseInstants(const TickTime& time) {
                                      mostClosing * forecast.leastThickness));
 }
 
-std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
-    // The tick begins: damage, masses, colliders, places.
+// Brings damage, masses, colliders and places up to date.
+void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotion> moving) {
     for (Island* island : islands_) {
         island->takeParts(time, pace_.substeps());
         island->beginTick(time);
@@ -221,6 +223,10 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
     colliders_.place(0.0, x1_);
     if (hasJumped_) group_->drop();
     hasJumped_ = false;
+}
+
+std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
+    beginTick(time, moving);
 
     // Crossings, and how many instants. An island that keeps its step needs the most there can be from the first tick.
     const auto start = Clock::now();

@@ -90,6 +90,7 @@ class ContactStage {
         Island* island;
         int first, last;  // points of the group
     };
+    void beginTick(const TickTime& time, std::span<const ColliderMotion> moving);
     void takeDamage();
     void readAll();
     int mostInstants() const;

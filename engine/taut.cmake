@@ -34,11 +34,11 @@ endif()
 # The folders where a scene's time goes.
 set(TAUT_COMPUTES core ode mechanics collision contact bodies forces island world image geometry)
 
-# taut_library(core SOURCES a.cpp HEADERS a.h LINK taut::ode PRIVATE_LINK fmt::fmt): the library of one folder, known
-# as taut::core. LINK is what its headers include, PRIVATE_LINK what only its sources do. With HEADERS, those that others
-# may include and what they include themselves, it is installed.
+# taut_library(core SOURCES a.cpp LINK taut::ode PRIVATE_LINK fmt::fmt): the library of one folder, known as taut::core.
+# LINK is what its headers include, PRIVATE_LINK what only its sources do. It is installed with its headers, but for those
+# in the folder `private`; with PRIVATE none of them, with PROGRAM not at all: the program alone needs it.
 function(taut_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "PRIVATE;PROGRAM" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(taut_${name} STATIC ${ARG_SOURCES})
   add_library(taut::${name} ALIAS taut_${name})
   set_target_properties(taut_${name} PROPERTIES EXPORT_NAME ${name})
@@ -47,12 +47,11 @@ function(taut_library name)
   if(name IN_LIST TAUT_COMPUTES)
     target_compile_options(taut_${name} PRIVATE $<$<CONFIG:Asan>:-O1>)
   endif()
-  if(TAUT_INSTALL AND ARG_HEADERS)
+  if(TAUT_INSTALL AND NOT ARG_PROGRAM)
     install(TARGETS taut_${name} EXPORT taut ARCHIVE DESTINATION lib)
-    foreach(header ${ARG_HEADERS})
-      get_filename_component(folder ${name}/${header} DIRECTORY)
-      install(FILES ${header} DESTINATION include/taut/${folder})
-    endforeach()
+    if(NOT ARG_PRIVATE)
+      install(DIRECTORY ./ DESTINATION include/taut/${name} FILES_MATCHING PATTERN "*.h" PATTERN private EXCLUDE)
+    endif()
   endif()
 endfunction()
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "game/lab.h"
-#include "taut/core/child_process.h"
+#include "taut/core/private/child_process.h"
 #include "taut/core/error.h"
 #include "taut/image/frame_sequence.h"
 

@@ -8,7 +8,7 @@
 
 #include "game/messages.h"
 #include "taut/core/error.h"
-#include "taut/core/hash.h"
+#include "taut/core/private/hash.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/frame_sequence.h"
 #include "taut/pipeline/checkpoint.h"

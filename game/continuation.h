@@ -11,7 +11,7 @@
 #include "game/command_line.h"
 #include "taut/pipeline/run.h"
 #include "taut/scene/load.h"
-#include "taut/scene/used_files.h"
+#include "taut/scene/private/used_files.h"
 
 namespace taut::world {
 class World;

@@ -7,7 +7,7 @@
 
 #include "game/command_line.h"
 #include "taut/core/error.h"
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::game {
 namespace {

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "taut/core/error.h"
-#include "taut/render/font.h"
+#include "taut/render/private/font.h"
 
 namespace taut::game {
 namespace {

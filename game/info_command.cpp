@@ -15,8 +15,8 @@
 #include "taut/core/error.h"
 #include "taut/ode/method_table.h"
 #include "taut/pipeline/run.h"
-#include "taut/scene/body_size.h"
-#include "taut/advice/start_doubts.h"
+#include "taut/scene/private/body_size.h"
+#include "taut/advice/private/start_doubts.h"
 #include "taut/world/world.h"
 
 namespace taut::game {

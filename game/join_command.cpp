@@ -17,7 +17,7 @@
 #include "game/test_shards.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
-#include "taut/image/video_writer.h"
+#include "taut/image/private/video_writer.h"
 
 namespace taut::game {
 namespace {

@@ -9,7 +9,7 @@
 #include "game/flags.h"
 #include "taut/core/error.h"
 #include "taut/image/frame_sequence.h"
-#include "taut/image/video_writer.h"
+#include "taut/image/private/video_writer.h"
 #include "taut/world/world.h"
 
 namespace taut::game {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "game/messages.h"
-#include "taut/core/utf8.h"
+#include "taut/core/private/utf8.h"
 
 namespace taut::game {
 namespace {

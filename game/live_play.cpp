@@ -12,7 +12,7 @@
 #include "game/renderers.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
-#include "taut/image/resize.h"
+#include "taut/image/private/resize.h"
 #include "taut/live/between.h"
 #include "taut/live/picking.h"
 

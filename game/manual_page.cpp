@@ -6,7 +6,7 @@
 #include <cctype>
 #include <sstream>
 
-#include "taut/core/utf8.h"
+#include "taut/core/private/utf8.h"
 
 namespace taut::game {
 namespace {

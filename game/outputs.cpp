@@ -10,7 +10,7 @@
 #include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/image/frame_sequence.h"
-#include "taut/image/video_writer.h"
+#include "taut/image/private/video_writer.h"
 
 namespace taut::game {
 namespace {

@@ -19,7 +19,7 @@
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/scene/load.h"
-#include "taut/scene/splice.h"
+#include "taut/scene/private/splice.h"
 #include "taut/study/plan.h"
 #include "taut/study/plan_text.h"
 

@@ -9,7 +9,7 @@
 #include "game/live_play.h"
 #include "game/renderers.h"
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::game {
 namespace {

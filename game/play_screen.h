@@ -10,7 +10,7 @@
 
 #include "taut/image/image.h"
 #include "taut/pipeline/overlay.h"
-#include "taut/render/text_picture.h"
+#include "taut/render/private/text_picture.h"
 
 namespace taut::game {
 

@@ -10,7 +10,7 @@
 #include "game/renderers.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
-#include "taut/image/video_writer.h"
+#include "taut/image/private/video_writer.h"
 
 namespace taut::game {
 

@@ -18,10 +18,10 @@
 #include "game/exit_code.h"
 #include "game/frame_join.h"
 #include "game/live_line.h"
-#include "taut/core/child_process.h"
+#include "taut/core/private/child_process.h"
 #include "taut/core/error.h"
 #include "taut/image/frame_sequence.h"
-#include "taut/image/video_writer.h"
+#include "taut/image/private/video_writer.h"
 
 namespace taut::game {
 namespace {

@@ -10,8 +10,8 @@
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/frame_sequence.h"
-#include "taut/image/several_sinks.h"
-#include "taut/image/video_writer.h"
+#include "taut/image/private/several_sinks.h"
+#include "taut/image/private/video_writer.h"
 
 namespace taut::game {
 namespace {

@@ -15,7 +15,7 @@
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/regression/tape.h"
 #include "taut/regression/tape_compare.h"

@@ -9,7 +9,7 @@
 #include "game/messages.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
-#include "taut/image/video_writer.h"
+#include "taut/image/private/video_writer.h"
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/run.h"
 #include "taut/spec/run_spec.h"

@@ -9,7 +9,7 @@
 #include "game/suggestion.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
-#include "taut/image/light_image.h"
+#include "taut/image/private/light_image.h"
 #include "taut/scene/load.h"
 
 namespace taut::game {

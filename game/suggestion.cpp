@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "taut/core/edit_distance.h"
+#include "taut/core/private/edit_distance.h"
 
 namespace taut::game {
 

@@ -1,7 +1,7 @@
 // What commands choose from by name: tables that are values, to which another program adds rows of its own.
 #pragma once
 
-#include "taut/geometry/format_table.h"
+#include "taut/geometry/private/format_table.h"
 #include "taut/render/layer_table.h"
 
 namespace taut::game {

@@ -22,7 +22,7 @@
 #include "game/test_shards.h"
 #include "game/test_suite.h"
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/machine.h"
 #include "taut/regression/goldens.h"

@@ -12,12 +12,12 @@
 #include "game/test_outcome.h"
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
-#include "taut/core/hash.h"
+#include "taut/core/private/hash.h"
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/sealed_file.h"
 #include "taut/report/saved_report.h"
-#include "taut/scene/body_size.h"
-#include "taut/scene/used_files.h"
+#include "taut/scene/private/body_size.h"
+#include "taut/scene/private/used_files.h"
 #include "taut/world/result_bits.h"
 
 namespace taut::game {

@@ -13,7 +13,7 @@
 #include "game/suggestion.h"
 #include "game/test_shards.h"
 #include "taut/core/error.h"
-#include "taut/core/file_batch.h"
+#include "taut/core/private/file_batch.h"
 #include "taut/core/glob.h"
 
 namespace taut::game {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "taut/geometry/format_table.h"
+#include "taut/geometry/private/format_table.h"
 #include "taut/geometry/web_page_writer.h"
 
 namespace taut::game {

@@ -1,4 +1,4 @@
-// The picture that stands around a scene: see engine/taut/render/environment.h.
+// The picture that stands around a scene: see engine/taut/render/private/environment.h.
 uniform sampler2D environment;
 
 vec3 turnedBack(vec3 way) {

@@ -1,4 +1,4 @@
-// What all shaders know of the picture. The order is that of FrameBlock in engine/taut/render/frame_block.h.
+// What all shaders know of the picture. The order is that of FrameBlock in engine/taut/render/private/frame_block.h.
 // A further light, with what the sun has below.
 struct Lamp {
     mat4 toMap;

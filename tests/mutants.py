@@ -23,7 +23,7 @@ GROUP, CERTIFICATE, NARROW, SOLVER, GAUSS_SEIDEL, RIGID, BROAD = (
     f"engine/taut/contact/{name}.cpp" for name in
     ("contact_group", "certificate", "narrow_phase", "solver", "gauss_seidel", "rigid_side", "broad_phase"))
 STAGE = "engine/taut/world/contact_stage.cpp"
-ISLAND = "engine/taut/island/island_contacts.h"
+ISLAND = "engine/taut/island/private/island_contacts.h"
 
 # name: what is wrong, the file, the text before, which is in it once, and the text after
 MUTANTS = {

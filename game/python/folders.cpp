@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 
 namespace taut::python {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "game/python/errors.h"
 #include "game/python/folders.h"
-#include "taut/spec/motion.h"
-#include "taut/spec/rotation.h"
+#include "taut/spec/private/motion.h"
+#include "taut/spec/private/rotation.h"
 
 namespace py = pybind11;
 

@@ -3,7 +3,7 @@
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
 #include "taut/pipeline/sealed_file.h"
-#include "taut/scene/body_size.h"
+#include "taut/scene/private/body_size.h"
 
 namespace taut::python {
 namespace {

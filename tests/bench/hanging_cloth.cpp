@@ -8,8 +8,8 @@
 
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/gravity.h"
-#include "taut/mechanics/stability.h"
-#include "taut/mechanics/wind.h"
+#include "taut/mechanics/private/stability.h"
+#include "taut/mechanics/private/wind.h"
 #include "taut/ode/method_table.h"
 
 namespace taut::bench {

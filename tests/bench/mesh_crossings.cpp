@@ -12,7 +12,7 @@
 #include "support/piercings.h"
 #include "taut/core/error.h"
 #include "taut/scene/load.h"
-#include "taut/scene/obj_file.h"
+#include "taut/scene/private/obj_file.h"
 
 using namespace taut;
 

@@ -19,8 +19,8 @@
 #include "bullet_links.h"
 #include "hanging_cloth.h"
 #include "object_springs.h"
-#include "taut/core/instruction_set.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/instruction_set.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 #include "taut/ode/method_table.h"
 #include "taut/scene/load.h"
 #include "taut/world/world.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/timelines.h"
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut {
 namespace {

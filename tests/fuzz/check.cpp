@@ -1,7 +1,7 @@
 #include "taut/check/check.h"
 
 #include "fuzz/support.h"
-#include "taut/check/evaluation.h"
+#include "taut/check/private/evaluation.h"
 #include "taut/world/world.h"
 
 // A claim, read and then held against a small world.

@@ -1,7 +1,7 @@
 #include <libdeflate.h>
 
 #include "fuzz/support.h"
-#include "taut/image/light_image.h"
+#include "taut/image/private/light_image.h"
 #include "taut/image/read.h"
 
 namespace taut::fuzz {

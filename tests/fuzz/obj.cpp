@@ -1,4 +1,4 @@
-#include "taut/scene/obj_file.h"
+#include "taut/scene/private/obj_file.h"
 
 #include "fuzz/support.h"
 

@@ -1,5 +1,5 @@
 #include "fuzz/support.h"
-#include "taut/scene/body_size.h"
+#include "taut/scene/private/body_size.h"
 #include "taut/spec/ticks.h"
 #include "taut/world/world.h"
 

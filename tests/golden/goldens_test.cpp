@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "taut/image/compare.h"
+#include "taut/image/private/compare.h"
 #include "taut/regression/manifest.h"
 #include "taut/render/renderer.h"
 #include "taut/scene/load.h"

@@ -8,7 +8,7 @@
 
 #include "support/network.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/stability.h"
+#include "taut/mechanics/private/stability.h"
 
 namespace taut::test::blanes_moan {
 namespace {

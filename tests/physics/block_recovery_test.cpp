@@ -8,8 +8,8 @@
 #include "support/network.h"
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/stability.h"
-#include "taut/mechanics/volume.h"
+#include "taut/mechanics/private/stability.h"
+#include "taut/mechanics/private/volume.h"
 #include "taut/ode/method_table.h"
 
 namespace taut::test::block_recovery {

@@ -9,9 +9,9 @@
 #include "support/network.h"
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/stability.h"
-#include "taut/mechanics/state_bound.h"
-#include "taut/mechanics/volume.h"
+#include "taut/mechanics/private/stability.h"
+#include "taut/mechanics/private/state_bound.h"
+#include "taut/mechanics/private/volume.h"
 
 namespace taut::test::frequency_bounds {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "support/network.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/stability.h"
+#include "taut/mechanics/private/stability.h"
 
 namespace taut::test::hanging {
 namespace {

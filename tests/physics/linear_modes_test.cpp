@@ -11,7 +11,7 @@
 #include "support/network.h"
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/stability.h"
+#include "taut/mechanics/private/stability.h"
 
 namespace taut::test::linear_modes {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "support/network.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/wind.h"
+#include "taut/mechanics/private/wind.h"
 
 namespace taut::test::network_order {
 namespace {

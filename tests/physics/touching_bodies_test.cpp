@@ -1,8 +1,8 @@
 // Ropes, knots, islands of several methods and steps, cuts, restarts: bodies that touch, in what else a world does.
 #include "support/knots.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
-#include "taut/world/surface_gap.h"
+#include "taut/world/private/surface_gap.h"
 #include "touching_scenes.h"
 
 namespace taut::test::touching {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 #include "taut/spec/spec.h"
 #include "taut/view/frame_view.h"
 #include "taut/world/components.h"
-#include "taut/world/surface_gap.h"
+#include "taut/world/private/surface_gap.h"
 #include "taut/world/world.h"
 
 namespace taut::support {

@@ -1,7 +1,7 @@
 // Every function of the language in a small scene whose answer is known from theory.
 #include <cmath>
 
-#include "taut/check/function_table.h"
+#include "taut/check/private/function_table.h"
 #include "taut/core/error.h"
 #include "unit/check_support.h"
 

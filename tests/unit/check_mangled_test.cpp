@@ -3,7 +3,7 @@
 
 #include "taut/check/watcher.h"
 #include "taut/core/error.h"
-#include "taut/scene/body_size.h"
+#include "taut/scene/private/body_size.h"
 #include "unit/check_support.h"
 #include "taut/spec/ticks.h"
 

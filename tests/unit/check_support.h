@@ -6,7 +6,7 @@
 #include <string>
 
 #include "taut/check/check.h"
-#include "taut/check/evaluation.h"
+#include "taut/check/private/evaluation.h"
 #include "taut/scene/load.h"
 #include "taut/world/world.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "collision_support.h"
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::collision::collision_batch {
 namespace {

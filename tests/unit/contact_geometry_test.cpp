@@ -4,7 +4,7 @@
 #include "taut/contact/certificate.h"
 #include "taut/contact/closest_batch.h"
 #include "taut/contact/closest_points.h"
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::contact {
 namespace {

@@ -1,7 +1,7 @@
 // What comes out of an instant hangs on that instant alone: not on lists made before, nor on threads. And what is gone
 // is not met.
 #include "contact_support.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::contact {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/core/hash.h"
+#include "taut/core/private/hash.h"
 
 #include <gtest/gtest.h>
 

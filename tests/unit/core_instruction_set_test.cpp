@@ -1,4 +1,4 @@
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 #include <gtest/gtest.h>
 

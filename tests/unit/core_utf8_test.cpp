@@ -1,4 +1,4 @@
-#include "taut/core/utf8.h"
+#include "taut/core/private/utf8.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "image_support.h"
-#include "taut/core/file_batch.h"
+#include "taut/core/private/file_batch.h"
 
 namespace taut::core {
 namespace {

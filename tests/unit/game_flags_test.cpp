@@ -8,7 +8,7 @@
 #include "game/interruption.h"
 #include "game/progress.h"
 #include "game/suggestion.h"
-#include "taut/core/edit_distance.h"
+#include "taut/core/private/edit_distance.h"
 #include "taut/core/error.h"
 
 namespace taut::game {

@@ -5,7 +5,7 @@
 #include "game/scene_file.h"
 #include "image_support.h"
 #include "taut/image/frame_sequence.h"
-#include "taut/image/video_writer.h"
+#include "taut/image/private/video_writer.h"
 
 namespace taut::game {
 namespace {

@@ -1,6 +1,6 @@
 #include <cstdlib>
 
-#include "taut/geometry/number_text.h"
+#include "taut/geometry/private/number_text.h"
 #include "taut/geometry/usda_writer.h"
 #include "unit/geometry_support.h"
 

@@ -1,11 +1,11 @@
-#include "taut/image/compare.h"
+#include "taut/image/private/compare.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
 #include "image_support.h"
-#include "taut/image/resize.h"
+#include "taut/image/private/resize.h"
 
 namespace taut::image {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "image_support.h"
 #include "taut/image/read.h"
-#include "taut/image/several_sinks.h"
+#include "taut/image/private/several_sinks.h"
 
 namespace taut::image {
 namespace {

@@ -1,6 +1,6 @@
 // Radiance pictures, written here byte by byte as Ward's description of the format has them ("Real Pixels", Graphics
 // Gems II). What four bytes mean comes from there too: m · 2^(e - 136).
-#include "taut/image/light_image.h"
+#include "taut/image/private/light_image.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "image_support.h"
-#include "taut/core/child_process.h"
-#include "taut/image/video_writer.h"
+#include "taut/core/private/child_process.h"
+#include "taut/image/private/video_writer.h"
 
 namespace taut::image {
 namespace {

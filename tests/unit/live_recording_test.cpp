@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "taut/live/hand.h"
-#include "taut/scene/document.h"
+#include "taut/scene/private/document.h"
 #include "taut/scene/load.h"
 
 namespace taut::live {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "taut/mechanics/anchor.h"
+#include "taut/mechanics/private/anchor.h"
 #include "mechanics_planar_state.h"
 
 namespace taut::mechanics {

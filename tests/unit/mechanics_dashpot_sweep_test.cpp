@@ -6,7 +6,7 @@
 
 #include "mechanics_planar_state.h"
 #include "support/network.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/mechanics/builders.h"
 #include "taut/ode/method_table.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "taut/mechanics/noise.h"
+#include "taut/mechanics/private/noise.h"
 
 namespace taut::mechanics {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "taut/core/instruction_set.h"
-#include "taut/mechanics/anchor.h"
+#include "taut/core/private/instruction_set.h"
+#include "taut/mechanics/private/anchor.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/mass_spring_system.h"
-#include "taut/mechanics/volume.h"
-#include "taut/mechanics/wind.h"
+#include "taut/mechanics/private/volume.h"
+#include "taut/mechanics/private/wind.h"
 
 namespace taut::mechanics {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/index_runs.h"
+#include "taut/mechanics/private/index_runs.h"
 
 namespace taut::mechanics {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <mutex>
 
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/gravity.h"
 #include "mechanics_random_net.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "taut/core/aligned_array.h"
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 #include "taut/mechanics/force_generator.h"
 #include "taut/mechanics/model.h"
 

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/mechanics/model.h"
 

@@ -1,5 +1,5 @@
 // Which springs are beyond their lengths, against a plain loop.
-#include "taut/mechanics/spring_watch.h"
+#include "taut/mechanics/private/spring_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The bound of every tick against the one that is written down plainly.
-#include "taut/mechanics/state_bound.h"
+#include "taut/mechanics/private/state_bound.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "mechanics_planar_state.h"
 #include "taut/mechanics/builders.h"
 #include "taut/mechanics/mass_spring_system.h"
-#include "taut/mechanics/stability.h"
+#include "taut/mechanics/private/stability.h"
 
 namespace taut::mechanics {
 namespace {

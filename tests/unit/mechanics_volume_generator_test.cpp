@@ -7,7 +7,7 @@
 #include "mechanics_planar_state.h"
 #include "support/eigenvalues.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/volume.h"
+#include "taut/mechanics/private/volume.h"
 
 namespace taut::mechanics {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "taut/core/trig.h"
 #include "taut/mechanics/builders.h"
-#include "taut/mechanics/wind.h"
+#include "taut/mechanics/private/wind.h"
 #include "mechanics_planar_state.h"
 #include "support/eigenvalues.h"
 

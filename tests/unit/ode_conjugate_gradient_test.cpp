@@ -6,7 +6,7 @@
 
 #include "support/oscillator.h"
 #include "taut/core/error.h"
-#include "taut/ode/conjugate_gradient.h"
+#include "taut/ode/private/conjugate_gradient.h"
 
 namespace taut::test {
 namespace {

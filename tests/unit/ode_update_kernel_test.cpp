@@ -1,4 +1,4 @@
-#include "taut/ode/update_kernels.h"
+#include "taut/ode/private/update_kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 #include "taut/ode/method_table.h"
 
 namespace taut::ode {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "regression_support.h"
-#include "taut/core/child_process.h"
+#include "taut/core/private/child_process.h"
 #include "taut/image/png.h"
 #include "taut/regression/judging.h"
 #include "taut/regression/mutants.h"

@@ -1,5 +1,5 @@
 // Which samples triangles cover: geometry without GL. Expected numbers are areas.
-#include "taut/render/edge_coverage.h"
+#include "taut/render/private/edge_coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::render {
 namespace {

@@ -1,5 +1,5 @@
 // Light from a picture of all that is around. Expected numbers are integrals over the sphere, done by hand.
-#include "taut/render/environment.h"
+#include "taut/render/private/environment.h"
 
 #include <gtest/gtest.h>
 

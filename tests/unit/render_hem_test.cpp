@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "render_support.h"
-#include "taut/render/depth_layer.h"
-#include "taut/render/mask_layer.h"
+#include "taut/render/private/depth_layer.h"
+#include "taut/render/private/mask_layer.h"
 
 namespace taut::render::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "taut/core/error.h"
-#include "taut/render/label_pass.h"
-#include "taut/render/text_picture.h"
+#include "taut/render/private/label_pass.h"
+#include "taut/render/private/text_picture.h"
 #include "unit/image_support.h"
 #include "unit/render_support.h"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render_support.h"
-#include "taut/render/ground.h"
+#include "taut/render/private/ground.h"
 #include "taut/render/light_box.h"
 
 namespace taut::render::test {

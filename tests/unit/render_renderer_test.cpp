@@ -8,8 +8,8 @@
 
 #include "render_support.h"
 #include "taut/core/error.h"
-#include "taut/render/context.h"
-#include "taut/render/egl_devices.h"
+#include "taut/render/private/context.h"
+#include "taut/render/private/egl_devices.h"
 #include "taut/render/mesh_cache.h"
 
 namespace taut::render::test {

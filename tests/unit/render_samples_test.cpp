@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "render_support.h"
-#include "taut/render/mask_layer.h"
-#include "taut/view/tube.h"
+#include "taut/render/private/mask_layer.h"
+#include "taut/view/private/tube.h"
 
 namespace taut::render::test {
 namespace {

@@ -1,11 +1,11 @@
 // The depth of what the light meets: geometry without GL.
-#include "taut/render/shadow_map.h"
+#include "taut/render/private/shadow_map.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::render {
 namespace {

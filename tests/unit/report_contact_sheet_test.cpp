@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "taut/image/png.h"
-#include "taut/image/resize.h"
+#include "taut/image/private/resize.h"
 #include "image_support.h"
 #include "program_support.h"
 

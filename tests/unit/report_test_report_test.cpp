@@ -8,7 +8,7 @@
 #include "image_support.h"
 #include "report_test_results.h"
 #include "support/text.h"
-#include "taut/core/base64.h"
+#include "taut/core/private/base64.h"
 #include "taut/report/junit.h"
 #include "taut/report/saved_report.h"
 #include "taut/report/test_page.h"

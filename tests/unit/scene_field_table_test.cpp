@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "taut/scene/document.h"
-#include "taut/scene/sections.h"
+#include "taut/scene/private/document.h"
+#include "taut/scene/private/sections.h"
 #include "taut/bodies/rope.h"
 #include "unit/scene_full_text.h"
 #include "unit/scene_support.h"

@@ -3,8 +3,8 @@
 #include <set>
 
 #include "taut/core/trig.h"
-#include "taut/scene/document.h"
-#include "taut/scene/sections.h"
+#include "taut/scene/private/document.h"
+#include "taut/scene/private/sections.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"

@@ -1,8 +1,8 @@
 // Triangle meshes from OBJ files.
 #include <clocale>
 
-#include "taut/scene/obj_file.h"
-#include "taut/scene/polygon.h"
+#include "taut/scene/private/obj_file.h"
+#include "taut/scene/private/polygon.h"
 #include "taut/world/world.h"
 #include "unit/scene_support.h"
 

@@ -1,5 +1,5 @@
 // Every row: a faulty scene and the exact message with file, line, column, caret and remedy.
-#include "taut/scene/used_files.h"
+#include "taut/scene/private/used_files.h"
 #include "unit/scene_support.h"
 
 namespace taut::scene {

@@ -1,5 +1,5 @@
 // Changed values are written where they stand; every other byte of the file stays.
-#include "taut/scene/splice.h"
+#include "taut/scene/private/splice.h"
 
 #include <gtest/gtest.h>
 

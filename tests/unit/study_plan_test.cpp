@@ -7,7 +7,7 @@
 #include "support/small_scenes.h"
 #include "support/text.h"
 #include "taut/core/error.h"
-#include "taut/scene/by_key.h"
+#include "taut/scene/private/by_key.h"
 #include "taut/study/plan_candidate.h"
 #include "taut/study/plan_changes.h"
 #include "taut/study/plan_need.h"

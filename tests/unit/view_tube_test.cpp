@@ -1,4 +1,4 @@
-#include "taut/view/tube.h"
+#include "taut/view/private/tube.h"
 
 #include <gtest/gtest.h>
 

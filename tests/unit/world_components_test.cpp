@@ -11,7 +11,7 @@
 #include "support/timelines.h"
 #include "taut/world/components.h"
 #include "taut/forces/anchor.h"
-#include "taut/spec/rotation.h"
+#include "taut/spec/private/rotation.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

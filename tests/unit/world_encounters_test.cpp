@@ -1,5 +1,5 @@
 // Which bodies are said to come into each other's way, and which are not.
-#include "taut/advice/encounters.h"
+#include "taut/advice/private/encounters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "taut/spec/motion.h"
+#include "taut/spec/private/motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "taut/core/trig.h"
-#include "taut/spec/rotation.h"
-#include "taut/bodies/ties.h"
+#include "taut/spec/private/rotation.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 namespace {

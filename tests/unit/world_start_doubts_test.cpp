@@ -1,5 +1,5 @@
 // What is said before the first tick of what a scene hardly means.
-#include "taut/advice/start_doubts.h"
+#include "taut/advice/private/start_doubts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "taut/island/step_following.h"
+#include "taut/island/private/step_following.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"
 #include "taut/world/components.h"
-#include "taut/spec/rotation.h"
+#include "taut/spec/private/rotation.h"
 #include "taut/world/world.h"
 
 namespace taut::world {

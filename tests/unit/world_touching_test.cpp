@@ -4,7 +4,7 @@
 #include "support/scenes.h"
 #include "support/timelines.h"
 #include "taut/bodies/net.h"
-#include "taut/world/surface_gap.h"
+#include "taut/world/private/surface_gap.h"
 
 namespace taut::world {
 namespace {

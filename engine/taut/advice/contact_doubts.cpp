@@ -8,7 +8,7 @@
 #include <set>
 
 #include "taut/contact/closest_points.h"
-#include "taut/world/impl.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 namespace {

@@ -1,9 +1,9 @@
-#include "taut/advice/encounters.h"
+#include "taut/advice/private/encounters.h"
 
 #include <algorithm>
 
 #include "taut/core/error.h"
-#include "taut/world/impl.h"
+#include "taut/world/private/impl.h"
 #include "taut/spec/ticks.h"
 #include "taut/advice/contact_doubts.h"
 

@@ -1,8 +1,8 @@
-#include "taut/advice/pins.h"
+#include "taut/advice/private/pins.h"
 
 #include <algorithm>
 
-#include "taut/world/impl.h"
+#include "taut/world/private/impl.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {

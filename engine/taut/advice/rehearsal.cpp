@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "taut/core/error.h"
-#include "taut/advice/encounters.h"
-#include "taut/world/impl.h"
+#include "taut/advice/private/encounters.h"
+#include "taut/world/private/impl.h"
 #include "taut/spec/kinds.h"
-#include "taut/advice/pins.h"
-#include "taut/advice/start_doubts.h"
+#include "taut/advice/private/pins.h"
+#include "taut/advice/private/start_doubts.h"
 #include "taut/spec/ticks.h"
 
 namespace taut::world {

@@ -1,4 +1,4 @@
-#include "taut/advice/start_doubts.h"
+#include "taut/advice/private/start_doubts.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 
 #include "taut/bodies/net.h"
 #include "taut/forces/wind.h"
-#include "taut/world/impl.h"
-#include "taut/spec/motion.h"
+#include "taut/world/private/impl.h"
+#include "taut/spec/private/motion.h"
 #include "taut/advice/contact_doubts.h"
 
 namespace taut::world {

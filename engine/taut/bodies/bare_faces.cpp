@@ -1,4 +1,4 @@
-#include "taut/bodies/bare_faces.h"
+#include "taut/bodies/private/bare_faces.h"
 
 #include <algorithm>
 #include <map>

@@ -3,7 +3,7 @@
 #include "taut/mechanics/builders.h"
 #include "taut/spec/common_rows.h"
 #include "taut/bodies/drawing.h"
-#include "taut/spec/rotation.h"
+#include "taut/spec/private/rotation.h"
 
 namespace taut::world {
 

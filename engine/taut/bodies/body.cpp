@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/hash.h"
+#include "taut/core/private/hash.h"
 #include "taut/bodies/drawing.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"

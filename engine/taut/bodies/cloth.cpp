@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/spec/common_rows.h"
-#include "taut/spec/rotation.h"
+#include "taut/spec/private/rotation.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {

@@ -3,8 +3,8 @@
 
 #include "taut/core/error.h"
 #include "taut/bodies/drawing.h"
-#include "taut/spec/motion.h"
-#include "taut/spec/rotation.h"
+#include "taut/spec/private/motion.h"
+#include "taut/spec/private/rotation.h"
 
 namespace taut::world {
 namespace {

@@ -9,7 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
-#include "taut/bodies/ties.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/spec/common_rows.h"
 #include "taut/bodies/drawing.h"

@@ -1,8 +1,8 @@
 #include "taut/bodies/rope.h"
 
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
-#include "taut/view/tube.h"
+#include "taut/view/private/tube.h"
 #include "taut/bodies/body.h"
 #include "taut/spec/common_rows.h"
 #include "taut/bodies/drawing.h"

@@ -1,4 +1,4 @@
-#include "taut/bodies/skin_pieces.h"
+#include "taut/bodies/private/skin_pieces.h"
 
 #include <algorithm>
 #include <cmath>

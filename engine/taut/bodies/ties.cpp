@@ -1,4 +1,4 @@
-#include "taut/bodies/ties.h"
+#include "taut/bodies/private/ties.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // What is measured of whole bodies.
-#include "taut/check/function_table.h"
-#include "taut/check/places.h"
+#include "taut/check/private/function_table.h"
+#include "taut/check/private/places.h"
 #include "taut/world/metric_table.h"
 
 namespace taut::check {

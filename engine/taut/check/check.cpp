@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/check/evaluation.h"
-#include "taut/check/parser.h"
+#include "taut/check/private/evaluation.h"
+#include "taut/check/private/parser.h"
 
 namespace taut::check {
 

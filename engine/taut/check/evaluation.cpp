@@ -1,12 +1,12 @@
-#include "taut/check/evaluation.h"
+#include "taut/check/private/evaluation.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "taut/check/function_table.h"
+#include "taut/check/private/function_table.h"
 #include "taut/core/error.h"
-#include "taut/world/surface_gap.h"
+#include "taut/world/private/surface_gap.h"
 #include "taut/world/world.h"
 
 namespace taut::check {

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "taut/check/evaluation.h"
-#include "taut/check/parser.h"
+#include "taut/check/private/evaluation.h"
+#include "taut/check/private/parser.h"
 #include "taut/core/error.h"
 
 namespace taut::check {

@@ -1,4 +1,4 @@
-#include "taut/check/function_table.h"
+#include "taut/check/private/function_table.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // What is measured between bodies.
-#include "taut/check/function_table.h"
-#include "taut/world/surface_gap.h"
+#include "taut/check/private/function_table.h"
+#include "taut/world/private/surface_gap.h"
 
 namespace taut::check {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "taut/check/function_table.h"
+#include "taut/check/private/function_table.h"
 #include "taut/world/world.h"
 
 namespace taut::check {

@@ -1,4 +1,4 @@
-#include "taut/check/parser.h"
+#include "taut/check/private/parser.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "taut/check/function_table.h"
-#include "taut/core/edit_distance.h"
+#include "taut/check/private/function_table.h"
+#include "taut/core/private/edit_distance.h"
 
 namespace taut::check {
 

@@ -1,4 +1,4 @@
-#include "taut/check/places.h"
+#include "taut/check/private/places.h"
 
 #include <fmt/format.h>
 

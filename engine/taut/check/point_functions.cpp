@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "taut/check/function_table.h"
-#include "taut/check/places.h"
+#include "taut/check/private/function_table.h"
+#include "taut/check/private/places.h"
 
 namespace taut::check {
 

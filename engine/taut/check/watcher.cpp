@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "taut/check/evaluation.h"
+#include "taut/check/private/evaluation.h"
 #include "taut/core/error.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/ticks.h"

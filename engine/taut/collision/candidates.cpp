@@ -1,4 +1,4 @@
-#include "taut/collision/candidates.h"
+#include "taut/collision/private/candidates.h"
 
 #include <algorithm>
 #include <bit>

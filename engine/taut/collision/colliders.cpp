@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "taut/collision/impl.h"
+#include "taut/collision/private/impl.h"
 #include "taut/core/error.h"
 
 namespace taut::collision {

@@ -3,10 +3,10 @@
 // What resolve.cpp and response.h do to one point, in their order of operations, in loops over a batch: where the path
 // ends, its distance there, then the response. Whether a path may have come through the solid is found here, where it
 // did is not: such points are left.
-#include "taut/collision/contact_kernel.h"
+#include "taut/collision/private/contact_kernel.h"
 
-#include "taut/collision/contact_response.h"
-#include "taut/core/vectorise.h"
+#include "taut/collision/private/contact_response.h"
+#include "taut/core/private/vectorise.h"
 
 namespace taut::collision::TAUT_ISA {
 namespace {

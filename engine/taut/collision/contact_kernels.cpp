@@ -1,5 +1,5 @@
-#include "taut/collision/contact_kernel.h"
-#include "taut/core/instruction_set.h"
+#include "taut/collision/private/contact_kernel.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::collision {
 

@@ -1,4 +1,4 @@
-#include "taut/collision/convex_hull.h"
+#include "taut/collision/private/convex_hull.h"
 
 #include <algorithm>
 #include <array>

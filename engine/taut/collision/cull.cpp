@@ -1,4 +1,4 @@
-#include "taut/collision/cull.h"
+#include "taut/collision/private/cull.h"
 
 #include <cstring>
 

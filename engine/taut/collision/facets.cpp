@@ -1,4 +1,4 @@
-#include "taut/collision/facets.h"
+#include "taut/collision/private/facets.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // The cells of a foot finder: how far the surface is from their middles, and near it which triangles can be nearest.
 #include <algorithm>
 
-#include "taut/collision/foot_finder.h"
-#include "taut/core/parallel.h"
+#include "taut/collision/private/foot_finder.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::collision {
 

@@ -1,4 +1,4 @@
-#include "taut/collision/foot_finder.h"
+#include "taut/collision/private/foot_finder.h"
 
 #include <array>
 #include <cstring>

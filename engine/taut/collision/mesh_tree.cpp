@@ -1,4 +1,4 @@
-#include "taut/collision/mesh_tree.h"
+#include "taut/collision/private/mesh_tree.h"
 
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btOptimizedBvh.h>

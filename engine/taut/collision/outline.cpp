@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "taut/collision/facets.h"
+#include "taut/collision/private/facets.h"
 #include "taut/core/trig.h"
 
 namespace taut::collision {

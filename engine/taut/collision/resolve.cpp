@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 
-#include "taut/collision/candidates.h"
-#include "taut/collision/contact_kernel.h"
-#include "taut/collision/cull.h"
-#include "taut/collision/impl.h"
-#include "taut/collision/response.h"
+#include "taut/collision/private/candidates.h"
+#include "taut/collision/private/contact_kernel.h"
+#include "taut/collision/private/cull.h"
+#include "taut/collision/private/impl.h"
+#include "taut/collision/private/response.h"
 
 namespace taut::collision {
 

@@ -1,4 +1,4 @@
-#include "taut/collision/solid.h"
+#include "taut/collision/private/solid.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "taut/collision/triangle_mesh.h"
+#include "taut/collision/private/triangle_mesh.h"
 
 namespace taut::collision {
 

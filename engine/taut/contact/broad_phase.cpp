@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "taut/contact/closest_points.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::contact {
 namespace {

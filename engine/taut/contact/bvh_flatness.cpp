@@ -13,7 +13,7 @@
 
 #include "taut/contact/bvh.h"
 #include "taut/contact/closest_points.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::contact {
 namespace {

@@ -4,8 +4,8 @@
 // chosen.
 #include "taut/contact/closest_kernel.h"
 
-#include "taut/core/vectorise.h"
-#include "taut/core/vectors.h"
+#include "taut/core/private/vectorise.h"
+#include "taut/core/private/vectors.h"
 
 namespace taut::contact::TAUT_ISA {
 namespace {

@@ -1,5 +1,5 @@
 #include "taut/contact/closest_kernel.h"
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::contact {
 

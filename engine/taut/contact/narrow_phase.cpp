@@ -12,7 +12,7 @@
 #include "taut/contact/closest_points.h"
 #include "taut/contact/contact_group.h"
 #include "taut/contact/rigid_side.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::contact {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::contact {
 namespace {

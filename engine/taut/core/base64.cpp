@@ -1,4 +1,4 @@
-#include "taut/core/base64.h"
+#include "taut/core/private/base64.h"
 
 #include <string_view>
 

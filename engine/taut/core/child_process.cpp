@@ -1,4 +1,4 @@
-#include "taut/core/child_process.h"
+#include "taut/core/private/child_process.h"
 
 #include <fcntl.h>
 #include <spawn.h>

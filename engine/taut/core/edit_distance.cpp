@@ -1,4 +1,4 @@
-#include "taut/core/edit_distance.h"
+#include "taut/core/private/edit_distance.h"
 
 #include <algorithm>
 #include <vector>

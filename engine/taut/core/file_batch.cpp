@@ -1,4 +1,4 @@
-#include "taut/core/file_batch.h"
+#include "taut/core/private/file_batch.h"
 
 #include <algorithm>
 #include <sstream>

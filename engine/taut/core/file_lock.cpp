@@ -1,4 +1,4 @@
-#include "taut/core/file_lock.h"
+#include "taut/core/private/file_lock.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/core/trial_kernel.h"
+#include "taut/core/private/trial_kernel.h"
 
 namespace taut::core {
 namespace {

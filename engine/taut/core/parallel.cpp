@@ -1,4 +1,4 @@
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>

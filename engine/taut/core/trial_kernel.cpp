@@ -1,9 +1,9 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 //
 // What springs cost, in small: unaligned loads, a root and a division each, and stores. Its result means nothing.
-#include "taut/core/trial_kernel.h"
+#include "taut/core/private/trial_kernel.h"
 
-#include "taut/core/vectors.h"
+#include "taut/core/private/vectors.h"
 
 namespace taut::core::TAUT_ISA {
 namespace {

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "taut/core/error.h"
-#include "taut/core/file_lock.h"
+#include "taut/core/private/file_lock.h"
 
 namespace taut::core {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 
 namespace taut::fields {
 

@@ -1,4 +1,4 @@
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "taut/core/edit_distance.h"
+#include "taut/core/private/edit_distance.h"
 
 namespace taut::fields {
 

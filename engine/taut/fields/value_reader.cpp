@@ -1,4 +1,4 @@
-#include "taut/fields/value_reader.h"
+#include "taut/fields/private/value_reader.h"
 
 #include <fmt/format.h>
 

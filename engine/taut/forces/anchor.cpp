@@ -4,7 +4,7 @@
 #include <map>
 
 #include "taut/core/error.h"
-#include "taut/mechanics/anchor.h"
+#include "taut/mechanics/private/anchor.h"
 #include "taut/spec/common_rows.h"
 #include "taut/forces/force.h"
 #include "taut/spec/targets.h"

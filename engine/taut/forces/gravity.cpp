@@ -1,7 +1,7 @@
 #include "taut/mechanics/gravity.h"
 
 #include "taut/forces/anchor.h"
-#include "taut/forces/scene_forces.h"
+#include "taut/forces/private/scene_forces.h"
 #include "taut/forces/wind.h"
 #include "taut/spec/spec.h"
 

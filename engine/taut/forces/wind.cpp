@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "taut/mechanics/wind.h"
+#include "taut/mechanics/private/wind.h"
 #include "taut/spec/common_rows.h"
 #include "taut/forces/force.h"
 #include "taut/spec/spec.h"

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "taut/geometry/parts.h"
+#include "taut/geometry/private/parts.h"
 
 namespace taut::geometry {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/geometry/format_table.h"
+#include "taut/geometry/private/format_table.h"
 
 #include <algorithm>
 

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "taut/core/whole_file.h"
-#include "taut/geometry/far_lights.h"
-#include "taut/geometry/format_table.h"
-#include "taut/geometry/gltf_text.h"
-#include "taut/geometry/parts.h"
-#include "taut/geometry/poses.h"
+#include "taut/geometry/private/far_lights.h"
+#include "taut/geometry/private/format_table.h"
+#include "taut/geometry/private/gltf_text.h"
+#include "taut/geometry/private/parts.h"
+#include "taut/geometry/private/poses.h"
 
 namespace taut::geometry {
 namespace {

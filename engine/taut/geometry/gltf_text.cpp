@@ -1,4 +1,4 @@
-#include "taut/geometry/gltf_text.h"
+#include "taut/geometry/private/gltf_text.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "taut/geometry/number_text.h"
+#include "taut/geometry/private/number_text.h"
 
 #include <charconv>
 #include <cmath>

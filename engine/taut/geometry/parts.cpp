@@ -1,4 +1,4 @@
-#include "taut/geometry/parts.h"
+#include "taut/geometry/private/parts.h"
 
 #include <algorithm>
 

@@ -8,9 +8,9 @@
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
-#include "taut/geometry/format_table.h"
-#include "taut/geometry/number_text.h"
-#include "taut/geometry/scratch_file.h"
+#include "taut/geometry/private/format_table.h"
+#include "taut/geometry/private/number_text.h"
+#include "taut/geometry/private/scratch_file.h"
 
 namespace taut::geometry {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/geometry/scratch_file.h"
+#include "taut/geometry/private/scratch_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>

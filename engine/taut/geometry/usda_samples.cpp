@@ -1,4 +1,4 @@
-#include "taut/geometry/usda_samples.h"
+#include "taut/geometry/private/usda_samples.h"
 
 #include <fmt/format.h>
 

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "taut/core/whole_file.h"
-#include "taut/geometry/far_lights.h"
-#include "taut/geometry/format_table.h"
-#include "taut/geometry/number_text.h"
-#include "taut/geometry/parts.h"
-#include "taut/geometry/poses.h"
-#include "taut/geometry/usda_samples.h"
+#include "taut/geometry/private/far_lights.h"
+#include "taut/geometry/private/format_table.h"
+#include "taut/geometry/private/number_text.h"
+#include "taut/geometry/private/parts.h"
+#include "taut/geometry/private/poses.h"
+#include "taut/geometry/private/usda_samples.h"
 
 namespace taut::geometry {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "taut/core/base64.h"
+#include "taut/core/private/base64.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 

@@ -1,4 +1,4 @@
-#include "taut/image/compare.h"
+#include "taut/image/private/compare.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/png.h"
 

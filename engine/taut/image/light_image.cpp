@@ -1,4 +1,4 @@
-#include "taut/image/light_image.h"
+#include "taut/image/private/light_image.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/read.h"
-#include "taut/image/srgb_curve.h"
+#include "taut/image/private/srgb_curve.h"
 
 namespace taut::image {
 namespace {

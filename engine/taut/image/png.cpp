@@ -10,7 +10,7 @@
 
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
-#include "taut/image/with_alpha.h"
+#include "taut/image/private/with_alpha.h"
 
 namespace {
 

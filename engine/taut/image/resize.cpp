@@ -1,4 +1,4 @@
-#include "taut/image/resize.h"
+#include "taut/image/private/resize.h"
 
 #include <algorithm>
 #include <new>

@@ -1,4 +1,4 @@
-#include "taut/image/several_sinks.h"
+#include "taut/image/private/several_sinks.h"
 
 #include <utility>
 

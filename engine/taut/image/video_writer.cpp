@@ -1,14 +1,14 @@
-#include "taut/image/video_writer.h"
+#include "taut/image/private/video_writer.h"
 
 #include <fmt/format.h>
 
 #include <span>
 #include <vector>
 
-#include "taut/core/child_process.h"
+#include "taut/core/private/child_process.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
-#include "taut/image/with_alpha.h"
+#include "taut/image/private/with_alpha.h"
 
 namespace taut::image {
 namespace {

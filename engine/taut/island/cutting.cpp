@@ -1,4 +1,4 @@
-#include "taut/island/cutting.h"
+#include "taut/island/private/cutting.h"
 
 #include <algorithm>
 #include <set>

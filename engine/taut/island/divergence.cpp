@@ -1,4 +1,4 @@
-#include "taut/island/divergence.h"
+#include "taut/island/private/divergence.h"
 
 #include <cmath>
 #include <cstdarg>

@@ -1,4 +1,4 @@
-#include "taut/island/dynamics.h"
+#include "taut/island/private/dynamics.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <limits>
 #include <type_traits>
 
-#include "taut/mechanics/anchor.h"
-#include "taut/island/island_contacts.h"
+#include "taut/mechanics/private/anchor.h"
+#include "taut/island/private/island_contacts.h"
 #include "taut/island/report.h"
-#include "taut/island/rounding_watch.h"
-#include "taut/island/constraint_slot.h"
+#include "taut/island/private/rounding_watch.h"
+#include "taut/island/private/constraint_slot.h"
 
 namespace taut::world {
 namespace {

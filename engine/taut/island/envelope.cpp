@@ -1,4 +1,4 @@
-#include "taut/island/envelope.h"
+#include "taut/island/private/envelope.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include "taut/core/error.h"
 #include "taut/spec/actions.h"
-#include "taut/forces/scene_forces.h"
+#include "taut/forces/private/scene_forces.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
-#include "taut/bodies/ties.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 namespace {

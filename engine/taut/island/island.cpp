@@ -1,13 +1,13 @@
-#include "taut/island/island.h"
+#include "taut/island/private/island.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "taut/bodies/joints/constraint.h"
-#include "taut/bodies/ties.h"
-#include "taut/island/island_report.h"
-#include "taut/spec/motion.h"
+#include "taut/bodies/private/ties.h"
+#include "taut/island/private/island_report.h"
+#include "taut/spec/private/motion.h"
 
 namespace taut::world {
 namespace {

@@ -1,11 +1,11 @@
-#include "taut/island/island_report.h"
+#include "taut/island/private/island_report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "taut/bodies/joints/constraint.h"
-#include "taut/island/divergence.h"
+#include "taut/island/private/divergence.h"
 
 namespace taut::world {
 namespace {

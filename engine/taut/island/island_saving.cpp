@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "taut/bodies/joints/constraint.h"
-#include "taut/island/cutting.h"
-#include "taut/island/island.h"
+#include "taut/island/private/cutting.h"
+#include "taut/island/private/island.h"
 
 namespace taut::world {
 namespace {

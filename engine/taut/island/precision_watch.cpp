@@ -1,10 +1,10 @@
-#include "taut/island/precision_watch.h"
+#include "taut/island/private/precision_watch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "taut/island/step_choice.h"
+#include "taut/island/private/step_choice.h"
 
 namespace taut::world {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/island/step_choice.h"
+#include "taut/island/private/step_choice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "taut/island/strength.h"
+#include "taut/island/private/strength.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "taut/island/yielding.h"
+#include "taut/island/private/yielding.h"
 
 #include <algorithm>
 

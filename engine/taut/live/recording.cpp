@@ -11,7 +11,7 @@
 
 #include "taut/core/error.h"
 #include "taut/live/hand.h"
-#include "taut/scene/document.h"
+#include "taut/scene/private/document.h"
 #include "taut/world/result_bits.h"
 
 namespace taut::live {

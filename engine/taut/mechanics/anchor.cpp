@@ -1,4 +1,4 @@
-#include "taut/mechanics/anchor.h"
+#include "taut/mechanics/private/anchor.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/mechanics/builder_support.h"
+#include "taut/mechanics/private/builder_support.h"
 #include "taut/mechanics/builders.h"
 
 namespace taut::mechanics {

@@ -1,7 +1,7 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 #include "taut/mechanics/dashpot_kernel.h"
 
-#include "taut/core/vectorise.h"
+#include "taut/core/private/vectorise.h"
 
 namespace taut::mechanics::TAUT_ISA {
 namespace {

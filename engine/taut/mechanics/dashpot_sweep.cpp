@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "taut/core/instruction_set.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/instruction_set.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::mechanics {
 namespace {

@@ -1,6 +1,6 @@
 #include "taut/mechanics/gravity.h"
 
-#include "taut/core/vectorise.h"
+#include "taut/core/private/vectorise.h"
 
 namespace taut::mechanics {
 

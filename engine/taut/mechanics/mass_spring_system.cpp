@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::mechanics {
 namespace {

@@ -1,8 +1,8 @@
-#include "taut/mechanics/noise.h"
+#include "taut/mechanics/private/noise.h"
 
 #include <cmath>
 
-#include "taut/core/hash.h"
+#include "taut/core/private/hash.h"
 #include "taut/core/trig.h"
 
 namespace taut::mechanics {

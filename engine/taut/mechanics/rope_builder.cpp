@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/bisect.h"
+#include "taut/core/private/bisect.h"
 #include "taut/core/error.h"
 #include "taut/core/trig.h"
-#include "taut/mechanics/builder_support.h"
+#include "taut/mechanics/private/builder_support.h"
 #include "taut/mechanics/builders.h"
 
 namespace taut::mechanics {

@@ -4,8 +4,8 @@
 //   F_a = k [l - L + τ u·n] n = k [1 - (L - τ u·d/l)/l] d,   u = v_b - v_a,   F_b = -F_a
 // Each spring is evaluated once. At l = 0 the direction is undefined and the force zero; with L = 0 the force is
 // k d, linear through l = 0.
-#include "taut/core/vectorise.h"
-#include "taut/core/vectors.h"
+#include "taut/core/private/vectorise.h"
+#include "taut/core/private/vectors.h"
 #include "taut/mechanics/spring_kernels.h"
 
 namespace taut::mechanics::TAUT_ISA {

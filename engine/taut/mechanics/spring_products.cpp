@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::mechanics {
 namespace {

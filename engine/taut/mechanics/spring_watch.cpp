@@ -1,10 +1,10 @@
-#include "taut/mechanics/spring_watch.h"
+#include "taut/mechanics/private/spring_watch.h"
 
 #include <algorithm>
 
 #include "taut/core/error.h"
-#include "taut/core/instruction_set.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/instruction_set.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::mechanics {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/mechanics/stability.h"
+#include "taut/mechanics/private/stability.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/mechanics/cell_shape.h"
+#include "taut/mechanics/private/cell_shape.h"
 
 namespace taut::mechanics {
 namespace {

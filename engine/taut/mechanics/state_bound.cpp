@@ -1,4 +1,4 @@
-#include "taut/mechanics/state_bound.h"
+#include "taut/mechanics/private/state_bound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/core/vectorise.h"
-#include "taut/mechanics/cell_shape.h"
+#include "taut/core/private/vectorise.h"
+#include "taut/mechanics/private/cell_shape.h"
 
 namespace taut::mechanics {
 namespace {

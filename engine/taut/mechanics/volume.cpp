@@ -1,12 +1,12 @@
-#include "taut/mechanics/volume.h"
+#include "taut/mechanics/private/volume.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/instruction_set.h"
-#include "taut/mechanics/cell_shape.h"
+#include "taut/core/private/instruction_set.h"
+#include "taut/mechanics/private/cell_shape.h"
 
 namespace taut::mechanics {
 namespace {

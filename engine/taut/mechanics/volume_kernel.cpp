@@ -1,9 +1,9 @@
 // Compiled once per instruction set (engine/taut.cmake). Only + - * /, no sum across lanes: the same bits for every
 // width.
-#include "taut/mechanics/volume_kernel.h"
+#include "taut/mechanics/private/volume_kernel.h"
 
-#include "taut/core/vectorise.h"
-#include "taut/mechanics/packed_points.h"
+#include "taut/core/private/vectorise.h"
+#include "taut/mechanics/private/packed_points.h"
 
 namespace taut::mechanics::TAUT_ISA {
 namespace {

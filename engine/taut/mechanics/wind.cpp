@@ -1,10 +1,10 @@
-#include "taut/mechanics/wind.h"
+#include "taut/mechanics/private/wind.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::mechanics {
 namespace {

@@ -15,10 +15,10 @@
 #include <array>
 #include <cmath>
 
-#include "taut/core/vectorise.h"
-#include "taut/ode/implicit_solve.h"
+#include "taut/core/private/vectorise.h"
+#include "taut/ode/private/implicit_solve.h"
 #include "taut/ode/method.h"
-#include "taut/ode/step_limits.h"
+#include "taut/ode/private/step_limits.h"
 
 namespace taut::ode {
 namespace {

@@ -1,6 +1,6 @@
-#include "taut/ode/conjugate_gradient.h"
+#include "taut/ode/private/conjugate_gradient.h"
 
-#include "taut/core/vectorise.h"
+#include "taut/core/private/vectorise.h"
 
 namespace taut::ode {
 namespace {

@@ -1,8 +1,8 @@
 // Explicit Euler: y' = y + h f(t, y), from old data only. Order 1; without damping unstable for every step:
 // kept as a comparison.
 #include "taut/ode/method.h"
-#include "taut/ode/runge_kutta.h"
-#include "taut/ode/step_limits.h"
+#include "taut/ode/private/runge_kutta.h"
+#include "taut/ode/private/step_limits.h"
 
 namespace taut::ode {
 namespace {

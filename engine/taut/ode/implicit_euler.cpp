@@ -19,7 +19,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/ode/implicit_solve.h"
+#include "taut/ode/private/implicit_solve.h"
 
 namespace taut::ode {
 namespace {

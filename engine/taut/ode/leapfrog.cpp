@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <atomic>
 
-#include "taut/ode/leapfrog_parts.h"
+#include "taut/ode/private/leapfrog_parts.h"
 #include "taut/ode/method.h"
-#include "taut/ode/step_limits.h"
-#include "taut/ode/update_kernels.h"
+#include "taut/ode/private/step_limits.h"
+#include "taut/ode/private/update_kernels.h"
 
 namespace taut::ode {
 namespace {

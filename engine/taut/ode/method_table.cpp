@@ -3,7 +3,7 @@
 #include <string>
 
 #include "taut/core/error.h"
-#include "taut/ode/stacked_method.h"
+#include "taut/ode/private/stacked_method.h"
 
 // A line a method, in the order in which texts name them: the function that returns its row, in a file of its own.
 #define TAUT_METHODS(METHOD) \

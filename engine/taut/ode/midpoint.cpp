@@ -1,7 +1,7 @@
 // The midpoint method: y' = y + h f(t + h/2, y + (h/2) f(t, y)). Order 2. Undamped motion grows by 1 + z⁴/8 a step.
 #include "taut/ode/method.h"
-#include "taut/ode/runge_kutta.h"
-#include "taut/ode/step_limits.h"
+#include "taut/ode/private/runge_kutta.h"
+#include "taut/ode/private/step_limits.h"
 
 namespace taut::ode {
 namespace {

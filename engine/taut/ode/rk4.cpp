@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "taut/ode/method.h"
-#include "taut/ode/runge_kutta.h"
-#include "taut/ode/step_limits.h"
+#include "taut/ode/private/runge_kutta.h"
+#include "taut/ode/private/step_limits.h"
 
 namespace taut::ode {
 namespace {

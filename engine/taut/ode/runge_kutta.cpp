@@ -1,9 +1,9 @@
-#include "taut/ode/runge_kutta.h"
+#include "taut/ode/private/runge_kutta.h"
 
 #include <algorithm>
 
 #include "taut/core/aligned_array.h"
-#include "taut/core/vectorise.h"
+#include "taut/core/private/vectorise.h"
 
 namespace taut::ode {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/ode/stacked_method.h"
+#include "taut/ode/private/stacked_method.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "taut/ode/step_limits.h"
+#include "taut/ode/private/step_limits.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
-#include "taut/core/vectorise.h"
+#include "taut/core/private/vectorise.h"
 
 namespace taut::ode::TAUT_ISA {
 namespace {

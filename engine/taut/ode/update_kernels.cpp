@@ -1,6 +1,6 @@
-#include "taut/ode/update_kernels.h"
+#include "taut/ode/private/update_kernels.h"
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::ode {
 

@@ -6,7 +6,7 @@
 // as leap-frog does; at the start and after a contact a_el is evaluated anew, from v. That a contact has been is part
 // of the state, so that a copy of it goes on in the same way.
 #include "taut/ode/method.h"
-#include "taut/ode/step_limits.h"
+#include "taut/ode/private/step_limits.h"
 
 namespace taut::ode {
 namespace {

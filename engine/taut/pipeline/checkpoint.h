@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "taut/pipeline/run.h"
-#include "taut/scene/used_files.h"
+#include "taut/scene/private/used_files.h"
 #include "taut/world/result_bits.h"
 
 namespace taut::pipeline {

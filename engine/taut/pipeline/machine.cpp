@@ -7,7 +7,7 @@
 #include <fstream>
 #include <thread>
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::pipeline {
 namespace {

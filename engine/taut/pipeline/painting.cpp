@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/image/srgb_curve.h"
-#include "taut/image/with_alpha.h"
+#include "taut/image/private/srgb_curve.h"
+#include "taut/image/private/with_alpha.h"
 
 namespace taut::pipeline {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "taut/image/image.h"
-#include "taut/render/text_picture.h"
+#include "taut/render/private/text_picture.h"
 
 namespace taut::pipeline {
 

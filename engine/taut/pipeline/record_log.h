@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "taut/core/hash.h"
+#include "taut/core/private/hash.h"
 #include "taut/world/world.h"
 
 namespace taut::pipeline {

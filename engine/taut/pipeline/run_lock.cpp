@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/core/file_lock.h"
+#include "taut/core/private/file_lock.h"
 #include "taut/core/whole_file.h"
 
 namespace taut::pipeline {

@@ -8,7 +8,7 @@
 
 #include "taut/core/bytes.h"
 #include "taut/core/error.h"
-#include "taut/core/hash.h"
+#include "taut/core/private/hash.h"
 #include "taut/core/whole_file.h"
 
 namespace taut::pipeline {

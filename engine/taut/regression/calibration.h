@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/image/compare.h"
+#include "taut/image/private/compare.h"
 #include "taut/regression/drawer.h"
 #include "taut/regression/scenario.h"
 #include "taut/report/test_report.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/core/file_batch.h"
+#include "taut/core/private/file_batch.h"
 #include "taut/core/whole_file.h"
 #include "taut/image/png.h"
 #include "taut/image/read.h"

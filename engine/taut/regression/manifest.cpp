@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "taut/core/error.h"
-#include "taut/core/file_batch.h"
+#include "taut/core/private/file_batch.h"
 #include "taut/core/whole_file.h"
 
 namespace taut::regression {

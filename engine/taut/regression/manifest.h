@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "taut/image/compare.h"
+#include "taut/image/private/compare.h"
 #include "taut/world/result_bits.h"
 
 namespace taut::regression {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "taut/scene/by_key.h"
+#include "taut/scene/private/by_key.h"
 #include "taut/spec/actions.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"

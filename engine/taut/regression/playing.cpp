@@ -7,7 +7,7 @@
 #include "taut/pipeline/run.h"
 #include "taut/regression/scenario_checks.h"
 #include "taut/world/components.h"
-#include "taut/spec/motion.h"
+#include "taut/spec/private/motion.h"
 #include "taut/world/world.h"
 
 namespace taut::regression {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/core/file_batch.h"
+#include "taut/core/private/file_batch.h"
 #include "taut/regression/manifest.h"
 #include "taut/regression/scenario.h"
 #include "taut/report/text_changes.h"

@@ -11,7 +11,7 @@
 #include "taut/core/error.h"
 #include "taut/regression/goldens.h"
 #include "taut/regression/judging.h"
-#include "taut/scene/body_size.h"
+#include "taut/scene/private/body_size.h"
 
 namespace taut::regression {
 namespace {

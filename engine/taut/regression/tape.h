@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/scene/used_files.h"
+#include "taut/scene/private/used_files.h"
 #include "taut/world/result_bits.h"
 
 namespace taut::world {

@@ -1,4 +1,4 @@
-#include "taut/render/context.h"
+#include "taut/render/private/context.h"
 
 #include <fmt/format.h>
 #include <glad/gl.h>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/render/egl_devices.h"
+#include "taut/render/private/egl_devices.h"
 
 namespace taut::render {
 

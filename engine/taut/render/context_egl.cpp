@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "taut/core/error.h"
-#include "taut/render/context.h"
-#include "taut/render/egl_devices.h"
+#include "taut/render/private/context.h"
+#include "taut/render/private/egl_devices.h"
 
 namespace taut::render {
 

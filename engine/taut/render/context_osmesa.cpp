@@ -3,7 +3,7 @@
 #include <array>
 
 #include "taut/core/error.h"
-#include "taut/render/context.h"
+#include "taut/render/private/context.h"
 
 namespace taut::render {
 

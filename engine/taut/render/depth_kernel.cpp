@@ -1,6 +1,6 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
-#include "taut/core/vectorise.h"
-#include "taut/render/depth_kernels.h"
+#include "taut/core/private/vectorise.h"
+#include "taut/render/private/depth_kernels.h"
 
 namespace taut::render::TAUT_ISA {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/render/depth_layer.h"
+#include "taut/render/private/depth_layer.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "taut/render/edge_coverage.h"
+#include "taut/render/private/edge_coverage.h"
 
 #include <algorithm>
 

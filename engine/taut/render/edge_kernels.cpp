@@ -1,6 +1,6 @@
-#include "taut/render/edge_kernels.h"
+#include "taut/render/private/edge_kernels.h"
 
-#include "taut/core/instruction_set.h"
+#include "taut/core/private/instruction_set.h"
 
 namespace taut::render {
 

@@ -1,10 +1,10 @@
-#include "taut/render/edge_pass.h"
+#include "taut/render/private/edge_pass.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/parallel.h"
-#include "taut/render/edge_coverage.h"
+#include "taut/core/private/parallel.h"
+#include "taut/render/private/edge_coverage.h"
 
 namespace taut::render {
 

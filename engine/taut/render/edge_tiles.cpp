@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "taut/render/edge_kernels.h"
+#include "taut/render/private/edge_kernels.h"
 
 namespace taut::render {
 

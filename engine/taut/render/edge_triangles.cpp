@@ -1,9 +1,9 @@
-#include "taut/render/edge_triangles.h"
+#include "taut/render/private/edge_triangles.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "taut/render/edge_pass.h"
+#include "taut/render/private/edge_pass.h"
 
 namespace taut::render {
 

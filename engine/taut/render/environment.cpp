@@ -1,4 +1,4 @@
-#include "taut/render/environment.h"
+#include "taut/render/private/environment.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "taut/render/environment_map.h"
+#include "taut/render/private/environment_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "taut/image/light_image.h"
+#include "taut/image/private/light_image.h"
 #include "taut/render/program.h"
 
 namespace taut::render {

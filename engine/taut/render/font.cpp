@@ -1,4 +1,4 @@
-#include "taut/render/font.h"
+#include "taut/render/private/font.h"
 
 #include <fstream>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "taut/render/frame_block.h"
+#include "taut/render/private/frame_block.h"
 
 #include <cmath>
 #include <numbers>

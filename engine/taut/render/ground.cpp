@@ -1,11 +1,11 @@
-#include "taut/render/ground.h"
+#include "taut/render/private/ground.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "taut/render/shadow_map.h"
+#include "taut/render/private/shadow_map.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "taut/render/ground_pass.h"
+#include "taut/render/private/ground_pass.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "taut/render/camera_axes.h"
-#include "taut/render/edge_kernels.h"
-#include "taut/render/edge_pass.h"
+#include "taut/render/private/edge_kernels.h"
+#include "taut/render/private/edge_pass.h"
 
 namespace taut::render {
 

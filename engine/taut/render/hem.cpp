@@ -1,4 +1,4 @@
-#include "taut/render/hem.h"
+#include "taut/render/private/hem.h"
 
 #include <algorithm>
 #include <cmath>

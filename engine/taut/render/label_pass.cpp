@@ -1,10 +1,10 @@
-#include "taut/render/label_pass.h"
+#include "taut/render/private/label_pass.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "taut/image/srgb_curve.h"
-#include "taut/image/with_alpha.h"
+#include "taut/image/private/srgb_curve.h"
+#include "taut/image/private/with_alpha.h"
 
 namespace taut::render {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "taut/render/edge_pass.h"
+#include "taut/render/private/edge_pass.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "taut/render/light_maps.h"
+#include "taut/render/private/light_maps.h"
 
 namespace taut::render {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/render/shadow_map.h"
+#include "taut/render/private/shadow_map.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "taut/render/marks_pass.h"
+#include "taut/render/private/marks_pass.h"
 
 #include <algorithm>
 #include <cstddef>

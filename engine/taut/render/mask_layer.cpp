@@ -1,4 +1,4 @@
-#include "taut/render/mask_layer.h"
+#include "taut/render/private/mask_layer.h"
 
 #include <fmt/format.h>
 

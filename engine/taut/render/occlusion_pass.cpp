@@ -1,4 +1,4 @@
-#include "taut/render/occlusion_pass.h"
+#include "taut/render/private/occlusion_pass.h"
 
 #include <algorithm>
 #include <array>

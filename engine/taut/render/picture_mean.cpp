@@ -1,11 +1,11 @@
-#include "taut/render/picture_mean.h"
+#include "taut/render/private/picture_mean.h"
 
 #include <algorithm>
 #include <cstddef>
 
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
-#include "taut/image/srgb_curve.h"
+#include "taut/core/private/parallel.h"
+#include "taut/image/private/srgb_curve.h"
 
 namespace taut::render {
 

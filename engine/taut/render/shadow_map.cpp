@@ -1,10 +1,10 @@
-#include "taut/render/shadow_map.h"
+#include "taut/render/private/shadow_map.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "taut/render/shadow_pass.h"
+#include "taut/render/private/shadow_pass.h"
 
 #include <array>
 #include <string>

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/render/edge_pass.h"
+#include "taut/render/private/edge_pass.h"
 
 namespace taut::render {
 

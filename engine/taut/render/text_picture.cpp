@@ -1,4 +1,4 @@
-#include "taut/render/text_picture.h"
+#include "taut/render/private/text_picture.h"
 
 #include <algorithm>
 #include <cmath>

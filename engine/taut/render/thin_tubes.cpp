@@ -1,11 +1,11 @@
-#include "taut/render/thin_tubes.h"
+#include "taut/render/private/thin_tubes.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "taut/render/camera_axes.h"
-#include "taut/render/edge_coverage.h"
-#include "taut/render/edge_pass.h"
+#include "taut/render/private/edge_coverage.h"
+#include "taut/render/private/edge_pass.h"
 
 namespace taut::render {
 

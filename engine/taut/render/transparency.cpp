@@ -1,4 +1,4 @@
-#include "taut/render/transparency.h"
+#include "taut/render/private/transparency.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
-#include "taut/image/srgb_curve.h"
+#include "taut/image/private/srgb_curve.h"
 
 namespace taut::render {
 

@@ -6,7 +6,7 @@
 
 #include "taut/core/error.h"
 #include "taut/image/read.h"
-#include "taut/image/resize.h"
+#include "taut/image/private/resize.h"
 
 namespace taut::report {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "taut/core/child_process.h"
+#include "taut/core/private/child_process.h"
 #include "taut/core/error.h"
 #include "taut/core/whole_file.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "taut/core/utf8.h"
+#include "taut/core/private/utf8.h"
 #include "taut/report/test_page.h"
 
 namespace taut::report {

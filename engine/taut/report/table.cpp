@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/utf8.h"
+#include "taut/core/private/utf8.h"
 
 namespace taut::report {
 namespace {

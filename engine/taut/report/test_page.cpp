@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "taut/core/base64.h"
-#include "taut/core/utf8.h"
+#include "taut/core/private/base64.h"
+#include "taut/core/private/utf8.h"
 #include "taut/report/page_parts.h"
 
 namespace taut::report {

@@ -6,7 +6,7 @@
 #include <array>
 #include <iterator>
 
-#include "taut/core/utf8.h"
+#include "taut/core/private/utf8.h"
 #include "taut/report/table.h"
 
 namespace taut::report {

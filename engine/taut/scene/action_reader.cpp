@@ -1,11 +1,11 @@
 #include "taut/scene/action_reader.h"
 
 #include "taut/core/error.h"
-#include "taut/fields/value_reader.h"
-#include "taut/scene/body_index.h"
-#include "taut/scene/document.h"
-#include "taut/scene/ramp_key.h"
-#include "taut/scene/scene_reader.h"
+#include "taut/fields/private/value_reader.h"
+#include "taut/scene/private/body_index.h"
+#include "taut/scene/private/document.h"
+#include "taut/scene/private/ramp_key.h"
+#include "taut/scene/private/scene_reader.h"
 
 namespace taut::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/scene/asset_files.h"
+#include "taut/scene/private/asset_files.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "taut/core/error.h"
-#include "taut/scene/obj_file.h"
+#include "taut/scene/private/obj_file.h"
 
 namespace taut::scene {
 

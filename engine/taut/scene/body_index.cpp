@@ -1,4 +1,4 @@
-#include "taut/scene/body_index.h"
+#include "taut/scene/private/body_index.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 
 #include "taut/core/error.h"
 #include "taut/core/glob.h"
-#include "taut/fields/problems.h"
-#include "taut/scene/sections.h"
+#include "taut/fields/private/problems.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

@@ -1,4 +1,4 @@
-#include "taut/scene/body_size.h"
+#include "taut/scene/private/body_size.h"
 
 #include <unistd.h>
 

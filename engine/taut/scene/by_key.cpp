@@ -1,11 +1,11 @@
-#include "taut/scene/by_key.h"
+#include "taut/scene/private/by_key.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "taut/fields/problems.h"
-#include "taut/scene/sections.h"
+#include "taut/fields/private/problems.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

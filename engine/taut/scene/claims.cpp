@@ -1,4 +1,4 @@
-#include "taut/scene/claims.h"
+#include "taut/scene/private/claims.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "taut/check/check.h"
-#include "taut/check/function_table.h"
-#include "taut/scene/body_index.h"
-#include "taut/scene/timeline.h"
+#include "taut/check/private/function_table.h"
+#include "taut/scene/private/body_index.h"
+#include "taut/scene/private/timeline.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/ticks.h"
 

@@ -1,4 +1,4 @@
-#include "taut/scene/document.h"
+#include "taut/scene/private/document.h"
 
 #include <fmt/format.h>
 

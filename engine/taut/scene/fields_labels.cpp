@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "taut/fields/field_list.h"
-#include "taut/fields/problems.h"
-#include "taut/scene/sections.h"
+#include "taut/fields/private/problems.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

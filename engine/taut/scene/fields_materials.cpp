@@ -1,6 +1,6 @@
 // The field table, part two: what bodies are made of.
 #include "taut/fields/field_list.h"
-#include "taut/scene/sections.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

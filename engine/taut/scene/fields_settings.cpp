@@ -1,7 +1,7 @@
 // The field table, part one: settings of the whole scene.
 #include "taut/fields/field_list.h"
-#include "taut/fields/problems.h"
-#include "taut/scene/sections.h"
+#include "taut/fields/private/problems.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

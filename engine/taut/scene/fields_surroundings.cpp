@@ -7,10 +7,10 @@
 
 #include "taut/collision/shape_table.h"
 #include "taut/fields/field_list.h"
-#include "taut/fields/problems.h"
-#include "taut/scene/merged_rows.h"
-#include "taut/scene/sections.h"
-#include "taut/bodies/ties.h"
+#include "taut/fields/private/problems.h"
+#include "taut/scene/private/merged_rows.h"
+#include "taut/scene/private/sections.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::scene {
 

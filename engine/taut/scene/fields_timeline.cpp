@@ -1,8 +1,8 @@
 // The field table, part five: what happens while a scene runs, and what is claimed of it.
 #include "taut/fields/field_list.h"
-#include "taut/fields/problems.h"
-#include "taut/scene/merged_rows.h"
-#include "taut/scene/sections.h"
+#include "taut/fields/private/problems.h"
+#include "taut/scene/private/merged_rows.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

@@ -6,18 +6,18 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/scene/asset_files.h"
-#include "taut/scene/body_size.h"
-#include "taut/scene/claims.h"
-#include "taut/scene/document.h"
-#include "taut/scene/merge.h"
-#include "taut/scene/overrides.h"
-#include "taut/scene/references.h"
-#include "taut/scene/scene_reader.h"
+#include "taut/scene/private/asset_files.h"
+#include "taut/scene/private/body_size.h"
+#include "taut/scene/private/claims.h"
+#include "taut/scene/private/document.h"
+#include "taut/scene/private/merge.h"
+#include "taut/scene/private/overrides.h"
+#include "taut/scene/private/references.h"
+#include "taut/scene/private/scene_reader.h"
 #include "taut/scene/state_keys.h"
-#include "taut/scene/suspicions.h"
-#include "taut/scene/text_file.h"
-#include "taut/scene/timeline.h"
+#include "taut/scene/private/suspicions.h"
+#include "taut/scene/private/text_file.h"
+#include "taut/scene/private/timeline.h"
 
 namespace taut::scene {
 

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include "taut/check/check.h"
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 #include "taut/scene/load.h"
-#include "taut/scene/ramp_key.h"
-#include "taut/scene/sections.h"
+#include "taut/scene/private/ramp_key.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

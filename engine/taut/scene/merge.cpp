@@ -1,4 +1,4 @@
-#include "taut/scene/merge.h"
+#include "taut/scene/private/merge.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include "taut/core/error.h"
-#include "taut/scene/sections.h"
-#include "taut/scene/text_file.h"
+#include "taut/scene/private/sections.h"
+#include "taut/scene/private/text_file.h"
 
 namespace taut::scene {
 

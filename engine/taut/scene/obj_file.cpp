@@ -1,4 +1,4 @@
-#include "taut/scene/obj_file.h"
+#include "taut/scene/private/obj_file.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <tuple>
 
 #include "taut/core/error.h"
-#include "taut/scene/polygon.h"
-#include "taut/scene/text_file.h"
+#include "taut/scene/private/polygon.h"
+#include "taut/scene/private/text_file.h"
 
 namespace taut::scene {
 

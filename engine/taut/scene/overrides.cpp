@@ -1,4 +1,4 @@
-#include "taut/scene/overrides.h"
+#include "taut/scene/private/overrides.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "taut/core/error.h"
-#include "taut/scene/document.h"
+#include "taut/scene/private/document.h"
 
 namespace taut::scene {
 

@@ -1,4 +1,4 @@
-#include "taut/scene/polygon.h"
+#include "taut/scene/private/polygon.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,10 +1,10 @@
-#include "taut/scene/ramp_key.h"
+#include "taut/scene/private/ramp_key.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 
 namespace taut::scene {
 

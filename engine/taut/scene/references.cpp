@@ -1,10 +1,10 @@
-#include "taut/scene/references.h"
+#include "taut/scene/private/references.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "taut/bodies/ties.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::scene {
 

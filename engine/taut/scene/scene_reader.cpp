@@ -1,10 +1,10 @@
-#include "taut/scene/scene_reader.h"
+#include "taut/scene/private/scene_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "taut/fields/value_reader.h"
+#include "taut/fields/private/value_reader.h"
 
 namespace taut::scene {
 

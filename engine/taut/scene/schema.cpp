@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "taut/scene/load.h"
-#include "taut/scene/sections.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

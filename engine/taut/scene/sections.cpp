@@ -1,4 +1,4 @@
-#include "taut/scene/sections.h"
+#include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 

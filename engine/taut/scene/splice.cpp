@@ -1,4 +1,4 @@
-#include "taut/scene/splice.h"
+#include "taut/scene/private/splice.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/scene/document.h"
+#include "taut/scene/private/document.h"
 
 namespace taut::scene {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "taut/core/hash.h"
-#include "taut/scene/document.h"
+#include "taut/core/private/hash.h"
+#include "taut/scene/private/document.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/ticks.h"
 

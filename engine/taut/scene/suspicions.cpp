@@ -1,4 +1,4 @@
-#include "taut/scene/suspicions.h"
+#include "taut/scene/private/suspicions.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "taut/scene/text_file.h"
+#include "taut/scene/private/text_file.h"
 
 #include <fmt/format.h>
 

@@ -1,16 +1,16 @@
-#include "taut/scene/timeline.h"
+#include "taut/scene/private/timeline.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "taut/fields/value_reader.h"
-#include "taut/scene/body_index.h"
-#include "taut/scene/ramp_key.h"
+#include "taut/fields/private/value_reader.h"
+#include "taut/scene/private/body_index.h"
+#include "taut/scene/private/ramp_key.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/ticks.h"
-#include "taut/bodies/ties.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::scene {
 

@@ -1,10 +1,10 @@
-#include "taut/scene/used_files.h"
+#include "taut/scene/private/used_files.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/core/hash.h"
+#include "taut/core/private/hash.h"
 #include "taut/core/whole_file.h"
 #include "taut/spec/spec.h"
 

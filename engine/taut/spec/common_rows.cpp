@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 #include "taut/ode/method_table.h"
 
 namespace taut::world {

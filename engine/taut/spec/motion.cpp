@@ -1,9 +1,9 @@
-#include "taut/spec/motion.h"
+#include "taut/spec/private/motion.h"
 
 #include <cmath>
 
 #include "taut/core/trig.h"
-#include "taut/spec/rotation.h"
+#include "taut/spec/private/rotation.h"
 
 namespace taut::world {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "taut/core/vectorise.h"
+#include "taut/core/private/vectorise.h"
 #include "taut/ode/system.h"
 
 namespace taut::study {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/errors.h"
 

@@ -5,7 +5,7 @@
 
 #include "taut/mechanics/gravity.h"
 #include "taut/mechanics/mass_spring_system.h"
-#include "taut/mechanics/stability.h"
+#include "taut/mechanics/private/stability.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/fehlberg78.h"
 #include "taut/study/perturbation.h"

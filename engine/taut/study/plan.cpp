@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
 #include "taut/spec/spec.h"
 #include "taut/study/plan_changes.h"

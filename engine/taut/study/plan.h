@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/scene/splice.h"
+#include "taut/scene/private/splice.h"
 #include "taut/study/plan_candidate.h"
 #include "taut/study/plan_need.h"
 #include "taut/study/work_precision.h"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "taut/core/error.h"
-#include "taut/scene/by_key.h"
+#include "taut/scene/private/by_key.h"
 #include "taut/bodies/block.h"
 #include "taut/bodies/cloth.h"
 #include "taut/bodies/net.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "taut/scene/by_key.h"
+#include "taut/scene/private/by_key.h"
 #include "taut/spec/spec.h"
 #include "taut/study/one_method.h"
 #include "taut/world/world.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "taut/scene/splice.h"
+#include "taut/scene/private/splice.h"
 
 namespace taut::world {
 struct SceneSpec;

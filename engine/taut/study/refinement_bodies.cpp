@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "taut/core/bisect.h"
+#include "taut/core/private/bisect.h"
 #include "taut/mechanics/builders.h"
 
 namespace taut::study {

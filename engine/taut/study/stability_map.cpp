@@ -6,8 +6,8 @@
 #include <memory>
 #include <mutex>
 
-#include "taut/core/bisect.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/bisect.h"
+#include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
 
 namespace taut::study {

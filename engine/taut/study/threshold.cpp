@@ -7,7 +7,7 @@
 #include <mutex>
 #include <optional>
 
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
 #include "taut/spec/spec.h"
 #include "taut/study/one_method.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 #include "taut/ode/method_table.h"
 #include "taut/study/errors.h"
 

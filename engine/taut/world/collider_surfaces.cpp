@@ -1,9 +1,9 @@
-#include "taut/world/collider_surfaces.h"
+#include "taut/world/private/collider_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "taut/spec/motion.h"
+#include "taut/spec/private/motion.h"
 
 namespace taut::world {
 namespace {

@@ -1,4 +1,4 @@
-#include "taut/world/contact_report.h"
+#include "taut/world/private/contact_report.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,13 +1,13 @@
-#include "taut/world/contact_stage.h"
+#include "taut/world/private/contact_stage.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numeric>
 
-#include "taut/bodies/bare_faces.h"
+#include "taut/bodies/private/bare_faces.h"
 #include "taut/contact/penetration.h"
-#include "taut/core/parallel.h"
+#include "taut/core/private/parallel.h"
 
 namespace taut::world {
 namespace {

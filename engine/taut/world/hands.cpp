@@ -1,12 +1,12 @@
-#include "taut/world/hands.h"
+#include "taut/world/private/hands.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "taut/world/impl.h"
-#include "taut/spec/motion.h"
-#include "taut/spec/rotation.h"
-#include "taut/bodies/ties.h"
+#include "taut/world/private/impl.h"
+#include "taut/spec/private/motion.h"
+#include "taut/spec/private/rotation.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 

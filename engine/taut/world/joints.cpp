@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "taut/world/impl.h"
+#include "taut/world/private/impl.h"
 #include "taut/spec/targets.h"
-#include "taut/bodies/ties.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 namespace {

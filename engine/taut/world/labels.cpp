@@ -1,4 +1,4 @@
-#include "taut/world/labels.h"
+#include "taut/world/private/labels.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "taut/world/impl.h"
-#include "taut/world/labels.h"
-#include "taut/spec/motion.h"
+#include "taut/world/private/impl.h"
+#include "taut/world/private/labels.h"
+#include "taut/spec/private/motion.h"
 
 namespace taut::world {
 namespace {

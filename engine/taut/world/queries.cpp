@@ -3,9 +3,9 @@
 #include <map>
 #include <set>
 
-#include "taut/core/hash.h"
-#include "taut/island/island_report.h"
-#include "taut/world/impl.h"
+#include "taut/core/private/hash.h"
+#include "taut/island/private/island_report.h"
+#include "taut/world/private/impl.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {

@@ -1,7 +1,7 @@
 // Fields of the scene that change while it runs.
 #include <algorithm>
 
-#include "taut/world/impl.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 namespace {

@@ -1,7 +1,7 @@
 // A world as bytes: what its ticks have changed. The scene is not among them; it makes the world that they go into.
 #include <algorithm>
 
-#include "taut/world/impl.h"
+#include "taut/world/private/impl.h"
 #include "taut/spec/kinds.h"
 #include "taut/world/result_bits.h"
 #include "taut/bodies/state_bytes.h"

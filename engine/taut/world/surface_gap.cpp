@@ -1,4 +1,4 @@
-#include "taut/world/surface_gap.h"
+#include "taut/world/private/surface_gap.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,8 +7,8 @@
 #include "taut/contact/crossings.h"
 #include "taut/contact/contact_group.h"
 #include "taut/bodies/body.h"
-#include "taut/island/island.h"
-#include "taut/world/contact_stage.h"
+#include "taut/island/private/island.h"
+#include "taut/world/private/contact_stage.h"
 
 namespace taut::world {
 namespace {

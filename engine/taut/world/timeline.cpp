@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "taut/core/error.h"
-#include "taut/world/impl.h"
+#include "taut/world/private/impl.h"
 #include "taut/spec/targets.h"
 #include "taut/spec/ticks.h"
 

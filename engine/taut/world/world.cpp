@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "taut/core/error.h"
-#include "taut/core/hash.h"
-#include "taut/forces/scene_forces.h"
-#include "taut/island/island_report.h"
-#include "taut/world/impl.h"
-#include "taut/spec/motion.h"
+#include "taut/core/private/hash.h"
+#include "taut/forces/private/scene_forces.h"
+#include "taut/island/private/island_report.h"
+#include "taut/world/private/impl.h"
+#include "taut/spec/private/motion.h"
 #include "taut/spec/targets.h"
 #include "taut/spec/ticks.h"
-#include "taut/bodies/ties.h"
+#include "taut/bodies/private/ties.h"
 #include "taut/bodies/joints/constraint.h"
 
 namespace taut::world {

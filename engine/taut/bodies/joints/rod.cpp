@@ -5,7 +5,7 @@
 #include "taut/spec/common_rows.h"
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/joints.h"
-#include "taut/bodies/joints/rods.h"
+#include "taut/bodies/private/joints/rods.h"
 
 namespace taut::world {
 namespace {

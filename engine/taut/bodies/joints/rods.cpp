@@ -1,4 +1,4 @@
-#include "taut/bodies/joints/rods.h"
+#include "taut/bodies/private/joints/rods.h"
 
 #include <algorithm>
 #include <cmath>

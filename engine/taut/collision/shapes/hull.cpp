@@ -1,11 +1,11 @@
 // The convex hull of a set of points; the work is in convex_hull.h and foot_finder.h.
 #include <string>
 
-#include "taut/collision/convex_form.h"
-#include "taut/collision/convex_hull.h"
-#include "taut/collision/foot_finder.h"
+#include "taut/collision/private/convex_form.h"
+#include "taut/collision/private/convex_hull.h"
+#include "taut/collision/private/foot_finder.h"
 #include "taut/collision/shape_table.h"
-#include "taut/collision/shapes/shape_parts.h"
+#include "taut/collision/private/shapes/shape_parts.h"
 
 namespace taut::collision {
 

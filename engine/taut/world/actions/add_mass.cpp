@@ -1,6 +1,6 @@
 // Points become heavier or lighter.
-#include "taut/world/actions/rows.h"
-#include "taut/world/impl.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 

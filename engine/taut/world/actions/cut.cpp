@@ -1,8 +1,8 @@
 // Bodies are cut along a plane or a line.
-#include "taut/fields/problems.h"
-#include "taut/world/actions/rows.h"
-#include "taut/island/cutting.h"
-#include "taut/world/impl.h"
+#include "taut/fields/private/problems.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/island/private/cutting.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 

@@ -1,8 +1,8 @@
 // A hand takes hold of points.
 #include <algorithm>
 
-#include "taut/world/actions/rows.h"
-#include "taut/world/impl.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 

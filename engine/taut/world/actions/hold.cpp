@@ -1,10 +1,10 @@
 // Points are pinned where they are, or to a collider, or free to move.
 #include <algorithm>
 
-#include "taut/fields/problems.h"
-#include "taut/world/actions/rows.h"
-#include "taut/world/impl.h"
-#include "taut/bodies/ties.h"
+#include "taut/fields/private/problems.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/world/private/impl.h"
+#include "taut/bodies/private/ties.h"
 
 namespace taut::world {
 

@@ -3,10 +3,10 @@
 #include <cstdio>
 
 #include "taut/core/trig.h"
-#include "taut/fields/problems.h"
-#include "taut/world/actions/rows.h"
-#include "taut/world/impl.h"
-#include "taut/spec/rotation.h"
+#include "taut/fields/private/problems.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/world/private/impl.h"
+#include "taut/spec/private/rotation.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {

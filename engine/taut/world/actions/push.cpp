@@ -1,7 +1,7 @@
 // An impulse goes to the points that can move, in proportion to their masses.
-#include "taut/fields/problems.h"
-#include "taut/world/actions/rows.h"
-#include "taut/world/impl.h"
+#include "taut/fields/private/problems.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 

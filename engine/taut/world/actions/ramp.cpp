@@ -1,8 +1,8 @@
 // A field of the scene changes while it runs; ramps.cpp leads it from then on.
 #include <algorithm>
 
-#include "taut/world/actions/rows.h"
-#include "taut/world/impl.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 

@@ -1,8 +1,8 @@
 // A hand lets go.
 #include <algorithm>
 
-#include "taut/world/actions/rows.h"
-#include "taut/world/impl.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 

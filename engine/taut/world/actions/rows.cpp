@@ -1,6 +1,6 @@
-#include "taut/world/actions/rows.h"
+#include "taut/world/private/actions/rows.h"
 
-#include "taut/fields/problems.h"
+#include "taut/fields/private/problems.h"
 
 namespace taut::world {
 

@@ -1,6 +1,6 @@
 // A body that was built at the start, and has waited, appears.
-#include "taut/world/actions/rows.h"
-#include "taut/world/impl.h"
+#include "taut/world/private/actions/rows.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 

@@ -1,0 +1,18 @@
+// From the text of a claim to its parts. It knows the functions' names and arguments, not what they measure.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "taut/check/check.h"
+#include "taut/check/private/evaluation.h"
+
+namespace taut::check {
+
+// Throws Fault. Adds what the claim speaks of to `mentions`, in the order of the text.
+Claim claimOf(std::string_view text, std::vector<Mention>& mentions);
+
+// The same for expressions with commas between them and no comparison; at least one.
+std::vector<Expression> expressionsOf(std::string_view text, std::vector<Mention>& mentions);
+
+}  // namespace taut::check

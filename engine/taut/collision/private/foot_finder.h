@@ -1,0 +1,102 @@
+// The nearest place of a set of triangles, found in cells that know which triangles can be nearest, or in a tree
+// where no cell knows. It knows neither paths nor what the triangles bound.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "taut/collision/private/facets.h"
+#include "taut/collision/geometry.h"
+#include "taut/collision/private/mesh_tree.h"
+
+namespace taut::collision {
+
+// The nearest place of some triangles.
+struct Foot {
+    double square = std::numeric_limits<double>::infinity();  // [m²] of the distance
+    double facing = -1.0;                                     // |height over the triangle's plane| [m]
+    dvec3 point{0.0};
+    int triangle = -1;
+};
+
+class FootFinder {
+  public:
+    FootFinder() = default;
+    // The same whatever the number of threads.
+    explicit FootFinder(Facets facets);
+
+    // What is known of a place without looking at triangles.
+    struct Place {
+        double least;               // [m] the surface is at least this far
+        double most;                // [m] and at most this far
+        bool inside;                // if least > 0
+        std::span<const int> list;  // triangles among which the nearest is; empty: not known
+    };
+    Place place(const dvec3& p) const;
+
+    // The nearest place to p, which is at that place. Among triangles that are equally near (at an edge or a corner)
+    // the one that faces p most is taken.
+    Foot foot(const dvec3& p, const Place& place) const;
+
+    // Whether p, of which the foot is given, is inside a closed surface: the triangle that faces p most decides that
+    // rightly for every closed surface.
+    bool isInside(const dvec3& p, const Foot& foot) const;
+
+    // The distance of p, negative inside, and the direction in which it grows.
+    Nearest nearestFrom(const dvec3& p, const Foot& foot) const;
+    Nearest nearest(const dvec3& p) const { return nearestFrom(p, foot(p, place(p))); }
+
+    const Triangle& triangle(int i) const { return facets_.triangles[static_cast<std::size_t>(i)]; }
+    const MeshTree& tree() const { return tree_; }
+    const Box& bounds() const { return bounds_; }
+    bool isClosed() const { return facets_.isClosed; }
+    const Facets& facets() const { return facets_; }
+
+  private:
+    // A triangle in single precision, from the middle of all: heights over its plane and beyond its three edges.
+    using Four = float __attribute__((vector_size(16)));
+    struct Prism {
+        Four x, y, z, offset;
+    };
+    // A cube of space. From its middle the surface is `least` to |most| metres away.
+    struct Cell {
+        float least = 0.0F;
+        float most = 0.0F;        // below zero: the middle is inside
+        std::uint32_t first = 0;  // of its list, or of its eight parts
+        std::int32_t count = 0;   // of its list; 0: it has none; below 0: it has parts
+    };
+    static constexpr std::size_t longestList = 64;
+    struct Slab;  // the cells of one layer, while they are made
+
+    void update(const dvec3& p, int triangle, Foot& foot) const;
+    Foot footAmong(const dvec3& p, std::span<const int> list, float* lowest) const;
+    void footInTree(const dvec3& p, double shrink, Foot& foot) const;
+    void lowestSquares(const dvec3& fromCentre, std::span<const int> list, float* lowest) const;  // [m²]
+
+    void makePrisms();
+    void widenPrisms();
+    bool mayBeNearest(const dvec3& middle, double half, int triangle) const;
+    void measureCells();
+    void measureSlab(int z, Slab& slab) const;
+    void fillCell(std::size_t cell, const dvec3& middle, double half, int depth, std::span<const int> among,
+                  Slab& slab) const;
+
+    MeshTree tree_;
+    Facets facets_;
+    std::vector<Prism> prisms_;  // (triangles)
+    std::vector<float> flares_;  // (triangles) see widenPrisms
+    Box bounds_;
+    double rounding_ = 0.0;  // [m] of a prism's heights
+
+    glm::ivec3 cellCount_{0};
+    dvec3 cellsFrom_{0.0};
+    double cellSize_ = 0.0;       // [m]
+    double cellsPerMetre_ = 0.0;  // [1/m]
+    std::vector<Cell> cells_;     // (cellCount_, then eight for each that has parts)
+    std::vector<int> lists_;      // triangles
+};
+
+}  // namespace taut::collision

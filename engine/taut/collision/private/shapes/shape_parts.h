@@ -1,0 +1,52 @@
+// What the files of the shapes share: checks of sizes, and forms by a formula.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "taut/collision/private/convex_form.h"
+#include "taut/core/error.h"
+
+namespace taut::collision {
+
+[[noreturn]] inline void failShape(const std::string& what) {
+    throw core::Error(core::ErrorKind::badContent, "collider " + what);
+}
+
+inline void expectSize(double size, const char* what) {
+    if (!(size > 0.0) || !isFinite(size))
+        failShape(std::string(what) + " has to be above zero, is " + std::to_string(size));
+}
+
+// The half size of a solid of revolution about y.
+inline Box roundBounds(double radius, double halfHeight) {
+    return {dvec3(-radius, -halfHeight, -radius), dvec3(radius, halfHeight, radius)};
+}
+
+// A convex shape of which closed_shape.h has the distance.
+template <ClosedKind kind>
+struct ShapeByFormula {
+    ClosedShape shape;
+    Box filled;
+    Outline edges{};
+
+    Nearest nearest(const dvec3& p) const {
+        const ClosedDistance at = closedDistance<kind>(shape.size, p.x, p.y, p.z);
+        return {at.distance, {at.x, at.y, at.z}};
+    }
+    Box bounds() const { return filled; }
+    ClosedShape closed() const { return shape; }
+    Outline outline() const { return edges; }
+};
+
+struct FormulaSizes {
+    double a = 0.0, b = 0.0, c = 0.0;
+};
+template <ClosedKind kind>
+std::shared_ptr<const Form> byFormula(const FormulaSizes& sizes, const Box& filled, Outline edges = {}) {
+    using Formula = ShapeByFormula<kind>;
+    return std::make_shared<ConvexForm<Formula>>(
+        Formula{{kind, {sizes.a, sizes.b, sizes.c}}, filled, std::move(edges)});
+}
+
+}  // namespace taut::collision

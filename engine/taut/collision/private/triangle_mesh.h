@@ -1,0 +1,41 @@
+// A surface of triangles, two-sided. A closed one has an inside.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "taut/collision/private/foot_finder.h"
+#include "taut/collision/form.h"
+
+namespace taut::collision {
+
+class TriangleMesh final : public Form {
+  public:
+    // Throws core::Error(badContent) for a mesh without triangles of non-zero area, an index out of range, or more
+    // than two million triangles. A closed mesh that is inside out is turned.
+    TriangleMesh(std::span<const dvec3> vertices, std::span<const std::uint32_t> triangles)
+        : finder_(makeFacets(vertices, triangles)) {}
+
+    // Distance to the surface; negative inside a closed mesh.
+    Nearest nearest(const dvec3& p) const override { return finder_.nearest(p); }
+
+    // A path that crosses a triangle ends before it; one that ends too near is pushed off on the side where it ends;
+    // one that starts inside a closed mesh goes the shortest way out. `crossed` tells the first case. The thickness
+    // has to be larger than the skin: a side needs a distance that rounding cannot turn round.
+    bool sweep(const Path& path, Touch& touch, bool& crossed) const override;
+
+    std::optional<Box> bounds() const override { return finder_.bounds(); }
+
+    Outline outline() const override { return outlineOf(finder_.facets()); }
+
+  private:
+    static bool isInFront(const Path& path, const Triangle& t);
+    bool findWayOut(const Path& path, const Foot& end, Touch& touch) const;
+    bool touchNear(const Path& path, const Foot& end, Touch& touch) const;
+    int firstCrossing(const Path& path) const;
+
+    FootFinder finder_;
+};
+
+}  // namespace taut::collision

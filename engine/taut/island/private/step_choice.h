@@ -1,0 +1,81 @@
+// The step of an island: found from the stability bound, or checked against it, before tick 0.
+//
+// An explicit method is stable for a mode ω with damping ratio ζ while ω h < z(ζ); its row in the table of methods has
+// z. The step is a tick divided by a whole number of substeps, so that every tick ends at its own time.
+//
+// - Which ω. Eigenvalues cost too much, so bounds take their place. `anywhere` (B1) holds in any shape, `here` (B2) in
+//   the present one. Both are taken of the envelope: the stiffest springs, lightest masses and strongest forces that
+//   the timeline will make. No later action then makes the step too long.
+// - A given dt is kept. A step over the limit gets a warning. It is a fault only where growth is certain, by a
+//   frequency that the motion is known to reach, not by an upper bound.
+// - dt = "auto" takes the share `safety` of the limit. Where the limit is a promise and the state is known, the step
+//   follows the state: StepNeed computes the need at the end of each tick, step_following.h decides. Methods with a
+//   caution let undamped motion grow at every step; they keep one step, at which it grows slowly.
+// - Linear stability is not enough for springs. Near ω h = √3 a mode takes three steps to turn, and the third-order
+//   resonance makes wide swings grow (Schlick, Mandziuk, Skeel and Srinivas 1998). Symplectic methods
+//   keep undamped motion at ω h < 1.5.
+// - Leap-frog sees dashpots at an extrapolated velocity, which lowers its limit. Split off (ode/split_leapfrog.cpp)
+//   they leave ω h < 2, but a step costs 2.5 times as much. Whichever needs less time for a tick is chosen.
+//
+// All of it is a function of the scene and the state at the start, so every run of a scene chooses the same.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "taut/mechanics/force_generator.h"
+#include "taut/mechanics/private/stability.h"
+#include "taut/mechanics/private/state_bound.h"
+#include "taut/ode/method.h"
+#include "taut/island/private/envelope.h"
+#include "taut/island/private/step_following.h"
+
+namespace taut::world {
+
+// How many substeps a tick needs, at the chosen share of the longest stable step, as the bound of the state asks.
+struct StepNeed {
+    const ode::MethodInfo* method = nullptr;
+    double tickSeconds = 0, safety = 0;
+    ode::FastestMode others;   // all but ω and dashpots
+    double moreOmega2 = 0;     // [1/s²] what generators and hands add at most
+    double leastTauShare = 1;  // of the damping that there is, the least that ever will be
+    bool splits = false;       // the dashpots off
+
+    double operator()(const mechanics::FastestNow& now) const;
+    // Allows for what generators have come to add.
+    void raise(const mechanics::StabilityShare& share, std::span<const double> inverseMasses);
+};
+
+struct StepChoice {
+    int substeps = 1;
+    std::optional<StepNeed> need;  // of an island whose step follows its state
+    bool splits = false;           // the dashpots off
+    double step = 0;               // h = tick / substeps [s]
+    double limit = 0;  // largest stable step [s], by the bound that holds in any shape, of cells in any they may take
+    ode::FastestMode mode;  // what the limit is computed from
+    mechanics::FrequencyBound anywhere, here;
+    std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
+    std::vector<std::string> warnings;
+    std::string fault;  // file, line and remedy where the step is so long that the run will end by it; else empty
+    std::vector<std::string> advice;  // what would allow a longer step
+};
+
+// Without `now` the step that holds for all that the envelope allows; with it, where dt is "auto" and the method's
+// limit is a promise, one that holds for that state, and the rule by which it may change. share: what generators other
+// than the springs and hands add. leastOmega: what the fastest motion at the start is not below [1/s], asked only of a
+// step that is over a limit. inParts: how many substeps a tick takes that needs so many. Throws
+// core::Error(badContent) when "auto" has no answer or a tick would need more than a million steps.
+StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds,
+                      const std::function<double()>& leastOmega, const mechanics::FastestNow* now,
+                      const std::function<int(int)>& inParts);
+
+// The largest stable step [s] of the island as it is now, in any configuration.
+double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share);
+
+// "3.2e-04 s"
+std::string inSeconds(double t);
+
+}  // namespace taut::world

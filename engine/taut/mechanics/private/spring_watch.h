@@ -1,0 +1,55 @@
+// Which springs of a network are longer or shorter than their limits; cheap enough to run after every step. It does not
+// know what happens to them.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "taut/mechanics/spring_network.h"
+#include "taut/mechanics/private/watch_kernel.h"
+
+namespace taut::mechanics {
+
+// Lengths between which a spring may be [m].
+struct LengthLimits {
+    double least = 0;
+    double most = std::numeric_limits<double>::infinity();
+    bool isAny() const { return least > 0 || most < std::numeric_limits<double>::infinity(); }
+};
+
+template <class Real>
+class SpringWatch {
+  public:
+    SpringWatch();
+
+    // limits (springs of the network).
+    void set(const SpringNetwork<Real>& network, std::span<const LengthLimits> limits);
+    // Expects limits where there have been some before.
+    void change(const SpringNetwork<Real>& network, int spring, const LengthLimits& limits);
+
+    // Appends the numbers of the springs that are beyond their limits, ascending; x (3 · stride) [m]. The same for any
+    // number of threads.
+    void find(const SpringNetwork<Real>& network, int stride, const Real* x, std::vector<int>& beyond) const;
+
+  private:
+    // Runs that are watched, and single springs.
+    struct Part {
+        std::vector<int> runs;
+        int firstSingle = 0, lastSingle = 0;
+    };
+    bool isRunBeyond(const SpringNetwork<Real>& network, int run, int stride, const Real* x) const;
+    bool isAnyBeyond(const SpringNetwork<Real>& network, const Part& part, int stride, const Real* x) const;
+    const Real* leastFrom(std::size_t slot) const { return least_.empty() ? nullptr : least_.data() + slot; }
+
+    bool (*run_)(const WatchRun<Real>&);
+    bool (*list_)(const WatchList<Real>&);
+    std::vector<Part> parts_;          // (chunks of the network)
+    mutable std::vector<char> isHit_;  // (parts) scratch
+    std::vector<Real> least_, most_;   // (places of the network) squares [m²]; least_ empty: none
+};
+
+extern template class SpringWatch<float>;
+extern template class SpringWatch<double>;
+
+}  // namespace taut::mechanics

@@ -1,0 +1,73 @@
+// Tetrahedra that resist a change of their signed volume, so that a block squashed flat or turned inside out comes
+// back. Knows only tetrahedra, not the lattice they come from.
+//
+// A tetrahedron's edges cannot tell it from its mirror image; V = det[e1 e2 e3]/6 can:
+//   E = ½ K V0 (V/V0 - 1)²,   F_i = -K (V/V0 - 1) ∂V/∂p_i.
+// Collapsed to a line or a point ∂V vanishes and nothing brings it back: inspect() tells.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "taut/mechanics/force_generator.h"
+#include "taut/mechanics/private/index_runs.h"
+#include "taut/mechanics/model.h"
+#include "taut/mechanics/private/volume_kernel.h"
+
+namespace taut::mechanics {
+
+// How tetrahedra fare.
+struct VolumeReport {
+    double smallestRatio = 1.0;  // smallest V/V0 [-]
+    int smallestCell = -1;       // the cell that has it
+    int collapsed = 0;           // cells with V/V0 < 0.1, inverted ones included
+    int inverted = 0;            // cells with V/V0 <= 0
+    int overstretched = 0;       // cells beyond the working stretch: a step chosen for it may not hold there
+};
+
+template <class Real>
+class VolumePreservation final : public ForceGenerator<Real> {
+  public:
+    // Rest positions (points) [m] give the areas and edges that a stretch is told by; the volumes come with the cells.
+    // Uses the kernel of the instruction set in use now. Expects V0 > 0, K >= 0, workingStretch >= 1.
+    VolumePreservation(std::span<const VolumeCell> cells, std::span<const glm::dvec3> restPositions,
+                       double workingStretch = 1.5);
+
+    double workingStretch() const { return workingStretch_; }
+    // Takes over the bulk moduli of the cells. Expects the cells that it was made with.
+    void setBulkModuli(std::span<const VolumeCell> cells);
+    // Without `stretches` none is counted as overstretched.
+    VolumeReport inspect(const Motion<Real>& motion, bool stretches = true) const;
+
+    void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
+    double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;
+    // The exact product; indefinite where a cell is compressed.
+    void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
+    // (K/V0) g gᵀ of each cell, g = ∂V/∂p: the part that is never negative.
+    void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
+    void addProduct(int stride, const Real* u, Real* out) const override;
+    void addDiagonal(int stride, Real* out) const override;
+
+    // None: the bounds of stability.h count cells themselves. They hold, and inspect() finds nothing overstretched,
+    // while
+    //   |g| <= s² |g| at rest,   edge <= s edge at rest,   |V/V0 - 1| <= max(1 + s, s³ - 1),
+    // s the working stretch.
+    void addStability(const Motion<Real>&, StabilityShare&) const override {}
+
+  private:
+    std::vector<VolumeCell> cells_;
+    std::vector<std::array<glm::dvec3, 4>> rest_;  // (cells) corners at rest [m]
+    double workingStretch_;
+    IndexRuns<4> runs_;
+    core::AlignedArray<Real> sixthOfBulk_, inverseRestSixth_;  // (lanes)
+    mutable core::AlignedArray<Real> packed_;                  // the kernel's room
+    void (*addBatch_)(const VolumeBatch<Real>&);
+    std::vector<std::array<Real, 12>> slopes_;  // (cells) √(s K/V0) g, corner by corner
+};
+
+extern template class VolumePreservation<float>;
+extern template class VolumePreservation<double>;
+
+}  // namespace taut::mechanics

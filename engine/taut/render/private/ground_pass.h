@@ -1,0 +1,85 @@
+// Draws the floor, with shadows only where they can fall, and the sky. What lies in the open and does not change under
+// a still camera is drawn once and kept.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "taut/render/private/frame_block.h"
+#include "taut/render/private/ground.h"
+#include "taut/render/program.h"
+#include "taut/render/targets.h"
+
+namespace taut::render {
+
+class GroundPass {
+  public:
+    // `transparent`: without sky, and of the ground what shadows leave of its colour, 0 … 1.
+    GroundPass(const Gl& gl, const ShaderFolder& shaders, bool keepsStill, bool transparent);
+
+    // Before anything else of a picture is drawn, with the frame block and the maps in place. `block` is what all
+    // shaders know of the picture.
+    void begin(const view::FrameView& view, const FrameBlock& block, const LightSet& lights,
+               std::span<const DrawItem> items, const std::optional<OcclusionArea>& occlusion, Targets& targets);
+
+    // Behind what has been drawn into the bound target, with the frame block and the maps in place.
+    // Leaves out what fill() puts in.
+    void draw(const glm::mat4& projection);
+
+    // Puts what has been kept where nothing has been drawn, and in front of what lies behind it. `depths` are those of
+    // the part in which there are things, `colours` those of the picture; rows from below.
+    void fill(const PixelBox& part, std::span<float> depths, std::span<std::uint32_t> colours, int width) const;
+
+    bool fills() const { return isKept_; }
+
+    void forget();  // what has been kept
+
+  private:
+    // All that ground and sky in the open depend on.
+    struct Still {
+        FrameBlock block{};
+        std::optional<float> groundHeight;
+        std::optional<view::Environment> environment;
+        bool operator==(const Still& other) const;
+    };
+    // What ground depends on besides that only still things shade.
+    struct StillShade {
+        FrameBlock block{};
+        std::vector<Shape> shapes;
+        bool operator==(const StillShade& other) const;
+    };
+    // How a cell looks in what is kept.
+    enum class Look : std::uint8_t { open, darkened, shaded };
+
+    // The ground under lights of a kind, and the sky.
+    struct Grounds {
+        Program shaded, darkened, open, background;
+    };
+
+    Grounds& groundsUnder(const LightKind& kind);
+    void keep(const glm::mat4& projection, Targets& targets);
+    void leaveOut(std::vector<std::uint32_t>& triangles, Look look) const;
+    void drawCells(const Program& program, const std::vector<std::uint32_t>& triangles);
+    void drawOpen(const glm::mat4& projection, const std::vector<std::uint32_t>& triangles);
+
+    const Gl* gl_;
+    bool keepsStill_, isTransparent_;
+    const ShaderFolder* shaders_;
+    std::map<LightKind, Grounds> grounds_;
+    Grounds* now_ = nullptr;  // of them
+    GlObject layout_, vertices_, indices_, empty_;
+    GroundMesh mesh_;
+    std::optional<Still> before_;         // of the picture before
+    std::optional<StillShade> shadeNow_;  // of this one
+    std::optional<StillShade> keptShade_;
+    int shadeStays_ = 0;                      // pictures for which it has been the same
+    bool isKept_ = false;                     // what follows is that of the same camera
+    std::vector<Look> looks_;                 // (positions) of the cells whose triangles begin there
+    std::vector<std::uint32_t> keptColours_;  // (pixels) rows from below
+    std::vector<float> keptDepths_;           // (pixels) 1 where the sky is
+};
+
+}  // namespace taut::render

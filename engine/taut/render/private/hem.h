@@ -1,0 +1,45 @@
+// Cloth that is seen so close that its thickness shows: towards its free edges, and those of tears, its two sides part,
+// and a round rim joins them. Pure geometry, it knows no GL.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "taut/render/light_box.h"
+#include "taut/render/mesh_cache.h"
+#include "taut/render/private/thin_tubes.h"
+#include "taut/view/frame_view.h"
+
+namespace taut::render {
+
+class Hems {
+  public:
+    // Puts items with rims in place of those without and returns their surfaces, which the items point to.
+    std::vector<view::Surface> addTo(std::vector<DrawItem>& items, const PixelScale& scale, MeshCache& meshes);
+
+    // The surface with the rim, in place of the one without; nothing where there is none or it would be seen thinner
+    // than a pixel. From there to a pixel and a half it grows. `bounds` are those of the surface in the world.
+    std::optional<view::Surface> hemmed(const view::Surface& surface, const Bounds& bounds, const PixelScale& scale);
+
+  private:
+    // What of a rim does not change with the shape.
+    struct Plan {
+        std::weak_ptr<const view::Topology> owner;
+        float hem = 0.0F;                                 // [m]
+        std::vector<std::array<std::uint32_t, 2>> edges;  // free, with the cloth to their left: numbers in `border`
+        std::vector<std::uint32_t> border;                // vertices on them
+        std::shared_ptr<const view::Topology> topology;   // of the surface with its rim
+    };
+
+    static std::shared_ptr<const view::Geometry> shapeOf(const view::Geometry& plain, const Plan& own,
+                                                         const std::vector<float>& radius);
+    const Plan& plan(const view::Surface& surface);
+
+    std::map<const view::Topology*, Plan> plans_;
+};
+
+}  // namespace taut::render

@@ -1,0 +1,29 @@
+// The shadow maps of all lights: the sun's, and those of lamps once there are any.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "taut/render/lights.h"
+#include "taut/render/private/shadow_pass.h"
+
+namespace taut::render {
+
+class LightMaps {
+  public:
+    LightMaps(const Gl& gl, int texels);
+
+    // What is the same as before in the same box is not drawn again, unless `anew`.
+    void draw(std::span<const DrawItem> items, const LightSet& lights, bool anew);
+
+    void bind() const;  // to the texture units of the sun and of each lamp
+
+  private:
+    const Gl* gl_;
+    int texels_;
+    std::vector<ShadowPass> passes_;  // the sun's first
+    std::size_t used_ = 1;            // of them
+};
+
+}  // namespace taut::render

@@ -1,0 +1,38 @@
+// Gives GL the shadow map and what makes reading it cheap. It does not know how shadows are shaded.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "taut/render/gl.h"
+#include "taut/render/lights.h"
+#include "taut/render/mesh_cache.h"
+#include "taut/render/program.h"
+#include "taut/render/private/shadow_map.h"
+
+namespace taut::render {
+
+class ShadowPass {
+  public:
+    ShadowPass(const Gl& gl, int texels);
+
+    // What is the same as before in the same box is not drawn again, unless `anew`. `isWide`: the shaders read how far
+    // wide lights look around.
+    void draw(std::span<const DrawItem> items, const Shadower& light, bool isWide, bool anew);
+
+    void bindMaps(const ShadowUnits& units) const;
+
+  private:
+    void putWideBounds(int blocks);
+
+    const Gl* gl_;
+    ShadowMap map_;
+    GlObject depth_;             // texture of the map
+    GlObject bounds_;            // texture of its bounds; b, a: the wide ones, if `wide_` is above 0
+    int wide_ = 0;               // [blocks] that they reach
+    std::vector<Shape> shapes_;  // in the map
+    glm::mat4 drawnBox_{0.0F};   // its toMap
+    GlObject comparing_;         // a sampler that compares
+};
+
+}  // namespace taut::render

@@ -1,0 +1,27 @@
+// What a ramp's key names: "wind.breeze.velocity" as a field of the scene that may change while it runs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "taut/scene/private/body_index.h"
+#include "taut/scene/private/sections.h"
+#include "taut/spec/actions.h"
+
+namespace taut::scene {
+
+struct RampKey {
+    const Field* field = nullptr;                    // a row of `sections`
+    std::shared_ptr<const world::RampField> access;  // values as the file has them
+};
+
+// Nothing and a fault if the key names nothing, something that cannot change, or something that has no value to begin
+// from. `root` is the document that `scene` was read from.
+std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<SceneSection>& sections,
+                               world::SceneSpec& scene, TargetFault& fault);
+
+// A line for each section that ramps may change: its name and the keys, for the manual and for messages.
+std::vector<std::string> rampableKeys(const std::vector<SceneSection>& sections);
+
+}  // namespace taut::scene

@@ -1,0 +1,13 @@
+// Checks what texts of a scene refer to: materials, cameras, bodies and their points. It resolves nothing.
+#pragma once
+
+#include "taut/scene/private/body_index.h"
+#include "taut/scene/private/scene_reader.h"
+
+namespace taut::scene {
+
+// Reports every reference to something that is not there, selectors that a body does not have, and joints between
+// bodies whose [solver] overrides disagree. Expects the meshes to be loaded.
+void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& problems);
+
+}  // namespace taut::scene

@@ -1,0 +1,35 @@
+// From a document to the scene's structs, by the field table. What refers to something else is listed, not resolved.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "taut/fields/private/problems.h"
+#include "taut/scene/private/sections.h"
+#include "taut/spec/spec.h"
+
+namespace taut::scene {
+
+// A text that refers to something, or a moment in time, with its place.
+struct Reference {
+    Role role = Role::none;
+    Place place;
+    std::string text;   // of a mesh, a texture: the path as written
+    double time = 0;    // [s]
+    std::string owner;  // "cloth.flag": the section it stands in; empty for a setting
+};
+
+struct ReadScene {
+    world::SceneSpec spec;                // sections in the order of the file
+    std::vector<Reference> references;    // in the order of the table
+    std::set<std::string> faulty;         // owners with an error inside, "cloth.flag" or "at[0]"
+    std::map<std::string, Place> owners;  // where "cloth.flag" or "joint[0]" begins
+};
+
+// Files and overrides in world::Source are called as `problems` calls them.
+ReadScene readScene(const Node& root, const std::vector<SceneSection>& sections, const std::string& fileName,
+                    Problems& problems);
+
+}  // namespace taut::scene

@@ -1,0 +1,61 @@
+// What a scene is told of contact: which bodies press on each other now, and which have crossed since when. Unlike the
+// contact stage it outlives body changes, and is saved with the state.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "taut/bodies/state_bytes.h"
+#include "taut/world/private/contact_stage.h"
+
+namespace taut::world {
+
+// Two bodies that press on each other, at one place.
+struct BodyContact {
+    dvec3 place{0.0}, normal{0.0};  // [m] midpoint; unit, towards the first
+    double impulse = 0;             // [N s] of the last instant
+    const Body *first = nullptr, *second = nullptr;
+};
+
+// An edge that pierces a triangle.
+struct BodyCrossing {
+    dvec3 place{0.0};  // [m] where the edge goes through
+    double depth = 0;  // [m] of the closer end of the edge behind the triangle's plane
+    const Body *ofEdge = nullptr, *ofTriangle = nullptr;
+    int edge = 0;
+};
+
+// The crossings of bodies now.
+std::vector<BodyCrossing> crossingsOf(ContactStage& stage);
+
+class ContactReport {
+  public:
+    // After each tick, with the moment at which it began [s].
+    void look(const ContactStage& stage, double start);
+    void forget(const Body& body);
+
+    const std::vector<BodyContact>& contacts() const { return contacts_; }  // at the end of the last tick
+    bool hasMet() const { return hasMet_; }                                 // since it was made
+    // One for each two bodies that cross, or have crossed.
+    std::vector<std::string> warnings() const;
+
+    bool isWorthSaving() const { return !said_.empty() || !contacts_.empty(); }
+    // Expects the same bodies, in the same order, for writing and reading.
+    void visit(StateBytes& bytes, std::span<const Body* const> bodies);
+
+  private:
+    // A warning.
+    struct Said {
+        std::string first, second;    // bodies; the same one if it crosses itself
+        std::string text;             // while they cross
+        double since = 0, until = 0;  // [s] the last time
+        std::int64_t edges = 0;       // that crossed when it began the last time
+        std::int64_t times = 1;       // how often
+        bool isOn = true;             // they cross now
+    };
+    std::vector<BodyContact> contacts_;
+    std::vector<Said> said_;
+    bool hasMet_ = false;
+};
+
+}  // namespace taut::world

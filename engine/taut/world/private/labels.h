@@ -1,0 +1,21 @@
+// Text for a picture: what the labels of a scene say at this moment, and where.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "taut/view/frame_view.h"
+#include "taut/island/private/island.h"
+
+namespace taut::world {
+
+struct LabelSubject {
+    const Body* body = nullptr;
+    const Island* island = nullptr;  // that owns it
+};
+
+// Adds a label at its place; or, if it is of bodies, one above each of the subjects, with a second line below it where
+// the body is frozen.
+void addLabels(const LabelSpec& spec, std::span<const LabelSubject> subjects, std::vector<view::Label>& labels);
+
+}  // namespace taut::world

@@ -37,7 +37,7 @@ inline void sumUp(ClosestLanes& lanes, int n) {
 
 }  // namespace
 
-// Ericson 2005, 5.1.5, see closest_points.h. Over 60 lines: one formula, case by case.
+// Ericson 2005, 5.1.5, see closest_points.h.
 void onTriangles(ClosestLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {

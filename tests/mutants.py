@@ -92,11 +92,11 @@ MUTANTS = {
         "points are pressed from edges and corners that are not nearest", NARROW,
         "if (feature >= 0 && !isFeatureNearest(pair, feature, x))", "if (feature >= 6)"),
     "edges-are-ridges": (
-        "edges in a flat sheet are obstacles", NARROW,
+        "edges in a flat sheet are obstacles", RIGID,
         "if (rise > steepest * length(inwards))", "if (rise > 1e300)"),
     "ridge-turned": (
         "a ridge is told from the wrong side", NARROW,
-        "convexity(first, onFirst, -pair.normal, x)", "convexity(first, onFirst, pair.normal, x)"),
+        "convexityOf(elements_, first, onFirst, -pair.normal, x)", "convexityOf(elements_, first, onFirst, pair.normal, x)"),
     "normal-turned": (
         "the normal of what touches with no gap is turned", NARROW,
         "pair.normal = batch.separation(measured.slot) / pair.distance;",
@@ -112,11 +112,11 @@ MUTANTS = {
         "rows.back().rebound = reboundOf(pairs[static_cast<std::size_t>(row.pair)], options, v);", ""),
     "recover-five-times": (
         "overlaps are taken back five times as fast", SOLVER,
-        "std::min(-options.recovery * pair.gap(), fastestOut * h)",
+        "std::min(-options.recovery * pair.recovery * pair.gap(), fastestOut * h)",
         "std::min(-5 * options.recovery * pair.gap(), fastestOut * h)"),
     "recover-at-once": (
         "overlaps are taken back however fast", SOLVER,
-        "std::min(-options.recovery * pair.gap(), fastestOut * h)", "-options.recovery * pair.gap()"),
+        "std::min(-options.recovery * pair.recovery * pair.gap(), fastestOut * h)", "-options.recovery * pair.gap()"),
     "recover-through-held": (
         "what is taken back goes into what holds it", SOLVER,
         "++i) keepOut(cluster.kinematicRows[i].contact, shift, sums[i]);",

@@ -4,6 +4,7 @@
 #include "taut/contact/certificate.h"
 #include "taut/contact/closest_batch.h"
 #include "taut/contact/closest_points.h"
+#include "taut/contact/rigid_side.h"
 #include "taut/core/private/instruction_set.h"
 
 namespace taut::contact {
@@ -229,6 +230,28 @@ TEST(ContactDistance, LeavesAThickSheetAsItWasBuilt) {
     const std::vector<dvec3> before = flight.v;
     for (int i = 0; i < 5; ++i) EXPECT_EQ(flight.fly(1e-3).active, 0);
     EXPECT_EQ(flight.v, before);
+}
+
+// Two faces in a V of which the edge is the bottom, the one rising by an angle of that sine towards what lies above: up to
+// half of `valley` the edge counts as one that stands out, at `valley` it pushes nothing back, beyond it does not push.
+TEST(ContactGeometry, AnEdgeCountsTheLessTheMoreFacesRiseBesideIt) {
+    const std::array<std::pair<double, double>, 6> cases{
+        {{-0.3, 1.0}, {0.0, 1.0}, {0.1, 1.0}, {0.15, 0.5}, {0.2, 0.0}, {0.25, -0.5}}};
+    for (const auto& [sine, ought] : cases) {
+        const double cosine = std::sqrt(1 - sine * sine);
+        const std::vector<dvec3> x{{-0.1, 0, 0}, {0.1, 0, 0}, {0, 0.03 * sine, 0.03 * cosine}, {0, 0, -0.05}};
+        Surface surface;
+        surface.points = {0, 1, 2, 3};
+        surface.triangles = {{0, 1, 2}, {1, 0, 3}};
+        const Elements elements({surface}, x);
+        int tried = 0;
+        for (const Edge& edge : elements.edges()) {
+            if (edge.triangles[1] < 0) continue;
+            EXPECT_NEAR(convexityOf(elements, edge, dvec3(0.0), {0, 1, 0}, x), ought, 1e-12) << sine;
+            ++tried;
+        }
+        EXPECT_EQ(tried, 1);
+    }
 }
 
 }  // namespace

@@ -142,7 +142,6 @@ class ContactGroup {
     double convexity(const ContactConstraint& pair, long where, std::span<const dvec3> x) const;
     bool meetInside(const ContactConstraint& pair, long where) const;
     bool isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const;
-    double convexity(const Edge& edge, const dvec3& on, const dvec3& outward, std::span<const dvec3> x) const;
     bool isTangled(const ContactConstraint& pair) const;
 
     ContactOptions options_;

@@ -43,24 +43,6 @@ bool ContactGroup::isTangled(const ContactConstraint& pair) const {
     return std::min(first, second) != unmarked && std::max(first, second) == wrongSide;
 }
 
-// How convex the edge is towards `outward`: 1 where no face beside it rises that way by half of `valley`, 0 where one
-// rises by all of it, below 0 beyond, where the face is closer than the edge. Continuous, so that a crumpled cloth does
-// not tremble between an edge that pushes and one that does not.
-double ContactGroup::convexity(const Edge& edge, const dvec3& on, const dvec3& outward,
-                               std::span<const dvec3> x) const {
-    double steepest = 0;  // sine of the angle
-    for (int t : edge.triangles) {
-        if (t < 0) continue;
-        for (int i : elements_.triangles()[static_cast<std::size_t>(t)].points) {
-            if (i == edge.a || i == edge.b) continue;
-            const dvec3 inwards = x[static_cast<std::size_t>(i)] - on;
-            const double rise = glm::dot(inwards, outward);
-            if (rise > steepest * length(inwards)) steepest = rise / length(inwards);
-        }
-    }
-    return areWingsBehind(edge, outward, x) ? std::min(1.0, 2.0 * (1.0 - steepest / valley)) : -1.0;
-}
-
 // For a point whose closest place on the triangle is on an edge or at a corner: whether that place is closest on all
 // triangles there. Only the first of these triangles says yes, so that the point is pushed once.
 bool ContactGroup::isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const {
@@ -179,7 +161,8 @@ double ContactGroup::convexity(const ContactConstraint& pair, long where, std::s
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
     const dvec3 onFirst = pair.weights[0] * at(first.a) + pair.weights[1] * at(first.b);
     const dvec3 onSecond = -(pair.weights[2] * at(second.a) + pair.weights[3] * at(second.b));
-    return std::min(convexity(first, onFirst, -pair.normal, x), convexity(second, onSecond, pair.normal, x));
+    return std::min(convexityOf(elements_, first, onFirst, -pair.normal, x),
+                    convexityOf(elements_, second, onSecond, pair.normal, x));
 }
 
 // Whether two edges are closest where neither is at an end. Ends of a triangle's edges are left to pairs of points and

@@ -1,5 +1,8 @@
 #include "taut/contact/rigid_side.h"
 
+#include <algorithm>
+#include <glm/geometric.hpp>
+
 namespace taut::contact {
 namespace {
 
@@ -31,6 +34,21 @@ bool isCornerNearest(const Elements& elements, int point, const dvec3& outward, 
         if (rise > 0 && rise * rise > valley * valley * glm::dot(along, along)) return false;
     }
     return true;
+}
+
+double convexityOf(const Elements& elements, const Edge& edge, const dvec3& on, const dvec3& outward,
+                   std::span<const dvec3> x) {
+    double steepest = 0;  // sine of the angle
+    for (int t : edge.triangles) {
+        if (t < 0) continue;
+        for (int i : elements.triangles()[static_cast<std::size_t>(t)].points) {
+            if (i == edge.a || i == edge.b) continue;
+            const dvec3 inwards = x[static_cast<std::size_t>(i)] - on;
+            const double rise = glm::dot(inwards, outward);
+            if (rise > steepest * length(inwards)) steepest = rise / length(inwards);
+        }
+    }
+    return areWingsBehind(edge, outward, x) ? std::min(1.0, 2.0 * (1.0 - steepest / valley)) : -1.0;
 }
 
 bool areWingsBehind(const Edge& edge, const dvec3& outward, std::span<const dvec3> x) {

@@ -117,7 +117,7 @@ void LivePlay::press(const std::string& key, bool isRepeat) {
 void LivePlay::beginDrag(const WindowEvent& event) {
     const live::Ray ray = live::rayThrough(camera(), event.place, 1.0 * settings_.width / settings_.height);
     const std::vector<live::BodyPoints> bodies = session_->bodies();
-    const std::optional<live::Picked> picked = live::pick(ray, session_->now().surfaces, bodies, reach);
+    const std::optional<live::PickedPoint> picked = live::pick(ray, session_->now().surfaces, bodies, reach);
     if (!picked) return;
     const auto body = std::find_if(bodies.begin(), bodies.end(),
                                    [&](const live::BodyPoints& other) { return other.name == picked->body; });

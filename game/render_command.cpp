@@ -72,7 +72,7 @@ std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::
                 !fault.empty())
                 fail(fault);
         return figures;
-    } catch (const check::Fault& fault) {
+    } catch (const check::ClaimError& fault) {
         fail(fmt::format("{} (at \"{}\"){}", fault.what(), text.substr(std::min(fault.at, text.size()), 30),
                          fault.remedy.empty() ? "" : "; " + fault.remedy));
     }

@@ -13,7 +13,7 @@ void taut::fuzz::readCheck(View bytes) {
         const check::Now now(world, selections);
         claim.evaluate(now);
         (void)claim.where(now);
-    } catch (const check::Fault& fault) {
+    } catch (const check::ClaimError& fault) {
         TAUT_EXPECTS(fault.at <= bytes.size());
     }
 }

@@ -32,7 +32,7 @@ TEST(CheckFigures, WhatIsNoExpressionIsAFault) {
         try {
             Figures::parse(text);
             ADD_FAILURE() << text;
-        } catch (const Fault& fault) {
+        } catch (const ClaimError& fault) {
             EXPECT_EQ(fault.at, at) << text << ": " << fault.what();
         }
     }

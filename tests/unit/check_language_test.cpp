@@ -73,7 +73,7 @@ TEST(CheckLanguage, ControlCharactersAreRefusedWhereTheyStand) {
         try {
             Check::parse("height(" + unseen + "a.b) > 1");
             ADD_FAILURE();
-        } catch (const Fault& fault) {
+        } catch (const ClaimError& fault) {
             EXPECT_EQ(fault.at, 7U);
             EXPECT_STREQ(fault.what(), "there is a control character here");
         }
@@ -81,9 +81,9 @@ TEST(CheckLanguage, ControlCharactersAreRefusedWhereTheyStand) {
 }
 
 TEST(CheckLanguage, DeepAndLongTextsAreRefused) {
-    EXPECT_THROW(Check::parse(std::string(500, '(') + "time"), Fault);
-    EXPECT_THROW(Check::parse(std::string(500, '-') + "time < 1"), Fault);
-    EXPECT_THROW(Check::parse("time < 1" + std::string(5000, ' ')), Fault);
+    EXPECT_THROW(Check::parse(std::string(500, '(') + "time"), ClaimError);
+    EXPECT_THROW(Check::parse(std::string(500, '-') + "time < 1"), ClaimError);
+    EXPECT_THROW(Check::parse("time < 1" + std::string(5000, ' ')), ClaimError);
 }
 
 }  // namespace

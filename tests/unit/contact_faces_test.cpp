@@ -12,7 +12,7 @@ namespace {
 // A triangle of three points of 1 kg, in the plane y = 0, and rigid edges from the first of the points to others.
 struct Scene {
     std::vector<dvec3> x{{-1, 0, -1}, {1, 0, -1}, {0, 0, 1}};
-    Surface sheet, rigid;
+    ContactSurface sheet, rigid;
 
     Scene() {
         sheet.points = {0, 1, 2};
@@ -169,7 +169,7 @@ TEST(ContactFaces, WhatMeetsOnlyRigidSurfacesMeetsNeitherItselfNorOthers) {
     Scene scene;
     scene.addTip({0, -1, 0});
     scene.sheet.meetsItself = scene.sheet.meetsOthers = false;
-    Surface other = scene.sheet, stopped = scene.sheet;
+    ContactSurface other = scene.sheet, stopped = scene.sheet;
     other.meetsOthers = true;
     stopped.meetsRigid = false;
     const Elements elements({scene.sheet, scene.rigid, other, stopped}, scene.x);

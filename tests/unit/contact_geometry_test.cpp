@@ -199,7 +199,7 @@ TEST(ContactPiercing, IsWhatTheSignsOfVolumesSay) {
 TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
     constexpr double L = 0.01, thickness = 0.01;
     constexpr int segments = 6;
-    Surface surface;
+    ContactSurface surface;
     surface.thickness = thickness;
     std::vector<dvec3> rest;
     for (int i = 0; i <= segments; ++i) {
@@ -225,7 +225,7 @@ TEST(ContactDistance, IsTheThicknessOrAShareOfTheDistanceAtRest) {
 // So nothing of it is in contact as it was built, however thick it is.
 TEST(ContactDistance, LeavesAThickSheetAsItWasBuilt) {
     Flight flight;
-    Surface& sheet = flight.addSheet(dvec3(0.0), {0.1, 0, 0}, {0, 0, 0.1}, 8, {0.0, -3.0, 1.0}, 1e-3, 0.03);
+    ContactSurface& sheet = flight.addSheet(dvec3(0.0), {0.1, 0, 0}, {0, 0, 0.1}, 8, {0.0, -3.0, 1.0}, 1e-3, 0.03);
     sheet.meetsItself = true;
     const std::vector<dvec3> before = flight.v;
     for (int i = 0; i < 5; ++i) EXPECT_EQ(flight.fly(1e-3).active, 0);
@@ -240,7 +240,7 @@ TEST(ContactGeometry, AnEdgeCountsTheLessTheMoreFacesRiseBesideIt) {
     for (const auto& [sine, ought] : cases) {
         const double cosine = std::sqrt(1 - sine * sine);
         const std::vector<dvec3> x{{-0.1, 0, 0}, {0.1, 0, 0}, {0, 0.03 * sine, 0.03 * cosine}, {0, 0, -0.05}};
-        Surface surface;
+        ContactSurface surface;
         surface.points = {0, 1, 2, 3};
         surface.triangles = {{0, 1, 2}, {1, 0, 3}};
         const Elements elements({surface}, x);

@@ -13,7 +13,7 @@ struct Kneading {
 
     explicit Kneading(int cells = 10) {
         flight.addSheet({0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.0, 0.3}, cells, dvec3(0.0), 2e-3, 0.005);
-        Surface& upper = flight.addSheet({0.02, 0.0102, 0.01}, {0.28, 0.0, 0.03}, {-0.03, 0.0, 0.28}, cells,
+        ContactSurface& upper = flight.addSheet({0.02, 0.0102, 0.01}, {0.28, 0.0, 0.03}, {-0.03, 0.0, 0.28}, cells,
                                          {0.1, 0.0, 0.05}, 1e-3, 0.005);
         upper.meetsItself = true;
         for (std::size_t i = 0; i < flight.x.size() / 2; ++i) flight.inverseMass[i] = i % 3 == 0 ? 0.0 : 500.0;

@@ -14,7 +14,7 @@
 namespace taut::contact {
 
 struct Flight {
-    std::vector<Surface> surfaces;
+    std::vector<ContactSurface> surfaces;
     std::vector<dvec3> x, v;          // (points) [m], [m/s]
     std::vector<double> inverseMass;  // (points) [1/kg]
     ContactOptions options;
@@ -28,8 +28,8 @@ struct Flight {
         return static_cast<int>(x.size()) - 1;
     }
     // A surface of its own bond, which meets others alone.
-    Surface& addSurface(double thickness) {
-        Surface surface;
+    ContactSurface& addSurface(double thickness) {
+        ContactSurface surface;
         surface.thickness = thickness;
         surface.meetsItself = false;
         surface.bond = static_cast<int>(surfaces.size());
@@ -43,25 +43,25 @@ struct Flight {
     void addTriangle(const std::array<dvec3, 3>& places, const dvec3& speed, double massOfEach, double thickness) {
         std::array<int, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = addPoint(places[k], speed, massOfEach);
-        Surface& surface = addSurface(thickness);
+        ContactSurface& surface = addSurface(thickness);
         surface.points = {corners[0], corners[1], corners[2]};
         surface.triangles = {corners};
     }
     void addLine(const dvec3& a, const dvec3& b, const dvec3& speed, double massOfEach, double thickness) {
         const int p = addPoint(a, speed, massOfEach), q = addPoint(b, speed, massOfEach);
-        Surface& surface = addSurface(thickness);
+        ContactSurface& surface = addSurface(thickness);
         surface.points = {p, q};
         surface.lines = {{p, q}};
     }
     // Of cells × cells squares, row by row from the origin.
-    Surface& addSheet(const dvec3& origin, const dvec3& across, const dvec3& down, int cells, const dvec3& speed,
+    ContactSurface& addSheet(const dvec3& origin, const dvec3& across, const dvec3& down, int cells, const dvec3& speed,
                       double massOfEach, double thickness) {
         const int first = static_cast<int>(x.size()), n = cells + 1;
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)
                 addPoint(origin + (static_cast<double>(i) / cells) * across + (static_cast<double>(j) / cells) * down,
                          speed, massOfEach);
-        Surface& surface = addSurface(thickness);
+        ContactSurface& surface = addSurface(thickness);
         for (int k = 0; k < n * n; ++k) surface.points.push_back(first + k);
         for (int j = 0; j < cells; ++j)
             for (int i = 0; i < cells; ++i) {
@@ -108,7 +108,7 @@ struct Flight {
     }
     test::Skin skin() const {
         test::Skin skin;
-        for (const Surface& surface : surfaces) {
+        for (const ContactSurface& surface : surfaces) {
             for (const auto& t : surface.triangles) skin.addTriangle(t[0], t[1], t[2]);
             for (const auto& line : surface.lines) skin.addEdge(line[0], line[1]);
         }

@@ -10,7 +10,7 @@
 #include "taut/image/read.h"
 #include "taut/pipeline/run_parts.h"
 #include "taut/render/camera_axes.h"
-#include "taut/render/layer_pass.h"
+#include "taut/render/private/layer_pass.h"
 
 namespace taut::test::own_layer {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "render_support.h"
 #include "taut/render/private/ground.h"
-#include "taut/render/light_box.h"
+#include "taut/render/private/light_box.h"
 
 namespace taut::render::test {
 namespace {

@@ -10,7 +10,7 @@
 #include "taut/core/error.h"
 #include "taut/render/private/context.h"
 #include "taut/render/private/egl_devices.h"
-#include "taut/render/mesh_cache.h"
+#include "taut/render/private/mesh_cache.h"
 
 namespace taut::render::test {
 namespace {

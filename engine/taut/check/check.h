@@ -23,8 +23,8 @@ namespace taut::check {
 struct Function;
 
 // Why a text is no claim.
-struct Fault : std::runtime_error {
-    Fault(std::size_t where, const std::string& message, std::string help = {})
+struct ClaimError : std::runtime_error {
+    ClaimError(std::size_t where, const std::string& message, std::string help = {})
         : std::runtime_error(message), at(where), remedy(std::move(help)) {}
     std::size_t at;      // byte of the text, from 0
     std::string remedy;  // a short phrase; may be empty
@@ -68,7 +68,7 @@ struct Selections {
 
 class Check {
   public:
-    // Throws Fault, also for a claim that speaks of nothing that changes.
+    // Throws ClaimError, also for a claim that speaks of nothing that changes.
     static Check parse(std::string_view text);
 
     // In the order of the text.

@@ -14,7 +14,7 @@ struct Expression;
 
 class Figures {
   public:
-    // Expressions with commas between them. Throws Fault.
+    // Expressions with commas between them. Throws ClaimError.
     static Figures parse(std::string_view text);
 
     // In the order of the text.

@@ -78,7 +78,7 @@ class Parser {
 
   private:
     [[noreturn]] static void fail(std::size_t at, const std::string& message, std::string remedy = {}) {
-        throw Fault(at, message, std::move(remedy));
+        throw ClaimError(at, message, std::move(remedy));
     }
     // A message that shows one would break off there.
     void refuseUnseen() const {

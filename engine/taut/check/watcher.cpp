@@ -53,7 +53,7 @@ Watcher::Watcher(const world::SceneSpec& scene) {
         Watched watched;
         try {
             watched.check = spec.parsed ? *spec.parsed : Check::parse(spec.that);
-        } catch (const Fault& fault) {
+        } catch (const ClaimError& fault) {
             throw core::Error(core::ErrorKind::badContent,
                               fmt::format("{}:{}:{}: error: {}", spec.source.file, spec.source.line, spec.source.column,
                                           fault.what()));

@@ -202,7 +202,7 @@ void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
     deviation_.resize(static_cast<std::size_t>(bvh_.count()), 0.0);
     travel_.resize(static_cast<std::size_t>(bvh_.count()), 0.0);
     double thickest = 0;
-    for (const Surface& surface : elements_.surfaces())
+    for (const ContactSurface& surface : elements_.surfaces())
         if (!surface.isRigid) thickest = std::max(thickest, surface.thickness);
     const double boxMargin = boxMarginShare * thickest, mostDeformed = referenceShare * thickest;
 

@@ -61,7 +61,7 @@ double leastAlong(const dvec3& right, const dvec3& up, const dvec3& fRight, cons
 // small bumps and gaps: bodies are built with some, to break symmetry.
 void Bvh::findPlane(int number, const dvec3& along) {
     planes_.emplace_back();
-    const Surface& surface = elements_.surface(number);
+    const ContactSurface& surface = elements_.surface(number);
     if (surface.triangles.empty() || !surface.meetsItself) return;
     const auto at = [&](int i) { return elements_.rest()[static_cast<std::size_t>(i)]; };
     dvec3 normal(0.0);

@@ -29,7 +29,7 @@ void addMovable(const Elements& elements, const ContactConstraint& pair, std::sp
 
 }  // namespace
 
-ContactGroup::ContactGroup(std::vector<Surface> surfaces, std::vector<dvec3> rest, const ContactOptions& options)
+ContactGroup::ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest, const ContactOptions& options)
     : options_(options), elements_(std::move(surfaces), std::move(rest)), broadPhase_(elements_) {
     const auto count = static_cast<std::size_t>(elements_.pointCount());
     u0_.resize(count);
@@ -77,7 +77,7 @@ Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3>
     leaves.followAll(x, xTested_);
     int soft = 0;
     for (int p = 0; p < leaves.count(); ++p) {
-        const Surface& surface = elements_.surface(leaves[p].surface);
+        const ContactSurface& surface = elements_.surface(leaves[p].surface);
         if (surface.isRigid) continue;
         forecast.deformationRate += 2 * leaves.motion(p).deviation / surface.thickness;
         ++soft;

@@ -88,7 +88,7 @@ struct ContactPoint {
 class ContactGroup {
   public:
     // rest (points) [m].
-    ContactGroup(std::vector<Surface> surfaces, std::vector<dvec3> rest, const ContactOptions& options);
+    ContactGroup(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest, const ContactOptions& options);
     ContactGroup(const ContactGroup&) = delete;
     ContactGroup& operator=(const ContactGroup&) = delete;
 

@@ -10,7 +10,7 @@ namespace taut::contact {
 
 using glm::dvec3;
 
-struct Surface {
+struct ContactSurface {
     std::vector<int> points;                    // of the group
     std::vector<std::array<int, 3>> triangles;  // of points
     std::vector<std::array<int, 2>> lines;      // edges of no triangle: of ropes and nets

@@ -8,7 +8,7 @@
 
 namespace taut::contact {
 
-Elements::Elements(std::vector<Surface> surfaces, std::vector<dvec3> rest)
+Elements::Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest)
     : surfaces_(std::move(surfaces)),
       rest_(std::move(rest)),
       surfaceOf_(rest_.size(), -1),
@@ -22,7 +22,7 @@ Elements::Elements(std::vector<Surface> surfaces, std::vector<dvec3> rest)
 }
 
 void Elements::addSurface(int number) {
-    const Surface& surface = surfaces_[static_cast<std::size_t>(number)];
+    const ContactSurface& surface = surfaces_[static_cast<std::size_t>(number)];
     for (int i : surface.points) {
         int& owner = surfaceOf_[static_cast<std::size_t>(i)];
         if (owner < 0) owner = number;

@@ -30,7 +30,7 @@ struct Edge {
 class Elements {
   public:
     // rest (points) [m].
-    Elements(std::vector<Surface> surfaces, std::vector<dvec3> rest);
+    Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest);
 
     // Removes triangles (by their number in the surface) and edges (by their points) of a surface. An edge stays while
     // one of its triangles does. Points that are left without both become balls, which come last among the edges.
@@ -39,8 +39,8 @@ class Elements {
     // To be called after the last setGone().
     void refresh();
 
-    const std::vector<Surface>& surfaces() const { return surfaces_; }
-    const Surface& surface(int i) const { return surfaces_[static_cast<std::size_t>(i)]; }
+    const std::vector<ContactSurface>& surfaces() const { return surfaces_; }
+    const ContactSurface& surface(int i) const { return surfaces_[static_cast<std::size_t>(i)]; }
     const std::vector<Triangle>& triangles() const { return triangles_; }
     const std::vector<Edge>& edges() const { return edges_; }
     int edgesWithoutBalls() const { return firstBall_; }
@@ -66,7 +66,7 @@ class Elements {
     }
     // Whether two surfaces, or one with itself, may touch.
     bool mayMeet(int surfaceA, int surfaceB) const {
-        const Surface &a = surface(surfaceA), &b = surface(surfaceB);
+        const ContactSurface &a = surface(surfaceA), &b = surface(surfaceB);
         if (surfaceA == surfaceB) return a.meetsItself && !a.isRigid;
         if (a.isRigid || b.isRigid) return a.isRigid != b.isRigid && a.meetsRigid && b.meetsRigid;
         return a.meetsOthers && b.meetsOthers;
@@ -82,7 +82,7 @@ class Elements {
   private:
     void addSurface(int number);
 
-    std::vector<Surface> surfaces_;
+    std::vector<ContactSurface> surfaces_;
     std::vector<dvec3> rest_;
     std::vector<Triangle> triangles_;
     std::vector<Edge> edges_;

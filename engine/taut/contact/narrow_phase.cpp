@@ -212,7 +212,7 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     if (!pair.isActive && distance > list.relativeMotion + watchShare * pair.thickness) return;
     if (!crossings_.empty() && isTangled(pair)) return;
     const auto i = static_cast<std::size_t>(pair.a), j = static_cast<std::size_t>(pair.b);
-    const Surface &a = elements_.surface(isPoint ? elements_.surfaceOf(pair.a) : elements_.edges()[i].surface),
+    const ContactSurface &a = elements_.surface(isPoint ? elements_.surfaceOf(pair.a) : elements_.edges()[i].surface),
                   &b = elements_.surface(isPoint ? elements_.triangles()[j].surface : elements_.edges()[j].surface);
     pair.friction = (a.isRigid || b.isRigid ? 1.0 : options_.friction) * a.friction * b.friction;
     pairs.push_back(pair);

@@ -49,8 +49,8 @@ Hit firstHit(const Ray& ray, std::span<const view::Surface> surfaces) {
 }
 
 // The point of a body that is nearest to a place.
-Picked nearestTo(const BodyPoints& body, const glm::dvec3& place) {
-    Picked picked{body.name, 0, {}};
+PickedPoint nearestTo(const BodyPoints& body, const glm::dvec3& place) {
+    PickedPoint picked{body.name, 0, {}};
     double least = farAway;
     for (std::size_t i = 0; i < body.positions.size(); ++i) {
         const glm::dvec3 offset = body.positions[i] - place;
@@ -90,7 +90,7 @@ glm::dvec3 onPicturePlane(const Ray& ray, const view::Camera& camera, glm::dvec3
     return ray.from + ray.along * (depth / ahead);
 }
 
-std::optional<Picked> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
+std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
                            double reach) {
     const Hit hit = firstHit(ray, surfaces);
     if (hit.surface != nullptr)
@@ -99,7 +99,7 @@ std::optional<Picked> pick(const Ray& ray, std::span<const view::Surface> surfac
                 return nearestTo(body, ray.from + ray.along * hit.distance);
 
     // Beside everything that is drawn, or before a collider: whatever is near enough to the ray and not behind it.
-    std::optional<Picked> best;
+    std::optional<PickedPoint> best;
     double least = reach;
     for (const BodyPoints& body : bodies)
         for (std::size_t i = 0; i < body.positions.size(); ++i) {
@@ -109,7 +109,7 @@ std::optional<Picked> pick(const Ray& ray, std::span<const view::Surface> surfac
             const double off = glm::length(offset - depth * ray.along) / depth;
             if (!(off < least)) continue;
             least = off;
-            best = Picked{body.name, body.points[i], body.positions[i]};
+            best = PickedPoint{body.name, body.points[i], body.positions[i]};
         }
     return best;
 }

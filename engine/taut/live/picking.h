@@ -32,7 +32,7 @@ struct BodyPoints {
     std::vector<glm::dvec3> positions;  // (points) [m]
 };
 
-struct Picked {
+struct PickedPoint {
     std::string body;
     int point = 0;  // in the order of authoring
     glm::dvec3 position{0.0};
@@ -40,7 +40,7 @@ struct Picked {
 
 // The point nearest to the ray. Where the ray meets a body, one of that body; elsewhere one within `reach` [m for each
 // metre of distance] of the ray that nothing opaque hides. None when a collider is in the way, or nothing is near.
-std::optional<Picked> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
+std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
                            double reach);
 
 }  // namespace taut::live

@@ -8,7 +8,7 @@
 
 #include "taut/image/image.h"
 #include "taut/render/camera_axes.h"
-#include "taut/render/layer_pass.h"
+#include "taut/render/private/layer_pass.h"
 
 namespace taut::render {
 

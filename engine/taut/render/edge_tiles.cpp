@@ -1,4 +1,4 @@
-#include "taut/render/edge_tiles.h"
+#include "taut/render/private/edge_tiles.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "taut/image/private/light_image.h"
-#include "taut/render/program.h"
+#include "taut/render/private/program.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "taut/render/gl.h"
+#include "taut/render/private/gl.h"
 
 namespace taut::render {
 

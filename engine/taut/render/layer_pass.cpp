@@ -1,4 +1,4 @@
-#include "taut/render/layer_pass.h"
+#include "taut/render/private/layer_pass.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "taut/render/light_box.h"
+#include "taut/render/private/light_box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "taut/render/lights.h"
+#include "taut/render/private/lights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "taut/render/layer_pass.h"
+#include "taut/render/private/layer_pass.h"
 
 namespace taut::render {
 namespace {

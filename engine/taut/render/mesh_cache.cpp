@@ -1,4 +1,4 @@
-#include "taut/render/mesh_cache.h"
+#include "taut/render/private/mesh_cache.h"
 
 #include <algorithm>
 

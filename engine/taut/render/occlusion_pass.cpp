@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "taut/render/program.h"
+#include "taut/render/private/program.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "taut/render/program.h"
+#include "taut/render/private/program.h"
 
 #include <array>
 #include <fstream>

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "taut/core/error.h"
-#include "taut/render/program.h"
+#include "taut/render/private/program.h"
 
 namespace taut::render {
 

@@ -1,4 +1,4 @@
-#include "taut/render/surface_pass.h"
+#include "taut/render/private/surface_pass.h"
 
 #include <algorithm>
 #include <cmath>

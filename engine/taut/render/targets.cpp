@@ -1,4 +1,4 @@
-#include "taut/render/targets.h"
+#include "taut/render/private/targets.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "taut/core/error.h"
-#include "taut/render/program.h"
+#include "taut/render/private/program.h"
 
 namespace taut::render {
 

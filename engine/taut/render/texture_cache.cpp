@@ -1,9 +1,9 @@
-#include "taut/render/texture_cache.h"
+#include "taut/render/private/texture_cache.h"
 
 #include <algorithm>
 
 #include "taut/image/read.h"
-#include "taut/render/program.h"
+#include "taut/render/private/program.h"
 
 namespace taut::render {
 

@@ -46,7 +46,7 @@ void setMesh(world::MeshSource& spec, const Assets& meshes) {
 }
 
 // Why a file that was found cannot be used; empty if it can. Of a mesh, what it holds goes into the asset.
-std::string faultOf(const Reference& reference, const LoadOptions& options, Asset& asset) {
+std::string faultOf(const NameReference& reference, const LoadOptions& options, Asset& asset) {
     if (reference.role != Role::mesh) {
         const std::string fault =
             options.pictureFault ? options.pictureFault(asset.found, reference.role == Role::environment) : "";
@@ -65,7 +65,7 @@ std::string faultOf(const Reference& reference, const LoadOptions& options, Asse
 void loadAssets(const path& sceneFolder, const path& baseFolder, const LoadOptions& options,
                 const Confinement& confinement, ReadScene& scene, Problems& problems) {
     Assets meshes, textures, environments;
-    for (const Reference& reference : scene.references) {
+    for (const NameReference& reference : scene.references) {
         Assets* of = nullptr;
         if (reference.role == Role::mesh) of = &meshes;
         if (reference.role == Role::texture) of = &textures;

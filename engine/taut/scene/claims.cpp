@@ -51,7 +51,7 @@ class Claims {
             spec.parsed = std::make_shared<const check::Check>(check::Check::parse(spec.that));
             for (const check::Mention& mention : spec.parsed->mentions()) checkMention(spec, that, mention);
             for (const check::Call& call : spec.parsed->calls()) doubtCall(that, call);
-        } catch (const check::Fault& fault) {
+        } catch (const check::ClaimError& fault) {
             problems_.addError(problems_.placeInside(that.place, that.text, fault.at), fault.what(), fault.remedy);
         }
     }

@@ -10,11 +10,11 @@ namespace taut::scene {
 
 namespace {
 
-void report(const Reference& reference, const std::optional<TargetFault>& fault, Problems& problems) {
+void report(const NameReference& reference, const std::optional<TargetFault>& fault, Problems& problems) {
     if (fault) problems.addError(reference.place, fault->message, fault->remedy);
 }
 
-void checkName(const Reference& reference, const std::string& kind, const std::vector<std::string>& names,
+void checkName(const NameReference& reference, const std::string& kind, const std::vector<std::string>& names,
                Problems& problems) {
     for (const std::string& name : names)
         if (name == reference.text) return;
@@ -24,7 +24,7 @@ void checkName(const Reference& reference, const std::string& kind, const std::v
     problems.addError(reference.place, fmt::format("there is no {} \"{}\"", kind, reference.text), remedy);
 }
 
-void checkCollider(const Reference& reference, const std::vector<std::string>& colliders, Problems& problems) {
+void checkCollider(const NameReference& reference, const std::vector<std::string>& colliders, Problems& problems) {
     if (std::find(colliders.begin(), colliders.end(), reference.text) != colliders.end()) return;
     const auto say = [&](const std::string& message, const std::string& remedy) {
         problems.addError(reference.place, message, remedy);
@@ -39,7 +39,7 @@ void checkCollider(const Reference& reference, const std::vector<std::string>& c
     say(fmt::format("there is no {}", reference.text), remedy);
 }
 
-void checkHoldOn(const Reference& reference, const world::SceneSpec& scene, Problems& problems) {
+void checkHoldOn(const NameReference& reference, const world::SceneSpec& scene, Problems& problems) {
     for (const world::BodySpec& body : scene.bodies)
         if (body.fullName() == reference.owner && body.hold.empty())
             problems.addError(reference.place, "hold_on carries the points of hold, and there is no hold",
@@ -82,7 +82,7 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
     for (const auto& camera : scene.spec.cameras) cameras.push_back(camera.name);
     for (const auto& collider : scene.spec.colliders) colliders.push_back("collider." + collider.name);
 
-    for (const Reference& reference : scene.references) {
+    for (const NameReference& reference : scene.references) {
         switch (reference.role) {
             case Role::material: checkName(reference, "material", materials, problems); break;
             case Role::camera: checkName(reference, "camera", cameras, problems); break;

@@ -20,9 +20,9 @@ bool usesMaterial(const world::SceneSpec& spec, const std::string& name) {
 // Moments are taken at the nearest tick, which shows where that is half a frame away. One line for all of them.
 void warnOfMoments(const ReadScene& scene, Problems& problems) {
     const world::Ticks ticks(scene.spec.run);
-    const Reference* first = nullptr;
+    const NameReference* first = nullptr;
     std::size_t others = 0;
-    for (const Reference& reference : scene.references) {
+    for (const NameReference& reference : scene.references) {
         if (reference.role != Role::time) continue;
         const double tick = reference.time * ticks.perSecond;
         if (std::abs(tick - std::round(tick)) < 0.5 * ticks.perFrame - 0.01) continue;

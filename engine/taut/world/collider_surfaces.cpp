@@ -23,13 +23,13 @@ struct Placing {
 };
 
 // [m] The longest edge of surfaces that touch colliders.
-double cellOf(std::span<const contact::Surface> surfaces, std::span<const dvec3> rest) {
+double cellOf(std::span<const contact::ContactSurface> surfaces, std::span<const dvec3> rest) {
     double square = 0;
     const auto take = [&](int a, int b) {
         const dvec3 d = rest[static_cast<std::size_t>(a)] - rest[static_cast<std::size_t>(b)];
         square = std::max(square, glm::dot(d, d));
     };
-    for (const contact::Surface& surface : surfaces) {
+    for (const contact::ContactSurface& surface : surfaces) {
         if (!surface.meetsRigid) continue;
         for (const std::array<int, 3>& t : surface.triangles)
             for (std::size_t k = 0; k < 3; ++k) take(t[k], t[(k + 1) % 3]);
@@ -38,8 +38,8 @@ double cellOf(std::span<const contact::Surface> surfaces, std::span<const dvec3>
     return std::sqrt(square);
 }
 
-contact::Surface surfaceOf(const collision::Outline& outline, double friction, int offset, int bond) {
-    contact::Surface surface;
+contact::ContactSurface surfaceOf(const collision::Outline& outline, double friction, int offset, int bond) {
+    contact::ContactSurface surface;
     surface.isRigid = true;
     surface.meetsItself = surface.meetsOthers = false;
     surface.thickness = outline.radius;
@@ -57,7 +57,7 @@ contact::Surface surfaceOf(const collision::Outline& outline, double friction, i
 }  // namespace
 
 ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders,
-                                   std::vector<contact::Surface>& surfaces, std::vector<dvec3>& rest) {
+                                   std::vector<contact::ContactSurface>& surfaces, std::vector<dvec3>& rest) {
     const double thin = roundCells * cellOf(surfaces, rest);
     for (std::size_t c = 0; c < colliders.size(); ++c) {
         Collider own{static_cast<int>(c),

@@ -45,9 +45,9 @@ bool touches(const IslandPlan& plan) {
         plan.bodies.begin(), plan.bodies.end(), [](const Body* body) { return mayTouch(*body->spec); });
 }
 
-contact::Surface surfaceOf(const Body& body, int offset, int bond) {
+contact::ContactSurface surfaceOf(const Body& body, int offset, int bond) {
     const mechanics::Model& model = body.model;
-    contact::Surface surface;
+    contact::ContactSurface surface;
     surface.thickness = body.spec->thickness;
     surface.friction = body.spec->friction;
     surface.meetsItself = body.spec->touch == Touch::all;
@@ -74,7 +74,7 @@ ContactStage::ContactStage(std::span<const std::unique_ptr<Island>> islands, con
                            double tickSeconds, StepFollowing& pace,
                            const std::function<std::vector<TouchedCollider>()>& colliders)
     : spec_(spec), tickSeconds_(tickSeconds), fewest_(fewestInstants(tickSeconds)), pace_(pace) {
-    std::vector<contact::Surface> surfaces;
+    std::vector<contact::ContactSurface> surfaces;
     std::vector<dvec3> rest;
     for (const auto& island : islands) {
         if (!touches(island->plan())) continue;

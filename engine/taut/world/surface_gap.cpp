@@ -14,8 +14,8 @@ namespace taut::world {
 namespace {
 
 // Its points numbered from `offset` on as in its model, whatever they are in the island.
-contact::Surface loneSurface(const Body& body, int offset, int bond) {
-    contact::Surface surface = surfaceOf(body, 0, bond);
+contact::ContactSurface loneSurface(const Body& body, int offset, int bond) {
+    contact::ContactSurface surface = surfaceOf(body, 0, bond);
     std::vector<int> own;
     for (std::size_t i = 0; i < body.pointOf.size(); ++i) {
         own.resize(std::max(own.size(), static_cast<std::size_t>(body.pointOf[i]) + 1));
@@ -63,7 +63,7 @@ SurfaceGap::SurfaceGap(const Selection& first, const Selection& second) : genera
 }
 
 void SurfaceGap::build() {
-    std::vector<contact::Surface> surfaces;
+    std::vector<contact::ContactSurface> surfaces;
     std::vector<glm::dvec3> rest;
     for (const Body* body : bodies_) {
         const int number = static_cast<int>(surfaces.size());

@@ -9,7 +9,7 @@
 
 namespace taut::check {
 
-// Throws Fault. Adds what the claim speaks of to `mentions`, in the order of the text.
+// Throws ClaimError. Adds what the claim speaks of to `mentions`, in the order of the text.
 Claim claimOf(std::string_view text, std::vector<Mention>& mentions);
 
 // The same for expressions with commas between them and no comparison; at least one.

@@ -10,7 +10,7 @@
 
 #include "taut/render/private/edge_coverage.h"
 #include "taut/render/private/edge_triangles.h"
-#include "taut/render/mesh_cache.h"
+#include "taut/render/private/mesh_cache.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::render {

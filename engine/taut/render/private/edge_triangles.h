@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "taut/render/edge_tiles.h"
-#include "taut/render/mesh_cache.h"
+#include "taut/render/private/edge_tiles.h"
+#include "taut/render/private/mesh_cache.h"
 
 namespace taut::render {
 

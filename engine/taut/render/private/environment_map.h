@@ -6,8 +6,8 @@
 
 #include "taut/render/private/environment.h"
 #include "taut/render/private/frame_block.h"
-#include "taut/render/gl.h"
-#include "taut/render/texture_cache.h"
+#include "taut/render/private/gl.h"
+#include "taut/render/private/texture_cache.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::render {

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "taut/render/lights.h"
+#include "taut/render/private/lights.h"
 #include "taut/render/private/occlusion_pass.h"
 #include "taut/view/frame_view.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "taut/render/lights.h"
+#include "taut/render/private/lights.h"
 #include "taut/render/private/occlusion_pass.h"
 
 namespace taut::render {

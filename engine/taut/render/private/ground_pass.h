@@ -10,8 +10,8 @@
 
 #include "taut/render/private/frame_block.h"
 #include "taut/render/private/ground.h"
-#include "taut/render/program.h"
-#include "taut/render/targets.h"
+#include "taut/render/private/program.h"
+#include "taut/render/private/targets.h"
 
 namespace taut::render {
 

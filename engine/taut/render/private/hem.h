@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "taut/render/light_box.h"
-#include "taut/render/mesh_cache.h"
+#include "taut/render/private/light_box.h"
+#include "taut/render/private/mesh_cache.h"
 #include "taut/render/private/thin_tubes.h"
 #include "taut/view/frame_view.h"
 

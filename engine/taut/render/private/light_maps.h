@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "taut/render/lights.h"
+#include "taut/render/private/lights.h"
 #include "taut/render/private/shadow_pass.h"
 
 namespace taut::render {

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "taut/render/program.h"
+#include "taut/render/private/program.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::render {

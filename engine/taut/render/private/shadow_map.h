@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "taut/render/private/depth_kernels.h"
-#include "taut/render/light_box.h"
-#include "taut/render/mesh_cache.h"
+#include "taut/render/private/light_box.h"
+#include "taut/render/private/mesh_cache.h"
 
 namespace taut::render {
 

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "taut/render/gl.h"
-#include "taut/render/lights.h"
-#include "taut/render/mesh_cache.h"
-#include "taut/render/program.h"
+#include "taut/render/private/gl.h"
+#include "taut/render/private/lights.h"
+#include "taut/render/private/mesh_cache.h"
+#include "taut/render/private/program.h"
 #include "taut/render/private/shadow_map.h"
 
 namespace taut::render {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "taut/render/private/edge_triangles.h"
-#include "taut/render/mesh_cache.h"
+#include "taut/render/private/mesh_cache.h"
 #include "taut/render/private/picture_mean.h"
 #include "taut/view/frame_view.h"
 

@@ -13,7 +13,7 @@
 namespace taut::scene {
 
 // A text that refers to something, or a moment in time, with its place.
-struct Reference {
+struct NameReference {
     Role role = Role::none;
     Place place;
     std::string text;   // of a mesh, a texture: the path as written
@@ -23,7 +23,7 @@ struct Reference {
 
 struct ReadScene {
     world::SceneSpec spec;                // sections in the order of the file
-    std::vector<Reference> references;    // in the order of the table
+    std::vector<NameReference> references;    // in the order of the table
     std::set<std::string> faulty;         // owners with an error inside, "cloth.flag" or "at[0]"
     std::map<std::string, Place> owners;  // where "cloth.flag" or "joint[0]" begins
 };

@@ -23,7 +23,7 @@ class ColliderSurfaces {
     ColliderSurfaces() = default;
     // Colliders in their order. Appends their surfaces and points (points) [m] to those of a group. A ball or a capsule
     // only if it is thin enough to slip through the cells of the surfaces that touch it.
-    ColliderSurfaces(const std::vector<TouchedCollider>& colliders, std::vector<contact::Surface>& surfaces,
+    ColliderSurfaces(const std::vector<TouchedCollider>& colliders, std::vector<contact::ContactSurface>& surfaces,
                      std::vector<dvec3>& rest);
 
     bool isEmpty() const { return colliders_.empty(); }

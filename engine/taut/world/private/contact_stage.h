@@ -43,7 +43,7 @@ int fewestInstants(double tickSeconds);
 bool touches(const IslandPlan& plan);
 
 // The surface of a body. Its points are numbered as in its island, from `offset` on.
-contact::Surface surfaceOf(const Body& body, int offset, int bond);
+contact::ContactSurface surfaceOf(const Body& body, int offset, int bond);
 
 class ContactStage {
   public:

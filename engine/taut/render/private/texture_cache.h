@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "taut/render/gl.h"
+#include "taut/render/private/gl.h"
 
 namespace taut::render {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "taut/render/edge_tiles.h"
-#include "taut/render/gl.h"
+#include "taut/render/private/edge_tiles.h"
+#include "taut/render/private/gl.h"
 
 namespace taut::render {
 

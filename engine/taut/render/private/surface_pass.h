@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "taut/render/camera_axes.h"
-#include "taut/render/lights.h"
-#include "taut/render/mesh_cache.h"
-#include "taut/render/program.h"
-#include "taut/render/targets.h"
-#include "taut/render/texture_cache.h"
+#include "taut/render/private/lights.h"
+#include "taut/render/private/mesh_cache.h"
+#include "taut/render/private/program.h"
+#include "taut/render/private/targets.h"
+#include "taut/render/private/texture_cache.h"
 
 namespace taut::render {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/render/light_box.h"
+#include "taut/render/private/light_box.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::render {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "taut/render/gl.h"
+#include "taut/render/private/gl.h"
 
 namespace taut::render {
 

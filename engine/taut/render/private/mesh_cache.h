@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "taut/render/gl.h"
-#include "taut/render/light_box.h"
+#include "taut/render/private/gl.h"
+#include "taut/render/private/light_box.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::render {

@@ -6,11 +6,11 @@
 #include <span>
 
 #include "taut/image/image.h"
-#include "taut/render/edge_tiles.h"
-#include "taut/render/mesh_cache.h"
-#include "taut/render/program.h"
-#include "taut/render/surface_pass.h"
-#include "taut/render/targets.h"
+#include "taut/render/private/edge_tiles.h"
+#include "taut/render/private/mesh_cache.h"
+#include "taut/render/private/program.h"
+#include "taut/render/private/surface_pass.h"
+#include "taut/render/private/targets.h"
 #include "taut/view/frame_view.h"
 
 namespace taut::render {

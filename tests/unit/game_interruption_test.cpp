@@ -35,7 +35,7 @@ pid_t started(std::vector<std::string> arguments, const std::filesystem::path& m
 
 // Looks now and then; gives up after a time that no working program comes near.
 bool comesTrue(const std::function<bool()>& condition) {
-    for (int i = 0; i < 6000; ++i) {
+    for (int i = 0; i < 30000; ++i) {
         if (condition()) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

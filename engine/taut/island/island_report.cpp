@@ -68,13 +68,6 @@ double penetrationOf(const Island& island, const std::vector<bool>& wanted) {
     return depth;
 }
 
-mechanics::StiffnessProduct stiffnessAt(const Island& island, std::span<const dvec3> x) {
-    return [&island, x](std::span<const dvec3> in, std::span<dvec3> sum) {
-        mechanics::addSpringStiffness(island.plan().springs, x, in, sum);
-        island.dynamics().addStiffnessProduct(in, sum);
-    };
-}
-
 std::string contactWarning(const Island& island) {
     const ContactBudget& budget = island.memory().budget;
     if (!budget.isOverdrawn()) return {};
@@ -168,7 +161,7 @@ IslandInfo infoOf(const Island& island, const TickTime& time) {
     info.omegaNow =
         mechanics::boundHere({plan.springs, inverseMasses, cells}, dynamics.stabilityShare(time.start()).stiffness, x)
             .omega;
-    info.omegaEstimate = mechanics::estimateFrequency(inverseMasses, stiffnessAt(island, x));
+    info.omegaEstimate = mechanics::estimateFrequency(inverseMasses, island.stiffnessAt(x));
     return info;
 }
 

@@ -161,6 +161,8 @@ class Island {
     const IslandMemory& memory() const { return now_; }
     StepChoice choice() const;  // with the steps that there are now
     const collision::Colliders& colliders() const { return colliders_; }
+    // The product with its stiffness at these places of its points, which have to stay.
+    mechanics::StiffnessProduct stiffnessAt(std::span<const dvec3> x) const;
     bool hasMoved() const { return hasMoved_; }  // any tick yet
     std::vector<std::string> said() const;       // warnings so far that cannot be derived
 
@@ -186,8 +188,6 @@ class Island {
         return inParts(now_.budget.factor * (choice_.need ? now_.following.substeps() : ownSubsteps_));
     }
     int wantedSubsteps() const { return (quietSubsteps() + parts_ - 1) / parts_ * parts_; }
-    // The product with its stiffness at these places of its points, which have to stay.
-    mechanics::StiffnessProduct stiffnessAt(std::span<const dvec3> x) const;
     const ode::MethodInfo& method() const { return *methodsOf(plan_.solver).find(plan_.solver.integrator); }
     void visitPlan(StateBytes& bytes);
     void visitInside(StateBytes& bytes);

@@ -11,6 +11,7 @@
 #include "game/python/live_world.h"
 #include "game/python/toml_text.h"
 #include "taut/core/trig.h"
+#include "taut/island/metric_table.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -56,10 +57,16 @@ world::Metrics metricsOf(const LiveWorld& world, const std::string& bodies) {
 
 py::dict measuresOf(const world::Metrics& m) {
     const auto list = [](const glm::dvec3& v) { return arrayOf(std::span(&v.x, 3)); };
-    return py::dict("momentum"_a = list(m.momentum), "angular_momentum"_a = list(m.angularMomentum),
-                    "max_strain"_a = m.maxStrain, "contacts"_a = m.contacts, "penetration"_a = m.penetration,
-                    "body_contacts"_a = m.bodyContacts, "crossings"_a = m.crossings,
-                    "broken_springs"_a = m.brokenSprings, "volume"_a = m.volume, "rest_volume"_a = m.restVolume);
+    py::dict all("broken_springs"_a = m.brokenSprings, "volume"_a = m.volume, "rest_volume"_a = m.restVolume);
+    for (const world::Metric& metric : world::metricTable()) {
+        const py::str name(std::string(metric.function.empty() ? metric.columns : metric.function));
+        if (all.contains(name)) continue;
+        const world::MetricValue value = metric.value(m);
+        if (const auto* v = std::get_if<glm::dvec3>(&value)) all[name] = list(*v);
+        if (const auto* number = std::get_if<double>(&value)) all[name] = *number;
+        if (const auto* count = std::get_if<std::int64_t>(&value)) all[name] = *count;
+    }
+    return all;
 }
 
 py::list islandsOf(const LiveWorld& world) {
@@ -218,8 +225,9 @@ void addArrays(Class& type) {
     type.def(
         "measures", [](const LiveWorld& w, const std::string& b) { return measuresOf(metricsOf(w, b)); },
         "bodies"_a = "",
-        "A dict of what else is measured: momentum [kg m/s] and angular_momentum [kg m²/s] as (3,), max_strain,\n"
-        "contacts, penetration [m], body_contacts, crossings, broken_springs, volume and rest_volume [m³].");
+        "A dict of all that is measured, by the names of claims, else by those of metrics.csv: momentum [kg m/s] and\n"
+        "angular_momentum [kg m²/s] as (3,), max_strain, contacts, penetration [m], body_contacts, crossings, …;\n"
+        "besides broken_springs, volume and rest_volume [m³].");
     type.def("surfaces", &surfacesOf, "What is drawn, as a list of Surface: bodies and colliders.");
     type.def("render", &pictureOf, "size"_a = py::none(), py::kw_only(), "camera"_a = "", "samples"_a = py::none(),
              "debug"_a = false,

@@ -56,6 +56,9 @@ TEST(CheckFunctions, MotionFollowsFromImpulses) {
     EXPECT_NEAR(valueIn(world, "angular_momentum(net.balls).z"), 11.0, rounding);
     EXPECT_NEAR(valueIn(world, "kinetic_energy"), 0.5 * 1 * 4 + 0.5 * 3 * 1, rounding);
     EXPECT_NEAR(valueIn(world, "time"), 1.0 / 60, rounding);
+    for (const world::Metric& metric : world::metricTable())
+        if (metric.columns == "max_speed_m_per_s")
+            EXPECT_NEAR(std::get<double>(metric.value(world.metrics())), 2.0, rounding);
 }
 
 // A spring of 100 N/m drawn from 2 to 3 m, 1 kg at 5 m and 4 kg at 2 m.

@@ -11,7 +11,7 @@
 #include "taut/core/whole_file.h"
 #include "taut/pipeline/run_lock.h"
 #include "taut/pipeline/sealed_file.h"
-#include "taut/world/metric_table.h"
+#include "taut/island/metric_table.h"
 
 namespace taut::pipeline {
 namespace {

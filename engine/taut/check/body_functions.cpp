@@ -1,7 +1,7 @@
 // What is measured of whole bodies.
 #include "taut/check/private/function_table.h"
 #include "taut/check/private/places.h"
-#include "taut/world/metric_table.h"
+#include "taut/island/metric_table.h"
 
 namespace taut::check {
 

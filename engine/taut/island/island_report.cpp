@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "taut/bodies/joints/constraint.h"
+#include "taut/island/metric_table.h"
 #include "taut/island/private/divergence.h"
 
 namespace taut::world {
@@ -98,7 +99,9 @@ void addMetrics(Island& island, const TickTime& time, const std::function<bool(c
             for (int i : body->pointOf) counts[static_cast<std::size_t>(i)] = true;
     std::vector<dvec3> x;
     dynamics.positions(x);
-    addPoints(plan, x, island.velocities(time), counts, metrics);
+    const std::vector<dvec3> v = island.velocities(time);
+    addMeasured({plan, x, v, counts}, metrics);
+    addPoints(plan, x, v, counts, metrics);
     addSprings(plan, x, counts, metrics);
     metrics.maxStrain = std::max(metrics.maxStrain, dynamics.strain(time.start(), counts));
     for (const auto& [body, report] : dynamics.volumes(time.start(), false)) {

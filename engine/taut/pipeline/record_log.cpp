@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
-#include "taut/world/metric_table.h"
+#include "taut/island/metric_table.h"
 
 namespace taut::pipeline {
 namespace {

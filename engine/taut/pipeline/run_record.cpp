@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "taut/forces/wind.h"
-#include "taut/world/metric_table.h"
+#include "taut/island/metric_table.h"
 #include "taut/world/result_bits.h"
 
 namespace taut::pipeline {

@@ -10,10 +10,6 @@ namespace taut::world {
 
 struct Body;
 
-// Crossings, those of edges of colliders among them, cost the most: up to some microseconds for each point of bodies
-// that touch.
-enum class Measures { all, butCrossings };
-
 // Points of a target at a published tick, velocities synchronised; body by body, in the order of authoring.
 struct PointsNow {
     std::vector<glm::dvec3> x, v;  // (points) [m], [m/s]

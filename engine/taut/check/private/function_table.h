@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "taut/check/private/evaluation.h"
-#include "taut/world/metric_table.h"
+#include "taut/island/metric_table.h"
 
 namespace taut::check {
 

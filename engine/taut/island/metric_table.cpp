@@ -1,7 +1,9 @@
-#include "taut/world/metric_table.h"
+#include "taut/island/metric_table.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "taut/bodies/island_plan.h"
 #include "taut/spec/spec.h"
 
 namespace taut::world {
@@ -39,6 +41,13 @@ constexpr MetricSource volumeRatio = {[](const Metrics& metrics) -> MetricValue 
                                           visitNumber(metrics.restVolume, visit);
                                       }};
 
+double largestSpeed(const MeasuredIsland& island, double before) {
+    double squared = 0;
+    for (std::size_t i = 0; i < island.v.size(); ++i)
+        if (island.counts[i]) squared = std::max(squared, glm::dot(island.v[i], island.v[i]));
+    return std::max(before, std::sqrt(squared));
+}
+
 }  // namespace
 
 std::span<const Metric> metricTable() {
@@ -75,14 +84,33 @@ std::span<const Metric> metricTable() {
         {"face_penetration_m", "face_penetration", "m",
          "Largest height that a collider's corner or sharp edge stands out of a triangle, of bodies that meet those.",
          plain<&M::facePenetration>, 1, Measures::all, Counts::whatMeetsFaces},
+        {"max_speed_m_per_s", "", "m/s", "Largest speed of a point.", {.measure = largestSpeed}},
     };
     return table;
 }
 
+MetricValue Metric::value(const Metrics& metrics) const {
+    if (source.measure == nullptr) return source.value(metrics);
+    const auto row = static_cast<std::size_t>(this - metricTable().data());
+    return row < metrics.measured.size() ? metrics.measured[row] : 0.0;
+}
+
+void addMeasured(const MeasuredIsland& island, Metrics& metrics) {
+    const std::span<const Metric> table = metricTable();
+    metrics.measured.resize(table.size(), 0.0);
+    for (std::size_t row = 0; row < table.size(); ++row)
+        if (table[row].source.measure != nullptr)
+            metrics.measured[row] = table[row].source.measure(island, metrics.measured[row]);
+}
+
 void eachNumber(Metrics& metrics, const NumberVisitor& visit) {
     visit(&metrics.time);
-    for (const Metric& metric : metricTable())
-        if (metric.source.eachNumber != nullptr) metric.source.eachNumber(metrics, visit);
+    const std::span<const Metric> table = metricTable();
+    metrics.measured.resize(table.size(), 0.0);
+    for (std::size_t row = 0; row < table.size(); ++row) {
+        if (table[row].source.eachNumber != nullptr) table[row].source.eachNumber(metrics, visit);
+        if (table[row].source.measure != nullptr) visit(&metrics.measured[row]);
+    }
 }
 
 bool isCounted(Counts counts, const BodySpec& body) {

@@ -1,5 +1,5 @@
 // What is measured of bodies, one row each: claims call it, metrics.csv has it a frame, the records of a run keep it.
-// To add a metric, measure it (Metrics), and write its row.
+// To add a metric, write its row, with the function that measures it of an island.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,14 @@
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "taut/island/report.h"
-#include "taut/world/world_info.h"
 
 namespace taut::world {
 
 struct BodySpec;
+struct IslandPlan;
 struct SceneSpec;
 
 using MetricValue = std::variant<double, std::int64_t, glm::dvec3>;
@@ -25,10 +26,20 @@ enum class Counts { everyBody, whatTouches, whatMeetsFaces };
 using MetricNumber = std::variant<double*, int*, std::int64_t*>;
 using NumberVisitor = std::function<void(MetricNumber)>;
 
+// What a row measures: an island at a published tick, velocities synchronised.
+struct MeasuredIsland {
+    const IslandPlan& plan;
+    std::span<const glm::dvec3> x, v;  // (points) [m], [m/s]
+    const std::vector<bool>& counts;   // (points) whether it is asked for
+};
+
+// A row either reads what Metrics has a member for, or measures by itself.
 struct MetricSource {
     MetricValue (*value)(const Metrics& metrics) = nullptr;
     // Visits the numbers that the value is made of; null: they are those of other rows.
     void (*eachNumber)(Metrics& metrics, const NumberVisitor& visit) = nullptr;
+    // The value of all islands until this one, from that of those before it; 0 of none.
+    double (*measure)(const MeasuredIsland& island, double before) = nullptr;
 };
 
 struct Metric {
@@ -41,11 +52,14 @@ struct Metric {
     Measures measures = Measures::butCrossings;  // what it needs
     Counts counts = Counts::everyBody;
 
-    MetricValue value(const Metrics& metrics) const { return source.value(metrics); }
+    MetricValue value(const Metrics& metrics) const;
     bool isVector() const { return std::holds_alternative<glm::dvec3>(value({})); }
 };
 
 std::span<const Metric> metricTable();
+
+// Adds what rows measure by themselves.
+void addMeasured(const MeasuredIsland& island, Metrics& metrics);
 
 // The time, and every number that a row of the table is made of, in the order of the table.
 void eachNumber(Metrics& metrics, const NumberVisitor& visit);

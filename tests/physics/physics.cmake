@@ -1,5 +1,6 @@
 find_package(Boost REQUIRED)  # headers of odeint; imported, so the compiler takes them for the system's
 list(APPEND TAUT_PHYSICS_TESTS
+  bending_test.cpp
   blanes_moan_test.cpp
   block_recovery_test.cpp
   contact_test.cpp

@@ -23,15 +23,21 @@ double randomNumber(std::int64_t seed, int point, int axis) {
 }
 
 void holdPoints(Body& body) {
-    for (const std::string& selector : body.spec->hold) {
+    const auto hold = [&](const char* key, const std::string& selector) {
         const std::vector<int> points = selectPoints(body.model, selector);
         if (points.empty())
-            throw Error(ErrorKind::badContent,
-                        at(body.spec->source) + "hold = \"" + selector + "\" names no point of " + body.fullName());
+            throw Error(ErrorKind::badContent, at(body.spec->source) + key + " = \"" + selector +
+                                                   "\" names no point of " + body.fullName());
         if (body.spec->holdOn.empty())
             for (int i : points) body.model.held[static_cast<std::size_t>(i)] = true;
         else
             body.carried.insert(body.carried.end(), points.begin(), points.end());
+        return points;
+    };
+    for (const std::string& selector : body.spec->hold) hold("hold", selector);
+    for (const std::string& selector : body.spec->clamp) {
+        body.clamped.resize(body.model.positions.size(), false);
+        for (int i : hold("clamp", selector)) body.clamped[static_cast<std::size_t>(i)] = true;
     }
     std::sort(body.carried.begin(), body.carried.end());
     body.carried.erase(std::unique(body.carried.begin(), body.carried.end()), body.carried.end());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <span>
 #include <string>
@@ -23,7 +24,9 @@ struct Body {
     mechanics::Model model;
     PlasticitySpec plasticity;
 
-    std::vector<int> carried;  // ascending points of the model that its spec holds on a collider
+    std::vector<int> carried;    // ascending points of the model that its spec holds on a collider
+    std::vector<bool> clamped;   // (points) whose direction is held while they are; empty: none
+    glm::dquat carriedFrom{1, 0, 0, 0};  // how that collider was turned when the points were tied to it
 
     Damage damage;  // what has been cut or torn of it
 

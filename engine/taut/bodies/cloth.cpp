@@ -21,6 +21,14 @@ dvec3 unit(const dvec3& v) {
     return v / std::sqrt(glm::dot(v, v));
 }
 
+// A scene file has none without an energy (fields_materials.cpp).
+mechanics::BendingRigidity rigidityOf(const BendingSpec& spec) {
+    if (!spec.warp) return {};
+    const auto rigidity = mechanics::orthotropicRigidity(*spec.warp, spec.weft.value_or(*spec.warp), spec.bias);
+    TAUT_EXPECTS(rigidity.has_value());
+    return *rigidity;
+}
+
 mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scene) {
     const auto found = scene.materials.find(spec.material);
     if (found == scene.materials.end() && !spec.material.empty())
@@ -30,6 +38,7 @@ mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scen
             .stretch = m.stretch,
             .shear = m.shear.value_or(0.5 * m.stretch),
             .bend = m.bend,
+            .rigidity = rigidityOf(m.rigidity),
             .dampingTime = m.dampingTime,
             .dragRate = m.drag,
             .lumping = m.lumping};
@@ -104,6 +113,10 @@ mechanics::Model ClothSpec::build(const SceneSpec& scene) const {
         const dvec3 v = unit(down - glm::dot(down, u) * u);
         return mechanics::buildCloth({origin, u, v, size, cells, made});
     }
+    if (made.rigidity.along > 0)
+        throw core::Error(core::ErrorKind::badContent,
+                          at(source) + "bending_rigidity_N_m of [material." + material +
+                              "] is for cloth grids only; a cloth from a mesh has bend_N_per_m");
     mechanics::MeshClothShape shape = shapeOf(*this);
     shape.material = made;
     try {

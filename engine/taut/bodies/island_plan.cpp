@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "taut/core/error.h"
+#include "taut/mechanics/bending.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
 #include "taut/bodies/private/ties.h"
@@ -357,6 +358,17 @@ std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan) {
         all.insert(all.end(), cells.begin(), cells.end());
     }
     return all;
+}
+
+mechanics::Bending bendingOf(const IslandPlan& plan, const Body& body) {
+    const std::vector<bool> isHeld = heldPointsOf(plan);
+    std::vector<bool> held, isClamped;
+    for (std::size_t i = 0; i < body.pointOf.size(); ++i) {
+        held.push_back(isHeld[static_cast<std::size_t>(body.pointOf[i])]);
+        isClamped.push_back(held[i] && !body.clamped.empty() && body.clamped[i]);
+    }
+    return without(clamped(body.model.bending, held, isClamped, body.model.positions),
+                   [&](int a, int b) { return body.damage.isSevered(a, b); });
 }
 
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {

@@ -87,6 +87,8 @@ std::vector<double> inverseMassesOf(const IslandPlan& plan);
 // The cells that are left of a body, or of all bodies of the plan, by points of the island.
 std::vector<mechanics::VolumeCell> cellsOf(const Body& body);
 std::vector<mechanics::VolumeCell> cellsOf(const IslandPlan& plan);
+// How a body bends as it is now: without what is cut or torn, with directions held where its points are.
+mechanics::Bending bendingOf(const IslandPlan& plan, const Body& body);
 // The body of a point and the point's number there; of welded bodies the first. Null and the point itself if no body
 // has it.
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point);

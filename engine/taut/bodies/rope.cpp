@@ -111,6 +111,9 @@ Section RopeSpec::section() {
         .ramps(Affects::springs)
         .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
         .ramps(Affects::springs);
+    list.number("bending_rigidity_N_m2", &RopeSpec::rigidity, "N m²", notNegative,
+                "Bending rigidity EI, the same for any number of segments; it is straight at rest.")
+        .ramps(Affects::springs);
     section.fields = withPlasticity(withLosses(list))
                          .number("radius", &RopeSpec::radius, "m", lengthRange,
                                  "As it is drawn; its thickness too, if that is not given.")
@@ -141,6 +144,7 @@ mechanics::Model RopeSpec::build(const SceneSpec&) const {
                                  .mass = mass,
                                  .stretch = stretch,
                                  .bend = bend,
+                                 .rigidity = rigidity,
                                  .dampingTime = dampingTime,
                                  .dragRate = drag,
                                  .lumping = lumping});

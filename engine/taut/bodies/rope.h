@@ -19,6 +19,7 @@ struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
     double mass = 1.0;          // [kg]
     double stretch = 1e4;       // EA [N]
     double bend = 0.0;          // EA of the span-2 springs [N]
+    double rigidity = 0.0;  // EI of bending [N m²]
     double dampingTime = 1e-4;  // [s]
     double drag = 0.3;          // [1/s]
     double radius = 0.02;       // [m] drawn

@@ -25,9 +25,10 @@ class Tying {
   public:
     Tying(IslandPlan& plan, const FindPose& find) : plan_(plan), find_(find), holder_(plan.points.size()) {}
 
-    void hold(const Body& body) {
+    void hold(Body& body) {
         std::vector<int> points;
         for (int i : body.carried) points.push_back(body.pointOf[static_cast<std::size_t>(i)]);
+        body.carriedFrom = poseOf(body.spec->holdOn, find_, body.spec->source).rotation;
         lead(body.spec->holdOn, std::move(points), body.spec->source);
     }
 
@@ -101,7 +102,7 @@ const std::string& pointsOf(const JointSpec& joint) {
 
 void addTies(IslandPlan& plan, const SceneSpec& spec, const FindPose& find) {
     Tying tying(plan, find);
-    for (const Body* body : plan.bodies)
+    for (Body* body : plan.bodies)
         if (!body->carried.empty()) tying.hold(*body);
     for (const JointSpec& joint : spec.joints)
         if (isTie(joint)) tying.tie(joint);

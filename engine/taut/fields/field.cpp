@@ -67,7 +67,7 @@ std::string description(const Field& field) {
         case FieldKind::texts: return "a list of texts";
         case FieldKind::wholes: return "a list of whole numbers";
         case FieldKind::numbers: return "a number, a list of numbers or \"#rrggbb\"";
-        case FieldKind::table: return "a table";
+        case FieldKind::table: return field.inside.front().alone.empty() ? "a table" : "a number or a table";
         case FieldKind::tables: return "a list of tables";
     }
     return "";

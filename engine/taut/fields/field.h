@@ -126,6 +126,7 @@ struct Section {
     // Which of several forms a table has, e.g. a collider's shape; no function: there is one form only.
     std::function<std::string(const Node&)> variant;
     std::string variantKey;  // the field that says it, e.g. "shape"; empty: none does
+    std::string alone;       // the field that a number in place of the table stands for; empty: it must be a table
 
     // Where each form has a struct of its own: what reads it, named by the variant. The fields above are then those of
     // all forms, for the manual and for what is said of a key that stands in the wrong place.

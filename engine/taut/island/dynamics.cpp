@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "taut/mechanics/private/anchor.h"
+#include "taut/mechanics/private/grid_bending.h"
 #include "taut/island/private/island_contacts.h"
 #include "taut/island/report.h"
 #include "taut/island/private/rounding_watch.h"
@@ -50,6 +51,8 @@ class DynamicsOf final : public Dynamics {
         if (isMaterial)
             for (const auto& [body, volume] : volumes_) volume->setBulkModuli(cellsOf(*body));
         if (isMaterial && !volumes_.empty()) bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
+        if (isMaterial || changes.has(Change::points) || changes.has(Change::grips))
+            for (const auto& [body, bending] : bendings_) bending->set(bendingOf(plan_, *body));
         if (changes.has(Change::grips)) addGrips();
     }
 
@@ -70,10 +73,11 @@ class DynamicsOf final : public Dynamics {
     void setForces(const ForceList& forces) override {
         system_.removeGenerators();
         volumes_.clear();
+        bendings_.clear();
         acting_.clear();
         contacts_.rewatch();
         for (std::size_t number = 0; number < forces.size(); ++number) {
-            if (number == 1) addVolumes();  // after gravity
+            if (number == 1) addInnerForces();  // after gravity
             std::unique_ptr<Generator> generator;
             if constexpr (std::is_same_v<Real, float>)
                 generator = forces[number]->inSingle(plan_);
@@ -83,7 +87,7 @@ class DynamicsOf final : public Dynamics {
             acting_.emplace_back(number, generator.get());
             system_.add(std::move(generator));
         }
-        if (forces.size() < 2) addVolumes();
+        if (forces.size() < 2) addInnerForces();
         firstGrip_ = system_.generators().size();
         addGrips();
     }
@@ -345,6 +349,27 @@ class DynamicsOf final : public Dynamics {
         bound_.setCells(cellsOf(plan_), restPositionsOf(plan_));
     }
 
+    void addInnerForces() {
+        addVolumes();
+        for (const Body* body : plan_.bodies) {
+            if (body->model.bending.isEmpty()) continue;
+            auto bending = std::make_unique<mechanics::GridBending<Real>>(bendingOf(plan_, *body), body->pointOf,
+                                                                          turnOf(*body));
+            bendings_.emplace_back(body, bending.get());
+            system_.add(std::move(bending));
+        }
+    }
+
+    // Directions that a collider holds turn with it.
+    typename mechanics::GridBending<Real>::Turn turnOf(const Body& body) const {
+        if (body.carried.empty() || body.clamped.empty()) return {};
+        return [this, holder = body.spec->holdOn, back = glm::conjugate(body.carriedFrom)](double t) {
+            for (const Grip& grip : plan_.grips)
+                if (grip.holder == holder && grip.rigid) return grip.path.at(t).rotation * back;
+            return glm::dquat(1, 0, 0, 0);
+        };
+    }
+
     void makeMethod() {
         const SolverSpec& solver = plan_.solver;
         method_ = methodsOf(solver).make<Real>(solver.integrator,
@@ -391,6 +416,7 @@ class DynamicsOf final : public Dynamics {
     System system_;
     // Among the system's generators:
     std::vector<std::pair<const Body*, mechanics::VolumePreservation<Real>*>> volumes_;
+    std::vector<std::pair<const Body*, mechanics::GridBending<Real>*>> bendings_;
     std::vector<std::pair<std::size_t, Generator*>> acting_;  // of the forces those that act here, by their number
     std::size_t firstGrip_ = 0;
     std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones

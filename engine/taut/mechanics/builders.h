@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "taut/core/error.h"
+#include "taut/mechanics/bending.h"
 #include "taut/mechanics/model.h"
 
 namespace taut::mechanics {
@@ -26,6 +27,7 @@ struct RopeShape {
     double mass = 1.0;         // whole rope [kg]
     double stretch = 1e4;      // EA [N]
     double bend = 0.0;         // EA of the span-2 springs [N]
+    double rigidity = 0.0;     // EI, of bending [N m²]
     double dampingTime = 0.0;  // τ [s]
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
@@ -40,6 +42,7 @@ struct ClothMaterial {
     double stretch = 900.0;    // structural spring constant of a square cell k_s [N/m]
     double shear = 450.0;      // diagonal k_d [N/m]
     double bend = 1.0;         // span-2 k_b [N/m]
+    BendingRigidity rigidity;  // of grids
     double dampingTime = 0.0;  // τ [s]
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;

@@ -36,6 +36,7 @@ class GridBuilder {
         model_.grid = {nu_, nv_};
         addPoints();
         addSprings();
+        addBending();
         addTriangles();
         addGroups();
         return std::move(model_);
@@ -83,6 +84,13 @@ class GridBuilder {
         addKind(SpringKind::shear, 1, nu_, nv_ - 1, -1, 1, k.diagonal, d);
         addKind(SpringKind::bend, 0, nu_ - 2, nv_, 2, 0, k.bendAcross, 2.0 * a_);
         addKind(SpringKind::bend, 0, nu_, nv_ - 2, 0, 2, k.bendDown, 2.0 * b_);
+    }
+
+    void addBending() {
+        const BendingRigidity& rigidity = shape_.material.rigidity;
+        if (!(rigidity.along > 0.0) && !(rigidity.across > 0.0)) return;
+        model_.bending = gridBending(nu_ + 1, nv_ + 1, rigidity, a_, b_);
+        model_.bending.dampingTime = shape_.material.dampingTime;
     }
 
     //  (i,j) --- (i+1,j)     Counter-clockwise seen against down × across: a cloth that hangs in the

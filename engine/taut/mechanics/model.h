@@ -32,6 +32,33 @@ struct VolumeCell {
     double bulkModulus = 0;       // K [Pa]
 };
 
+// Resistance to bending of a grid of points, row by row: quadratic in places (Bergou et al. 2006), so that its forces
+// are linear and a flat sheet has a stiffness.
+//
+//     q           fold along a row      d = p - 2c + r
+//     |           fold across           e = q - 2c + s          E = ½ along d² + ½ across e² + both d·e
+//  p--c--r        twist of a cell       w = c - r - s + t         + ½ twist w²
+//     |  |
+//     s--t
+//
+// A row of a rope is such a grid as well.
+struct Bending {
+    int columns = 0, rows = 0;  // points; 0: nothing bends
+    // (points) [N/m] at c; 0 where there is no such fold or cell. both² < along · across.
+    std::vector<double> along, across, both, twist;
+    double dampingTime = 0;  // τ [s]: forces are those of x + τ v
+
+    // A point whose direction is held: E = ½ stiffness |x_next - x_held - arm|².
+    struct Clamp {
+        int held = 0, next = 0;
+        glm::dvec3 arm{0.0};   // [m]
+        double stiffness = 0;  // [N/m]
+    };
+    std::vector<Clamp> clamps{};
+
+    bool isEmpty() const { return columns == 0; }
+};
+
 struct Model {
     // (points)
     std::vector<glm::dvec3> positions;   // [m]
@@ -45,6 +72,7 @@ struct Model {
     std::vector<std::array<int, 3>> triangles;  // the surface, counter-clockwise seen from its front; empty for ropes
     std::vector<VolumeCell> cells;
     double workingStretch = 1;  // of a cell's edges, up to which a step must hold
+    Bending bending;
 
     // Points by name: "left", "top-left", "all", … as each builder documents. Indices ascend.
     std::map<std::string, std::vector<int>> groups;

@@ -199,6 +199,11 @@ Model buildRope(const RopeShape& shape) {
             model.springs.push_back(
                 {i, i + 2, shape.bend / (2.0 * link), 2.0 * link, shape.dampingTime, SpringKind::bend});
 
+    if (shape.rigidity > 0.0) {
+        model.bending = lineBending(n + 1, shape.rigidity, link);
+        model.bending.dampingTime = shape.dampingTime;
+    }
+
     model.groups["start"] = {0};
     model.groups["end"] = {n};
     model.groups["ends"] = {0, n};

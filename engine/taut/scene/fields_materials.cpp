@@ -1,10 +1,44 @@
 // The field table, part two: what bodies are made of.
+#include <fmt/format.h>
+
 #include "taut/fields/field_list.h"
+#include "taut/fields/private/problems.h"
+#include "taut/mechanics/bending.h"
 #include "taut/scene/private/sections.h"
 
 namespace taut::scene {
 
 using namespace world;
+
+namespace {
+
+Section rigiditySection() {
+    Section section;
+    section.alone = "warp";
+    section.fields = FieldList<BendingSpec>()
+                         .number("warp", &BendingSpec::warp, "N m", positive, "Of a strip cut along the warp: across.")
+                         .required()
+                         .ramps(Affects::springs)
+                         .number("weft", &BendingSpec::weft, "N m", positive,
+                                 "Of a strip cut along the weft: down; as the warp if not given.")
+                         .ramps(Affects::springs)
+                         .number("bias", &BendingSpec::bias, "N m", positive,
+                                 "Of the sheet bent to a cylinder at 45°; as of an isotropic sheet between both if "
+                                 "not given.")
+                         .ramps(Affects::springs)
+                         .take();
+    section.check = [](const fields::CheckInput& input, void* target) {
+        const auto& given = *static_cast<BendingSpec*>(target);
+        if (!input.isClean || !given.warp || !given.bias) return;
+        const double least = mechanics::leastBias(*given.warp, given.weft.value_or(*given.warp));
+        if (*given.bias > least) return;
+        input.problems.addError(input.at("bias"), "no sheet is so soft at 45° with this warp and weft",
+                                fmt::format("it must be above (√warp - √weft)²/4 = {:.3g} N m", least));
+    };
+    return section;
+}
+
+}  // namespace
 
 SceneSection materialSection() {
     SceneSection section;
@@ -25,12 +59,20 @@ SceneSection materialSection() {
         .number("shear_N_per_m", &MaterialSpec::shear, "N/m", notNegative,
                 "Spring constant along the diagonals; half of stretch_N_per_m, which is isotropic, if not given.")
         .ramps(Affects::springs)
-        .number("bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative, "Spring constant across two cells.")
-        .ramps(Affects::springs);
+        .number("bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative, "Spring constant across two cells, as textbooks have it: it has no bending rigidity, and depends on "
+                "the cells. 0 if there is a bending_rigidity_N_m and it is not given.")
+        .ramps(Affects::springs)
+        .table("bending_rigidity_N_m", &MaterialSpec::rigidity, rigiditySection(),
+               "What a strip of the cloth resists bending with, for each metre of its width; the same for any cells. "
+               "A number is that of warp and weft alike. For cloth grids.");
     section.fields = withPlasticity(withLosses(list))
                          .choice("lumping", &MaterialSpec::lumping, lumpingNames(),
                                  "How mass is shared out: by area, or the same for every point.")
                          .take();
+    section.check = [](const fields::CheckInput& input, void* target) {
+        auto& material = *static_cast<MaterialSpec*>(target);
+        if (material.rigidity.warp && input.table.find("bend_N_per_m") == nullptr) material.bend = 0;
+    };
     return section;
 }
 

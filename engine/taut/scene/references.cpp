@@ -41,7 +41,7 @@ void checkCollider(const NameReference& reference, const std::vector<std::string
 
 void checkHoldOn(const NameReference& reference, const world::SceneSpec& scene, Problems& problems) {
     for (const world::BodySpec& body : scene.bodies)
-        if (body.fullName() == reference.owner && body.hold.empty())
+        if (body.fullName() == reference.owner && body.hold.empty() && body.clamp.empty())
             problems.addError(reference.place, "hold_on carries the points of hold, and there is no hold",
                               "say which points, e.g. hold = [\"top\"]");
 }

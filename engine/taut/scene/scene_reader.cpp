@@ -211,12 +211,19 @@ class SceneReader {
     void readField(const Field& field, const Member& member, const std::string& where, void* target) {
         const Node& node = member.value;
         if (field.kind == FieldKind::table) {
+            const Section& inside = field.inside.front();
+            if (!inside.alone.empty() && (node.kind == NodeKind::number || node.kind == NodeKind::whole)) {
+                Node table;
+                table.place = node.place;
+                table.members.push_back({inside.alone, node.place, node});
+                return readField(field, {member.key, member.place, table}, where, target);
+            }
             if (node.kind != NodeKind::table) {
                 problems_.addError(node.place, fmt::format("{} must be a table, not {}", field.key, description(node)),
                                    fmt::format("write {} = {{ … }}", field.key));
                 return;
             }
-            readTable(field.inside.front(), node, member.place, fmt::format("{} of {}", field.key, where),
+            readTable(inside, node, member.place, fmt::format("{} of {}", field.key, where),
                       field.enter(target, sourceOf(node.place)));
         } else if (field.kind == FieldKind::tables) {
             if (node.kind != NodeKind::list) {

@@ -95,6 +95,8 @@ Json fieldSchema(const Field& field, void* target) {
     } else {
         const Json table = tableSchema(field.inside.front(), field.enter(target, {}));
         schema = field.kind == FieldKind::table ? table : Json{{"type", "array"}, {"items", table}};
+        if (const Field* alone = field.inside.front().find(field.inside.front().alone))
+            schema = {{"anyOf", {numberSchema(*alone, false), table}}};
     }
     std::string help = field.help;
     if (!field.unit.empty()) help += fmt::format(" [{}]", field.unit);

@@ -28,11 +28,19 @@ struct PlasticitySpec {
     double breakCell = 0.02;            // [m] cell for which that is stated, where it matters: at the tip of a tear
 };
 
+// Bending rigidity of a sheet [N m]: bent across its warp, across its weft, and at 45° between them.
+struct BendingSpec {
+    std::optional<double> warp;  // none: the sheet has none
+    std::optional<double> weft;  // none: as the warp
+    std::optional<double> bias;  // none: as an isotropic sheet between both
+};
+
 struct MaterialSpec {             // of cloth, per metre of material
     double density = 0.2;         // [kg/m²]
     double stretch = 900.0;       // k_s [N/m]
     std::optional<double> shear;  // k_d [N/m]; none: stretch / 2, isotropic
     double bend = 1.0;            // k_b [N/m]
+    BendingSpec rigidity{};
     double dampingTime = 1e-4;    // τ [s]
     double drag = 0.3;            // γ/m [1/s]
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
@@ -60,7 +68,8 @@ struct BodySpec {
     std::string name;  // without the kind: "flag"
     Source source;
     std::vector<std::string> hold;  // selectors, see mechanics: a group, "(u,v)", "50%", "#index"
-    std::string holdOn;             // "collider.pole": what carries those; empty: they stay where they are
+    std::vector<std::string> clamp;  // more of them, whose directions are held as well
+    std::string holdOn;              // "collider.pole": what carries those; empty: they stay where they are
     dvec3 velocity{0.0};            // [m/s] at the start
     dvec3 spin{0.0};                // [rad/s] at the start, about the centre of mass
     double jitter = 0.0;            // [m] random offset of free points at the start: breaks symmetry

@@ -67,8 +67,11 @@ std::vector<fields::Field> bodyRows() {
     fields::FieldList<Spec> list;
     list.texts("hold", &Spec::hold, fields::Role::selector,
                "Points that never move: a group, \"#12\", \"(u,v)\", \"50%\".")
+        .texts("clamp", &Spec::clamp, fields::Role::selector,
+               "Points that are held and whose direction is held too, as by a jaw: there what has a bending rigidity "
+               "goes on straight. `hold` alone is a hinge.")
         .text("hold_on", &Spec::holdOn, fields::Role::collider,
-              "The collider that carries the points of `hold`, e.g. \"collider.pole\": they go and turn with it. "
+              "The collider that carries the points of `hold` and `clamp`, e.g. \"collider.pole\": they go and turn with it. "
               "Without it they stay where they are.")
         .vector("velocity", &Spec::velocity, "m/s", speedRange,
                 "At the start. Whatever moves faster than 3000 m/s counts as diverged.")

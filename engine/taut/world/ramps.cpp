@@ -61,6 +61,7 @@ void World::Impl::takeSprings(Body& body) const {
     body.model.dragRates = fresh.dragRates;
     for (std::size_t i = 0; i < body.model.cells.size() && i < fresh.cells.size(); ++i)
         body.model.cells[i].bulkModulus = fresh.cells[i].bulkModulus;
+    if (body.model.bending.columns == fresh.bending.columns) body.model.bending = fresh.bending;
     body.plasticity = now->plasticityIn(spec);
 }
 

@@ -10,7 +10,8 @@
 // the same before and after, so the difference of
 //   E(points) = Σ ½ m v² - m g·x  +  Σ ½ k (l - L)² of springs at them  +  Σ ½ K V0 (V/V0 - 1)² of cells at them
 // over those points is the difference of the whole. A spring between two of them counts once, a cell once for all of
-// its corners. Held points have no energy of their own. Anchors and hands are soft beside these springs, and left out.
+// its corners. Held points have no energy of their own. Anchors, hands and
+// bending are soft beside these springs, and left out.
 //
 // Which velocities. Methods store v at other times than x; both sums take v at the time of the positions. A surface
 // that moves does work of its own, which is no error: then v is taken relative to the surface.

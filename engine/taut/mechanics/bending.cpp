@@ -1,0 +1,88 @@
+#include "taut/mechanics/bending.h"
+
+#include <array>
+#include <cmath>
+
+#include "taut/core/error.h"
+
+namespace taut::mechanics {
+
+double leastBias(double warp, double weft) {
+    const double difference = std::sqrt(warp) - std::sqrt(weft);
+    return 0.25 * difference * difference;
+}
+
+std::optional<BendingRigidity> orthotropicRigidity(double warp, double weft, std::optional<double> bias) {
+    TAUT_EXPECTS(warp >= 0 && weft >= 0);
+    const double mean = std::sqrt(warp * weft);
+    if (!bias) return BendingRigidity{warp, weft, 0, 2 * mean};
+    if (!(*bias > leastBias(warp, weft))) return std::nullopt;
+    const double rest = 4 * *bias - warp - weft;  // 2 B_1 + 4 D_k > -2 mean
+    if (rest > 0) return BendingRigidity{warp, weft, 0, rest};
+    const double twice = 0.5 * (rest - 2 * mean);  // 2 B_1
+    return BendingRigidity{warp, weft, 0.5 * twice, rest - twice};
+}
+
+// An area of a cell has x_uu = d/a² and so on: half shares of width for folds along an edge.
+Bending gridBending(int columns, int rows, const BendingRigidity& rigidity, double a, double b) {
+    Bending bending;
+    bending.columns = columns;
+    bending.rows = rows;
+    const auto size = static_cast<std::size_t>(columns * rows);
+    for (auto* list : {&bending.along, &bending.across, &bending.both, &bending.twist}) list->assign(size, 0.0);
+    const double along = rigidity.along * b / (a * a * a), across = rigidity.across * a / (b * b * b),
+                 both = rigidity.both / (a * b), twist = rigidity.twist / (a * b);
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+            const auto own = static_cast<std::size_t>(j * columns + i);
+            const bool isColumnEnd = i == 0 || i == columns - 1, isRowEnd = j == 0 || j == rows - 1;
+            if (!isColumnEnd) bending.along[own] = along * (isRowEnd ? 0.5 : 1.0);
+            if (!isRowEnd) bending.across[own] = across * (isColumnEnd ? 0.5 : 1.0);
+            if (!isColumnEnd && !isRowEnd) bending.both[own] = both;
+            if (i < columns - 1 && j < rows - 1) bending.twist[own] = twist;
+        }
+    return bending;
+}
+
+Bending lineBending(int points, double rigidity, double a) {
+    Bending bending;
+    bending.columns = points;
+    bending.rows = 1;
+    const auto size = static_cast<std::size_t>(points);
+    for (auto* list : {&bending.along, &bending.across, &bending.both, &bending.twist}) list->assign(size, 0.0);
+    for (std::size_t i = 1; i + 1 < size; ++i) bending.along[i] = rigidity / (a * a * a);
+    return bending;
+}
+
+Bending clamped(Bending bending, const std::vector<bool>& isHeld, const std::vector<bool>& isClamped,
+                std::span<const glm::dvec3> rest) {
+    const int n = bending.columns;
+    const std::vector<double> alongs = bending.along, acrosses = bending.across;
+    const auto at = [](int i) { return static_cast<std::size_t>(i); };
+    // Folds of one direction: neighbours `step` apart, where `has` says that there is one, and the stiffness of a whole
+    // fold in such a line.
+    const auto visit = [&](std::vector<double>& folds, int i, int step, bool hasBefore, bool hasAfter, double whole) {
+        double& fold = folds[at(i)];
+        if (isClamped[at(i)]) {
+            for (const int next : {i - step, i + step})
+                if ((next < i ? hasBefore : hasAfter) && !isHeld[at(next)])
+                    bending.clamps.push_back({i, next, rest[at(next)] - rest[at(i)], 2 * whole});
+            fold = 0;
+            bending.both[at(i)] = 0;
+        } else if (isHeld[at(i)] && hasBefore && hasAfter && isHeld[at(i - step)] != isHeld[at(i + step)]) {
+            fold *= 2;
+        }
+    };
+    for (int i = 0; i < n * bending.rows; ++i) {
+        if (!isHeld[at(i)]) continue;
+        const int column = i % n, row = i / n;
+        // The stiffness of a line stands at any of its inner points.
+        const double along = n > 2 ? alongs[at(row * n + 1)] : 0;
+        const double across = bending.rows > 2 ? acrosses[at(n + column)] : 0;
+        visit(bending.along, i, 1, column > 0, column < n - 1, along);
+        visit(bending.across, i, n, row > 0, row < bending.rows - 1, across);
+    }
+    return bending;
+}
+
+}  // namespace taut::mechanics

@@ -1,0 +1,37 @@
+// Forces of a grid's folds and twists, see Bending in model.h. Knows no generator; one copy for each instruction set.
+#pragma once
+
+namespace taut::mechanics {
+
+template <class Real>
+struct BendingBatch {
+    int columns, rows;                           // of the whole grid
+    int first, last;                             // rows whose forces are wanted: first … last - 1
+    const Real *along, *across, *both, *twist;  // (columns · rows) [N/m]
+    const Real* x[3];                            // (columns · rows) [m]
+    Real* f[3];                                  // (columns · rows) [N], to which minus the gradient is added
+    Real* room;                                  // bendingRoom(columns)
+};
+
+// Rows of moments are that far apart: one number more on either side, and whole vectors.
+inline int bendingPitch(int columns) {
+    return (columns + 2 * 16 + 15) / 16 * 16;
+}
+inline int bendingRoom(int columns) {
+    return 9 * bendingPitch(columns);
+}
+
+namespace sse2 {
+void addBending(const BendingBatch<float>& batch);
+void addBending(const BendingBatch<double>& batch);
+}  // namespace sse2
+namespace avx2 {
+void addBending(const BendingBatch<float>& batch);
+void addBending(const BendingBatch<double>& batch);
+}  // namespace avx2
+namespace avx512 {
+void addBending(const BendingBatch<float>& batch);
+void addBending(const BendingBatch<double>& batch);
+}  // namespace avx512
+
+}  // namespace taut::mechanics

@@ -34,6 +34,7 @@ class Force;
 struct RampAction;
 struct RunSpec;
 struct SceneSpec;
+struct WorldImpl;
 
 struct Options {
     int threads = 0;                                     // 0: as many as the machine has
@@ -139,8 +140,7 @@ class World {
 
   private:
     friend struct WorldAccess;
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    std::unique_ptr<WorldImpl> impl_;
 };
 
 }  // namespace taut::world

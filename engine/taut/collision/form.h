@@ -26,10 +26,10 @@ class Form {
     // - any other, which would come out elsewhere, ends on the plane where it first touched.
     // `crossed`, false before, becomes true where the path has gone through a surface that has no inside.
     // The default calls only nearest(), at one place after another along the path.
-    virtual bool sweep(const Path& path, Touch& touch, bool& crossed) const;
+    virtual bool sweep(const Path& path, HalfSpace& touch, bool& crossed) const;
 
     // What it fills [m]; none: it is the half-space behind a plane through the origin.
-    virtual std::optional<Box> bounds() const = 0;
+    virtual std::optional<core::Aabb> bounds() const = 0;
 
     // A convex form presses a point once; any other perhaps from several sides.
     virtual bool isConvex() const { return false; }

@@ -140,7 +140,7 @@ class BroadPhase {
     std::vector<CandidateList*> due_;
     std::vector<double> deviation_;        // (leaves) [m] sum over all instants
     std::vector<double> travel_;           // (leaves) [m] sum over all instants of the furthest way of a point
-    std::vector<Box> fatBoxes_;            // (leaves) of the last search of the tree
+    std::vector<core::Aabb> fatBoxes_;     // (leaves) of the last search of the tree
     std::vector<double> travelAtSearch_;   // (leaves) [m]
     double freeTravel_ = 0;                // [m] a leaf that went less since the search is in its fat box
     std::vector<char> needsCheck_;         // (tracked) scratch

@@ -60,7 +60,7 @@ struct Instant {
 
 struct InstantResult {
     std::vector<int> moved;     // points of which x1 or v has changed, ascending
-    int active = 0;             // pairs with an impulse
+    int impulses = 0;           // pairs with an impulse
     double deepest = 0;         // largest penetration that the motion alone would have led to, over the thickness [-]
     std::vector<int> surfaces;  // that have a movable point in a pair with an impulse, ascending
     int sweeps = 0;             // of the solver, in the cluster that took most
@@ -71,7 +71,7 @@ struct InstantResult {
 
 // What a straight flight would lead to.
 struct Forecast {
-    bool meets = false;          // a pair is active, or surfaces cross already
+    bool isInContact = false;    // a pair is active, or surfaces cross already
     double closing = 0.0;        // [m/s] largest closing speed of an active pair
     double leastThickness = 0;   // [m] smallest thickness of an active pair
     double deformationRate = 0;  // [1/s] mean over the leaves: speed of points against their leaf, over thickness / 2
@@ -102,7 +102,7 @@ class ContactGroup {
     // Before the instants of a tick: finds the edges that pierce triangles. Their pairs are untangled in this tick, not
     // solved.
     void begin(std::span<const dvec3> x);
-    // If all points fly on at v for so many seconds.
+    // For all points flying on at v for `seconds` [s].
     Forecast forecast(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
                       double seconds);
     // One instant, see above.
@@ -113,7 +113,7 @@ class ContactGroup {
     // Of the last instant.
     std::vector<ContactPoint> contactPoints(std::span<const dvec3> x) const;
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
-    std::size_t activeCount() const { return active_.size(); }  // pairs that the solver got
+    std::size_t activeCount() const { return active_.size(); }  // pairs that went to the solver
     std::size_t listsMade() const { return broadPhase_.listsMade(); }
     std::uint64_t bytes() const;
 

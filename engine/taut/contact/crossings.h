@@ -28,7 +28,7 @@ struct Crossing {
     // The ends of the edge, and the corners of the triangle with negative weights. As in ContactConstraint: Σ w x is 0.
     std::array<int, 5> points;
     std::array<double, 5> weights;
-    dvec3 apart;  // unit, the direction in which the edge leaves; or zero
+    dvec3 separatingDirection;  // unit, the direction in which the edge leaves; or zero
     // (points) Whether it is on the wrong side: in the smaller part, where the contour parts a sheet; else all are.
     std::array<bool, 5> areThrough;
 };

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "taut/island/report.h"
-#include "taut/live/hand.h"
+#include "taut/live/mouse_hand.h"
 #include "taut/live/picking.h"
 #include "taut/live/recording.h"
 #include "taut/spec/spec.h"
@@ -45,7 +45,7 @@ class Session {
     const view::FrameView& now() const;
     void showMarks(bool shown);  // springs coloured by strain, points and contacts
 
-    Hand& hand();
+    MouseHand& hand();
     const world::Specs<world::ActionSpec>& deeds() const;  // of the hand since the start
     // What may be grabbed, where it is now: free points only.
     std::vector<BodyPoints> bodies() const;

@@ -135,11 +135,11 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     SpringNetwork<Real> network_;
     std::vector<Lane> lanes_;  // (chunks)
     std::vector<std::unique_ptr<ForceGenerator<Real>>> generators_;
-    struct Hand {
+    struct KinematicPoints {
         LedPoints led;
         std::vector<glm::dvec3> x, v;  // (points of led) what path wrote last
     };
-    std::vector<Hand> hands_;
+    std::vector<KinematicPoints> kinematic_;
     bool isExternalFilled_ = false;  // in this evaluation, by generators that need the whole island
     Real uniform_[3] = {};           // acceleration of all free points in this evaluation [m/s²]
     SpringKernels<Real> kernels_;

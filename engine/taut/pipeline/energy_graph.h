@@ -23,7 +23,7 @@ EnergyScale energyScale(double least, double most);
 std::string numberText(double value, int decimals);
 
 // Where energies of a moment stand in the box: the right end is `time` [s], the left end Overlay::span before it.
-glm::vec2 placeOf(double time, double energy, double now, const EnergyScale& scale, const Box& box);
+glm::vec2 placeOf(double time, double energy, double now, const EnergyScale& scale, const PictureBox& box);
 
 inline constexpr Ink kineticInk{110, 200, 255}, elasticInk{255, 150, 90}, gravitationalInk{150, 220, 110},
     totalInk{250, 250, 250};
@@ -33,6 +33,6 @@ float legendWidth(Painting& painting, float em, std::span<const Moment> moments)
 
 // The graph in the box and the legend in two lines below it, type of a size of `em` [px]. Expects moments, ascending.
 // A box without height has the legend only.
-void paintEnergies(Painting& painting, const Box& box, float em, std::span<const Moment> moments, double now);
+void paintEnergies(Painting& painting, const PictureBox& box, float em, std::span<const Moment> moments, double now);
 
 }  // namespace taut::pipeline

@@ -18,12 +18,12 @@
 namespace taut::pipeline {
 
 // The step of the island that has the smallest, and what else holds from the start.
-struct StepFacts {
+struct SmallestStep {
     double step = 0.0;         // [s]
     double limit = 0.0;        // [s] largest stable; infinite: none
     bool bodiesTouch = false;  // each other, or themselves
 };
-StepFacts smallestStep(const world::World& world);
+SmallestStep smallestStep(const world::World& world);
 
 struct Moment : world::Metrics {
     std::int64_t tick = 0;
@@ -45,7 +45,7 @@ class Overlay {
     static constexpr double span = 4.0;  // [s] that the graph shows
 
     // An empty font stands for the one that Debian installs. Throws core::Error(inputOutput, badContent) of the font.
-    Overlay(const std::filesystem::path& font, const StepFacts& step);
+    Overlay(const std::filesystem::path& font, const SmallestStep& step);
 
     // Ascending in time.
     void add(const Moment& moment);
@@ -53,7 +53,7 @@ class Overlay {
     // Paints what was the case at `time` [s]: the last moment not after it, and those before. Forgets what no later
     // picture will show. Nothing is painted before the first moment. Small pictures have the figures without the graph.
     // Returns what it covers.
-    Box paint(image::Image& picture, double time, std::span<const OverlayLine> above = {},
+    PictureBox paint(image::Image& picture, double time, std::span<const OverlayLine> above = {},
               const OverlayLook& look = {});
 
     // For text of the same kind elsewhere in the picture.
@@ -61,7 +61,7 @@ class Overlay {
 
   private:
     render::TextPainter letters_;
-    StepFacts step_;
+    SmallestStep step_;
     std::mutex mutex_;
     std::deque<Moment> moments_;
 };

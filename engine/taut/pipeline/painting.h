@@ -16,7 +16,7 @@ struct Ink {
     std::uint8_t red = 255, green = 255, blue = 255;  // sRGB
 };
 
-struct Box {
+struct PictureBox {
     glm::vec2 low{0.0F}, high{0.0F};  // [px] corners from the top left of the picture
 };
 
@@ -30,7 +30,7 @@ class Painting {
     Painting(image::Image& picture, render::TextPainter& letters);
 
     // A box with round corners. `strength` 0 (nothing) … 1 (opaque).
-    void plate(const Box& box, float radius, Ink ink, float strength);
+    void plate(const PictureBox& box, float radius, Ink ink, float strength);
 
     // A line through the corners, with round ends, `width` [px] wide; where it crosses itself it is no stronger.
     void line(std::span<const glm::vec2> corners, float width, Ink ink, float strength = 1.0F);

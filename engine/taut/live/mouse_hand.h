@@ -14,12 +14,12 @@ namespace taut::live {
 // A number as a file has it: to `decimals` places.
 double rounded(double value, int decimals);
 
-class Hand {
+class MouseHand {
   public:
     static constexpr int moveTicks = 3;     // a move takes them all, and no other begins before its end
     static constexpr double fastest = 5.0;  // [m/s] of the scene's time: where motion is slow, a mouse is not
 
-    Hand(std::string id, double ticksPerSecond) : id_(std::move(id)), ticksPerSecond_(ticksPerSecond) {}
+    MouseHand(std::string id, double ticksPerSecond) : id_(std::move(id)), ticksPerSecond_(ticksPerSecond) {}
 
     const std::string& id() const { return id_; }
     bool isHolding() const { return isHolding_; }

@@ -82,13 +82,13 @@ class Bvh {
     int count() const { return static_cast<int>(leaves_.size()); }
     const BvhLeaf& operator[](int i) const { return leaves_[static_cast<std::size_t>(i)]; }
 
-    // Takes over the balls of the elements: to be called when they have changed.
+    // Takes over the balls of the elements. Call it when they have changed.
     void takeBalls();
 
     // An instant from x0 to x1 (points) [m] begins. Finds travel() of all leaves, and nothing else.
     void start(std::span<const dvec3> x0, std::span<const dvec3> x1);
     double travel(int leaf) const { return travel_[static_cast<std::size_t>(leaf)]; }  // [m] furthest way of a point
-    // Finds the motion of these leaves, if that is not done in this instant. A leaf that has deformed more than
+    // Finds the motion of these leaves, unless it was found in this instant already. A leaf that has deformed more than
     // mostDeformed [m] takes a new reference shape; 0: none does.
     void follow(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed);
     void followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed = 0.0);

@@ -1,5 +1,5 @@
-// A hand that a mouse leads, as actions of a timeline: where the mouse wants it turns into grab, move and release in
-// whole ticks and round numbers, so that a file can say exactly what was done. It knows neither mouse nor world.
+// Turns the motion of a mouse into actions of a timeline: grab, move and release, in whole ticks and round numbers, so
+// that a file can say exactly what was done. It knows neither the mouse nor the world.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,26 @@
 
 namespace taut::live {
 
-// A number as a file has it: to `decimals` places.
+// A number as a file writes it: to `decimals` places.
 double rounded(double value, int decimals);
 
 class MouseHand {
   public:
-    static constexpr int moveTicks = 3;     // a move takes them all, and no other begins before its end
-    static constexpr double fastest = 5.0;  // [m/s] of the scene's time: where motion is slow, a mouse is not
+    static constexpr int moveTicks = 3;     // a move takes so many, and the next begins after it
+    static constexpr double fastest = 5.0;  // [m/s] in the scene's time: in slow motion a mouse is faster
 
     MouseHand(std::string id, double ticksPerSecond) : id_(std::move(id)), ticksPerSecond_(ticksPerSecond) {}
 
     const std::string& id() const { return id_; }
     bool isHolding() const { return isHolding_; }
 
-    // What the hand is to do next. grab: target "cloth.curtain@#12" and the points within `radius` [m] of it, by
-    // springs of `strength` [N/m] in all and that damping ratio; `place` [m] is where that point is.
+    // What the hand does next. grab() takes the target "cloth.curtain@#12" and the points within `radius` [m] of it, by
+    // springs of `strength` [N/m] in total with that damping ratio; `place` [m] is the target's place.
     void grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place);
-    void leadTo(glm::dvec3 place);  // a way of less than 2 mm is none
+    void leadTo(glm::dvec3 place);  // ways of less than 2 mm are ignored
     void release();
 
-    // What happens at the start of this tick, in this order. To be asked once for every tick, in ascending order.
+    // The actions at the start of this tick, in their order. Call it once for every tick, in ascending order.
     world::Specs<world::ActionSpec> deedsAt(std::int64_t tick);
 
   private:
@@ -43,8 +43,8 @@ class MouseHand {
     bool wantsRelease_ = false;
     bool isHolding_ = false;
     std::optional<glm::dvec3> goal_;  // [m] where the mouse wants it
-    glm::dvec3 last_{0.0};            // [m] where the last move leads
-    std::int64_t free_ = 0;           // the tick from which on another move may begin
+    glm::dvec3 last_{0.0};            // [m] where the last move ends
+    std::int64_t free_ = 0;           // the first tick at which another move may begin
 };
 
 }  // namespace taut::live

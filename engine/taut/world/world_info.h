@@ -1,4 +1,4 @@
-// What a world tells of its bodies, their points and its joints. It knows no world.
+// What a world tells about its bodies, their points and its joints. It does not know the world.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace taut::world {
 
 struct Body;
 
-// Crossings, those of edges of colliders among them, cost the most: up to some microseconds for each point of bodies
-// that touch.
+// Crossings, also those of colliders' edges, cost the most: up to some microseconds for each point of bodies that
+// touch.
 enum class Measures { all, butCrossings };
 
 // Points of a target at a published tick, velocities synchronised; body by body, in the order of authoring.
@@ -20,7 +20,8 @@ struct PointsNow {
     std::vector<double> mass;      // (points) [kg]
 };
 
-// What KIND.NAME@SELECTOR names in a world, without @ all points: World::select() finds it, once for many questions.
+// The points that KIND.NAME@SELECTOR names in a world; without @SELECTOR all points. World::select() finds them once,
+// for many queries.
 struct Selection {
     struct Part {
         const Body* body;
@@ -30,7 +31,7 @@ struct Selection {
     std::int64_t generation = 0;  // of the world's bodies
 };
 
-// A body's part of the state hash, to tell which of them differ.
+// A body's part of the state hash: it shows which bodies differ.
 struct BodyHash {
     std::string name;  // "cloth.flag"
     std::uint64_t hash = 0;
@@ -45,8 +46,8 @@ struct JointInfo {
         int points = 0;    // of the first that are tied to the second
     };
     std::vector<Pair> pairs;
-    double jump = 0;                 // [m] of a weld: the largest by which points are moved together as it is made
-    std::vector<std::string> loose;  // bodies that it names and does not tie
+    double jump = 0;                 // [m] of a weld: the furthest that it moves a point when it is made
+    std::vector<std::string> loose;  // bodies that it names but does not tie
 };
 
 }  // namespace taut::world

@@ -19,7 +19,7 @@ struct Recording {
     world::RunSpec run;
     double ticksPerSecond = 60.0;
     int ticksPerFrame = 1;
-    std::int64_t endTick = 0;                                                // the tick of a frame; every deed is earlier
+    std::int64_t endTick = 0;                                                // a frame's; every deed is earlier
     std::uint64_t hash = 0;                                                  // of the state then, chained over ticks
     world::Specs<world::ActionSpec> timeline;                                // the scene's own
     world::Specs<world::ActionSpec> deeds;                                   // of the hand, ascending

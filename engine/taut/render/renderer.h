@@ -16,8 +16,8 @@
 
 namespace taut::render {
 
-// The library that gives the GL context: Mesa off-screen, in software and the same everywhere, or EGL, with the
-// hardware it finds.
+// The library that gives the GL context: Mesa off-screen, in software and the same everywhere, or EGL, with the driver
+// it finds.
 enum class Backend { osmesa, egl };
 
 struct RendererOptions {

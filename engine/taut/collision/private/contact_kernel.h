@@ -51,7 +51,7 @@ enum class PointOutcome : long {
 
 // Of a batch: what the kernel works on, and its results.
 struct ContactLanes {
-    alignas(64) long outcome[contactRow];        // an PointOutcome each
+    alignas(64) long outcome[contactRow];        // a PointOutcome each
     alignas(64) double impulse[contactRow];      // of touched points, as in Contact
     alignas(64) double position[3][contactRow];  //
     alignas(64) double normal[3][contactRow];    //

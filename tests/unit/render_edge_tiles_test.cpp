@@ -22,15 +22,15 @@ ShadedPixels picture(const std::function<std::uint32_t(int, int)>& mark, const s
     return pixels;
 }
 
-bool holds(const std::vector<PictureBox>& tiles, int x, int y) {
-    return std::any_of(tiles.begin(), tiles.end(), [&](const PictureBox& tile) {
+bool holds(const std::vector<PixelBox>& tiles, int x, int y) {
+    return std::any_of(tiles.begin(), tiles.end(), [&](const PixelBox& tile) {
         return x >= tile.x && x < tile.x + tile.width && y >= tile.y && y < tile.y + tile.height;
     });
 }
 
-int area(const std::vector<PictureBox>& tiles) {
+int area(const std::vector<PixelBox>& tiles) {
     int sum = 0;
-    for (const PictureBox& tile : tiles) sum += tile.width * tile.height;
+    for (const PixelBox& tile : tiles) sum += tile.width * tile.height;
     return sum;
 }
 

@@ -238,7 +238,7 @@ class Resolver {
         const double skin = skinPerMetre<Real> * (std::abs(point.before.x) + std::abs(point.before.y) +
                                                   std::abs(point.before.z) + points_.thickness);
 
-        // A point that was moved out of one solid may stand in another: a few passes in the same order, then it is left.
+        // A point moved out of one solid may stand in another: a few passes in the same order, then it is left.
         const Solid& first = *near[static_cast<std::size_t>(__builtin_ctz(bits))];
         const bool single = (bits & (bits - 1)) == 0 && first.convex;
         const int passes = single ? 1 : mostPasses;

@@ -125,7 +125,7 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
     contact::Bvh patches(elements);
     patches.start(x, x);
     patches.followAll(x, x);
-    std::vector<contact::Box> boxes;
+    std::vector<core::Aabb> boxes;
     for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
     std::vector<contact::LeafPair> near;
     patches.findNear(boxes, 0.0, near);

@@ -77,7 +77,7 @@ class LookAhead {
     // Of all ticks so far [ns].
     double workOf(const WorldImpl& world) {
         const ContactInfo contact = world.contactStage->info();
-        contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.located);
+        contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.lastTestedPairs);
         double work = contactWork_;
         for (const auto& island : world.islands) {
             const ode::Work own = island->work();

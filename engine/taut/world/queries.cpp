@@ -105,7 +105,7 @@ ContactInfo World::contact() const {
 }
 
 bool World::hasTouched() const {
-    return impl_->contactReport.hasMet() ||
+    return impl_->contactReport.hadImpulse() ||
            std::any_of(
                impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
 }

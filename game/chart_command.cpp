@@ -88,7 +88,7 @@ study::WorkPrecision play(const study::Subject& subject, study::StudySettings se
                           const std::atomic<bool>& stop) {
     LabProgress line(subject.name(), isQuiet, stop);
     settings.stop = &stop;
-    settings.progress = [&](const study::Progress& progress) { line.show(progress.done, progress.doing); };
+    settings.progress = [&](const study::StudyProgress& progress) { line.show(progress.done, progress.doing); };
     return studyWorkPrecision(subject, settings);
 }
 

@@ -240,12 +240,12 @@ void printContact(const world::ContactInfo& contact) {
     // Of the body whose layers lie furthest apart for its cells.
     std::size_t worst = 0;
     const auto share = [&](std::size_t i) {
-        const world::ContactInfo::Surface& surface = contact.surfaces[i];
+        const world::ContactInfo::SurfaceSizes& surface = contact.surfaces[i];
         return surface.shortestEdge > 0 ? surface.thickness / surface.shortestEdge : 0.0;
     };
     for (std::size_t i = 1; i < contact.bodies.size(); ++i)
         if (share(i) > share(worst)) worst = i;
-    const world::ContactInfo::Surface& surface = contact.surfaces[worst];
+    const world::ContactInfo::SurfaceSizes& surface = contact.surfaces[worst];
     printResult("  distance    layers of {} lie {} apart, its shortest edge is {}\n", contact.bodies[worst],
                 lengthText(2 * surface.thickness), lengthText(surface.shortestEdge));
     printResult("  memory      {:.3g} MB\n", static_cast<double>(contact.bytes) / 1e6);

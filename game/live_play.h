@@ -85,7 +85,7 @@ class LivePlay {
     live::Orbit orbit_;
     PlayScreen screen_;
     FiguresPlace figures_;
-    pipeline::Box covered_;  // [px] by the figures
+    pipeline::PictureBox covered_;  // [px] by the figures
 
     enum class Dragging { nothing, point, view };
     Dragging dragging_ = Dragging::nothing;

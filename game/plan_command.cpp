@@ -39,7 +39,7 @@ study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const s
     study::PlanSettings settings;
     settings.effort = 1e9 * flags.effort;
     settings.stop = &stop;
-    settings.progress = [&](const study::Progress& progress) {
+    settings.progress = [&](const study::StudyProgress& progress) {
         if (!line.isDue(progress.done >= 1.0)) return;
         const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         const double left = spent * (1.0 / std::max(progress.done, 0.02) - 1.0);

@@ -10,13 +10,13 @@
 namespace taut::game {
 
 // Whether the box holds the place, or has it no farther away than `margin`, all in [px].
-bool holds(const pipeline::Box& box, glm::vec2 at, float margin);
+bool holds(const pipeline::PictureBox& box, glm::vec2 at, float margin);
 
 class FiguresPlace {
   public:
     // What the figures cover in the picture now, of that width, and what is pulled [px]: where the hand has it, and
     // points of its body. `seconds` since the last call.
-    void follow(const pipeline::Box& covered, float width, std::optional<glm::vec2> hand,
+    void follow(const pipeline::PictureBox& covered, float width, std::optional<glm::vec2> hand,
                 std::span<const glm::vec2> body, double seconds);
 
     bool isAtRight() const { return isAtRight_; }

@@ -9,7 +9,7 @@
 namespace taut::game {
 namespace {
 
-using pipeline::Box;
+using pipeline::PictureBox;
 using pipeline::Ink;
 using pipeline::Painting;
 using pipeline::Side;
@@ -76,7 +76,7 @@ void PlayScreen::paint(image::Image& picture, render::TextPainter& letters, cons
     if (isHelping_) paintHelp(painting, size, em, figures.isAtRight);
     if (!isSaying()) return;
     const float half = 0.5F * painting.widthOf(message_, em) + 0.9F * em, middle = 0.5F * size.x;
-    const Box plate{{middle - half, size.y - 2.9F * em}, {middle + half, size.y - 1.0F * em}};
+    const PictureBox plate{{middle - half, size.y - 2.9F * em}, {middle + half, size.y - 1.0F * em}};
     if (hand && holds(plate, *hand, em)) return;
     painting.plate(plate, 0.6F * em, plateInk, 0.84F);
     painting.text({middle, size.y - 1.6F * em}, Side::middle, message_, em, textInk);

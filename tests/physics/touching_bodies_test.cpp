@@ -147,7 +147,7 @@ TEST(TouchingIslands, OfDifferentStepsKeepMomentum) {
         int pressing = 0;
         for (int i = 0; i < 30; ++i) {
             ASSERT_FALSE(world.advance());
-            pressing = std::max(pressing, world.contact().pressing);
+            pressing = std::max(pressing, world.contact().lastImpulses);
         }
         EXPECT_GT(pressing, 0);
         // Each step rounds velocities once more, to either side.
@@ -205,7 +205,7 @@ TEST(TouchingSaving, AFoldGoesOnBitForBitFromAnyTick) {
             ASSERT_FALSE(through.advance());
             ASSERT_FALSE(restored->advance());
             ASSERT_EQ(through.stateHash(), restored->stateHash()) << i;
-            pressing = std::max(pressing, through.contact().pressing);
+            pressing = std::max(pressing, through.contact().lastImpulses);
         }
         EXPECT_GT(pressing, 10);
         // And for longer from the middle of it.
@@ -223,7 +223,7 @@ TEST(TouchingThreads, GiveTheSameHashes) {
     for (const int threads : {1, 2, 7}) {
         World world(smallFold(), {.threads = threads});
         EXPECT_FALSE(advance(world, 40));
-        EXPECT_GT(world.contact().pressing, 10);
+        EXPECT_GT(world.contact().lastImpulses, 10);
         hashes.push_back(world.stateHash());
     }
     EXPECT_EQ(hashes[0], hashes[1]);
@@ -389,7 +389,7 @@ TEST(TouchingIslands, TheOrderOfBodiesInASceneHasNoSay) {
         for (const world::ClothSpec& body : bodies) spec.bodies.add(body);
         World world(spec);
         EXPECT_FALSE(advance(world, 15));
-        EXPECT_GT(world.contact().pressing, 0);
+        EXPECT_GT(world.contact().lastImpulses, 0);
         hashes.push_back(world.stateHash());
     }
     EXPECT_EQ(hashes[0], hashes[1]);

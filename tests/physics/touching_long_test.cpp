@@ -33,12 +33,12 @@ TEST(TouchingLong, DISABLED_ATwistOfFourTurnsComesUndone) {
     int pressing = 0;
     for (int i = 0; i < 60 * 9; ++i) {
         ASSERT_FALSE(world.advance());
-        pressing = std::max(pressing, world.contact().pressing);
+        pressing = std::max(pressing, world.contact().lastImpulses);
         EXPECT_EQ(witness.count(world), 0) << "tick " << i;
     }
     EXPECT_GT(pressing, 20);  // a pair for each cell of its length: it does lie on itself
     EXPECT_LT(world.metrics().elastic, 0.3);  // [J]
-    EXPECT_EQ(world.contact().pressing, 0);
+    EXPECT_EQ(world.contact().lastImpulses, 0);
 }
 
 TEST(TouchingLong, DISABLED_AStackOfTenLiesOnABall) {

@@ -15,10 +15,10 @@ class Plain final : public Form {
   public:
     explicit Plain(std::shared_ptr<const Form> form) : form_(std::move(form)) {}
     Nearest nearest(const glm::dvec3& p) const override { return form_->nearest(p); }
-    bool sweep(const Path& path, Touch& touch, bool& crossed) const override {
+    bool sweep(const Path& path, HalfSpace& touch, bool& crossed) const override {
         return form_->sweep(path, touch, crossed);
     }
-    std::optional<Box> bounds() const override { return form_->bounds(); }
+    std::optional<core::Aabb> bounds() const override { return form_->bounds(); }
     bool isConvex() const override { return form_->isConvex(); }
 
   private:

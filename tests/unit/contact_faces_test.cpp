@@ -67,7 +67,7 @@ TEST(ContactFaces, ATriangleIsStoppedByATipAsItsWholeMass) {
     instant.v = v;
     instant.inverseMass = inverse;
     group.begin(x0);
-    EXPECT_EQ(group.resolve(instant).active, 1);
+    EXPECT_EQ(group.resolve(instant).impulses, 1);
     double momentum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         momentum += v[i].y;
@@ -102,7 +102,7 @@ TEST(ContactFaces, ATipHasTheFrictionOfItselfAndTheBody) {
     instant.v = v;
     instant.inverseMass = inverse;
     group.begin(scene.x);
-    EXPECT_EQ(group.resolve(instant).active, 1);
+    EXPECT_EQ(group.resolve(instant).impulses, 1);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(v[i].x, slide - 0.5 * 0.4 * speed, 1e-12);
 }
 
@@ -161,7 +161,7 @@ TEST(ContactFaces, AnEdgeDoesNotStopWhatComesAlongAFaceBesideIt) {
     instant.v = v;
     instant.inverseMass = inverse;
     group.begin(scene.x);
-    EXPECT_EQ(group.resolve(instant).active, 0);
+    EXPECT_EQ(group.resolve(instant).impulses, 0);
     EXPECT_EQ(v[0].z, speed);
 }
 

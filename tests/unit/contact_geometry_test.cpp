@@ -228,7 +228,7 @@ TEST(ContactDistance, LeavesAThickSheetAsItWasBuilt) {
     ContactSurface& sheet = flight.addSheet(dvec3(0.0), {0.1, 0, 0}, {0, 0, 0.1}, 8, {0.0, -3.0, 1.0}, 1e-3, 0.03);
     sheet.meetsItself = true;
     const std::vector<dvec3> before = flight.v;
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(flight.fly(1e-3).active, 0);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(flight.fly(1e-3).impulses, 0);
     EXPECT_EQ(flight.v, before);
 }
 

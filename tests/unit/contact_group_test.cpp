@@ -123,7 +123,7 @@ TEST(ContactGroup, MeetsWhatASlideLeadsToIt) {
     flight.inverseMass[1] = flight.inverseMass[2] = 0;
     flight.addTriangle({dvec3(-2, -0.03, 0.2), dvec3(2, -0.03, 0.2), dvec3(0, -0.03, 4)}, dvec3(0.0), 0.0, 0.002);
     flight.addBall({0.0, 1.0 / 32, 1.0 / 16}, {0.0, -100.0, 0.0}, 0.0, 0.002);
-    EXPECT_EQ(flight.fly(1e-3).active, 0);
+    EXPECT_EQ(flight.fly(1e-3).impulses, 0);
     EXPECT_NEAR(flight.x[0].y, -0.024, 1e-9);
 }
 
@@ -221,7 +221,7 @@ TEST(ContactGroup, LeadsTheSmallerPartOfASheetBack) {
         EXPECT_GE(crossings.size(), 12U);  // 9 edges of the parted, and some of the other
         for (const Crossing& crossing : crossings) {
             const bool isParted = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface == 1;
-            EXPECT_NEAR(crossing.apart.y, isParted == (below < 0.1) ? 1.0 : -1.0, 1e-12);
+            EXPECT_NEAR(crossing.separatingDirection.y, isParted == (below < 0.1) ? 1.0 : -1.0, 1e-12);
         }
     }
 }

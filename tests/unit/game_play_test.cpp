@@ -49,7 +49,7 @@ TEST(PlayCommand, AWrongSceneIsSaidBeforeAWindowIsMissed) {
 }
 
 TEST(PlayFigures, AreNeverOverTheHand) {
-    const pipeline::Box left{{8.0F, 8.0F}, {200.0F, 160.0F}}, right{{312.0F, 8.0F}, {504.0F, 160.0F}};
+    const pipeline::PictureBox left{{8.0F, 8.0F}, {200.0F, 160.0F}}, right{{312.0F, 8.0F}, {504.0F, 160.0F}};
     FiguresPlace figures;
     figures.follow(left, 512.0F, glm::vec2(300.0F, 100.0F), {}, 0.1);
     EXPECT_FALSE(figures.isAtRight());
@@ -59,13 +59,13 @@ TEST(PlayFigures, AreNeverOverTheHand) {
     figures.follow(right, 512.0F, glm::vec2(400.0F, 100.0F), {}, 0.1);
     EXPECT_FALSE(figures.isAtRight());
     // In a picture that they fill from side to side they go.
-    const pipeline::Box wide{{8.0F, 8.0F}, {248.0F, 160.0F}};
+    const pipeline::PictureBox wide{{8.0F, 8.0F}, {248.0F, 160.0F}};
     for (int i = 0; i < 20; ++i) figures.follow(wide, 256.0F, glm::vec2(128.0F, 100.0F), {}, 0.1);
     EXPECT_EQ(figures.opacity(), 0.0F);
 }
 
 TEST(PlayFigures, LetTheBodyThatIsPulledShineThrough) {
-    const pipeline::Box left{{8.0F, 8.0F}, {200.0F, 160.0F}};
+    const pipeline::PictureBox left{{8.0F, 8.0F}, {200.0F, 160.0F}};
     const std::vector<glm::vec2> body{{150.0F, 50.0F}};
     FiguresPlace figures;
     const auto follow = [&](std::optional<glm::vec2> hand) {

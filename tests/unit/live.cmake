@@ -1,6 +1,6 @@
 list(APPEND TAUT_UNIT_TESTS
   live_adaptation_test.cpp
-  live_hand_test.cpp
+  live_mouse_hand_test.cpp
   live_pace_test.cpp
   live_picking_test.cpp
   live_recording_test.cpp

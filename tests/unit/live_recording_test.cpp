@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "taut/live/hand.h"
+#include "taut/live/mouse_hand.h"
 #include "taut/scene/private/document.h"
 #include "taut/scene/load.h"
 
@@ -64,7 +64,7 @@ Recording small() {
     recording.overrides = {"solver.dt=1e-3", "solver.integrator=rk4", "solver.dt=2e-4", "camera.main.keys.0.t=0"};
     recording.endTick = 89;
     recording.strains = {{"cloth.curtain", 0.061}};
-    Hand hand("mouse", 60.0);
+    MouseHand hand("mouse", 60.0);
     hand.grab("cloth.curtain@#412", 0.08, 200.0, 0.3, {0.0, 1.0, 0.0});
     recording.deeds = hand.deedsAt(30);
     world::PushAction own;

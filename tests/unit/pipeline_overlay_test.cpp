@@ -107,7 +107,7 @@ TEST(Overlay, TheCurveRunsThroughItsEnergies) {
         moment.gravitational = 0.0;
         moments.push_back(moment);
     }
-    const Box box{{10.0F, 10.0F}, {390.0F, 150.0F}};
+    const PictureBox box{{10.0F, 10.0F}, {390.0F, 150.0F}};
     paintEnergies(painting, box, 14.0F, moments, 4.0);
     const EnergyScale scale = energyScale(0.0, 4.0);
     for (const double t : {1.0, 2.0, 3.0}) {
@@ -122,7 +122,7 @@ TEST(Overlay, TheCurveRunsThroughItsEnergies) {
 }
 
 TEST(Overlay, StaysInItsPanelAndDependsOnWhatItWasToldOnly) {
-    const StepFacts step{4e-4, 5e-4};
+    const SmallestStep step{4e-4, 5e-4};
     Overlay once({}, step), ahead({}, step);
     for (int tick = 0; tick <= 300; ++tick) once.add(rising(tick));
     for (int tick = 0; tick <= 330; ++tick) ahead.add(rising(tick));  // the simulation is ahead of the pictures
@@ -191,7 +191,7 @@ TEST(Overlay, LooksTheSameAtTheRightAndShinesThroughEvenly) {
     Overlay overlay({}, {4e-4, 5e-4});
     overlay.add(rising(100));
     image::Image left = grey(640, 360), right = left, half = left;
-    const Box at = overlay.paint(left, 5.0), other = overlay.paint(right, 5.0, {}, {.isAtRight = true});
+    const PictureBox at = overlay.paint(left, 5.0), other = overlay.paint(right, 5.0, {}, {.isAtRight = true});
     overlay.paint(half, 5.0, {}, {.opacity = 0.5F});
     EXPECT_EQ(other.high - other.low, at.high - at.low);
     EXPECT_NEAR(640.0F - other.high.x, at.low.x, 1.0F);  // whole pixels

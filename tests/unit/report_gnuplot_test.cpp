@@ -90,7 +90,7 @@ TEST(ReportGnuplot, DrawsEverythingAChartCanHold) {
     const Chart chart = fullChart();
     writeChart(chart, folder / "chart");
     const image::Image picture = image::readImage(folder / "chart.png");
-    const Layout layout = layoutOf(chart);
+    const ChartLayout layout = layoutOf(chart);
     EXPECT_EQ(picture.width, std::lround(layout.width));
     EXPECT_EQ(picture.height, std::lround(layout.height));
     const std::string svg = test::contentOf(folder / "chart.svg");
@@ -107,7 +107,7 @@ TEST(ReportGnuplot, AMapLiesWhereItsAxesSay) {
     const Chart chart = fullChart();
     writeChart(chart, folder / "chart");
     const image::Image picture = image::readImage(folder / "chart.png");
-    const Box box = layoutOf(chart).panels[1];
+    const PanelBox box = layoutOf(chart).panels[1];
     const auto redMinusBlue = [&](double u, double v) {
         const auto x = static_cast<std::size_t>(box.left + u * (box.right - box.left));
         const auto y = static_cast<std::size_t>(picture.height - (box.bottom + v * (box.top - box.bottom)));

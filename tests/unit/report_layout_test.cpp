@@ -26,10 +26,10 @@ Chart fullChart(int panels, int columns) {
 }
 
 TEST(ReportLayout, PanelsHaveTheirSizeAndDoNotOverlap) {
-    const Layout layout = layoutOf(fullChart(5, 3));
+    const ChartLayout layout = layoutOf(fullChart(5, 3));
     ASSERT_EQ(layout.panels.size(), 5U);
     for (std::size_t i = 0; i < 5; ++i) {
-        const Box& a = layout.panels[i];
+        const PanelBox& a = layout.panels[i];
         EXPECT_EQ(a.right - a.left, 200);
         EXPECT_EQ(a.top - a.bottom, 120);
         EXPECT_GT(a.left, 0);
@@ -37,7 +37,7 @@ TEST(ReportLayout, PanelsHaveTheirSizeAndDoNotOverlap) {
         EXPECT_LT(a.right, layout.width);
         EXPECT_LT(a.top, layout.height);
         for (std::size_t j = i + 1; j < 5; ++j) {
-            const Box& b = layout.panels[j];
+            const PanelBox& b = layout.panels[j];
             EXPECT_TRUE(a.right <= b.left || b.right <= a.left || a.top <= b.bottom || b.top <= a.bottom);
         }
     }
@@ -46,7 +46,7 @@ TEST(ReportLayout, PanelsHaveTheirSizeAndDoNotOverlap) {
 }
 
 TEST(ReportLayout, TitlesLieAboveAndLegendAndNotesBelowThePanels) {
-    const Layout layout = layoutOf(fullChart(2, 2));
+    const ChartLayout layout = layoutOf(fullChart(2, 2));
     EXPECT_GT(layout.title, layout.subtitle);
     EXPECT_GT(layout.subtitle, layout.panels[0].top);
     ASSERT_EQ(layout.legend.size(), 2U);

@@ -13,7 +13,7 @@ namespace taut::report {
 namespace {
 
 TEST(ReportTable, CsvQuotesWhatWouldBreakARow) {
-    const Table table{{"name", "what, else"}, {{std::string("say \"no\""), 1LL}, {std::string("two\nlines"), 2LL}}};
+    const TextTable table{{"name", "what, else"}, {{std::string("say \"no\""), 1LL}, {std::string("two\nlines"), 2LL}}};
     EXPECT_EQ(csv(table), "name,\"what, else\"\n\"say \"\"no\"\"\",1\n\"two\nlines\",2\n");
 }
 

@@ -26,9 +26,9 @@ class Torus final : public collision::Form {
         const double d = std::sqrt(glm::dot(apart, apart));
         return {d - tube_, d > 0.0 ? apart / d : dvec3(0.0, 1.0, 0.0)};
     }
-    std::optional<collision::Box> bounds() const override {
+    std::optional<core::Aabb> bounds() const override {
         const dvec3 half(ring_ + tube_, tube_, ring_ + tube_);
-        return collision::Box{-half, half};
+        return core::Aabb{-half, half};
     }
 
   private:

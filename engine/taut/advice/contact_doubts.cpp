@@ -8,7 +8,9 @@
 #include <set>
 
 #include "taut/contact/closest_points.h"
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/tick.h"
 
 namespace taut::world {
 namespace {
@@ -26,7 +28,7 @@ std::vector<const Body*> touchingBodies(const WorldImpl& world) {
     const auto add = [&](const Body& body) {
         if (body.spec->touch != Touch::nothing) all.push_back(&body);
     };
-    for (const Body* body : world.allBodies()) add(*body);
+    for (const Body* body : bodiesOf(world)) add(*body);
     for (const auto& body : world.waiting) add(*body);
     return all;
 }
@@ -68,13 +70,13 @@ void doubtLoneliness(std::span<const Body* const> bodies, std::vector<std::strin
 }
 
 void doubtCrossings(WorldImpl& world, std::vector<std::string>& doubts) {
-    if (!world.touchesAny()) return;
+    if (!touchesAny(world)) return;
     struct Pair {
         std::set<int> edges;
         BodyCrossing deepest;
     };
     std::map<std::pair<std::string, std::string>, Pair> pairs;
-    for (const BodyCrossing& crossing : world.crossings()) {
+    for (const BodyCrossing& crossing : crossingsOf(world)) {
         const bool isInOrder = !sortsBefore(*crossing.ofTriangle, *crossing.ofEdge);
         const Body &a = isInOrder ? *crossing.ofEdge : *crossing.ofTriangle,
                    &b = isInOrder ? *crossing.ofTriangle : *crossing.ofEdge;
@@ -123,7 +125,7 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
     contact::Bvh patches(elements);
     patches.start(x, x);
     patches.followAll(x, x);
-    std::vector<contact::Box> boxes;
+    std::vector<core::Aabb> boxes;
     for (int p = 0; p < patches.count(); ++p) boxes.push_back(patches.motion(p).box);
     std::vector<contact::LeafPair> near;
     patches.findNear(boxes, 0.0, near);
@@ -170,7 +172,7 @@ std::vector<std::string> touchDoubts(World& world) {
     doubtThickness(bodies, doubts);
     doubtInstants(w, doubts);
     doubtCrossings(w, doubts);
-    if (w.touchesAny()) doubtPlaces(*w.contactStage, doubts);
+    if (touchesAny(w)) doubtPlaces(*w.contactStage, doubts);
     return doubts;
 }
 

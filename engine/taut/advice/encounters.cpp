@@ -4,6 +4,7 @@
 
 #include "taut/core/error.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/tick.h"
 #include "taut/spec/ticks.h"
 #include "taut/advice/contact_doubts.h"
 
@@ -29,7 +30,7 @@ class LookAhead {
         letPassWhatStartsInEachOther();
         World world(trial_);
         WorldImpl& w = WorldAccess::of(world);
-        if (w.islands.size() + w.waiting.size() < 2 || !w.touchesAny()) return found_;
+        if (w.islands.size() + w.waiting.size() < 2 || !touchesAny(w)) return found_;
         const std::int64_t last = Ticks(trial_.run).last();
         double work = 0;
         try {
@@ -49,8 +50,8 @@ class LookAhead {
     void letPassWhatStartsInEachOther() {
         World world(trial_);
         WorldImpl& w = WorldAccess::of(world);
-        if (!w.touchesAny()) return;
-        for (const BodyCrossing& c : w.crossings()) add(*c.ofEdge, *c.ofTriangle);
+        if (!touchesAny(w)) return;
+        for (const BodyCrossing& c : crossingsOf(w)) add(*c.ofEdge, *c.ofTriangle);
         for (const auto& [surfaces, points] : pointsInOnePlace(*w.contactStage))
             add(w.contactStage->bodyOf(surfaces.first), w.contactStage->bodyOf(surfaces.second));
         for (BodySpec& body : trial_.bodies)
@@ -76,7 +77,7 @@ class LookAhead {
     // Of all ticks so far [ns].
     double workOf(const WorldImpl& world) {
         const ContactInfo contact = world.contactStage->info();
-        contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.located);
+        contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.lastTestedPairs);
         double work = contactWork_;
         for (const auto& island : world.islands) {
             const ode::Work own = island->work();

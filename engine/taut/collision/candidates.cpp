@@ -10,11 +10,11 @@ namespace {
 constexpr double stepsAhead = 16.0;
 constexpr double shareOfSize = 0.02;
 
-bool holds(const Box& outer, const Box& inner) {
+bool holds(const core::Aabb& outer, const core::Aabb& inner) {
     return outer.contains(inner.low) && outer.contains(inner.high);
 }
 
-bool overlap(const Box& a, const Box& b) {
+bool overlap(const core::Aabb& a, const core::Aabb& b) {
     return a.low.x <= b.high.x && a.high.x >= b.low.x && a.low.y <= b.high.y && a.high.y >= b.low.y &&
            a.low.z <= b.high.z && a.high.z >= b.low.z;
 }
@@ -26,12 +26,12 @@ double largest(const dvec3& a) {
 }  // namespace
 
 template <class Real>
-double reachOf(double thickness, const Box& box) {
+double reachOf(double thickness, const core::Aabb& box) {
     const dvec3 most = glm::max(glm::abs(box.low), glm::abs(box.high));
     return thickness + 20.0 * skinPerMetre<Real> * (most.x + most.y + most.z);
 }
-template double reachOf<float>(double, const Box&);
-template double reachOf<double>(double, const Box&);
+template double reachOf<float>(double, const core::Aabb&);
+template double reachOf<double>(double, const core::Aabb&);
 
 Candidates::Candidates() : rooms_(std::make_unique<CandidateRooms>()) {}
 Candidates::~Candidates() = default;
@@ -48,7 +48,7 @@ bool CandidateRooms::fits(const Solid& solid, const SolidRoom& room) {
 
 bool CandidateRooms::meet(const Solid& solid, const SolidRoom& room, const BlockRoom& block) {
     if (solid.bounded) {
-        Box box = room.box;
+        core::Aabb box = room.box;
         box.grow(block.reach);
         return overlap(block.box, box);
     }
@@ -89,7 +89,7 @@ void CandidateRooms::follow(std::span<const Solid> solids) {
 
 template <class Real>
 void CandidateRooms::look(std::span<const Solid> solids, std::size_t block, const BlockRows<Real>& rows,
-                          double thickness, Box& box) {
+                          double thickness, core::Aabb& box) {
     near_.clear();
     if (block >= blocks_.size()) {
         blocks_.resize(block + 1);
@@ -103,7 +103,7 @@ void CandidateRooms::look(std::span<const Solid> solids, std::size_t block, cons
     if (!isKnown) {
         BlockRows<Real> ends = rows;
         for (int k = 0; k < 3; ++k) ends.before[k] = ends.after[k];
-        const Box end = boundsOf(ends);
+        const core::Aabb end = boundsOf(ends);
         const dvec3 way = glm::max(end.low - box.low, box.high - end.high);  // of the box, the longer one
         room.box = box;
         room.box.grow(std::max(stepsAhead * largest(way), shareOfSize * largest(box.high - box.low)));
@@ -118,7 +118,7 @@ void CandidateRooms::look(std::span<const Solid> solids, std::size_t block, cons
         for (std::uint64_t rest = bits_[block * words_ + w]; rest != 0; rest &= rest - 1)
             near_.push_back(&solids[w * 64 + static_cast<std::size_t>(std::countr_zero(rest))]);
 }
-template void CandidateRooms::look(std::span<const Solid>, std::size_t, const BlockRows<float>&, double, Box&);
-template void CandidateRooms::look(std::span<const Solid>, std::size_t, const BlockRows<double>&, double, Box&);
+template void CandidateRooms::look(std::span<const Solid>, std::size_t, const BlockRows<float>&, double, core::Aabb&);
+template void CandidateRooms::look(std::span<const Solid>, std::size_t, const BlockRows<double>&, double, core::Aabb&);
 
 }  // namespace taut::collision

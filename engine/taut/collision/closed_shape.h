@@ -1,6 +1,6 @@
-// Convex shapes whose distance is a formula: how far a place is from the surface, and which way that grows fastest.
-// Written as selections, for loops over arrays of places: one place alone gets the same bits. Plain data, and functions
-// of each file's own, because kernel files are compiled once per instruction set.
+// Convex shapes whose distance is a formula: how far a place is from the surface, and in which direction this distance
+// grows fastest. Written as selections, for loops over arrays of places: one place alone gets the same bits. Plain
+// data, and functions of each file's own, because kernel files are compiled once per instruction set.
 #pragma once
 
 namespace taut::collision {
@@ -9,8 +9,8 @@ enum class ClosedKind { none, halfSpace, sphere, box, capsule, cylinder, cone };
 
 struct ClosedShape {
     ClosedKind kind = ClosedKind::none;
-    // [m] of a sphere its radius; of a box half its edges; of the others radius, half height (of a capsule from its
-    // middle to the centre of a cap) and, of a cone, the length of its side.
+    // [m] A sphere has its radius; a box half of its edges; the others have radius and half height (a capsule's from
+    // its middle to the centre of a cap), and a cone also the length of its side.
     double size[3] = {0.0, 0.0, 0.0};
 };
 

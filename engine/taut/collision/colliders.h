@@ -1,4 +1,4 @@
-// Points against rigid shapes: the one door to Bullet, which no other folder includes.
+// Contact of points with rigid shapes. It is the only door to Bullet, which no other folder includes.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ struct Pose {
 class CandidateRooms;
 class Form;
 
-// What a collider is made of: one form (form.h), which a row of the table of shapes makes, or several in their places.
+// The shape of a collider: one form (form.h), which a row of the table of shapes makes, or several parts, each with its
+// pose.
 struct Shape {
     std::shared_ptr<const Form> form;
     struct Part;
@@ -59,13 +60,14 @@ struct Contact {
     double friction;      // Coulomb's μ of point and surface [-]
 };
 
-// The velocity [m/s] of a point after its contacts, when forces have changed it since they were resolved: the part into
-// a surface is removed, and friction slows the part along it as Colliders::resolve does. Nothing bounces. Expects
-// contacts of one point.
+// The velocity [m/s] of a point after its contacts, if forces have changed the velocity since the contacts were
+// resolved. The part into a surface is removed, and friction slows the part along it as in Colliders::resolve. Nothing
+// bounces. Expects contacts of one point.
 glm::dvec3 velocityInContact(std::span<const Contact> contacts, glm::dvec3 v);
 
-// Which of an island's points may touch which solids. Colliders::resolve() finds these pairs and uses them as long as
-// points and solids stay in the boxes that it gave them. They change the cost of a step, never its result.
+// Candidate pairs: which of an island's points may touch which solids. Colliders::resolve() finds these pairs and uses
+// them as long as points and solids stay in the boxes that it gave them. They change the cost of a step, never its
+// result.
 class Candidates {
   public:
     Candidates();
@@ -73,7 +75,7 @@ class Candidates {
     Candidates(Candidates&&) noexcept;
     Candidates& operator=(Candidates&&) noexcept;
 
-    // To be called when positions have changed by anything but a step and what resolve() made of it.
+    // Call it when something other than a step and its resolve() has changed positions.
     void drop();
 
   private:
@@ -94,13 +96,13 @@ class Colliders {
     int size() const;      // how many there are
     bool bounces() const;  // whether any has a restitution
 
-    // The same colliders, to be moved on their own; their forms are shared.
+    // A copy of the colliders that moves independently; the forms are shared.
     Colliders clone() const;
 
-    // The pose at the start and the end of the coming step; it holds until the next call, so a collider that stops is
-    // told once more, with twice the same pose. Still colliders never call it. Between the two the position runs
-    // straight and the rotation turns the short way. A collider of which any corner would be faster than 100 m/s is
-    // taken to have jumped: for this step it stands still at its end, has no speed, and passes through what lay
+    // Sets the pose at the start and the end of the coming step. It holds until the next call, so a collider that stops
+    // needs one more call, with the same pose twice. A still collider needs no call. Between the two poses the position
+    // moves straight and the rotation turns the short way. If any corner would be faster than 100 m/s, the collider
+    // counts as having jumped: for this step it stands still at its end, has no speed, and passes through what lay
     // between. Expects a number below size(); throws core::Error(badContent) for a pose that is not finite.
     void move(int collider, const Pose& from, const Pose& to);
 
@@ -125,7 +127,7 @@ class Colliders {
     void resolve(const MovingPoints<Real>& points, double h, std::vector<Contact>& contacts) const;
 
     // The same for all bodies of an island, always in the same order. Points that were touched are appended to
-    // `touched`, each once, and contacts only where they are asked for.
+    // `touched`, each once. Contacts are appended only if they are asked for.
     template <class Real>
     void resolve(std::span<const MovingPoints<Real>> bodies, double h, Candidates& candidates,
                  std::vector<int>& touched, std::vector<Contact>* contacts) const;
@@ -134,7 +136,7 @@ class Colliders {
     // a closed mesh. Infinite without colliders.
     double distance(const glm::dvec3& position) const;
 
-    // The collider that a position is deepest inside of, at its end-of-step pose, and how deep [m]; -1 and 0 outside.
+    // The collider whose end-of-step pose contains the position deepest, and how deep [m]; -1 and 0 outside all.
     struct Inside {
         int collider = -1;
         double depth = 0;
@@ -146,7 +148,7 @@ class Colliders {
     std::unique_ptr<Impl> impl_;
 };
 
-// The outlines of a shape's forms, one each, where the collider is at the origin; those without anything left out.
+// The outlines of a shape's forms, one each, with the collider at the origin. Empty outlines are left out.
 struct Outline;
 std::vector<Outline> outlinesOf(const Shape& shape);
 

@@ -12,7 +12,7 @@ __extension__ using Wide = __int128;
 class Builder {
   public:
     explicit Builder(std::span<const dvec3> points) {
-        Box box;
+        core::Aabb box;
         for (const dvec3& p : points) box.add(p);
         const dvec3 size = box.high - box.low;
         const double longest = std::max({size.x, size.y, size.z});

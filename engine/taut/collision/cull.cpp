@@ -57,14 +57,14 @@ void rowBounds(const Real* a, const Real* b, int count, double& low, double& hig
 }  // namespace
 
 template <class Real>
-Box boundsOf(const BlockRows<Real>& rows) {
-    Box box;
+core::Aabb boundsOf(const BlockRows<Real>& rows) {
+    core::Aabb box;
     for (int k = 0; k < 3; ++k) rowBounds(rows.before[k], rows.after[k], rows.count, box.low[k], box.high[k]);
     return box;
 }
 
 template <class Real>
-bool staysIn(const BlockRows<Real>& rows, const Box& box) {
+bool staysIn(const BlockRows<Real>& rows, const core::Aabb& box) {
     int out = 0;
     for (int k = 0; k < 3; ++k) {
         const Real* const x = rows.after[k];
@@ -76,7 +76,7 @@ bool staysIn(const BlockRows<Real>& rows, const Box& box) {
 }
 
 template <class Real>
-void markNearBox(const BlockRows<Real>& rows, const Box& box, std::uint32_t bit, std::uint32_t* mask) {
+void markNearBox(const BlockRows<Real>& rows, const core::Aabb& box, std::uint32_t bit, std::uint32_t* mask) {
     for (int k = 0; k < 3; ++k) {
         const Real* const a = rows.before[k];
         const Real* const b = rows.after[k];
@@ -110,12 +110,12 @@ void markUnderPlane(const BlockRows<Real>& rows, const dvec3& normal, double off
     for (int i = 0; i < rows.count; ++i) mask[i] |= nx * x[i] + ny * y[i] + nz * z[i] < limit ? bit : 0U;
 }
 
-template Box boundsOf(const BlockRows<float>&);
-template Box boundsOf(const BlockRows<double>&);
-template bool staysIn(const BlockRows<float>&, const Box&);
-template bool staysIn(const BlockRows<double>&, const Box&);
-template void markNearBox(const BlockRows<float>&, const Box&, std::uint32_t, std::uint32_t*);
-template void markNearBox(const BlockRows<double>&, const Box&, std::uint32_t, std::uint32_t*);
+template core::Aabb boundsOf(const BlockRows<float>&);
+template core::Aabb boundsOf(const BlockRows<double>&);
+template bool staysIn(const BlockRows<float>&, const core::Aabb&);
+template bool staysIn(const BlockRows<double>&, const core::Aabb&);
+template void markNearBox(const BlockRows<float>&, const core::Aabb&, std::uint32_t, std::uint32_t*);
+template void markNearBox(const BlockRows<double>&, const core::Aabb&, std::uint32_t, std::uint32_t*);
 template void markUnderPlane(const BlockRows<float>&, const dvec3&, double, double, std::uint32_t, std::uint32_t*);
 template void markUnderPlane(const BlockRows<double>&, const dvec3&, double, double, std::uint32_t, std::uint32_t*);
 

@@ -85,12 +85,12 @@ void findBorder(Facets& facets) {
 void turnOutside(Facets& facets) {
     const dvec3 origin = facets.triangles[0].corner;
     double sixVolumes = 0.0;
-    for (const Triangle& t : facets.triangles) {
+    for (const Facet& t : facets.triangles) {
         const dvec3 a = t.corner - origin;
         sixVolumes += glm::dot(a, glm::cross(a + t.ab, a + t.ac));
     }
     if (sixVolumes >= 0.0) return;
-    for (Triangle& t : facets.triangles) {
+    for (Facet& t : facets.triangles) {
         std::swap(t.ab, t.ac);
         t.normal = -t.normal;
     }

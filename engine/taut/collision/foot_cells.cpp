@@ -30,7 +30,7 @@ struct FootFinder::Slab {
 FootFinder::FootFinder(Facets facets) : facets_(std::move(facets)) {
     std::vector<dvec3> corners;
     corners.reserve(3 * facets_.triangles.size());
-    for (const Triangle& t : facets_.triangles)
+    for (const Facet& t : facets_.triangles)
         corners.insert(corners.end(), {t.corner, t.corner + t.ab, t.corner + t.ac});
     for (const dvec3& corner : corners) bounds_.add(corner);
     tree_ = MeshTree(corners);
@@ -42,7 +42,7 @@ FootFinder::FootFinder(Facets facets) : facets_(std::move(facets)) {
 void FootFinder::makePrisms() {
     const dvec3 centre = bounds_.centre();
     prisms_.reserve(facets_.triangles.size());
-    for (const Triangle& t : facets_.triangles) {
+    for (const Facet& t : facets_.triangles) {
         Prism& prism = prisms_.emplace_back();
         const auto set = [&](int lane, const dvec3& normal, const dvec3& on) {
             prism.x[lane] = static_cast<float>(normal.x);
@@ -67,7 +67,7 @@ void FootFinder::makePrisms() {
 // of the slopes of the facets): over height h the place is beyond the prism's sides by no more than h times the
 // tangent of the largest angle between those normals and the triangle's own. At a border there is no such limit.
 void FootFinder::widenPrisms() {
-    const std::vector<Triangle>& triangles = facets_.triangles;
+    const std::vector<Facet>& triangles = facets_.triangles;
     const std::vector<std::uint32_t>& corners = facets_.corners;
     std::vector<std::size_t> firstAt(facets_.isBorder.size() + 1, 0);  // (vertices + 1)
     for (const std::uint32_t corner : corners) ++firstAt[corner + 1];
@@ -180,7 +180,7 @@ void FootFinder::measureSlab(int z, Slab& slab) const {
 
             if (least > 2.0 * halfDiagonal) continue;
             const double reach = least + 2.0 * halfDiagonal + rounding_;
-            Box box{middle, middle};
+            core::Aabb box{middle, middle};
             box.grow(reach);
             among.clear();
             tree_.visit(box, [&](int triangle) { among.push_back(triangle); });

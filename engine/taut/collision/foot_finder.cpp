@@ -36,7 +36,7 @@ dvec3 nearestOnTriangle(const dvec3& p, const dvec3& a, const dvec3& ab, const d
 }  // namespace
 
 void FootFinder::update(const dvec3& p, int triangle, Foot& foot) const {
-    const Triangle& t = facets_.triangles[static_cast<std::size_t>(triangle)];
+    const Facet& t = facets_.triangles[static_cast<std::size_t>(triangle)];
     const dvec3 q = nearestOnTriangle(p, t.corner, t.ab, t.ac);
     const dvec3 apart = p - q;
     const double square = glm::dot(apart, apart);

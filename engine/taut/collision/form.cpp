@@ -32,7 +32,7 @@ class Walk {
 };
 
 // Where the path first comes as near as `gap` [m]; while it leads away from the surface it may come nearer than that.
-bool reach(Walk walk, const Path& path, double gap, Touch& touch) {
+bool reach(Walk walk, const Path& path, double gap, HalfSpace& touch) {
     constexpr int mostSteps = 256;
     const double close = nearEnough(path);
     for (int i = 0; i < mostSteps; ++i) {
@@ -57,7 +57,7 @@ bool goesThrough(Walk walk, double close) {
 
 }  // namespace
 
-bool Form::sweep(const Path& path, Touch& touch, bool&) const {
+bool Form::sweep(const Path& path, HalfSpace& touch, bool&) const {
     const Nearest end = nearest(path.to);
     const Nearest start = nearest(path.from);
     const dvec3 way = path.to - path.from;

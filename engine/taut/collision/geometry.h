@@ -3,7 +3,8 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
-#include <limits>
+
+#include "taut/core/aabb.h"
 
 namespace taut::collision {
 
@@ -23,26 +24,6 @@ struct Frame {
     }
 };
 
-// Axis-aligned; empty until a point is added.
-struct Box {
-    dvec3 low{std::numeric_limits<double>::infinity()};
-    dvec3 high{-std::numeric_limits<double>::infinity()};
-
-    void add(const dvec3& p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    void grow(double by) {
-        low -= by;
-        high += by;
-    }
-    dvec3 centre() const { return 0.5 * (low + high); }
-    dvec3 halfSize() const { return 0.5 * (high - low); }
-    bool contains(const dvec3& p) const {
-        return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
-    }
-};
-
 // Signed distance to a surface [m], negative inside, and its gradient, a unit vector away from the solid.
 struct Nearest {
     double distance;
@@ -58,7 +39,7 @@ struct Path {
 };
 
 // The half-space normal · p >= offset in which the path has to end.
-struct Touch {
+struct HalfSpace {
     dvec3 normal;
     double offset;  // [m]
 };

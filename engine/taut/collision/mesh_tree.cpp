@@ -30,7 +30,7 @@ MeshTree::MeshTree(std::span<const dvec3> corners) {
         if (built[i].isLeafNode()) {
             node.triangle = built[i].getTriangleIndex();
             node.skip = 1;
-            Box box;
+            core::Aabb box;
             for (int k = 0; k < 3; ++k) box.add(corners[static_cast<std::size_t>(3 * node.triangle + k)]);
             const dvec3 largest = glm::max(glm::abs(box.low), glm::abs(box.high));
             box.grow(1e-6 * (largest.x + largest.y + largest.z) + 1e-30);

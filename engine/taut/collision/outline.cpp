@@ -18,7 +18,7 @@ dvec3 across(const dvec3& from, const dvec3& to, const dvec3& beside) {
     return size > 0.0 ? off / size : dvec3(0.0);
 }
 
-dvec3 cornerOf(const Triangle& t, std::size_t k) {
+dvec3 cornerOf(const Facet& t, std::size_t k) {
     return k == 0 ? t.corner : t.corner + (k == 1 ? t.ab : t.ac);
 }
 
@@ -66,7 +66,7 @@ Outline outlineOf(const Facets& facets) {
     for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
         while (last < sides.size() && sides[last].a == sides[first].a && sides[last].b == sides[first].b) ++last;
         const Side& one = sides[first];
-        const Triangle& t = facets.triangles[one.triangle];
+        const Facet& t = facets.triangles[one.triangle];
         const dvec3 a = cornerOf(t, (one.apex + 1) % 3), b = cornerOf(t, (one.apex + 2) % 3);
         const bool areTwo = last - first == 2;
         if (areTwo) {

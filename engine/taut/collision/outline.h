@@ -1,5 +1,5 @@
-// What of a shape reaches between the points of what it meets: its corners and sharp edges, and the middle of what is
-// thin and round. It knows no contacts.
+// The parts of a shape that can reach between the points of a body: its corners and sharp edges, and the middle line of
+// thin round shapes. It knows no contacts.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,14 @@ namespace taut::collision {
 
 struct Facets;
 
-// Edges at which a surface turns by less than that are not sharp. [rad]
+// An edge is not sharp if the surface turns by less than this there. [rad]
 inline constexpr double leastSharpness = 0.035;
 
 struct Outline {
     struct Edge {
         int a, b;  // vertices
-        // On the two faces beside it, off the edge; -1 where there is none. Both: it is round, or of many faces.
+        // A point on each of the two faces beside the edge, off the edge; -1: no face. Both -1: it is round, or has
+        // many faces.
         int wingA = -1, wingB = -1;
     };
     std::vector<dvec3> vertices;  // [m] ends of edges, those that stand alone, and wings
@@ -25,11 +26,11 @@ struct Outline {
     double radius = 0.0;       // [m] the surface is that far from vertices and edges: of a ball, a capsule
 };
 
-// Of triangles that bound a solid the edges that stand out of it; of an open surface all that are sharp, and the
-// border.
+// Triangles that bound a solid: the edges that stand out of it. An open surface: all sharp edges, and the border.
 Outline outlineOf(const Facets& facets);
 
-// Of two rims about the y axis, or one and a tip above it: polygons of so many corners that are drawn into the rims.
+// The outline of two rims about the y axis, or of one rim and a tip above it: polygons with so many corners, inscribed
+// in the rims.
 inline constexpr int rimCorners = 64;
 Outline outlineOfCylinder(double radius, double halfHeight);
 Outline outlineOfCone(double radius, double halfHeight);

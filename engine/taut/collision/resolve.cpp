@@ -33,7 +33,7 @@ class Resolver {
     void resolveBody() {
         for (int first = points_.first; first < points_.last; first += candidateBlock, ++block_) {
             const int last = std::min(first + candidateBlock, points_.last);
-            Box box;
+            core::Aabb box;
             candidates_.look<Real>(solids_, block_, rowsOf(first, last), points_.thickness, box);
             if (!candidates_.near().empty()) resolveBlock(first, last, box);
         }
@@ -52,7 +52,7 @@ class Resolver {
         return rows;
     }
 
-    void resolveBlock(int first, int last, const Box& box) {
+    void resolveBlock(int first, int last, const core::Aabb& box) {
         const BlockRows<Real> rows = rowsOf(first, last);
         const double reach = reachOf<Real>(points_.thickness, box);
         Near near;
@@ -77,7 +77,7 @@ class Resolver {
         resolveBlock(middle, last, boundsOf(rowsOf(middle, last)));
     }
 
-    static bool mayTouch(const Solid& solid, const Box& box, double margin) {
+    static bool mayTouch(const Solid& solid, const core::Aabb& box, double margin) {
         if (solid.bounded) {
             const dvec3 low = solid.bounds.low - margin;
             const dvec3 high = solid.bounds.high + margin;
@@ -95,7 +95,7 @@ class Resolver {
         for (int c = 0; c < count; ++c) {
             const Solid& solid = *near[static_cast<std::size_t>(c)];
             if (solid.bounded) {
-                Box box = solid.bounds;
+                core::Aabb box = solid.bounds;
                 box.grow(margin);
                 markNearBox(rows, box, 1U << c, mask.data());
             } else {
@@ -122,7 +122,7 @@ class Resolver {
             singles |= (bits & (bits - 1)) == 0 ? bits : 0U;
         }
         if (some == 0) return;
-        std::array<Outcome, contactBatch> outcome{};
+        std::array<PointOutcome, contactBatch> outcome{};
         std::array<Contact, contactBatch> records;
         std::uint32_t taken = 0;  // solids that the kernel has seen to
         for (std::uint32_t rest = singles; rest != 0; rest &= rest - 1) {
@@ -137,19 +137,19 @@ class Resolver {
             for (int i = 0; i < n; ++i) {
                 const auto k = static_cast<std::size_t>(i);
                 if (lanes_.outcome[i] == 0) continue;
-                outcome[k] = static_cast<Outcome>(lanes_.outcome[i]);
+                outcome[k] = static_cast<PointOutcome>(lanes_.outcome[i]);
                 if (records_) records[k] = recordOf(first + i, solid, i);
             }
         }
         for (int i = 0; i < n; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            if (outcome[k] == Outcome::touched) {
+            if (outcome[k] == PointOutcome::touched) {
                 touched_.push_back(first + i);
                 if (records_) contacts_.push_back(records[k]);
                 continue;
             }
             const bool isDone = (mask[i] & (mask[i] - 1)) == 0 && (mask[i] & ~taken) == 0;
-            if (isDone && outcome[k] == Outcome::free) continue;
+            if (isDone && outcome[k] == PointOutcome::free) continue;
             if (points_.inverseMass[first + i] != Real(0)) resolvePoint(first + i, mask[i], near);
         }
     }
@@ -167,9 +167,9 @@ class Resolver {
             touched_.insert(touched_.end(), touched.begin(), touched.begin() + static_cast<std::ptrdiff_t>(count));
         } else if (found != 0) {
             for (int i = 0; i < n; ++i) {
-                const auto outcome = static_cast<Outcome>(lanes_.outcome[i]);
-                if (outcome == Outcome::left) resolvePoint(first + i, 1U, near);
-                if (outcome != Outcome::touched) continue;
+                const auto outcome = static_cast<PointOutcome>(lanes_.outcome[i]);
+                if (outcome == PointOutcome::left) resolvePoint(first + i, 1U, near);
+                if (outcome != PointOutcome::touched) continue;
                 touched_.push_back(first + i);
                 if (records_) contacts_.push_back(recordOf(first + i, *near[0], i));
             }
@@ -238,7 +238,7 @@ class Resolver {
         const double skin = skinPerMetre<Real> * (std::abs(point.before.x) + std::abs(point.before.y) +
                                                   std::abs(point.before.z) + points_.thickness);
 
-        // ContactAcceleration out of one solid a point may stand in another: a few passes in the same order, then it is left.
+        // A point moved out of one solid may stand in another: a few passes in the same order, then it is left.
         const Solid& first = *near[static_cast<std::size_t>(__builtin_ctz(bits))];
         const bool single = (bits & (bits - 1)) == 0 && first.convex;
         const int passes = single ? 1 : mostPasses;
@@ -267,11 +267,11 @@ class Resolver {
 
     bool resolveOne(const Solid& solid, double skin, bool isLast, MovingPoint& point, Impact& impact) const {
         const bool jumped = hasJumped(solid);
-        const Surface surface{
+        const MovingSurface surface{
             solid.from, solid.to,   jumped || solid.still, frictionOn(solid), solid.material.restitution,
             h_,         restSpeed_, fastestSurface};
         Path world{point.before, point.x, points_.thickness, skin};
-        Touch touch{};
+        HalfSpace touch{};
         bool crossed = false;
         if (!solid.bounded) {
             if (!surface.still) world.from = solid.to.toWorld(solid.from.toLocal(point.before));
@@ -300,7 +300,7 @@ class Resolver {
     }
 
     // A solid that turns far is followed frame by frame; the first touch counts.
-    static bool sweepTurning(const Solid& solid, const MovingPoint& point, const Path& whole, Touch& touch,
+    static bool sweepTurning(const Solid& solid, const MovingPoint& point, const Path& whole, HalfSpace& touch,
                              bool& crossed) {
         Path piece = whole;
         const std::size_t pieces = solid.turn.size() + 1;

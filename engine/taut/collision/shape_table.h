@@ -18,8 +18,8 @@
 
 namespace taut::collision {
 
-// What shapes are made from; each takes the sizes that it needs. Lengths in metres, about the shape's own origin; round
-// shapes have the axis y.
+// The sizes that shapes are made from; each shape takes those it needs. Lengths are in metres, about the shape's own
+// origin; round shapes have the axis y.
 struct ShapeSizes {
     dvec3 normal{0.0, 1.0, 0.0};           // of a plane through the origin, away from the solid; of any length
     dvec3 halfSize{0.5};                   //
@@ -32,7 +32,7 @@ struct ShapeSizes {
     std::map<std::string, double, std::less<>> own;  // what a shape adds to these, by its key
 };
 
-// A size that one shape has and the fields of a collider do not.
+// A size that only this shape has, beyond the fields of all colliders.
 struct OwnSize {
     std::string_view key;  // as scenes write it, "tube_m"
     std::string_view unit;
@@ -48,7 +48,7 @@ struct ShapeKind {
     std::vector<OwnSize> own;
     bool isBounded;  // else it cannot be a part of a compound
 
-    // Throws core::Error(badContent) for sizes of which no form can be made.
+    // Throws core::Error(badContent) for sizes that make no form.
     std::function<std::shared_ptr<const Form>(const ShapeSizes& sizes)> form;
     std::function<view::Mesh(const ShapeSizes& sizes)> mesh;  // about the same origin
 };

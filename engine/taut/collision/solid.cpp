@@ -18,7 +18,7 @@ glm::dquat unit(const glm::dquat& q) {
     return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
 
-Box worldBox(const Box& local, const Frame& frame) {
+core::Aabb worldBox(const core::Aabb& local, const Frame& frame) {
     const glm::dmat3& r = frame.rotation;
     const glm::dmat3 size(glm::abs(r[0]), glm::abs(r[1]), glm::abs(r[2]));
     const dvec3 half = size * local.halfSize();
@@ -36,7 +36,7 @@ Frame frameOf(const Pose& pose) {
 
 void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid>& solids) {
     if (shape.form != nullptr) {
-        const std::optional<Box> bounds = shape.form->bounds();
+        const std::optional<core::Aabb> bounds = shape.form->bounds();
         Solid& solid = solids.emplace_back();
         solid.form = shape.form;
         solid.inCollider = inCollider;
@@ -96,7 +96,7 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
     }
     solid.bounds = worldBox(solid.localBounds, solid.from);
     const auto include = [&](const Frame& frame) {
-        const Box box = worldBox(solid.localBounds, frame);
+        const core::Aabb box = worldBox(solid.localBounds, frame);
         solid.bounds.add(box.low);
         solid.bounds.add(box.high);
     };
@@ -107,7 +107,7 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
 }
 
 double travelOf(const Solid& solid) {
-    const Box box = solid.bounded ? solid.localBounds : Box{dvec3(-1.0), dvec3(1.0)};
+    const core::Aabb box = solid.bounded ? solid.localBounds : core::Aabb{dvec3(-1.0), dvec3(1.0)};
     double most = 0.0;
     for (int i = 0; i < 8; ++i) {
         const dvec3 corner((i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,

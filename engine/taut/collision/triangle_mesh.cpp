@@ -2,7 +2,7 @@
 
 namespace taut::collision {
 
-bool TriangleMesh::findWayOut(const Path& path, const Foot& end, Touch& touch) const {
+bool TriangleMesh::findWayOut(const Path& path, const Foot& end, HalfSpace& touch) const {
     const Nearest near = finder_.nearestFrom(path.to, end);
     if (near.distance >= path.thickness + path.skin) return false;
     touch = {near.normal, glm::dot(near.normal, path.to) - near.distance + path.thickness};
@@ -10,14 +10,14 @@ bool TriangleMesh::findWayOut(const Path& path, const Foot& end, Touch& touch) c
 }
 
 // The side from which a path comes. In the plane itself it is the front.
-bool TriangleMesh::isInFront(const Path& path, const Triangle& t) {
+bool TriangleMesh::isInFront(const Path& path, const Facet& t) {
     return glm::dot(path.from - t.corner, t.normal) > -path.skin;
 }
 
 // The triangle that the path crosses first, -1: none.
 int TriangleMesh::firstCrossing(const Path& path) const {
     const dvec3 whole = path.to - path.from;
-    Box box;
+    core::Aabb box;
     box.add(path.from);
     box.add(path.to);
     box.grow(path.thickness + path.skin);
@@ -25,7 +25,7 @@ int TriangleMesh::firstCrossing(const Path& path) const {
     double steepest = -1.0;  // [m] how much of the path runs along the crossed triangle's normal
     int crossing = -1;
     finder_.tree().visit(box, [&](int index) {
-        const Triangle& t = finder_.triangle(index);
+        const Facet& t = finder_.triangle(index);
         const double fromHeight = glm::dot(path.from - t.corner, t.normal);
         const double toHeight = glm::dot(path.to - t.corner, t.normal);
         const bool front = isInFront(path, t);
@@ -49,12 +49,12 @@ int TriangleMesh::firstCrossing(const Path& path) const {
 }
 
 // At the end of a path that crosses nothing.
-bool TriangleMesh::touchNear(const Path& path, const Foot& end, Touch& touch) const {
+bool TriangleMesh::touchNear(const Path& path, const Foot& end, HalfSpace& touch) const {
     const double reach = path.thickness + path.skin;
     if (!(end.square < reach * reach)) return false;
     // Off the middle of a triangle the direction is its normal, which is exact however near the point is.
     const double distance = std::sqrt(end.square);
-    const Triangle& t = finder_.triangle(end.triangle);
+    const Facet& t = finder_.triangle(end.triangle);
     const dvec3 apart = path.to - end.point;
     dvec3 normal = apart * (1.0 / distance);
     if (!(distance > path.skin))
@@ -65,7 +65,7 @@ bool TriangleMesh::touchNear(const Path& path, const Foot& end, Touch& touch) co
     return true;
 }
 
-bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
+bool TriangleMesh::sweep(const Path& path, HalfSpace& touch, bool& crossed) const {
     crossed = false;
     const bool closed = finder_.isClosed();
     const dvec3 whole = path.to - path.from;
@@ -85,7 +85,7 @@ bool TriangleMesh::sweep(const Path& path, Touch& touch, bool& crossed) const {
     if (closed && finder_.nearest(path.from).distance < 0.0) return findWayOut(path, end, touch);
     const int crossing = firstCrossing(path);
     if (crossing < 0) return touchNear(path, end, touch);
-    const Triangle& t = finder_.triangle(crossing);
+    const Facet& t = finder_.triangle(crossing);
     const dvec3 normal = isInFront(path, t) ? t.normal : -t.normal;
     touch = {normal, glm::dot(normal, t.corner) + path.thickness};
     crossed = true;

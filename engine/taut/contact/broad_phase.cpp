@@ -20,7 +20,7 @@ constexpr double searchAhead = 8;    // instants, if
 constexpr double mostBoxMargin = 4;  // that adds no more than so many margins
 
 // [m] Lower bound of the distance between what is in two boxes.
-double gapOf(const Box& a, const Box& b) {
+double gapOf(const core::Aabb& a, const core::Aabb& b) {
     return length(glm::max(dvec3(0.0), glm::max(a.low - b.high, b.low - a.high)));
 }
 
@@ -123,7 +123,7 @@ bool BroadPhase::areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3>
     }
     bvh_.follow(leafList_, x0, x1, mostDeformed);
     for (int p : leafList_) {
-        const Box &box = bvh_.motion(p).box, &fat = fatBoxes_[static_cast<std::size_t>(p)];
+        const core::Aabb &box = bvh_.motion(p).box, &fat = fatBoxes_[static_cast<std::size_t>(p)];
         if (!(box.low.x >= fat.low.x && box.low.y >= fat.low.y && box.low.z >= fat.low.z && box.high.x <= fat.high.x &&
               box.high.y <= fat.high.y && box.high.z <= fat.high.z))
             return false;
@@ -143,7 +143,7 @@ void BroadPhase::searchTree(double boxMargin) {
     freeTravel_ = instants < 1 ? 0.0 : boxMargin;
     for (int p = 0; p < bvh_.count(); ++p) {
         const LeafMotion& motion = bvh_.motion(p);
-        Box& fat = fatBoxes_[static_cast<std::size_t>(p)];
+        core::Aabb& fat = fatBoxes_[static_cast<std::size_t>(p)];
         fat = motion.box;
         if (instants < 1) continue;
         const dvec3 way = instants * motion.way;

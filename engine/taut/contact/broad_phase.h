@@ -42,24 +42,24 @@ struct CandidatePair {
 };
 
 // A pair needs a certificate if its distance is below the relative motion of its leaves plus this share of its
-// thickness: the share is for the ways that contact adds.
+// thickness. The share is for the motion that contact adds.
 inline constexpr double watchShare = 0.5;
 
 class BroadPhase {
   public:
     explicit BroadPhase(const Elements& elements) : elements_(elements), bvh_(elements) {}
 
-    // Forgets all lists. To be called when points have jumped, or elements are gone.
+    // Forgets all lists. Call it when points have jumped, or elements were removed.
     void drop();
 
     // Finds the lists that are due on the way from x0 to x1 (points) [m].
     void find(std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // Whether the result of find() holds if each point goes at most `way` [m] further than it was told: no pair that is
-    // not measured can have passed through itself.
+    // Whether the result of find() still holds if each point moves at most `way` [m] further than find() was told: no
+    // pair that was not measured can have passed through itself.
     bool holdWithin(double way) const { return 2 * way <= slack_; }
-    // The end of the instant. x1 of these points (ascending) is no longer what find() was told.
+    // Ends the instant. x1 of these points (ascending) is no longer what find() was told.
     void finish(std::span<const int> moved, std::span<const dvec3> x0, std::span<const dvec3> x1);
-    // Points went from x0 to x1 and nothing is to be found on the way.
+    // Points moved from x0 to x1, and pairs on the way are not wanted.
     void advance(std::span<const dvec3> x0, std::span<const dvec3> x1);
 
     Bvh& bvh() { return bvh_; }
@@ -140,7 +140,7 @@ class BroadPhase {
     std::vector<CandidateList*> due_;
     std::vector<double> deviation_;        // (leaves) [m] sum over all instants
     std::vector<double> travel_;           // (leaves) [m] sum over all instants of the furthest way of a point
-    std::vector<Box> fatBoxes_;            // (leaves) of the last search of the tree
+    std::vector<core::Aabb> fatBoxes_;     // (leaves) of the last search of the tree
     std::vector<double> travelAtSearch_;   // (leaves) [m]
     double freeTravel_ = 0;                // [m] a leaf that went less since the search is in its fat box
     std::vector<char> needsCheck_;         // (tracked) scratch

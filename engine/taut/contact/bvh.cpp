@@ -340,7 +340,7 @@ void Bvh::followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double
     follow(all_, x0, x1, most);
 }
 
-void Bvh::findNear(std::span<const Box> boxes, double more, std::vector<LeafPair>& pairs) {
+void Bvh::findNear(std::span<const core::Aabb> boxes, double more, std::vector<LeafPair>& pairs) {
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
         const Node& node = nodes_[n];
         if (node.leaf >= 0) {
@@ -366,14 +366,14 @@ void Bvh::findPairsWithin(int number, double more, std::vector<LeafPair>& pairs)
 
 void Bvh::findPairsBetween(int a, int b, double more, std::vector<LeafPair>& pairs) const {
     const Node &first = nodes_[static_cast<std::size_t>(a)], &second = nodes_[static_cast<std::size_t>(b)];
-    const Box &boxA = boxes_[static_cast<std::size_t>(a)], &boxB = boxes_[static_cast<std::size_t>(b)];
+    const core::Aabb &boxA = boxes_[static_cast<std::size_t>(a)], &boxB = boxes_[static_cast<std::size_t>(b)];
     if (!boxA.overlaps(boxB, nearShare * (first.thickness + second.thickness) + more)) return;
     if (first.surface >= 0 && second.surface >= 0 && !elements_.mayMeet(first.surface, second.surface)) return;
     if (first.leaf >= 0 && second.leaf >= 0) {
         pairs.push_back(leafPair(first.leaf, second.leaf));
         return;
     }
-    const auto sizeOf = [](const Box& box) {
+    const auto sizeOf = [](const core::Aabb& box) {
         const dvec3 size = box.high - box.low;
         return size.x + size.y + size.z;
     };

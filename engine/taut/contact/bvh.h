@@ -28,24 +28,9 @@
 #include <vector>
 
 #include "taut/contact/elements.h"
+#include "taut/core/aabb.h"
 
 namespace taut::contact {
-
-struct Box {
-    dvec3 low{1e300}, high{-1e300};
-    void add(const dvec3& p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    void add(const Box& other) {
-        low = glm::min(low, other.low);
-        high = glm::max(high, other.high);
-    }
-    bool overlaps(const Box& other, double within) const {
-        return low.x <= other.high.x + within && other.low.x <= high.x + within && low.y <= other.high.y + within &&
-               other.low.y <= high.y + within && low.z <= other.high.z + within && other.low.z <= high.z + within;
-    }
-};
 
 inline constexpr std::size_t leafSize = 18;  // triangles, or edges, at most
 
@@ -60,7 +45,7 @@ struct BvhLeaf {
 
 // How a leaf moves in an instant.
 struct LeafMotion {
-    Box before, box;         // of its points at x0; at x0 and x1
+    core::Aabb before, box;  // of its points at x0; at x0 and x1
     dvec3 centre{0.0};       // [m] mean of its points at x0
     dvec3 way{0.0};          // [m] mean of their ways
     double deviation = 0.0;  // [m] largest difference of a point's way from that mean
@@ -97,13 +82,13 @@ class Bvh {
     int count() const { return static_cast<int>(leaves_.size()); }
     const BvhLeaf& operator[](int i) const { return leaves_[static_cast<std::size_t>(i)]; }
 
-    // Takes over the balls of the elements: to be called when they have changed.
+    // Takes over the balls of the elements. Call it when they have changed.
     void takeBalls();
 
     // An instant from x0 to x1 (points) [m] begins. Finds travel() of all leaves, and nothing else.
     void start(std::span<const dvec3> x0, std::span<const dvec3> x1);
     double travel(int leaf) const { return travel_[static_cast<std::size_t>(leaf)]; }  // [m] furthest way of a point
-    // Finds the motion of these leaves, if that is not done in this instant. A leaf that has deformed more than
+    // Finds the motion of these leaves, unless it was found in this instant already. A leaf that has deformed more than
     // mostDeformed [m] takes a new reference shape; 0: none does.
     void follow(std::span<const int> leaves, std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed);
     void followAll(std::span<const dvec3> x0, std::span<const dvec3> x1, double mostDeformed = 0.0);
@@ -113,7 +98,7 @@ class Bvh {
     void correct(std::span<const int> points, std::span<const dvec3> x0, std::span<const dvec3> x1);
 
     // Pairs a <= b of leaves that may touch, and whose boxes (leaves) are closer than near plus `more` [m]; ascending.
-    void findNear(std::span<const Box> boxes, double more, std::vector<LeafPair>& pairs);
+    void findNear(std::span<const core::Aabb> boxes, double more, std::vector<LeafPair>& pairs);
 
     // The flatness certificate of leaves of one surface: `least` above; negative where there is none. Expects that they
     // were measured in this instant.
@@ -175,7 +160,7 @@ class Bvh {
     std::vector<dvec3> referenceShape_;        // [m] corners of all leaves, from the centre
     std::vector<std::size_t> firstReference_;  // (leaves) in referenceShape_
     std::vector<int> references_;              // (leaves) reference shapes so far
-    std::vector<Box> boxes_;                   // (nodes) scratch
+    std::vector<core::Aabb> boxes_;            // (nodes) scratch
     std::vector<char> isStillFollowed_;        // (leaves) of surfaces that stand still: the motion is known for good
 
     // Flatness.

@@ -26,7 +26,7 @@ struct BoxRows {
             high[k].clear();
         }
     }
-    void add(int number, const Box& box) {
+    void add(int number, const core::Aabb& box) {
         item.push_back(number);
         for (int k = 0; k < 3; ++k) {
             low[k].push_back(box.low[k]);
@@ -62,8 +62,8 @@ struct Query {
     const dvec3& at(int i) const { return x0[static_cast<std::size_t>(i)]; }
     const Triangle& triangle(int t) const { return elements.triangles()[static_cast<std::size_t>(t)]; }
     const Edge& edge(int e) const { return elements.edges()[static_cast<std::size_t>(e)]; }
-    Box boxOfEdge(int e) const {
-        Box box;
+    core::Aabb boxOfEdge(int e) const {
+        core::Aabb box;
         box.add(at(edge(e).a));
         box.add(at(edge(e).b));
         return box;
@@ -72,7 +72,7 @@ struct Query {
 
 // Calls each(item) for the rows from `from` on that overlap the box.
 template <class Each>
-void forEachHit(const ClosestKernels& kernels, const BoxRows& rows, const Box& box, std::size_t from,
+void forEachHit(const ClosestKernels& kernels, const BoxRows& rows, const core::Aabb& box, std::size_t from,
                 std::vector<int>& hits, Each&& each) {
     hits.resize(rows.item.size());
     BoxLanes lanes;
@@ -85,18 +85,17 @@ void forEachHit(const ClosestKernels& kernels, const BoxRows& rows, const Box& b
     for (int n = 0; n < count; ++n) each(rows.item[from + static_cast<std::size_t>(hits[static_cast<std::size_t>(n)])]);
 }
 
-Box grown(Box box, double by) {
-    box.low -= by;
-    box.high += by;
+core::Aabb grown(core::Aabb box, double by) {
+    box.grow(by);
     return box;
 }
 
 // Points of the one leaf and triangles of the other whose boxes are within reach -> scratch.overlapping.
-void overlapPoints(const Query& query, const BvhLeaf& ofPoints, const BvhLeaf& ofTriangles, const Box& pointBox,
-                   const Box& triangleBox, Scratch& scratch) {
+void overlapPoints(const Query& query, const BvhLeaf& ofPoints, const BvhLeaf& ofTriangles, const core::Aabb& pointBox,
+                   const core::Aabb& triangleBox, Scratch& scratch) {
     scratch.first.clear();
     for (int i : ofPoints.points) {
-        Box box;
+        core::Aabb box;
         box.add(query.at(i));
         if (box.overlaps(triangleBox, query.reach)) scratch.first.add(i, box);
     }
@@ -105,7 +104,7 @@ void overlapPoints(const Query& query, const BvhLeaf& ofPoints, const BvhLeaf& o
         const Triangle& triangle = query.triangle(t);
         if (triangle.isGone) continue;
         const std::array<int, 3>& c = triangle.points;
-        Box box;
+        core::Aabb box;
         for (int i : c) box.add(query.at(i));
         if (!box.overlaps(pointBox, query.reach)) continue;
         forEachHit(query.kernels, scratch.first, grown(box, query.reach), 0, scratch.hits, [&](int i) {
@@ -115,13 +114,13 @@ void overlapPoints(const Query& query, const BvhLeaf& ofPoints, const BvhLeaf& o
 }
 
 // Edges of both leaves whose boxes are within reach -> scratch.overlapping.
-void overlapEdges(const Query& query, const BvhLeaf& a, const BvhLeaf& b, const Box& boxA, const Box& boxB,
-                  Scratch& scratch) {
-    const auto gather = [&](const BvhLeaf& leaf, const Box& other, BoxRows& rows) {
+void overlapEdges(const Query& query, const BvhLeaf& a, const BvhLeaf& b, const core::Aabb& boxA,
+                  const core::Aabb& boxB, Scratch& scratch) {
+    const auto gather = [&](const BvhLeaf& leaf, const core::Aabb& other, BoxRows& rows) {
         rows.clear();
         for (int e : leaf.edges) {
             if (query.edge(e).isGone) continue;
-            const Box box = query.boxOfEdge(e);
+            const core::Aabb box = query.boxOfEdge(e);
             if (box.overlaps(other, query.reach)) rows.add(e, box);
         }
     };
@@ -131,7 +130,7 @@ void overlapEdges(const Query& query, const BvhLeaf& a, const BvhLeaf& b, const 
     for (std::size_t k = 0; k < firsts.item.size(); ++k) {
         const int e = firsts.item[k];
         const Edge& first = query.edge(e);
-        const Box box = grown(query.boxOfEdge(e), query.reach);
+        const core::Aabb box = grown(query.boxOfEdge(e), query.reach);
         forEachHit(query.kernels, scratch.second, box, query.isOne ? k + 1 : 0, scratch.hits, [&](int f) {
             const Edge& second = query.edge(f);
             if (first.a != second.a && first.a != second.b && first.b != second.a && first.b != second.b)
@@ -208,7 +207,7 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     const ClosestKernels kernels = closestKernels();
     const double reach = nearShare * thickness + margin;
     const Query query{elements_, x0, kernels, thickness, margin, reach, isBond, list.a == list.b};
-    const Box &boxA = bvh_.motion(list.a).before, &boxB = bvh_.motion(list.b).before;
+    const core::Aabb &boxA = bvh_.motion(list.a).before, &boxB = bvh_.motion(list.b).before;
     thread_local Scratch scratch;
     scratch.overlapping.clear();
 

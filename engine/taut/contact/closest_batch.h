@@ -1,4 +1,4 @@
-// A batch of pairs whose closest points are found together, with the kernels. Slots count from 0.
+// A batch of pairs: the kernels find their closest points together. Slots count from 0.
 #pragma once
 
 #include <array>

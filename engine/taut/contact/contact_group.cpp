@@ -88,7 +88,7 @@ Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3>
     forecast.leastThickness = 1e300;
     for (const ContactConstraint& pair : tested_) {
         if (!pair.isActive) continue;
-        forecast.meets = true;
+        forecast.isInContact = true;
         dvec3 velocity(0.0);
         for (std::size_t k = 0; k < 4; ++k) velocity += pair.weights[k] * v[static_cast<std::size_t>(pair.points[k])];
         forecast.closing = std::max(forecast.closing, -glm::dot(pair.normal, velocity));
@@ -96,7 +96,7 @@ Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3>
         addMovable(elements_, pair, inverseMass, forecast.surfaces);
     }
     makeAscending(forecast.surfaces);
-    forecast.meets = forecast.meets || !crossings_.empty();
+    forecast.isInContact = forecast.isInContact || !crossings_.empty();
     return forecast;
 }
 
@@ -172,7 +172,7 @@ void ContactGroup::solveActive(const Instant& instant) {
 
     for (std::size_t p = 0; p < active_.size(); ++p) {
         if (!(solver_.impulses()[p] > 0)) continue;
-        ++result_.active;
+        ++result_.impulses;
         addMovable(elements_, active_[p], instant.inverseMass, result_.surfaces);
     }
     makeAscending(result_.surfaces);
@@ -213,10 +213,10 @@ void ContactGroup::untangle(const Instant& instant) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
             inverse += crossing.weights[k] * crossing.weights[k] * instant.inverseMass[i];
             most = std::max(most, std::abs(crossing.weights[k]) * instant.inverseMass[i]);
-            speed += crossing.weights[k] * glm::dot(u_[i], crossing.apart);
-            speedV += crossing.weights[k] * glm::dot(v_[i], crossing.apart);
+            speed += crossing.weights[k] * glm::dot(u_[i], crossing.separatingDirection);
+            speedV += crossing.weights[k] * glm::dot(v_[i], crossing.separatingDirection);
         }
-        if (!(inverse > 0) || crossing.apart == dvec3(0.0)) continue;
+        if (!(inverse > 0) || crossing.separatingDirection == dvec3(0.0)) continue;
         if (!mayYield(crossing, instant.inverseMass)) continue;
         // Up to apartSpeed. Limited twice: to the impulse that is needed from rest, whatever pushes against it; and so
         // that no point gains more than apartSpeed, however small its weight. A pinch then stays until it opens.
@@ -227,8 +227,8 @@ void ContactGroup::untangle(const Instant& instant) {
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
             const double share = crossing.weights[k] * instant.inverseMass[i];
-            u_[i] += (share * impulse) * crossing.apart;
-            v_[i] += (share * impulseV) * crossing.apart;
+            u_[i] += (share * impulse) * crossing.separatingDirection;
+            v_[i] += (share * impulseV) * crossing.separatingDirection;
         }
     }
 }
@@ -302,7 +302,7 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
             if (!isFirst(leaves[a].surface)) continue;
             for (int b = 0; b < leaves.count(); ++b) {
                 if (!isSecond(leaves[b].surface)) continue;
-                const Box &p = leaves.motion(a).box, &q = leaves.motion(b).box;
+                const core::Aabb &p = leaves.motion(a).box, &q = leaves.motion(b).box;
                 const dvec3 gap = glm::max(dvec3(0.0), glm::max(p.low - q.high, q.low - p.high));
                 const double bound = glm::dot(gap, gap);
                 if (bound < least) each(a, b, bound);

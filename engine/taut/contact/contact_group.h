@@ -1,4 +1,4 @@
-// One instant of contact: what was moved from x0 to x1 is kept from going through itself and others.
+// One instant of contact: it keeps surfaces that were moved from x0 to x1 from going through themselves and each other.
 //
 //     x0, x1, v                                                                                   x1, v, impulses
 //       |                                                                                               ^
@@ -53,14 +53,14 @@ struct Instant {
     std::span<dvec3> v;                           // [m/s] as the integrator of each island stores them
     std::span<const double> inverseMass;          // [1/kg]; 0: pinned or kinematic, contact does not move it
     std::span<const KinematicContact> kinematic;  // contacts of points with colliders, ascending by point
-    // Called with the points (ascending) of which the group has changed x1 and v. Their island places them, and may
-    // change both once more: by rounding, or where a collider is. May be empty.
+    // The group calls it with the points (ascending) whose x1 and v it has changed. Their island places them, and may
+    // change both again: by rounding, or at a collider. May be empty.
     std::function<void(std::span<const int> points)> place;
 };
 
 struct InstantResult {
     std::vector<int> moved;     // points of which x1 or v has changed, ascending
-    int active = 0;             // pairs with an impulse
+    int impulses = 0;           // pairs with an impulse
     double deepest = 0;         // largest penetration that the motion alone would have led to, over the thickness [-]
     std::vector<int> surfaces;  // that have a movable point in a pair with an impulse, ascending
     int sweeps = 0;             // of the solver, in the cluster that took most
@@ -69,9 +69,9 @@ struct InstantResult {
     int uncertified = 0;        // pairs that have no certificate in the end
 };
 
-// What a straight flight would lead to.
+// What happens if all points fly on straight.
 struct Forecast {
-    bool meets = false;          // a pair is active, or surfaces cross already
+    bool isInContact = false;    // a pair is active, or surfaces cross already
     double closing = 0.0;        // [m/s] largest closing speed of an active pair
     double leastThickness = 0;   // [m] smallest thickness of an active pair
     double deformationRate = 0;  // [1/s] mean over the leaves: speed of points against their leaf, over thickness / 2
@@ -95,14 +95,14 @@ class ContactGroup {
     Elements& elements() { return elements_; }
     const Elements& elements() const { return elements_; }
 
-    // Forgets all lists. To be called when points have jumped, or elements are gone.
+    // Forgets all lists. Call it when points have jumped, or elements were removed.
     void drop();
-    // Some instants of the tick are to be repeated: the points went back from `from` to `to`, without contact.
+    // Call it before instants of the tick are repeated: the points went back from `from` to `to`, without contact.
     void rewind(std::span<const dvec3> from, std::span<const dvec3> to);
-    // Before the instants of a tick: finds the edges that pierce triangles. Their pairs are untangled in this tick, not
-    // solved.
+    // Call it before the instants of a tick. It finds the edges that pierce triangles; their pairs are untangled in
+    // this tick, not solved.
     void begin(std::span<const dvec3> x);
-    // If all points fly on at v for so many seconds.
+    // Expects that all points fly on at v for `seconds` [s].
     Forecast forecast(std::span<const dvec3> x, std::span<const dvec3> v, std::span<const double> inverseMass,
                       double seconds);
     // One instant, see above.
@@ -113,7 +113,7 @@ class ContactGroup {
     // Of the last instant.
     std::vector<ContactPoint> contactPoints(std::span<const dvec3> x) const;
     std::size_t testedCount() const { return tested_.size(); }  // pairs that needed a certificate
-    std::size_t activeCount() const { return active_.size(); }  // pairs that the solver got
+    std::size_t activeCount() const { return active_.size(); }  // pairs that went to the solver
     std::size_t listsMade() const { return broadPhase_.listsMade(); }
     std::uint64_t bytes() const;
 

@@ -22,8 +22,8 @@ struct ContactSurface {
     bool meetsItself = true;
     bool meetsOthers = true;
     bool meetsRigid = true;  // touches rigid surfaces
-    // Surfaces of the same bond are of one body. Its parts are close at rest, so they keep at most restShare of their
-    // distance at rest.
+    // Surfaces with the same bond belong to one body. Its parts are close at rest, so they keep at most restShare of
+    // their distance at rest.
     int bond = 0;
     // A collider's corners and edges, which the group does not move. It has no triangles: points meet the faces of
     // colliders in `collision`. Two rigid surfaces never touch.

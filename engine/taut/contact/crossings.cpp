@@ -184,12 +184,13 @@ void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vect
                 const std::vector<int>& part = parts[(i < 2) == (k < middle) ? 0 : 1];
                 crossing.areThrough[i] = !isParted || std::binary_search(part.begin(), part.end(), crossing.points[i]);
             }
-            crossing.apart = isParted ? wayBack(crossing, triangle, x) : shortening(elements, edge, triangle, x);
-            sum += curveOf(order[k]).isOther ? -crossing.apart : crossing.apart;
+            crossing.separatingDirection =
+                isParted ? wayBack(crossing, triangle, x) : shortening(elements, edge, triangle, x);
+            sum += curveOf(order[k]).isOther ? -crossing.separatingDirection : crossing.separatingDirection;
         }
         const dvec3 way = unit(sum);
         for (std::size_t k = first; k < last; ++k)
-            crossings[static_cast<std::size_t>(order[k])].apart = curveOf(order[k]).isOther ? -way : way;
+            crossings[static_cast<std::size_t>(order[k])].separatingDirection = curveOf(order[k]).isOther ? -way : way;
     }
 }
 
@@ -212,7 +213,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
     std::vector<Crossing> crossings;
     leaves.start(x, x);
     leaves.followAll(x, x);
-    std::vector<Box> boxes;
+    std::vector<core::Aabb> boxes;
     for (int p = 0; p < leaves.count(); ++p) boxes.push_back(leaves.motion(p).box);
     std::vector<LeafPair> near;
     leaves.findNear(boxes, 0.0, near);
@@ -221,18 +222,18 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
     // of what is here.
     struct Boxed {
         int item;
-        Box box;
+        core::Aabb box;
     };
     std::vector<Boxed> edges;
-    const auto tryBoth = [&](const BvhLeaf& ofEdges, const BvhLeaf& ofTriangles, const Box& edgeBox,
-                             const Box& triangleBox) {
+    const auto tryBoth = [&](const BvhLeaf& ofEdges, const BvhLeaf& ofTriangles, const core::Aabb& edgeBox,
+                             const core::Aabb& triangleBox) {
         edges.clear();
         for (int e : ofEdges.edges) {
             const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
             if (edge.isGone || edge.a == edge.b) continue;
             // A rigid edge with fewer than two faces has no side that is out.
             if (elements.isRigid(edge.surface) && (edge.wings[0] < 0 || edge.wings[1] < 0)) continue;
-            Box box;
+            core::Aabb box;
             box.add(at(edge.a));
             box.add(at(edge.b));
             if (box.overlaps(triangleBox, 0.0)) edges.push_back({e, box});
@@ -242,7 +243,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
             const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
             if (triangle.isGone) continue;
             const std::array<int, 3>& c = triangle.points;
-            Box box;
+            core::Aabb box;
             for (int i : c) box.add(at(i));
             if (!box.overlaps(edgeBox, 0.0)) continue;
             for (const Boxed& boxed : edges) {
@@ -265,7 +266,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
     };
     for (LeafPair pair : near) {
         const int a = lowOf(pair), b = highOf(pair);
-        const Box &boxA = leaves.motion(a).box, &boxB = leaves.motion(b).box;
+        const core::Aabb &boxA = leaves.motion(a).box, &boxB = leaves.motion(b).box;
         tryBoth(leaves[a], leaves[b], boxA, boxB);
         if (a != b) tryBoth(leaves[b], leaves[a], boxB, boxA);
     }

@@ -1,4 +1,4 @@
-// Edges that pierce triangles, and the direction in which each comes apart.
+// Edges that pierce triangles, and the direction that separates each pair.
 //
 // Two sheets cut each other along contours. If a contour parts a sheet, the smaller part is what went through, and goes
 // back (Baraff, Witkin and Kass 2003, "Untangling cloth"):
@@ -28,8 +28,9 @@ struct Crossing {
     // The ends of the edge, and the corners of the triangle with negative weights. As in ContactConstraint: Σ w x is 0.
     std::array<int, 5> points;
     std::array<double, 5> weights;
-    dvec3 apart;  // unit, the direction in which the edge leaves; or zero
-    // (points) Whether it is on the wrong side: in the smaller part, where the contour parts a sheet; else all are.
+    dvec3 separatingDirection;  // unit, the direction in which the edge leaves; or zero
+    // (points) Whether the point is on the wrong side. If the contour parts a sheet, the points of the smaller part
+    // are; otherwise all points are.
     std::array<bool, 5> areThrough;
 };
 
@@ -40,7 +41,7 @@ dvec3 acrossEdge(const Edge& edge, int beside, std::span<const dvec3> x);
 // the edge has only one face, or none.
 dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec3> x);
 
-// Of surfaces that may touch, at places x (points) [m]; ascending by edge, then triangle.
+// The crossings of surfaces that may touch, at places x (points) [m]; ascending by edge, then triangle.
 std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x);
 
 }  // namespace taut::contact

@@ -33,10 +33,11 @@ class Elements {
     Elements(std::vector<ContactSurface> surfaces, std::vector<dvec3> rest);
 
     // Removes triangles (by their number in the surface) and edges (by their points) of a surface. An edge stays while
-    // one of its triangles does. Points that are left without both become balls, which come last among the edges.
+    // one of its triangles does. Points that are left without triangle and edge become balls, which come last among the
+    // edges.
     void setGone(int surface, const std::function<bool(std::size_t triangle)>& isTriangleGone,
                  const std::function<bool(int a, int b)>& isEdgeSevered);
-    // To be called after the last setGone().
+    // Call it after the last setGone().
     void refresh();
 
     const std::vector<ContactSurface>& surfaces() const { return surfaces_; }
@@ -44,7 +45,7 @@ class Elements {
     const std::vector<Triangle>& triangles() const { return triangles_; }
     const std::vector<Edge>& edges() const { return edges_; }
     int edgesWithoutBalls() const { return firstBall_; }
-    // The elements of a surface: from its first to before the first of the next surface.
+    // The elements of a surface go from its first to before the first of the next surface.
     int firstTriangleOf(int surface) const {
         return static_cast<int>(firstTriangleOf_[static_cast<std::size_t>(surface)]);
     }

@@ -47,8 +47,8 @@ struct KinematicRow {
     Impulse impulse{};
 };
 
-// u (points) [m/s] becomes what it is after the impulses. Impulses that the rows have already are applied first. Ends
-// after `sweeps`, or when a sweep changes no velocity by `tolerance` [m/s]. Returns the number of sweeps.
+// Changes u (points) [m/s] by the impulses. Impulses that the rows already have are applied first. It ends after
+// `sweeps`, or when a sweep changes no velocity by `tolerance` [m/s]. Returns the number of sweeps.
 int projectedGaussSeidel(std::span<const ContactConstraint> pairs, std::span<Row> rows,
                          std::span<KinematicRow> kinematicRows, int sweeps, double tolerance, std::span<dvec3> u);
 

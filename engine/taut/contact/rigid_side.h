@@ -1,4 +1,4 @@
-// Which feature of a surface is the one that pushes, and rules for pairs of which one side is rigid or cannot be moved.
+// Which feature of a surface pushes, and the rules for pairs that have a side which is rigid or cannot move.
 #pragma once
 
 #include <span>

@@ -41,13 +41,13 @@ struct SolverOptions {
 
 class ContactSolver {
   public:
-    // u and v (points) [m/s] become what they are after the impulses. shift (points) [m] is the position correction;
-    // expects 0. h [s]: length of the instant. kinematic: ascending by point.
+    // Changes u and v (points) [m/s] by the impulses. shift (points) [m] gets the position correction; expects 0. h
+    // [s]: length of the instant. kinematic: ascending by point.
     void solve(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
                std::span<const double> inverseMass, double h, const SolverOptions& options, std::span<dvec3> u,
                std::span<dvec3> v, std::span<dvec3> shift);
 
-    // After that.
+    // After solve().
     std::span<const int> points() const { return touched_; }        // of the pairs, ascending
     std::span<const double> impulses() const { return impulses_; }  // (pairs) [N s] along the normal
     int sweeps() const { return mostSweeps_; }                      // of the cluster that took most

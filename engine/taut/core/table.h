@@ -11,7 +11,7 @@
 
 namespace taut::core {
 
-// Of `Row` it needs a member `name`.
+// `Row` needs a member `name`.
 template <class Row>
 class Table {
   public:

@@ -1,5 +1,5 @@
-// The field table: what a key of a scene file is called, means, may hold and where it goes. One table makes the
-// validator, the JSON schema and the manual. It knows nothing of TOML.
+// The field table. A row says what a key of a scene file is called, what it means, what it may hold and where its value
+// goes. The validator, the JSON schema and the manual are made from this one table. It knows nothing of TOML.
 #pragma once
 
 #include <cstdint>
@@ -36,18 +36,18 @@ enum class FieldKind {
     tables,       // a list of tables
 };
 
-// Closed limits of a number. None is infinite: 1e12 of any unit is a slip of the pen.
+// Closed limits of a number. No limit is infinite: 1e12 of any unit is a typing error.
 struct Range {
     double low = -1e12;
     double high = 1e12;
 };
 inline constexpr Range anyNumber{};
-inline constexpr double smallest = 1e-9;  // "above 0" means at least this: less is a slip too
+inline constexpr double smallest = 1e-9;  // "above 0" means at least this: less is a typing error too
 inline constexpr Range positive{smallest, 1e12};
 inline constexpr Range notNegative{0.0, 1e12};
 inline constexpr Range share{0.0, 1.0};
 
-// What the content of a text refers to, checked when the whole scene is known; or what a number stands for.
+// What a text refers to, which is checked when the whole scene is known; or what a number stands for.
 enum class Role {
     none,
     material,     // [material.NAME]
@@ -69,7 +69,7 @@ enum class Role {
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
                            std::vector<std::string>>;  // lists of whole numbers are numbers too
 
-// What changes with a number that may change while a scene runs.
+// What a number affects if it may change while a scene runs.
 enum class Affects { picture, forces, colliders, springs };  // springs: of bodies and their materials
 
 struct Section;
@@ -81,24 +81,24 @@ struct Field {
     std::string unit;    // "m", "N/m"; empty: a plain number
     Range range;
     std::vector<std::string> choices;
-    std::vector<int> values;  // of a whole number: the only ones; empty: all in range
+    std::vector<int> values;  // the only values of a whole number; empty: all in range
     int multipleOf = 1;       // of a whole number
     bool required = false;
-    std::vector<std::string> only;  // variants of the section that have this field; empty: all
+    std::vector<std::string> only;  // the variants of the section that have this field; empty: all
     Role role = Role::none;
-    std::optional<Affects> ramp;  // what changes with it, if a ramp may change it
+    std::optional<Affects> ramp;  // what it affects, if a ramp may change it
     std::string help;
 
     std::function<void(void*, const Value&)> write;  // into the section's struct
     std::function<Value(const void*)> read;          // from it: of a fresh struct, this is the default
 
-    // Of kinds table and tables: the fields inside, and the struct that they are written to.
+    // For the kinds table and tables: the fields inside, and the struct that they are written to.
     std::vector<Section> inside;  // exactly one
     std::function<void*(void*, const core::Source&)> enter;
     std::function<std::vector<void*>(void*)> entries;  // of tables: the structs that are there
 };
 
-// What a section's own check gets to see.
+// The input of a section's own check.
 struct CheckInput {
     Problems& problems;
     const Node& table;
@@ -123,23 +123,24 @@ struct Section {
     std::string help;
     std::vector<Field> fields;
 
-    // Which of several forms a table has, e.g. a collider's shape; no function: there is one form only.
+    // Returns the form of a table that can have several, e.g. a collider's shape; no function: there is only one form.
     std::function<std::string(const Node&)> variant;
-    std::string variantKey;  // the field that says it, e.g. "shape"; empty: none does
+    std::string variantKey;  // the field that gives it, e.g. "shape"; empty: none
     std::string alone;       // the field that a number in place of the table stands for; empty: it must be a table
 
-    // Where each form has a struct of its own: what reads it, named by the variant. The fields above are then those of
-    // all forms, for the manual and for what is said of a key that stands in the wrong place.
+    // If each form has a struct of its own: the sections that read them, named by the variant. The fields above are
+    // then the fields of all forms. The manual uses them, and the message about a key that stands in the wrong place.
     std::vector<Section> forms;
 
-    // What no single field can say. Called after the fields are read, also if some were wrong; may amend the struct.
+    // Checks what no single field can check. It is called after the fields are read, even if some were wrong, and may
+    // change the struct.
     std::function<void(const CheckInput&, void*)> check;
 
     const Field* find(const std::string& key) const;
     std::vector<std::string> keys() const;
 };
 
-// Whether something may be called so: letters, digits, - and _, at most 100.
+// Whether a text is a valid name: letters, digits, - and _, at most 100.
 bool isName(const std::string& name);
 
 // "above 0 m", "between 0 and 1".
@@ -148,7 +149,7 @@ std::string description(const Range& range, const std::string& unit);
 // "a list of 3 numbers [m]", "1 or 4", "a multiple of 128 [px]".
 std::string description(const Field& field);
 
-// The default as it would be written in a file, or an empty text if there is none.
+// The default as a file would write it; empty if there is none.
 std::string defaultText(const Value& value);
 
 }  // namespace taut::fields

@@ -1,4 +1,5 @@
-// Builds the rows of the field table: one call a field, from a member pointer to functions that write and read it.
+// Builds the rows of the field table. Each field is one call, which turns a member pointer into functions that write
+// and read it.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +36,7 @@ Vector vectorOf(const std::vector<double>& numbers, std::size_t first = 0) {
 template <class Spec>
 class FieldList {
   public:
-    // Of a number that a file gives in another unit than the spec: spec = factor · file.
+    // A number that a file gives in another unit than the spec: spec = factor · file.
     template <class Number, class Base>  // double or std::optional<double>, of the struct or its base
     FieldList& number(const char* key, Number Base::*member, const char* unit, Range range, const char* help,
                       double factor = 1.0) {
@@ -63,7 +64,7 @@ class FieldList {
                     return (s.*part).*member ? Value(*((s.*part).*member)) : Value();
             });
     }
-    // A number among others that are told apart by their keys; `standard` is what is not given.
+    // One of several numbers in a map, found by its key; `standard` is its value if it is not given.
     template <class Numbers, class Base>
     FieldList& entry(std::string_view key, Numbers Base::*member, std::string_view unit, Range range, double standard,
                      std::string_view help) {
@@ -307,7 +308,7 @@ class FieldList {
         return *this;
     }
 
-    // These four change the field added last.
+    // These four functions change the field that was added last.
     FieldList& required() {
         last().required = true;
         return *this;
@@ -316,7 +317,7 @@ class FieldList {
         last().only = std::move(variants);
         return *this;
     }
-    // The only values of a whole number; its range is theirs.
+    // The only values of a whole number; they also give its range.
     FieldList& oneOf(std::vector<int> values) {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         last().range = {static_cast<double>(*low), static_cast<double>(*high)};

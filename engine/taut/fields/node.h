@@ -1,4 +1,4 @@
-// What a file says, as a tree that keeps the position of every key and value. It knows no format of files.
+// The content of a file as a tree that keeps the position of every key and value. It knows no file format.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace taut::fields {
 
-// Where something was written. Origin 0 is the file, -1 the file that it builds on; origin k is the k-th override,
-// which has no lines.
+// The place where something was written. Origin 0 is the file, -1 the file that it builds on; origin k is the k-th
+// override, which has no lines.
 struct Place {
     int origin = 0;
     int line = 0;    // from 1
@@ -22,8 +22,8 @@ struct Member;
 
 struct Node {
     NodeKind kind = NodeKind::table;
-    Place place;  // of a table under a header the header's
-    Place end;    // behind it; of a table without braces nothing in particular
+    Place place;  // for a table under a header: the header's
+    Place end;    // behind it; not defined for a table without braces
     bool flag = false;
     std::int64_t whole = 0;
     double number = 0;  // of a whole number too

@@ -105,9 +105,9 @@ std::optional<Fault> Island::tick(const TickTime& time, std::span<const Collider
     for (;;) {
         beginTry();
         auto fault = advance(time, moving, 0, 1);
-        const Verdict verdict = judge(time, fault);
-        if (verdict == Verdict::fails) return fault;
-        if (verdict == Verdict::stands) break;
+        const TickVerdict verdict = judge(time, fault);
+        if (verdict == TickVerdict::fails) return fault;
+        if (verdict == TickVerdict::stands) break;
         tryAgain(time, verdict);
     }
     endTick(time);
@@ -145,20 +145,20 @@ void Island::endTick(const TickTime& time) {
     precision_.look(plan_, *dynamics_, tickSeconds_, now_.step, choice_.limitingSpring);
 }
 
-Verdict Island::judge(const TickTime& time, std::optional<Fault>& fault) {
-    if (frozen_) return Verdict::stands;
+TickVerdict Island::judge(const TickTime& time, std::optional<Fault>& fault) {
+    if (frozen_) return TickVerdict::stands;
     if (choice_.need || shortensForContact_) return judgeSteps(time, fault);
-    if (fault) return Verdict::fails;
+    if (fault) return TickVerdict::fails;
     now_.budget.add(dynamics_->takeContactWork(), tickSeconds_);
-    return Verdict::stands;
+    return TickVerdict::stands;
 }
 
 // A tick stands in steps so short that they are within the bound of the state at its end, and contact adds little
 // energy.
-Verdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
+TickVerdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
     constexpr int mostRescues = 3;  // of a tick that diverges, perhaps because the state has stiffened within it
     constexpr int fairTrial = 3;    // doublings of steps, after which contact should add less
-    if (fault && !choice_.need) return Verdict::fails;
+    if (fault && !choice_.need) return TickVerdict::fails;
     const ContactWork work = dynamics_->takeContactWork();
     bool isTooLong = fault.has_value();
     double need = 2.0 * now_.following.substeps();
@@ -172,9 +172,9 @@ Verdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
         if (isInVain) now_.budget.factor = std::max(1, now_.budget.factor >> tries_.doublings);
         if (choice_.need) now_.following.lengthenIfCalm(need);
         now_.budget.add(work, tickSeconds_);
-        return Verdict::stands;
+        return TickVerdict::stands;
     }
-    if (fault && (!fault->isNumber || ++tries_.rescues > mostRescues || need > mostSubsteps)) return Verdict::fails;
+    if (fault && (!fault->isNumber || ++tries_.rescues > mostRescues || need > mostSubsteps)) return TickVerdict::fails;
     if (!isTooLong) {
         now_.budget.factor *= 2;
         now_.budget.calmTicks = 0;
@@ -184,17 +184,17 @@ Verdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
         while (now_.budget.factor > 1 && wantedSubsteps() > mostSubsteps) now_.budget.factor /= 2;
     } else {
         fault = Fault{.point = 0, .time = time.at(1, 1), .isTooStiff = true};
-        return Verdict::fails;
+        return TickVerdict::fails;
     }
-    return Verdict::again;
+    return TickVerdict::again;
 }
 
-void Island::tryAgain(const TickTime& time, Verdict verdict) {
+void Island::tryAgain(const TickTime& time, TickVerdict verdict) {
     if (frozen_) return;
     const StepFollowing following = now_.following;
     const ContactBudget budget = now_.budget;
     undoTick();
-    if (verdict != Verdict::again) return;
+    if (verdict != TickVerdict::again) return;
     // What the try has taught of steps stays.
     now_.following = following;
     now_.budget.factor = budget.factor;

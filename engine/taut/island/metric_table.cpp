@@ -20,13 +20,13 @@ void visitNumber(Number& number, const NumberVisitor& visit) {
 
 // A member of Metrics.
 template <auto member>
-constexpr MetricSource plain = {
+constexpr MetricSource ofMember = {
     [](const Metrics& metrics) -> MetricValue { return metrics.*member; },
     [](Metrics& metrics, const NumberVisitor& visit) { visitNumber(metrics.*member, visit); }};
 
 // A count of the methods' work.
 template <auto member>
-constexpr MetricSource done = {
+constexpr MetricSource ofWork = {
     [](const Metrics& metrics) -> MetricValue { return metrics.work.*member; },
     [](Metrics& metrics, const NumberVisitor& visit) { visitNumber(metrics.work.*member, visit); }};
 
@@ -53,37 +53,37 @@ double largestSpeed(const MeasuredIsland& island, double before) {
 std::span<const Metric> metricTable() {
     using M = Metrics;
     static constexpr Metric table[] = {
-        {"kinetic_J", "kinetic_energy", "J", "Of motion.", plain<&M::kinetic>, 1},
-        {"elastic_J", "elastic_energy", "J", "Of springs and volumes.", plain<&M::elastic>, 1},
+        {"kinetic_J", "kinetic_energy", "J", "Of motion.", ofMember<&M::kinetic>, 1},
+        {"elastic_J", "elastic_energy", "J", "Of springs and volumes.", ofMember<&M::elastic>, 1},
         {"gravitational_J", "potential_energy", "J", "Of gravity; 0 for a point at the origin.",
-         plain<&M::gravitational>},
+         ofMember<&M::gravitational>},
         {"total_J", "energy", "J", "Kinetic, elastic and gravitational energy.", totalEnergy},
         {"momentum_x_kg_m_per_s,momentum_y_kg_m_per_s,momentum_z_kg_m_per_s", "momentum", "kg m/s",
-         "Sum of mass times velocity.", plain<&M::momentum>},
+         "Sum of mass times velocity.", ofMember<&M::momentum>},
         {"angular_x_kg_m2_per_s,angular_y_kg_m2_per_s,angular_z_kg_m2_per_s", "angular_momentum", "kg m²/s",
-         "About the origin.", plain<&M::angularMomentum>},
-        {"max_strain", "max_strain", "", "Largest |l - L|/L of any rod and any spring but those of bending.", plain<&M::maxStrain>,
+         "About the origin.", ofMember<&M::angularMomentum>},
+        {"max_strain", "max_strain", "", "Largest |l - L|/L of any rod and any spring but those of bending.", ofMember<&M::maxStrain>,
          1},
-        {"contacts", "contacts", "", "Number of points that touch a collider.", plain<&M::contacts>, 1},
+        {"contacts", "contacts", "", "Number of points that touch a collider.", ofMember<&M::contacts>, 1},
         {"inverted_cells", "inverted", "", "Number of cells of blocks that are turned inside out.",
-         plain<&M::invertedCells>, 1},
+         ofMember<&M::invertedCells>, 1},
         {"min_volume_ratio", "cell_volume", "", "Volume over that at rest of the cell of a block that has shrunk most.",
-         plain<&M::minVolumeRatio>, -1},
-        {"evaluations", "", "", "", done<&ode::Work::evaluations>},
-        {"solver_iterations", "", "", "", done<&ode::Work::iterations>},
-        {"unconverged_solves", "", "", "", done<&ode::Work::unconverged>},
-        {"torn_springs", "torn", "", "Number of springs that were cut or have torn.", plain<&M::brokenSprings>, 1},
+         ofMember<&M::minVolumeRatio>, -1},
+        {"evaluations", "", "", "", ofWork<&ode::Work::evaluations>},
+        {"solver_iterations", "", "", "", ofWork<&ode::Work::iterations>},
+        {"unconverged_solves", "", "", "", ofWork<&ode::Work::unconverged>},
+        {"torn_springs", "torn", "", "Number of springs that were cut or have torn.", ofMember<&M::brokenSprings>, 1},
         {"volume_ratio", "volume", "", "Volume of blocks over that at rest; 1 of none.", volumeRatio},
         {"penetration_m", "penetration", "m", "Largest depth of a free point inside a collider.",
-         plain<&M::penetration>, 1},
+         ofMember<&M::penetration>, 1},
         {"body_contacts", "body_contacts", "",
-         "Number of places where bodies with `touch` press on each other, or on themselves.", plain<&M::bodyContacts>,
+         "Number of places where bodies with `touch` press on each other, or on themselves.", ofMember<&M::bodyContacts>,
          1, Measures::butCrossings, Counts::whatTouches},
         {"crossings", "crossings", "", "Number of edges of bodies with `touch` that go through triangles of such.",
-         plain<&M::crossings>, 1, Measures::all, Counts::whatTouches},
+         ofMember<&M::crossings>, 1, Measures::all, Counts::whatTouches},
         {"face_penetration_m", "face_penetration", "m",
          "Largest height that a collider's corner or sharp edge stands out of a triangle, of bodies that meet those.",
-         plain<&M::facePenetration>, 1, Measures::all, Counts::whatMeetsFaces},
+         ofMember<&M::facePenetration>, 1, Measures::all, Counts::whatMeetsFaces},
         {"max_speed_m_per_s", "", "m/s", "Largest speed of a point.", {.measure = largestSpeed}},
     };
     return table;

@@ -1,5 +1,10 @@
+<<<<<<< HEAD:engine/taut/island/metric_table.h
 // What is measured of bodies, one row each: claims call it, metrics.csv has it a frame, the records of a run keep it.
 // To add a metric, write its row, with the function that measures it of an island.
+=======
+// The metrics of bodies, one row each. Claims call them as functions, metrics.csv has a line of them for each frame,
+// and the records of a run keep them. To add a metric, measure it (Metrics) and write its row.
+>>>>>>> words:engine/taut/world/metric_table.h
 #pragma once
 
 #include <cstdint>
@@ -19,7 +24,7 @@ struct SceneSpec;
 
 using MetricValue = std::variant<double, std::int64_t, glm::dvec3>;
 
-// Of which bodies a value can be other than 0.
+// The bodies for which a value can be other than 0.
 enum class Counts { everyBody, whatTouches, whatMeetsFaces };
 
 // A number of Metrics, to be read or written.
@@ -36,14 +41,14 @@ struct MeasuredIsland {
 // A row either reads what Metrics has a member for, or measures by itself.
 struct MetricSource {
     MetricValue (*value)(const Metrics& metrics) = nullptr;
-    // Visits the numbers that the value is made of; null: they are those of other rows.
+    // Visits the numbers that the value is made of; null: other rows visit them.
     void (*eachNumber)(Metrics& metrics, const NumberVisitor& visit) = nullptr;
     // The value of all islands until this one, from that of those before it; 0 of none.
     double (*measure)(const MeasuredIsland& island, double before) = nullptr;
 };
 
 struct Metric {
-    std::string_view columns;   // of metrics.csv, with their unit; of a vector three with commas between them
+    std::string_view columns;   // of metrics.csv, with unit; a vector has three, with commas between
     std::string_view function;  // of claims; empty: none
     std::string_view unit;      // "kg m/s"; empty: a plain number
     std::string_view help;
@@ -58,14 +63,18 @@ struct Metric {
 
 std::span<const Metric> metricTable();
 
+<<<<<<< HEAD:engine/taut/island/metric_table.h
 // Adds what rows measure by themselves.
 void addMeasured(const MeasuredIsland& island, Metrics& metrics);
 
 // The time, and every number that a row of the table is made of, in the order of the table.
+=======
+// Visits the time, then every number that a row is made of, in the order of the table.
+>>>>>>> words:engine/taut/world/metric_table.h
 void eachNumber(Metrics& metrics, const NumberVisitor& visit);
 
 bool isCounted(Counts counts, const BodySpec& body);
-// Whether any body of the scene is.
+// Whether the scene has any such body.
 bool isCounted(Counts counts, const SceneSpec& scene);
 
 }  // namespace taut::world

@@ -8,12 +8,12 @@ namespace taut::live {
 
 class Adaptation {
   public:
-    // `costs` of a picture at each level, in any unit, ascending; it begins at `level`, and each turn, from picture to
-    // picture, is to last no longer than `goal` [s].
+    // `costs`: of a picture at each level, in any unit, ascending. It begins at `level`. A turn, from one picture to
+    // the next, should take no longer than `goal` [s].
     Adaptation(std::vector<double> costs, int level, double goal);
 
-    // After a turn: how long the picture took, and all of the turn but idling [s]. True when the level is another now.
-    // A turn that is too long for another reason than the picture changes nothing.
+    // Call it after a turn with the time of the picture, and of the whole turn without idling [s]. Returns whether the
+    // level has changed. A turn that is too long for another reason than the picture changes nothing.
     bool add(double drawing, double turn);
 
     int level() const { return level_; }
@@ -29,7 +29,7 @@ class Adaptation {
     double spent_ = 0.0;                    // [s] of them
     int unsettled_ = 0;                     // turns that do not count yet
     double atEase_ = 0.0;                   // [s] for which a level up would have done
-    double patience_;                       // [s] of that before it is tried
+    double patience_;                       // [s] of atEase_ before the next level up is tried
     double sinceRise_ = 1e9;                // [s]
     bool wasRegretted_ = false;             // the last rise was taken back soon
 };

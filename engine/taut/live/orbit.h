@@ -1,4 +1,4 @@
-// A camera that a hand turns about its target and moves nearer. It knows no mouse.
+// A camera that the user turns about its target and moves nearer. It knows no mouse.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace taut::live {
 // Follows the scene's camera until it is touched.
 class Orbit {
   public:
-    // Turns about the target: to the right and up [rad]. `from` is where the scene's camera is now.
+    // Turns about the target, to the right and up [rad]. `from` is the scene's camera now.
     void turn(double right, double up, const view::Camera& from);
     // Multiplies the distance to the target.
     void zoom(double factor, const view::Camera& from);

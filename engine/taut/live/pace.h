@@ -1,5 +1,5 @@
-// How many ticks are due when a picture is to be drawn, and where between two ticks that picture is. It knows no clock:
-// it is told how much time has passed.
+// Counts the ticks that are due for the next picture, and tells where between two ticks this picture lies. It knows no
+// clock: the caller says how much time has passed.
 #pragma once
 
 namespace taut::live {
@@ -8,15 +8,15 @@ class Pace {
   public:
     explicit Pace(double tickSeconds) : tickSeconds_(tickSeconds) {}
 
-    // Takes in `wall` seconds at `speed` (1 is real time) and returns the whole ticks that are due, `most` at most; the
-    // rest of those is forgotten: motion gets slower where the machine is too slow, and never more ticks a picture.
+    // Adds `wall` seconds at `speed` (1 is real time) and returns the whole ticks that are due, at most `most`. Ticks
+    // beyond `most` are forgotten: if the machine is too slow, motion gets slower, and a picture never gets more ticks.
     int due(double wall, double speed, int most);
 
-    // So many of those that were due have not been done: they are due with the next, a few of them, so that a moment in
-    // which the machine is held up costs no motion.
+    // Says that so many due ticks were not done. A few of them become due again, so that no motion is lost if the
+    // machine is held up for a moment.
     void owe(int ticks);
 
-    // How far it is from the last tick to the next, 0 … 1.
+    // The place between the last tick and the next, 0 … 1.
     double share() const { return waiting_; }
 
   private:

@@ -1,4 +1,4 @@
-// What lies under the mouse: rays through a picture, and the point of a body that a hand would take. It knows neither
+// What lies under the mouse: rays through a picture, and the point of a body that a hand would grab. It knows neither
 // the mouse nor the world.
 #pragma once
 
@@ -16,16 +16,17 @@ struct Ray {
     glm::dvec3 from{0.0}, along{0.0, 0.0, -1.0};  // [m], unit
 };
 
-// Through a place of the picture, as shares of width and height from the top left; `aspect` is width / height.
+// The ray through a place of the picture, given as shares of width and height from the top left; `aspect` is width /
+// height.
 Ray rayThrough(const view::Camera& camera, glm::dvec2 place, double aspect);
 
-// Where a place [m] is seen in the picture, as the same shares; none behind the camera.
+// The place in the picture where a place [m] appears, in the same shares; none if it is behind the camera.
 std::optional<glm::dvec2> seenAt(const view::Camera& camera, glm::dvec3 place, double aspect);
 
-// Where the ray meets the plane through `point` parallel to the picture; the point itself when it never does.
+// Where the ray meets the plane through `point` parallel to the picture; `point` itself if it does not.
 glm::dvec3 onPicturePlane(const Ray& ray, const view::Camera& camera, glm::dvec3 point);
 
-// The points of a body that may be taken.
+// The points of a body that may be grabbed.
 struct BodyPoints {
     std::string name;                   // "cloth.curtain", the name of its surfaces too
     std::vector<int> points;            // (points) their numbers in the order of authoring
@@ -38,8 +39,9 @@ struct PickedPoint {
     glm::dvec3 position{0.0};
 };
 
-// The point nearest to the ray. Where the ray meets a body, one of that body; elsewhere one within `reach` [m for each
-// metre of distance] of the ray that nothing opaque hides. None when a collider is in the way, or nothing is near.
+// The point nearest to the ray. If the ray hits a body, it is a point of that body. Otherwise it is a point within
+// `reach` [m per metre of distance] of the ray that nothing opaque hides. None if a collider is in the way, or nothing
+// is near.
 std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
                            double reach);
 

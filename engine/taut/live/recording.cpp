@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "taut/core/error.h"
-#include "taut/live/hand.h"
+#include "taut/live/mouse_hand.h"
 #include "taut/scene/private/document.h"
 #include "taut/world/result_bits.h"
 

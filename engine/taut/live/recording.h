@@ -1,5 +1,5 @@
-// What was done by hand since the start of a run, as a scenario file that does the same. It knows neither the world nor
-// where the file goes.
+// Writes what the user did since the start of a run as a scenario file that does the same. It knows neither the world
+// nor where the file goes.
 #pragma once
 
 #include <cstdint>
@@ -19,27 +19,27 @@ struct Recording {
     world::RunSpec run;
     double ticksPerSecond = 60.0;
     int ticksPerFrame = 1;
-    std::int64_t endTick = 0;                                                // of a frame; every deed is earlier
+    std::int64_t endTick = 0;                                                // a frame's; every deed is earlier
     std::uint64_t hash = 0;                                                  // of the state then, chained over ticks
     world::Specs<world::ActionSpec> timeline;                                // the scene's own
     world::Specs<world::ActionSpec> deeds;                                   // of the hand, ascending
     std::shared_ptr<const world::KindTable<world::ActionSpec>> actionKinds;  // of the timeline; none: the engine's own
     bool hasClaims = false;  // the scene has checks or goldens of its own
 
-    // Of each body the largest strain that was seen.
+    // The largest strain that was seen of each body.
     std::vector<std::pair<std::string, double>> strains;
 };
 
-// The file's text, TOML. Overrides of an element of a list cannot be said in a file: they become comments. Throws
+// The file's text, TOML. A file cannot override an element of a list: such overrides become comments. Throws
 // core::Error(badContent) for an action of a kind that is not in the table.
 std::string scenarioText(const Recording& recording);
 
-// An action as an element of `at`, at t [s]: what it says, but for 0, false and empty texts where they are the default.
-// Throws core::Error(badContent) for one of a kind that is not in the table.
+// An action as an element of `at`, at t [s]. 0, false and empty texts are left out if they are the default. Throws
+// core::Error(badContent) for an action of a kind that is not in the table.
 std::string actionText(const world::ActionSpec& action, double t, const world::KindTable<world::ActionSpec>& kinds);
 
-// What a scenario file says over the scene that it names: a recording of it names that scene too, as no file builds on
-// one that builds on another. Without its timeline, checks and goldens.
+// What a scenario file changes of the scene that it names, without its timeline, checks and goldens. A recording of the
+// scenario names that scene too, because a file cannot build on one that builds on another.
 struct ScenarioParts {
     std::string scene;                 // empty: the text is a scene of its own
     std::vector<std::string> changes;  // "solver.dt=1e-4", …

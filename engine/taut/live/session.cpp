@@ -42,7 +42,7 @@ std::string freeId(const world::SceneSpec& spec) {
 struct Session::Impl {
     world::World world;
     double ticksPerSecond;
-    Hand hand;
+    MouseHand hand;
     world::Specs<world::ActionSpec> deeds;
     std::vector<std::pair<std::string, double>> strains;
     view::FrameView before, now;
@@ -173,7 +173,7 @@ const view::FrameView& Session::before() const {
 const view::FrameView& Session::now() const {
     return impl_->now;
 }
-Hand& Session::hand() {
+MouseHand& Session::hand() {
     return impl_->hand;
 }
 const world::Specs<world::ActionSpec>& Session::deeds() const {

@@ -1,5 +1,5 @@
-// A world that is played: ticks on a thread of their own while the last picture is drawn, a hand that grabs, and all
-// that it did since the start. It knows neither windows nor GL.
+// Plays a world: ticks run on their own thread while the last picture is drawn. It has the hand that grabs, and keeps
+// all that the hand did since the start. It knows neither windows nor GL.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "taut/island/report.h"
-#include "taut/live/hand.h"
+#include "taut/live/mouse_hand.h"
 #include "taut/live/picking.h"
 #include "taut/live/recording.h"
 #include "taut/spec/spec.h"
@@ -29,10 +29,10 @@ class Session {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    // Begins that many ticks and returns at once; fewer are done when they would take longer than `budget` [s] of wall
-    // time, but at least one, if any. Nothing else may be called until wait().
+    // Begins that many ticks and returns at once. Fewer are done if they would take longer than `budget` [s] of wall
+    // time, but at least one if any was asked for. Nothing else may be called until wait().
     void begin(int ticks, double budget);
-    // Until what was begun is done.
+    // Waits until the ticks are done.
     void wait();
 
     const world::World& world() const;
@@ -40,23 +40,23 @@ class Session {
     std::int64_t tick() const;
     const world::Metrics& metrics() const;  // of this tick
 
-    // The last two ticks, the same one twice after a start.
+    // The views of the last two ticks; after a start the same one twice.
     const view::FrameView& before() const;
     const view::FrameView& now() const;
     void showMarks(bool shown);  // springs coloured by strain, points and contacts
 
-    Hand& hand();
+    MouseHand& hand();
     const world::Specs<world::ActionSpec>& deeds() const;  // of the hand since the start
-    // What may be grabbed, where it is now: free points only.
+    // The points that may be grabbed, at their present places: free points only.
     std::vector<BodyPoints> bodies() const;
 
-    // Why nothing moves any more, once it diverged.
+    // After a divergence, why nothing moves any more.
     const std::optional<world::Divergence>& divergence() const;
-    // What went wrong with an action since the last call.
+    // The action errors since the last call.
     std::vector<std::string> takeFaults();
 
-    // Goes on to the next frame, and by a tick at least if the hand did something that no tick has followed yet, and
-    // tells what happened since the start. `scene` and `overrides` are left to the caller. Not once it diverged.
+    // Goes on to the next frame and returns what happened since the start. It plays at least one tick if the hand did
+    // something after the last tick. The caller sets `scene` and `overrides`. Do not call it after a divergence.
     Recording record();
 
   private:

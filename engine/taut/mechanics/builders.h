@@ -21,8 +21,8 @@ struct RopeShape {
     int segments = 20;
     double length = 0.0;       // natural length [m]; 0 means the distance; longer hangs slack along `sag`
     glm::dvec3 sag{0, -1, 0};  // direction of the slack, unit
-    // Places that it is laid through on its way from start to end, along a curve without corners: neither slack nor
-    // stretched, `length` is not looked at.
+    // Places that the rope passes on its way from start to end, along a smooth curve. It is then neither slack nor
+    // stretched, and `length` is not used.
     std::vector<glm::dvec3> through{};
     double mass = 1.0;         // whole rope [kg]
     double stretch = 1e4;      // EA [N]
@@ -71,16 +71,16 @@ struct MeshClothShape {
     std::map<std::string, std::vector<int>> groups;  // more of them, vertices ascending
     std::vector<int> numbers;                        // (vertices) what messages call them; empty: from 1
 };
-// What is wrong with a mesh, and of which triangle, from 0; -1: of none in particular.
+// What is wrong with a mesh, and the triangle concerned, from 0; -1: none in particular.
 struct MeshFault : core::Error {
     MeshFault(const std::string& what, int of) : Error(core::ErrorKind::badContent, what), triangle(of) {}
     int triangle;
 };
-// Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch; bend springs across inner edges.
-// Groups: boundary, all, and top, bottom, left, right: the points within 1 % of the size of that extreme; top-left,
-// top-right, bottom-left, bottom-right: the one point furthest into that corner, width and height counted alike; and
-// those of the shape that have other names.
-// Throws MeshFault naming what is wrong and what helps: no triangle, an edge of three triangles, a zero area.
+// Edges k = E₂D (A1 + A2)/c² (van Gelder) with E₂D = 4/3 stretch; bend springs across inner edges. Groups: boundary,
+// all, and top, bottom, left, right: the points within 1 % of the size of that extreme; top-left, top-right,
+// bottom-left, bottom-right: the one point furthest into that corner, width and height counted alike; and the groups of
+// the shape that have other names. Throws MeshFault, which says what is wrong and what helps: no triangle, an edge of
+// three triangles, a zero area.
 Model buildMeshCloth(const MeshClothShape& shape);
 std::vector<std::string> meshClothGroups();
 

@@ -1,10 +1,10 @@
-// The inner loops of dashpots that act on the velocities of their ends one after the other; one copy an instruction
-// set, every copy gives the same bits.
+// The inner loops of dashpots, which act on the velocities of their ends one after the other. There is one copy for
+// each instruction set, and every copy gives the same bits.
 //
 // A dashpot's impulse p is that of the mean of the velocities before and after it (the implicit midpoint rule):
 //   p = c h (u + ½ Δu)·n,  v_a += w_a p n,  v_b -= w_b p n,  u = v_b - v_a.
-// Alone Δu·n = -(w_a + w_b) p, so that p = g u·n with g = c h/(1 + y), y = ½ c h (w_a + w_b). Those of a run that
-// follow each other share points, and are solved together.
+// For a single dashpot Δu·n = -(w_a + w_b) p, so p = g u·n with g = c h/(1 + y), y = ½ c h (w_a + w_b). Consecutive
+// dashpots of a run share points and are solved together.
 #pragma once
 
 namespace taut::mechanics {
@@ -18,7 +18,7 @@ struct DashpotRun {
     Real* v;          // likewise, changed [m/s]
     const Real* w;    // (points) at the run's first [1/kg]
     const Real* g;    // (n) [kg]
-    bool isForwards;  // else the last come first
+    bool isForwards;  // else from the last to the first
     bool isStiff;     // so that repeated substitution would take long
 };
 

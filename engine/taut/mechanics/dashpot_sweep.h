@@ -1,4 +1,4 @@
-// The dashpots of an island, one after the other: what a method that splits them off asks for. It knows no method.
+// The dashpots of an island, one after the other, for methods that split them off. It knows no method.
 //
 // One dashpot between a and b at fixed positions damps u, the difference of their velocities along the unit vector n:
 //   u' = -c (w_a + w_b) u.
@@ -8,9 +8,9 @@
 // however long the step: the sweep is stable without a condition. Both ends get the same impulse with opposite signs,
 // along the line between them: momentum and angular momentum are kept to rounding.
 //
-// A sweep is a composition of such maps (Lie and Trotter splitting), of order 1 alone. Each map is its own adjoint, so
-// the same sweep in the opposite order is the adjoint of the first one. before() and after() are such a pair, of half a
-// step each, and what is symmetric between them makes the whole symmetric, of order 2 (Strang 1968).
+// A sweep is a composition of such maps (Lie and Trotter splitting). By itself it is of order 1. Each map is its own
+// adjoint, so the same sweep in the opposite order is the adjoint of the first one. before() and after() are such a
+// pair, of half a step each, and what is symmetric between them makes the whole symmetric, of order 2 (Strang 1968).
 //
 // Two limits remain, of accuracy:
 // - One sweep carries an impulse along a row in the order of the sweep. Where y is large, chains of dashpots, each
@@ -32,7 +32,7 @@ class DashpotSweep {
   public:
     DashpotSweep();
 
-    // To be called when springs or masses have changed.
+    // Call it when springs or masses have changed.
     void forget() {
         h_ = 0;
         chains_.clear();
@@ -46,24 +46,24 @@ class DashpotSweep {
         const Real* x;
         Real* v;
     };
-    // The parts of ode::SplitSystem. Chains of strong dashpots, each joined to the next, are damped between, each as a
-    // whole; all others before and after, in the order of the network and in the opposite one. The same bits for any
-    // number of threads.
+    // The parts of ode::SplitSystem. between() damps the chains of strong dashpots, each chain as a whole. before()
+    // damps all other dashpots in the order of the network, after() in the opposite order. Any number of threads gives
+    // the same bits.
     void before(const SpringNetwork<Real>& network, const Points& points, double h);
-    // Of the same step, after before().
+    // For the same step, after before().
     void between(const Points& points);
     void after(const SpringNetwork<Real>& network, const Points& points);
 
-    // The largest ½ c (w_a + w_b) [1/s] of dashpots that may not be damped between; times h/2 it is y of
-    // dashpot_kernel.h, above ½ of which they would turn velocities round.
+    // The largest ½ c (w_a + w_b) [1/s] of the dashpots that between() may not damp. Times h/2 it is y of
+    // dashpot_kernel.h; above y = ½ they would turn velocities round.
     double largestPairRate(const SpringNetwork<Real>& network, const Real* w);
 
   private:
-    // Springs between points a, a + 1, …, a + count that share no other spring of the kind: one run, or runs end to
-    // end.
+    // Springs between points a, a + 1, …, a + count, with no other spring of the kind at these points: one run, or runs
+    // end to end.
     struct Chain {
         int a = 0, count = 0;
-        bool isAlone = true;  // else its points are in other such runs, too
+        bool isAlone = true;  // else other such runs have points of it too
         bool isBetween = false;
         std::size_t firstG = 0;  // into chainG_
         std::vector<std::size_t> runs;

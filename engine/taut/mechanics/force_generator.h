@@ -1,4 +1,4 @@
-// Force generators as in Millington's book, for batches: one virtual call adds a force to all its points.
+// Force generators as in Millington's book, but for batches: one virtual call adds a force to all its points.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,7 +8,7 @@
 
 namespace taut::mechanics {
 
-// What a generator reads: the points of one island. Planes x…x y…y z…z, each `stride` long.
+// The points of one island, as a generator reads them. Planes x…x y…y z…z, each `stride` long.
 template <class Real>
 struct Motion {
     int count = 0;
@@ -22,7 +22,7 @@ struct Motion {
 
 // A generator's share of the stability bound, per point where it acts.
 struct StabilityShare {
-    // (points) summed stiffness: an upper bound of the row of the stiffness matrix that is not from springs [N/m].
+    // (points) summed stiffness: an upper bound of the point's row of the stiffness matrix, without springs [N/m].
     std::vector<double> stiffness;
     // (points) rate at which it damps a point [1/s].
     std::vector<double> dampingRate;
@@ -40,26 +40,26 @@ class ForceGenerator {
     // Adds the force on points first … last - 1 to f (3 · stride) [N]. Not local: first = 0, last = count.
     virtual void addForces(const Motion<Real>& motion, int first, int last, Real* f) const = 0;
 
-    // Whether all it does is to give every point the same acceleration. The system then adds that to the free points
-    // itself, and does not call addForces().
+    // Whether it only gives every point the same acceleration. The system then adds this to the free points itself, and
+    // does not call addForces().
     virtual bool isUniform() const { return false; }
     virtual glm::dvec3 uniformAcceleration(double /*t*/) const { return glm::dvec3(0.0); }  // [m/s²]
 
-    // Potential energy [J] at the motion's positions; 0 for a force that has none. With `only` (points) what is between
-    // such points alone; without it, of all.
+    // Potential energy [J] at the motion's positions; 0 for a force that has none. `only` (points) restricts it to the
+    // energy between the marked points; empty: all points.
     virtual double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const = 0;
 
     // Adds K u to out (3 · stride), K = -∂f/∂x [N/m], u a displacement (3 · stride) [m]. Nothing when K = 0.
     virtual void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const = 0;
 
-    // For implicit methods: fixes W = stiffness K + damping C at the motion, C = -∂f/∂v [kg/s], both without what is
-    // not positive or not symmetric in them; then products W u, and the diagonal of W, added to out. A force that
-    // depends on neither position nor velocity has nothing to do.
+    // For implicit methods. The first call fixes W = stiffness K + damping C at the motion, C = -∂f/∂v [kg/s]; parts of
+    // K and C that are not positive or not symmetric are left out. The others add products W u, and the diagonal of W,
+    // to out. A force that depends on neither position nor velocity does nothing.
     virtual void linearise(const Motion<Real>&, double /*stiffness*/, double /*damping*/) {}
     virtual void addProduct(int /*stride*/, const Real* /*u*/, Real* /*out*/) const {}
     virtual void addDiagonal(int /*stride*/, Real* /*out*/) const {}
 
-    // Adds its share of the bound at the given motion; adds nothing when it has none.
+    // Adds its share of the bound at the given motion, if it has one.
     virtual void addStability(const Motion<Real>& motion, StabilityShare& share) const = 0;
 };
 

@@ -1,5 +1,5 @@
-// A vector that changes evenly with time, from one value to another between two times or without an end: the place of a
-// hand, the velocity of a wind.
+// A vector that changes linearly with time, either between two times or without an end: the place of a hand, the
+// velocity of a wind.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,14 +9,14 @@ namespace taut::mechanics {
 struct LinearPath {
     glm::dvec3 from{0.0}, to{0.0};
     double t0 = 0.0, t1 = 0.0;  // [s]
-    bool isLine = false;        // goes on at both ends instead of resting there
+    bool isLine = false;        // continues beyond both ends instead of resting there
 
     // `at` at t0, and everywhere else on the line through it.
     static LinearPath line(const glm::dvec3& at, const glm::dvec3& rate, double t0) {
         return {at, at + rate, t0, t0 + 1.0, true};
     }
 
-    // Evenly from a to b between the times; at rest where they are the same.
+    // Linear from a to b between the times; constant if a and b are the same.
     static LinearPath between(const glm::dvec3& a, const glm::dvec3& b, double t0, double t1) {
         return a == b ? LinearPath{a, a} : LinearPath{a, b, t0, t1};
     }

@@ -41,7 +41,7 @@ MassSpringSystem<Real>::MassSpringSystem(std::span<const PointMass> points, std:
 template <class Real>
 void MassSpringSystem<Real>::setPoints(std::span<const PointMass> points) {
     TAUT_EXPECTS(static_cast<int>(points.size()) == layout_.count);
-    hands_.clear();
+    kinematic_.clear();
     sweep_.forget();
     for (std::size_t i = 0; i < points.size(); ++i) {
         TAUT_EXPECTS(points[i].mass > 0.0);
@@ -106,18 +106,18 @@ void MassSpringSystem<Real>::lead(LedPoints led) {
     for (const int i : led.points)
         TAUT_EXPECTS(i >= 0 && i < layout_.count && inverseMass_[static_cast<std::size_t>(i)] == Real(0));
     const std::size_t count = led.points.size();
-    hands_.push_back({std::move(led), std::vector<glm::dvec3>(count), std::vector<glm::dvec3>(count)});
+    kinematic_.push_back({std::move(led), std::vector<glm::dvec3>(count), std::vector<glm::dvec3>(count)});
 }
 
 template <class Real>
 void MassSpringSystem<Real>::prescribe(double t, Real* x, Real* v) {
-    for (Hand& hand : hands_) {
-        hand.led.path(t, hand.x, hand.v);
-        for (std::size_t i = 0; i < hand.x.size(); ++i)
+    for (KinematicPoints& kinematic : kinematic_) {
+        kinematic.led.path(t, kinematic.x, kinematic.v);
+        for (std::size_t i = 0; i < kinematic.x.size(); ++i)
             for (int p = 0; p < 3; ++p) {
-                const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(p) * layout_.stride + hand.led.points[i];
-                if (x != nullptr) x[at] = static_cast<Real>(hand.x[i][p]);
-                if (v != nullptr) v[at] = static_cast<Real>(hand.v[i][p]);
+                const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(p) * layout_.stride + kinematic.led.points[i];
+                if (x != nullptr) x[at] = static_cast<Real>(kinematic.x[i][p]);
+                if (v != nullptr) v[at] = static_cast<Real>(kinematic.v[i][p]);
             }
     }
 }

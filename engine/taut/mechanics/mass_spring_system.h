@@ -20,15 +20,15 @@
 
 namespace taut::mechanics {
 
-// Points that are moved by hand: path writes where each of them is at t [s] and how fast it moves [m, m/s], in their
-// order. It is asked at every time at which a method wants forces, stages within a step included, and must give the
-// same answer for the same t.
+// Kinematic points: `path` writes the position and velocity of each at t [s], in their order [m, m/s]. The system calls
+// it for every time at which a method wants forces, also for stages within a step. It must give the same answer for the
+// same t.
 struct LedPoints {
     std::vector<int> points;
     std::function<void(double t, std::span<glm::dvec3> x, std::span<glm::dvec3> v)> path;
 };
 
-// No point moves faster than this [m/s] in a stable step: one that does diverges.
+// A point that moves faster than this [m/s] has diverged.
 inline constexpr double speedLimit = 3000.0;
 
 struct PointMass {
@@ -50,16 +50,17 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     MassSpringSystem(std::span<const PointMass> points, std::span<const Body> bodies, std::span<const Spring> springs);
     explicit MassSpringSystem(const Model& model);  // of a single body
 
-    // Adds a generator, not null; they act in the order of adding.
+    // Adds a generator, not null. Generators act in the order of adding.
     void add(std::unique_ptr<ForceGenerator<Real>> generator);
     std::span<const std::unique_ptr<ForceGenerator<Real>>> generators() const { return generators_; }
-    void removeGenerators(std::size_t from = 0);  // those from this one on
+    void removeGenerators(std::size_t from = 0);  // this one and those after it
 
-    // Take effect when the method is started again. Expect as many as before, springs between the same points.
-    // setPoints() ends what lead() began.
+    // Both take effect when the method is started again. They expect as many points or springs as before, and springs
+    // between the same points. setPoints() ends what lead() began.
     void setPoints(std::span<const PointMass> points);
     void setSprings(std::span<const Spring> springs);
-    // Of these alone stiffness and rest length, from the next evaluation on; springs as for setSprings().
+    // Takes over stiffness and rest length of these springs only, from the next evaluation on. Expects springs as
+    // setSprings() does.
     void changeSprings(std::span<const int> which, std::span<const Spring> springs);
 
     // Moves points along given paths. Expects held points, each once. Takes effect when the method is started, or
@@ -71,7 +72,8 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     const Real* dragRates() const override { return drag_.data(); }
     void accelerate(double t, const Real* x, const Real* v, ode::AccelerationSink<Real>& sink) override;
 
-    // Forces of the springs, less what compression makes indefinite, and of the generators as they document.
+    // The forces of the springs, without the part that compression makes indefinite, and of the generators as they
+    // document.
     ode::ImplicitSystem<Real>* implicitPart() override { return this; }
     void linearise(double t, const Real* x, const Real* v, double stiffness, double damping) override;
     void addProduct(const Real* u, Real* out) const override;
@@ -85,16 +87,16 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     void dampAfter(const Real* x, Real* v) override { sweep_.after(damped_, points(x, v)); }
     double largestPairRate() { return sweep_.largestPairRate(network(), inverseMass_.data()); }
 
-    // What generators are told: x and v (layout().size()) [m], [m/s] as they are passed in, not copied.
+    // The motion that generators get: x and v (layout().size()) [m], [m/s] are not copied.
     Motion<Real> motion(double t, const Real* x, const Real* v) const;
     const Real* masses() const override { return mass_.data(); }
     const Real* inverseMasses() const override { return inverseMass_.data(); }
-    // With all dashpots, split off or not.
+    // Counts all dashpots, split off or not.
     const SpringNetwork<Real>& network() const { return isSplit_ ? damped_ : network_; }
     std::uint64_t bytes() const;  // memory that it takes
 
   private:
-    // The forces of the points that a sweep is at: from the block in work to as far as springs reached.
+    // The forces of the points around a sweep: from the current block to the furthest point that a spring has reached.
     struct Window {
         int first = 0;               // point at its start
         int room = 0;                // points
@@ -108,7 +110,7 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
             first = begin;
         }
     };
-    // What a sweep of a chunk needs for itself.
+    // The scratch of one chunk's sweep.
     struct Lane {
         Window window;   // after the sweep: what the chunk spills into the next
         Window waiting;  // forces of the first blocks, which wait for the spill of the chunk before
@@ -135,11 +137,11 @@ class MassSpringSystem final : public ode::SecondOrderSystem<Real>,
     SpringNetwork<Real> network_;
     std::vector<Lane> lanes_;  // (chunks)
     std::vector<std::unique_ptr<ForceGenerator<Real>>> generators_;
-    struct Hand {
+    struct KinematicPoints {
         LedPoints led;
         std::vector<glm::dvec3> x, v;  // (points of led) what path wrote last
     };
-    std::vector<Hand> hands_;
+    std::vector<KinematicPoints> kinematic_;
     bool isExternalFilled_ = false;  // in this evaluation, by generators that need the whole island
     Real uniform_[3] = {};           // acceleration of all free points in this evaluation [m/s²]
     SpringKernels<Real> kernels_;

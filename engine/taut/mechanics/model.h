@@ -12,7 +12,8 @@
 
 namespace taut::mechanics {
 
-// How mass is shared out: by the length, area or volume around a point, or the slides' m = M/n.
+// How the mass is shared among points: by the length, area or volume around a point, or equally, m = M/n, as in the
+// slides.
 enum class Lumping { weighted, uniform };
 
 enum class SpringKind : std::uint8_t { structural, shear, bend, joint };

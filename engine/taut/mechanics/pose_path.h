@@ -22,14 +22,15 @@ struct PosePath {
     bool isTurned() const { return turns() || from != glm::dquat(1, 0, 0, 0); }
     bool turns() const { return from != to; }
 
-    // The thing at a moment.
+    // The body at a moment.
     struct Frame {
         glm::dvec3 place, velocity;  // [m], [m/s]
         glm::dquat rotation;
         glm::dvec3 spin;  // [rad/s]
         bool isTurned;
 
-        // From the place to what is fixed to it at that offset [m], and the velocity of that [m/s].
+        // The vector from `place` to a point that is fixed to the body at that offset [m], and the velocity of that
+        // point [m/s].
         glm::dvec3 arm(const glm::dvec3& offset) const { return isTurned ? rotated(rotation, offset) : offset; }
         glm::dvec3 velocityOf(const glm::dvec3& arm) const {
             return isTurned ? velocity + glm::cross(spin, arm) : velocity;

@@ -1,5 +1,5 @@
-// Products of the springs' linearised forces with a displacement, in runs. Knows no method; one copy for each
-// instruction set.
+// Products of the springs' linearised forces with a displacement, in runs. It knows no method. There is one copy for
+// each instruction set.
 #pragma once
 
 namespace taut::mechanics {

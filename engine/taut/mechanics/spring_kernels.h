@@ -1,4 +1,4 @@
-// The inner loops of the spring forces, one copy an instruction set; every copy gives the same bits.
+// The inner loops of the spring forces. There is one copy for each instruction set, and every copy gives the same bits.
 #pragma once
 
 namespace taut::mechanics {
@@ -48,8 +48,8 @@ struct SpringListArgs {
     const Real* tau;         // (n) [s]
 };
 
-// Points point by point instead of plane by plane, for springs that jump between them: x y z 0 u v w 0, and for forces
-// x y z 0.
+// Points packed one by one instead of in planes, for springs that jump between them: x y z 0 u v w 0, and for forces x
+// y z 0.
 inline constexpr int packedState = 8, packedForce = 4;
 
 // n springs between any points of a packed window.

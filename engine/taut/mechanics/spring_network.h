@@ -41,8 +41,8 @@ struct SpringSingles {
     int size() const { return static_cast<int>(a.size()); }
 };
 
-// A range of points that a block never spans, up to the next. One of rows of `row` points each gets blocks of whole
-// rows; 0 for none.
+// A range of points, up to the next range. No block spans two ranges. A range that has rows of `row` points each gets
+// blocks of whole rows; 0: no rows.
 struct PointRange {
     int firstPoint;
     int row;
@@ -55,10 +55,10 @@ struct SpringNetwork {
     SpringNetwork() = default;
     SpringNetwork(int points, std::span<const Body> bodies, std::span<const Spring> springs);
 
-    // Takes stiffness, rest length and damping time over. Expects the springs it was made of, between the same points.
+    // Takes over stiffness, rest length and damping time. Expects the springs it was made of, between the same points.
     void setSprings(std::span<const Spring> springs);
 
-    // Takes over one of them but for its damping time. Returns whether its stiffness changed.
+    // Takes over one spring except its damping time. Returns whether its stiffness changed.
     bool setSpring(int spring, const Spring& now);
 
     // Where springs stand in `order`.

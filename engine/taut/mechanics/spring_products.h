@@ -1,9 +1,9 @@
 // The springs of an island linearised about a configuration, for implicit methods: products with W = s K + c C. Knows
 // points by number only.
 //
-// A spring's share of K is k [nnᵀ + max(0, 1 - L/l)(I - nnᵀ)]: the true one, but that a compressed spring, which pushes
-// aside what is not in line with it, has no stiffness across itself. Its share of C is k τ nnᵀ.
-// At l = 0 it has no direction; with L = 0 its K is k I.
+// A spring's share of K is k [nnᵀ + max(0, 1 - L/l)(I - nnᵀ)]. This is the true one with one exception: across itself a
+// compressed spring would have negative stiffness, and gets none. Its share of C is k τ nnᵀ. At l = 0 it has no
+// direction; with L = 0 its K is k I.
 //
 // With α = s k + c k τ along the spring and β = s k max(0, 1 - L/l) across it, W = β I + q qᵀ with q = √(α - β) n.
 #pragma once

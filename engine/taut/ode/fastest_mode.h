@@ -1,9 +1,9 @@
-// What the largest stable step of a method is computed from. It knows no method.
+// The quantities from which the largest stable step of a method is computed. It knows no method.
 #pragma once
 
 namespace taut::ode {
 
-// The fastest motion of a system, as a bound: what limits the step.
+// A bound of the fastest motion of a system, which limits the step.
 struct FastestMode {
     double omega = 0;        // ω [1/s], stiffness over mass
     double tau = 0;          // [s] dashpots c = τ k

@@ -1,4 +1,4 @@
-// A method that takes y' = f(t, y) from t to t + h, whatever y stands for.
+// A method that integrates y' = f(t, y) from t to t + h, whatever y stands for.
 #pragma once
 
 #include "taut/ode/system.h"
@@ -10,7 +10,7 @@ class FirstOrderMethod {
   public:
     virtual ~FirstOrderMethod() = default;
 
-    // y (system.size()) from t to t + h [s]. Allocates when the size is a new one.
+    // Integrates y (system.size()) from t to t + h [s]. Allocates when the size changes.
     virtual void step(System<Real>& system, double t, double h, Real* y) = 0;
 
     // Of the derivative, a step.

@@ -1,4 +1,4 @@
-// A method that takes a second-order system from t to t + h. It knows no physics: only flat arrays.
+// A method that integrates a second-order system from t to t + h. It knows flat arrays and no physics.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace taut::ode {
 
-// All that a run carries from step to step: a copy of it is a checkpoint.
+// Everything that a run carries from step to step: a copy of it is a checkpoint.
 template <class Real>
 struct State {
     State() = default;
@@ -30,7 +30,7 @@ struct State {
     std::vector<core::AlignedArray<Real>> memory;  // what else the method keeps, sized by start()
 };
 
-// How methods that solve equations, or split them, go about it; the others have no use for it.
+// Settings of methods that solve equations, or split them; other methods do not use them.
 struct MethodOptions {
     int newtonSteps = 1;       // >= 1 linear solves a step; the first alone is Baraff and Witkin's method
     double tolerance = 1e-5;   // of a solve, residual over right-hand side; single precision stops at 1e-6
@@ -38,10 +38,10 @@ struct MethodOptions {
     bool splits = false;       // leap-frog: the system's split part
 };
 
-// What a method found among the velocities that a step wrote; unknown when it did not look.
+// What a method found in the velocities that a step wrote; unknown if it did not look.
 enum class Speeds { unknown, within, beyond };
 
-// A point that a contact holds up: along a unit normal, or where that is zero in all directions.
+// A point that a contact holds: along a unit normal or, if `normal` is zero, in all directions.
 struct Support {
     int point = 0;
     std::array<double, 3> normal{};  // (planes)
@@ -54,36 +54,37 @@ class Method {
   public:
     virtual ~Method() = default;
 
-    // Takes state.x and state.v, both at time t, and prepares the first step: at the start and after every event.
+    // Prepares the first step from state.x and state.v, both at time t. Call it at the start and after every event.
     virtual void start(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) = 0;
 
-    // From t to t + h [s], h that of start(). Reports nothing: a state that diverges is for the caller to find.
+    // Integrates from t to t + h [s] with the h of start(). It reports nothing: the caller has to find a state that
+    // diverges.
     virtual void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) = 0;
 
-    // The velocities at time t into v (layout.size()); may cost an evaluation. The state stays as it is.
+    // Writes the velocities at time t into v (layout.size()). This may cost an evaluation; the state does not change.
     virtual void synchronise(SecondOrderSystem<Real>& system, double t, double h, const State<Real>& state,
                              Real* v) = 0;
 
-    // Tells that the x and v of these points were changed after the step, by a contact.
+    // Tells the method that a contact changed x and v of these points after the step.
     virtual void touch(State<Real>& state, std::span<const int> points) = 0;
 
-    // The best known velocities at the time of the positions without another evaluation; they belong to the state.
+    // The best known velocities at the time of the positions, without another evaluation. They belong to the state.
     virtual const Real* predicted(const State<Real>& state) const { return state.v.data(); }
-    // The same, to be changed. It is not state.v where a method stores v at another time.
+    // The same, for changes. It is not state.v if the method stores v at another time.
     Real* predicted(State<Real>& state) const { return const_cast<Real*>(predicted(std::as_const(state))); }
 
-    // Whether contacts affect other points than those that touch, as in methods that solve for all points at once.
+    // Whether contacts also affect points that do not touch, as in methods that solve for all points at once.
     virtual bool yields() const { return false; }
-    // After a step from t to t + h and touch(): solves for the step once more. Points with a normal end as far along it
-    // as they are now, and keep their v along it; those without stay where they are, as they are. May be called again
-    // with others.
+    // Call it after a step from t to t + h and touch(): it solves for the step once more. Points with a normal keep
+    // their present position and v along it; points without one keep position and v. May be called again with other
+    // points.
     virtual void yield(SecondOrderSystem<Real>& /*system*/, double /*t*/, double /*h*/, State<Real>& /*state*/,
                        std::span<Support> /*supports*/) {}
 
     virtual Work work() const { return work_; }  // since it was made
 
-    // Asks step() to look for velocities that are not below the limit [m/s] in a plane, or are no numbers, and what it
-    // found in the last step. Points that are moved by hand are not looked at.
+    // Asks step() to look for velocities that are not below the limit [m/s] in a plane, or are no numbers; and returns
+    // what the last step found. Kinematic points are not looked at.
     void watch(Real speedLimit) { speedLimit_ = speedLimit; }
     Speeds speeds() const { return speeds_; }
 
@@ -93,8 +94,8 @@ class Method {
     Speeds speeds_ = Speeds::unknown;
 };
 
-// The functions that make a method, one for each precision: of a method for any y' = f(t, y), or of one that needs
-// x'' = a.
+// The functions that make a method, one for each precision. Either the method takes any y' = f(t, y), or it needs x'' =
+// a.
 class MethodMakers {
   public:
     template <class Real>
@@ -106,7 +107,7 @@ class MethodMakers {
     constexpr MethodMakers(SecondOrder<float> single, SecondOrder<double> twice) : second_{single, twice} {}
 
     constexpr bool isFirstOrder() const { return std::get<0>(first_) != nullptr; }
-    // nullptr when it is of the other kind.
+    // nullptr if the method is of the other kind.
     template <class Real>
     constexpr FirstOrder<Real> firstOrder() const {
         return std::get<FirstOrder<Real>>(first_);
@@ -121,8 +122,8 @@ class MethodMakers {
     std::tuple<SecondOrder<float>, SecondOrder<double>> second_;
 };
 
-// A row of the table of methods: what a person should know of it before choosing it, its limits, and how it is made.
-// The texts are not copied.
+// A row of the table of methods: what a user should know before choosing it, its limits, and how it is made. The texts
+// are not copied.
 struct MethodInfo {
     std::string_view name;   // as scenes write it
     std::string_view title;  // as texts write it
@@ -133,10 +134,10 @@ struct MethodInfo {
     bool reversible;
     std::string_view limit;    // largest stable z = ω h in words, for a damping ratio ζ
     std::string_view caution;  // what its limit does not promise; empty when it does
-    // Largest stable h [s]; 0 when every h is unstable, infinite when none is.
+    // Largest stable h [s]; 0 if every h is unstable, infinite if every h is stable.
     double (*largestStep)(const FastestMode& mode);
-    // h [s] that may be taken without asking: the largest stable one or, of methods that let undamped motion grow at
-    // every step, one at which it grows slowly.
+    // The h [s] that "auto" may choose: the largest stable one. Methods that let undamped motion grow at every step
+    // return an h at which it grows slowly.
     double (*automaticStep)(const FastestMode& mode);
     MethodMakers make;
 

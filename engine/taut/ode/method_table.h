@@ -15,14 +15,14 @@ namespace taut::ode {
 
 class Methods : public core::Table<MethodInfo> {
   public:
-    // Puts it last. Expects a name that no other has, a title and limits.
+    // Adds a row at the end. Expects a name that no other row has, a title and limits.
     void add(const MethodInfo& method);
 
     // For second-order systems. Expects a name from the table.
     template <class Real>
     std::unique_ptr<Method<Real>> make(std::string_view name, const MethodOptions& options = {}) const;
 
-    // For any y' = f(t, y). Throws core::Error(usage) when there is no method of that name, or it needs x'' = a.
+    // For any y' = f(t, y). Throws core::Error(usage) if no method has that name, or if it needs x'' = a.
     template <class Real>
     std::unique_ptr<FirstOrderMethod<Real>> makeFirstOrder(std::string_view name) const;
 };

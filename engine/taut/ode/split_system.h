@@ -8,12 +8,12 @@ template <class Real>
 class SplitSystem {
   public:
     virtual ~SplitSystem() = default;
-    // From now on accelerate() gives r alone; or both again.
+    // true: from now on accelerate() gives r only; false: both again.
     virtual void split(bool isSplit) = 0;
-    // What d does to velocities in h [s] at fixed places, in three parts, the kick of all other forces between the
-    // first and the second: h/2 of some dashpots, then h of the others, which see the mean of the velocities before and
-    // after the kick and themselves, then h/2 of the first ones in the opposite order. However strong they are they add
-    // no energy.
+    // The effect of d on velocities in h [s] at fixed places, in three parts. The first applies some dashpots for h/2.
+    // Then comes the kick of all other forces. The second part applies the other dashpots for h; they see the mean of
+    // the velocities before the kick and after the kick and themselves. The third applies the dashpots of the first
+    // part for h/2 in the opposite order. However strong the dashpots are, they add no energy.
     virtual void dampBefore(double h, const Real* x, Real* v) = 0;
     virtual void dampBetween(const Real* x, Real* v) = 0;
     virtual void dampAfter(const Real* x, Real* v) = 0;

@@ -16,7 +16,7 @@ class System {
     virtual std::size_t size() const = 0;
     // dydt (size) from t and y (size).
     virtual void derivative(double t, const Real* y, Real* dydt) = 0;
-    // Overwrites what is given at t instead of integrated.
+    // Overwrites the unknowns that are prescribed at t instead of integrated.
     virtual void prescribe(double, Real*) {}
 };
 
@@ -37,8 +37,8 @@ class AccelerationSink {
     virtual void take(int first, int last, const Real* const* a) = 0;
 };
 
-// x'' = a_el(t, x, v) - γ v, γ a rate a point [1/s]. a_el may depend on v (dashpots, wind); the part that is
-// proportional to v point by point is kept apart so that methods can treat it implicitly.
+// x'' = a_el(t, x, v) - γ v, γ a rate a point [1/s]. a_el may depend on v (dashpots, wind). The part that is
+// proportional to each point's own v is kept apart, so that methods can treat it implicitly.
 template <class Real>
 class SecondOrderSystem {
   public:
@@ -46,18 +46,18 @@ class SecondOrderSystem {
     virtual Layout layout() const = 0;
     virtual const Real* dragRates() const = 0;  // (stride) γ [1/s]
     // Evaluates a_el at (t, x, v) and hands it to the sink range by range, each point once, perhaps from several
-    // threads. When a range is handed over nothing reads its x and v any more: the sink may overwrite them.
+    // threads. After a range is handed over, its x and v are not read any more: the sink may overwrite them.
     virtual void accelerate(double t, const Real* x, const Real* v, AccelerationSink<Real>& sink) = 0;
     // Overwrites positions and velocities of kinematic points with those at t; either may be null. Such
     // points have no acceleration. Methods call it for every time at which they ask for accelerations.
     virtual void prescribe(double, Real*, Real*) {}
-    // What implicit methods need besides, of the same system; nullptr when it has none.
+    // What implicit methods also need from the same system; nullptr if it does not offer it.
     virtual ImplicitSystem<Real>* implicitPart() { return nullptr; }
-    // What methods that split off its stiff part need besides; nullptr when it has none.
+    // What methods that split off the stiff part also need; nullptr if it does not offer it.
     virtual SplitSystem<Real>* splitPart() { return nullptr; }
 };
 
-// Shows a second-order system as a first-order one: y = (x planes, v planes), y' = (v, a_el - γ v).
+// Presents a second-order system as a first-order one: y = (x planes, v planes), y' = (v, a_el - γ v).
 template <class Real>
 class FirstOrderView final : public System<Real> {
   public:

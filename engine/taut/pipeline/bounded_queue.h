@@ -1,4 +1,4 @@
-// Hands things from one thread to another, in order, a few at a time. It knows nothing of what they are.
+// Hands items from one thread to another, in order, a few at a time. It knows nothing about the items.
 #pragma once
 
 #include <condition_variable>
@@ -15,7 +15,7 @@ class BoundedQueue {
   public:
     explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-    // Waits for room. False, and the item is dropped, when the queue has been closed or abandoned.
+    // Waits for room. Returns false and drops the item if the queue has been closed or abandoned.
     bool push(T item) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return closed_ || items_.size() < capacity_; });
@@ -25,7 +25,7 @@ class BoundedQueue {
         return true;
     }
 
-    // Waits for an item; none when the queue is closed and empty, or abandoned.
+    // Waits for an item. Returns none if the queue is closed and empty, or abandoned.
     std::optional<T> pop() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return closed_ || !items_.empty(); });

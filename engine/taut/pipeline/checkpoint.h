@@ -1,5 +1,5 @@
-// The state of a run in a file, to go on from it later: as if the run had never stopped. It knows files of one run;
-// what of a scene a state depends on, the caller says by a key.
+// The state of a run in a file. A later run goes on from it as if the first had never stopped. It knows the files of
+// one run; the caller gives a key that stands for everything in a scene that a state depends on.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ struct PassedOver {
 // Whole or not at all; throws core::Error(inputOutput).
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-// Throws core::Error: inputOutput, or badContent for a file that is foreign, damaged, of another version, or that would
-// take more memory than maxBytes.
+// Throws core::Error: inputOutput, or badContent for a file that is foreign, damaged or of another version, or that
+// needs more memory than maxBytes.
 Checkpoint readCheckpoint(const std::filesystem::path& path, std::uint64_t maxBytes);
 
 // The checkpoints of one run, in a folder: checkpoint_000120.taut goes on with frame 120. Beside them lie the records
@@ -48,8 +48,9 @@ class CheckpointFolder {
     std::filesystem::path records() const;
     std::vector<std::int64_t> framesThere() const;  // ascending
 
-    // The last one at or before a frame whose state key is as `keyOf` says for its frame, and whose records are there.
-    // Those that cannot be used are passed over, each with its reason; of those of other bits the last alone.
+    // The last checkpoint at or before a frame that has its records and the state key that `keyOf` gives for its frame.
+    // Checkpoints that cannot be used are skipped, each with its reason; of those with other bits only the last one is
+    // told.
     std::optional<Checkpoint> latest(std::int64_t frame, const std::function<std::uint64_t(std::int64_t)>& keyOf,
                                      std::uint64_t maxBytes, std::vector<PassedOver>& refused) const;
 

@@ -23,7 +23,7 @@ constexpr std::array curves{Curve{"gravity", gravitationalInk, [](const Moment& 
                             Curve{"kinetic", kineticInk, [](const Moment& m) { return m.kinetic; }},
                             Curve{"total", totalInk, [](const Moment& m) { return m.energy(); }}};
 
-void paintGrid(Painting& painting, const Box& box, float em, const EnergyScale& scale) {
+void paintGrid(Painting& painting, const PictureBox& box, float em, const EnergyScale& scale) {
     const int first = static_cast<int>(std::lround(scale.low / scale.spacing));
     const int last = static_cast<int>(std::lround(scale.high / scale.spacing));
     for (int i = first; i <= last; ++i) {
@@ -46,7 +46,7 @@ std::string valueText(const Curve& curve, const Moment& now, const EnergyScale& 
     return numberText(curve.energy(now) / scale.unit, scale.decimals + 2) + " " + scale.unitName;
 }
 
-void paintLegend(Painting& painting, const Box& box, float em, const Moment& now, const EnergyScale& scale) {
+void paintLegend(Painting& painting, const PictureBox& box, float em, const Moment& now, const EnergyScale& scale) {
     const float type = legendType * em, half = 0.5F * (box.high.x - box.low.x - legendGap * em);
     constexpr std::array order{2, 1, 0, 3};  // kinetic, elastic / gravity, total
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -106,7 +106,7 @@ EnergyScale energyScale(double least, double most) {
     return scale;
 }
 
-glm::vec2 placeOf(double time, double energy, double now, const EnergyScale& scale, const Box& box) {
+glm::vec2 placeOf(double time, double energy, double now, const EnergyScale& scale, const PictureBox& box) {
     const double across = 1.0 + (time - now) / Overlay::span;
     const double up = (energy - scale.low) / (scale.high - scale.low);
     return {static_cast<float>(box.low.x + across * static_cast<double>(box.high.x - box.low.x)),
@@ -122,7 +122,7 @@ float legendWidth(Painting& painting, float em, std::span<const Moment> moments)
     return 2.0F * half + legendGap * em;
 }
 
-void paintEnergies(Painting& painting, const Box& box, float em, std::span<const Moment> moments, double now) {
+void paintEnergies(Painting& painting, const PictureBox& box, float em, std::span<const Moment> moments, double now) {
     const EnergyScale scale = scaleOf(moments);
     paintLegend(painting, box, em, moments.back(), scale);
     if (!(box.high.y > box.low.y)) return;

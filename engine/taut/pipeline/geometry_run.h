@@ -1,4 +1,4 @@
-// Plays a scene and hands its geometry on: world and writers joined, side by side. It knows no format.
+// Plays a scene and passes its geometry to writers, which work at the same time as the world. It knows no format.
 #pragma once
 
 #include <atomic>
@@ -22,9 +22,9 @@ struct GeometryRun {
     std::function<void(std::int64_t frame)> frameSimulated{};  // called on a thread of its own
 };
 
-// Frames firstFrame … lastFrame of a world at its start go to the sink, all of them, and to the points; either may be
-// null. Both are finished where the run came to its end, else left: false means that `stop` became true. Throws
-// core::Error: diverged; badContent, with the tick, where a body tears that the sink has one topology for; what the
+// Plays a world from its start. Frames firstFrame … lastFrame go to the sink, and to the points; either may be null. If
+// the run reaches its end, both are finished. If `stop` becomes true, neither is, and the result is false. Throws
+// core::Error: diverged; badContent, with the tick, if a body tears and the sink allows only one topology; what the
 // writers throw.
 bool exportGeometry(world::World& world, const GeometryRun& run, geometry::GeometrySink* sink,
                     geometry::PointsWriter* points, const std::atomic<bool>& stop);

@@ -1,4 +1,4 @@
-// What a run ran on, for its record: never used in a calculation.
+// The machine that a run used, for its record. It is never used in a calculation.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Hands things that several threads finish in any order to one thread, in the order of their numbers. It knows nothing
-// of what they are.
+// Hands items that several threads finish in any order to one thread, in the order of their numbers. It knows nothing
+// about the items.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace taut::pipeline {
 template <class T>
 class OrderedHandover {
   public:
-    // At most so many wait, besides the one that is next.
+    // At most so many items wait, besides the next one.
     explicit OrderedHandover(std::size_t room) : room_(static_cast<std::int64_t>(room)) {}
 
-    // Numbers count from 0, each once. Waits until those before leave room; false, and the item is dropped, when nobody
+    // Numbers count from 0, each once. Waits until earlier items leave room. Returns false and drops the item if nobody
     // will ask for it any more.
     bool put(std::int64_t number, T item) {
         std::unique_lock lock(mutex_);
@@ -31,7 +31,7 @@ class OrderedHandover {
         return true;
     }
 
-    // Waits for the next; none when there are no more.
+    // Waits for the next item; none if there are no more.
     std::optional<T> take() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return next_ >= end_ || items_.contains(next_); });
@@ -41,7 +41,7 @@ class OrderedHandover {
         return item;
     }
 
-    // That number and those after it will not come; those before it are still waited for.
+    // Items from that number on will not come. The queue still waits for the earlier ones.
     void endAt(std::int64_t number) {
         const std::lock_guard lock(mutex_);
         end_ = std::min(end_, number);

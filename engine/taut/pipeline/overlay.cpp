@@ -23,7 +23,7 @@ constexpr float largestPart = 0.6F;  // of a picture's height that figures and g
 // What lay under a box before it was painted over.
 class Behind {
   public:
-    Behind(const image::Image& picture, const Box& box) {
+    Behind(const image::Image& picture, const PictureBox& box) {
         const glm::ivec2 size(picture.width, picture.height);
         low_ = glm::clamp(glm::ivec2(glm::floor(box.low)) - 1, glm::ivec2(0), size);
         high_ = glm::clamp(glm::ivec2(glm::ceil(box.high)) + 1, low_, size);
@@ -58,15 +58,15 @@ std::string milliseconds(double seconds) {
     return fmt::format("{:.3g} ms", 1e3 * seconds);
 }
 
-std::string stepText(const StepFacts& step) {
+std::string stepText(const SmallestStep& step) {
     if (!(step.limit < 1e6)) return milliseconds(step.step) + ", no limit";
     return fmt::format("{:.3g}, limit {:.3g} ms", 1e3 * step.step, 1e3 * step.limit);
 }
 
 }  // namespace
 
-StepFacts smallestStep(const world::World& world) {
-    StepFacts facts{world.tickSeconds(), std::numeric_limits<double>::infinity(), !world.contact().bodies.empty()};
+SmallestStep smallestStep(const world::World& world) {
+    SmallestStep facts{world.tickSeconds(), std::numeric_limits<double>::infinity(), !world.contact().bodies.empty()};
     for (const world::IslandInfo& island : world.islands()) {
         if (island.step > facts.step) continue;
         facts.step = island.step;
@@ -80,7 +80,7 @@ float typeSize(int pictureHeight, float density) {
     return density * std::max(0.02F * height, std::clamp(height / 30.0F, 8.0F, 11.0F));
 }
 
-Overlay::Overlay(const std::filesystem::path& font, const StepFacts& step)
+Overlay::Overlay(const std::filesystem::path& font, const SmallestStep& step)
     : letters_(render::Font(font)), step_(step) {}
 
 void Overlay::add(const Moment& moment) {
@@ -88,7 +88,8 @@ void Overlay::add(const Moment& moment) {
     moments_.push_back(moment);
 }
 
-Box Overlay::paint(image::Image& picture, double time, std::span<const OverlayLine> above, const OverlayLook& look) {
+PictureBox Overlay::paint(image::Image& picture, double time, std::span<const OverlayLine> above,
+                          const OverlayLook& look) {
     std::vector<Moment> shown;
     {
         const std::lock_guard lock(mutex_);
@@ -121,7 +122,7 @@ Box Overlay::paint(image::Image& picture, double time, std::span<const OverlayLi
 
     const glm::vec2 corner =
         glm::round(glm::vec2(look.isAtRight ? size.x - margin * em - width : margin * em, margin * em));
-    const Box panel{corner, glm::round(corner + glm::vec2(width, height * em))};
+    const PictureBox panel{corner, glm::round(corner + glm::vec2(width, height * em))};
     std::optional<Behind> behind;
     if (look.opacity < 1.0F) behind.emplace(picture, panel);
     painting.plate(panel, 0.5F * em, plateInk, plateStrength);
@@ -132,7 +133,7 @@ Box Overlay::paint(image::Image& picture, double time, std::span<const OverlayLi
         y += lineHeight * em;
     }
     const float top = y - (hasGraph ? 0.5F : 0.8F) * em;
-    const Box graph{{left, top}, {right, hasGraph ? top + graphHeight * em : top}};
+    const PictureBox graph{{left, top}, {right, hasGraph ? top + graphHeight * em : top}};
     paintEnergies(painting, graph, em, shown, now.time);
     if (behind) behind->shineThrough(picture, look.opacity);
     return panel;

@@ -1,5 +1,5 @@
-// The figures of a run in a corner of its pictures: time, step and limit, strain, and the energies as a small graph.
-// It knows neither the world nor GL; a picture depends on the moments that it was told of and on nothing else.
+// The figures of a run in a corner of its pictures: time, step and limit, strain, and the energies as a small graph. It
+// knows neither the world nor GL. What it paints depends only on the moments that were added.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@
 
 namespace taut::pipeline {
 
-// The step of the island that has the smallest, and what else holds from the start.
-struct StepFacts {
+// The smallest step of all islands, and what else is known from the start.
+struct SmallestStep {
     double step = 0.0;         // [s]
     double limit = 0.0;        // [s] largest stable; infinite: none
     bool bodiesTouch = false;  // each other, or themselves
 };
-StepFacts smallestStep(const world::World& world);
+SmallestStep smallestStep(const world::World& world);
 
 struct Moment : world::Metrics {
     std::int64_t tick = 0;
@@ -36,7 +36,7 @@ using OverlayLine = std::pair<std::string, std::string>;
 struct OverlayLook {
     bool isAtRight = false;  // in the upper right corner instead of the left
     float opacity = 1.0F;    // 0 (nothing is seen) … 1
-    float density = 1.0F;    // pixels of the screen for one of a common screen: how much larger the type is
+    float density = 1.0F;    // pixels of the screen per pixel of a common screen: the factor of the type size
 };
 
 // add() and paint() may be called from two threads at the same time.
@@ -44,16 +44,16 @@ class Overlay {
   public:
     static constexpr double span = 4.0;  // [s] that the graph shows
 
-    // An empty font stands for the one that Debian installs. Throws core::Error(inputOutput, badContent) of the font.
-    Overlay(const std::filesystem::path& font, const StepFacts& step);
+    // An empty path means the font that Debian installs. Throws core::Error(inputOutput, badContent) of the font.
+    Overlay(const std::filesystem::path& font, const SmallestStep& step);
 
     // Ascending in time.
     void add(const Moment& moment);
 
-    // Paints what was the case at `time` [s]: the last moment not after it, and those before. Forgets what no later
-    // picture will show. Nothing is painted before the first moment. Small pictures have the figures without the graph.
-    // Returns what it covers.
-    Box paint(image::Image& picture, double time, std::span<const OverlayLine> above = {},
+    // Paints the figures at `time` [s], from the last moment that is not after it and the moments before. It forgets
+    // moments that no later picture will show. Before the first moment it paints nothing. Small pictures get the
+    // figures without the graph. Returns the box that it covers.
+    PictureBox paint(image::Image& picture, double time, std::span<const OverlayLine> above = {},
               const OverlayLook& look = {});
 
     // For text of the same kind elsewhere in the picture.
@@ -61,12 +61,12 @@ class Overlay {
 
   private:
     render::TextPainter letters_;
-    StepFacts step_;
+    SmallestStep step_;
     std::mutex mutex_;
     std::deque<Moment> moments_;
 };
 
-// [px] size of the type that reads well in a picture of this height on a screen of this density.
+// [px] a readable type size for a picture of this height on a screen of this density.
 float typeSize(int pictureHeight, float density = 1.0F);
 
 }  // namespace taut::pipeline

@@ -26,7 +26,7 @@ struct Pixels {
 };
 
 // The pixels of the picture that the box touches.
-Pixels pixelsOf(const Box& box, const image::Image& picture) {
+Pixels pixelsOf(const PictureBox& box, const image::Image& picture) {
     const glm::vec2 size(picture.width, picture.height);
     const glm::vec2 low = glm::clamp(box.low, glm::vec2(0.0F), size),
                     high = glm::clamp(box.high, glm::vec2(0.0F), size);
@@ -64,7 +64,7 @@ std::array<std::array<std::uint8_t, 256>, 3> Painting::mixed(const glm::vec3& li
     return table;
 }
 
-void Painting::plate(const Box& box, float radius, Ink ink, float strength) {
+void Painting::plate(const PictureBox& box, float radius, Ink ink, float strength) {
     const glm::vec3 light = lightOf(ink);
     const auto inside = mixed(light, strength);
     const glm::vec2 middle = 0.5F * (box.low + box.high), half = 0.5F * (box.high - box.low) - radius;
@@ -88,7 +88,7 @@ void Painting::plate(const Box& box, float radius, Ink ink, float strength) {
 void Painting::line(std::span<const glm::vec2> corners, float width, Ink ink, float strength) {
     if (corners.empty()) return;
     const float reach = 0.5F * width + 0.5F;  // [px] from the middle of the line to where nothing of it is left
-    Box box{corners.front(), corners.front()};
+    PictureBox box{corners.front(), corners.front()};
     for (const glm::vec2& corner : corners) box = {glm::min(box.low, corner), glm::max(box.high, corner)};
     const Pixels all = pixelsOf({box.low - reach, box.high + reach}, picture_);
     const int columns = all.right - all.left, rows = all.bottom - all.top;

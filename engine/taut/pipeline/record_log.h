@@ -1,4 +1,5 @@
-// The records of a run's frames in a file and not in memory, however many there are. It knows nothing of the run.
+// Keeps the records of a run's frames in a file instead of in memory, because there may be many. It knows nothing about
+// the run.
 #pragma once
 
 #include <cstddef>
@@ -21,10 +22,10 @@ struct FrameRecord {
     double simulating = 0.0;  // [s] of wall time
     double drawing = 0.0;
     double encoding = 0.0;
-    std::vector<double> figures{};  // RunOptions::figures; not a number where they were not measured
+    std::vector<double> figures{};  // RunOptions::figures; NaN: not measured
 };
 
-// What else is measured of each frame: how many figures, and which, as a key of their names.
+// What else is measured in each frame: the number of figures, and a key made of their names.
 struct FigureColumns {
     std::size_t count = 0;
     std::uint64_t key = 0;
@@ -36,11 +37,12 @@ struct FigureColumns {
 class RecordLog {
   public:
     RecordLog() : RecordLog(FigureColumns{}) {}
-    explicit RecordLog(const FigureColumns& figures);  // empty, without a name; goes with the object
+    explicit RecordLog(const FigureColumns& figures);  // empty, without a name; deleted with the object
     RecordLog(const std::filesystem::path& path, const FigureColumns& figures);  // empty, under that name
 
-    // The first `count` of an earlier run: as a copy without a name, or going on in the same file, which forgets the
-    // rest. Figures other than those of the earlier run were not measured of its frames.
+    // Takes the first `count` records of an earlier run, either as a copy without a name or by continuing the same
+    // file, whose other records are deleted. If the figures differ from those of the earlier run, they count as not
+    // measured in its frames.
     static RecordLog copyOf(const std::filesystem::path& path, std::size_t count, const FigureColumns& figures = {});
     static RecordLog continuing(const std::filesystem::path& path, std::size_t count,
                                 const FigureColumns& figures = {});
@@ -58,7 +60,7 @@ class RecordLog {
     FrameRecord operator[](std::size_t frame) const;  // expects frame < size()
     FrameRecord back() const { return (*this)[size_ - 1]; }
 
-    // Of all that was added but its figures: tells whether a file holds the same records.
+    // A digest of all records without their figures. It shows whether a file holds the same records.
     std::uint64_t digest() const { return digest_.value(); }
 
   private:

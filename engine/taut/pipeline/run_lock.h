@@ -9,13 +9,13 @@
 namespace taut::pipeline {
 
 struct RunParty {
-    std::optional<std::uint64_t> key;  // parts of one run, which have the same, may share a folder; none: it does not
+    std::optional<std::uint64_t> key;  // parts of one run have the same key and may share a folder; none: no sharing
     std::string name;                  // for the message to another run: "taut render flag, process 4711"
 };
 
-// Holds a folder, or of what a run writes there one part ("60-119"), until it is destroyed, or its process ends in
-// whatever way. A file `.taut-lock` or `.taut-lock_60-119` lies in the folder meanwhile; one that a killed process has
-// left locks nothing.
+// Locks a folder, or one part ("60-119") of what a run writes there, until it is destroyed or its process ends, in
+// whatever way. Meanwhile a file `.taut-lock` or `.taut-lock_60-119` lies in the folder. A file that a killed process
+// left behind locks nothing.
 class RunLock {
   public:
     RunLock() = default;  // holds nothing
@@ -33,7 +33,7 @@ class RunLock {
   private:
     std::filesystem::path path_;
     int descriptor_ = -1;
-    bool hasMadeFolder_ = false;  // which goes with it when nothing has come to lie there
+    bool hasMadeFolder_ = false;  // it is removed again if it is still empty
     bool excludesOthers_ = true;
 };
 

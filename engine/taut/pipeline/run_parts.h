@@ -1,5 +1,5 @@
-// The records of a run's parts, read back: which frames each has drawn, and whether all of them are parts of one run.
-// It draws nothing and encodes nothing.
+// Reads the records of a run's parts: which frames each part has drawn, and whether all are parts of one run. It draws
+// nothing and encodes nothing.
 #pragma once
 
 #include <cstdint>
@@ -34,32 +34,32 @@ struct PartRecord {
     std::vector<std::uint64_t> hashes;    // of the states of frames 0, 1, …
     std::vector<std::uint32_t> pictures;  // image::checksumOf() of frames first, …
 
-    // The last frame that is its own and drawn; before `first` where there is none.
+    // The last of its own frames that this part has drawn; below `first` if there is none.
     std::int64_t lastDrawn() const;
-    // The checksum of a frame; none where it knows none.
+    // The checksum of a frame, if it is known.
     std::optional<std::uint32_t> pictureOf(std::int64_t frame) const;
 };
 
-// What drew, as records tell it; empty where nothing did.
+// The renderer as records name it; empty if nothing was drawn.
 std::string rendererText(const std::optional<render::RendererInfo>& info);
 
 // "run_120-239.json"; "metrics", ".csv" gives "metrics_120-239.csv".
 std::string partName(std::int64_t first, std::int64_t last, const std::string& stem = "run",
                      const std::string& extension = ".json");
 
-// Throws core::Error: inputOutput, or badContent for what is no record of a run.
+// Throws core::Error: inputOutput, or badContent if the file is no record of a run.
 PartRecord readPartRecord(const std::filesystem::path& path);
 
-// run.json and those of parts in the folder of frames, by their first frame; those that drew none, or files of other
-// names, are left out. Of one that cannot be read, path and fault are set.
+// Reads run.json and the records of parts in the folder of frames, sorted by first frame. Records that drew no frames,
+// or files with other names, are left out. A record that cannot be read gets only path and fault.
 std::vector<PartRecord> partRecords(const image::FramePattern& pattern);
 
-// Of which files there are records in the folder, "p_######.png", by name.
+// The frame files for which the folder has records, "p_######.png", sorted by name.
 std::vector<std::string> recordedFiles(const std::filesystem::path& folder);
 
-// In what two records show that they are not of one run: "scenes flag.toml and drape.toml", "64 x 48 and 32 x
-// 24 pixels", "other states from frame 12 on"; empty where they may be. Renderers and versions of the program are
-// compared if asked for.
+// How two records show that they are not of one run: "scenes flag.toml and drape.toml", "64 x 48 and 32 x 24 pixels",
+// "other states from frame 12 on"; empty if they can be of one run. Renderers and versions of the program are compared
+// if asked for.
 std::string differenceOf(const PartRecord& a, const PartRecord& b, bool comparesDrawers = true);
 
 struct FrameSpan {
@@ -67,16 +67,16 @@ struct FrameSpan {
     bool operator==(const FrameSpan&) const = default;
 };
 
-// Frames of `wanted` that no record has drawn, in spans.
+// The frames of `wanted` that no record has drawn, as spans.
 std::vector<FrameSpan> framesWithoutRecord(const std::vector<PartRecord>& records, const FrameSpan& wanted);
 
-// Frames of `wanted` that are not among those there, which ascend, in spans.
+// The frames of `wanted` that are not among the given frames (ascending), as spans.
 std::vector<FrameSpan> framesMissing(const std::vector<std::int64_t>& there, const FrameSpan& wanted);
 
 // "frames 12, 60-119 and 3 more spans"; expects at least one.
 std::string inWords(const std::vector<FrameSpan>& spans);
 
-// The record of all of them as one run: the one that knows most states, with the frames and the names of its parts.
+// Joins the records to that of one run: the record that knows most states, with the frames and the names of all parts.
 // Expects that they are of one run.
 void writeJoinedJson(const std::function<void(std::string_view)>& write, const std::vector<PartRecord>& records,
                      const FrameSpan& frames);

@@ -17,14 +17,14 @@
 
 namespace taut::pipeline {
 
-// What pictures have besides colours.
+// The layers of pictures besides colours.
 struct PictureLayers {
     bool alpha = false;
-    std::vector<std::string> kinds{};  // names of all layers that there could have been
+    std::vector<std::string> kinds{};  // names of all possible layers
     std::vector<std::shared_ptr<const render::Layer>> layers{};
 };
 
-// What was asked for, besides the scene itself.
+// What the user asked for, besides the scene itself.
 struct RunRequest {
     std::string output;                  // as given on the command line; empty: none
     std::vector<std::string> overrides;  // "key=value"
@@ -32,22 +32,23 @@ struct RunRequest {
     RunOptions options;
     PictureLayers layers{};
     std::uint64_t key = 0;                  // of the whole run, of which this may be a part
-    std::int64_t firstFrame = 0;            // that was asked for; where a run goes on, its options begin later
+    std::int64_t firstFrame = 0;            // as asked for; if a run goes on, its options begin later
     std::int64_t frames = 1;                // of the whole run
     bool isBegun = false;                   // nothing of it has been done yet
     std::vector<std::uint32_t> pictures{};  // checksums of the files of frames firstFrame, …
 };
 
-// Takes the text piece by piece.
+// Receives the text piece by piece.
 using Write = std::function<void(std::string_view)>;
 
-// Everything that is needed to tell what was computed, how, and on what; state hashes as 16 hexadecimal digits.
+// Writes everything that tells what was computed, how, and on which machine; state hashes have 16 hexadecimal digits.
 void writeRunJson(const Write& write, const world::SceneSpec& spec, const world::World& world,
                   const RunRequest& request, const Machine& machine,
                   const std::optional<render::RendererInfo>& renderer, const RunResult& result);
 
-// A line a frame that has metrics, with a heading that names the units; and the figures under their names, to 17
-// digits. Empty where they were not measured or are no numbers, and of contact where no body of the scene has any.
+// Writes one line for each frame that has metrics, and a heading with the units; then the figures under their names, to
+// 17 digits. Cells are empty if a figure was not measured or is no number. Cells about contact are empty if no body of
+// the scene has contact.
 void writeMetricsCsv(const Write& write, const world::SceneSpec& spec, const RunResult& result,
                      const std::vector<std::string>& figures = {});
 

@@ -1,5 +1,5 @@
-// Files of bytes that say what they are, of which version, and whether they are whole: a mark, the version, the content
-// compressed, a checksum. It knows nothing of the content.
+// Files of bytes that show their kind, their version, and whether they are complete: a mark, the version, the
+// compressed content, a checksum. It knows nothing about the content.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@ struct SealedKind {
 
 std::vector<std::byte> sealed(const SealedKind& kind, std::span<const std::byte> content);
 
-// The content. `name` is used in messages. Throws core::Error(badContent) for something of another kind, a version that
-// is not this one, and what is cut short or damaged; nothing is allocated on the word of a damaged file.
+// Returns the content. `name` is used in messages. Throws core::Error(badContent) for another kind or version, and for
+// bytes that are cut short or damaged. Sizes that a damaged file states are checked before memory is allocated.
 std::vector<std::byte> unsealed(const SealedKind& kind, std::span<const std::byte> bytes, const std::string& name);
 
-// The same with files, whole or not at all; they also throw core::Error(inputOutput).
+// The same with files. A file is written completely or not at all. They also throw core::Error(inputOutput).
 void writeSealed(const std::filesystem::path& path, const SealedKind& kind, std::span<const std::byte> content);
 std::vector<std::byte> readSealed(const std::filesystem::path& path, const SealedKind& kind);
 

@@ -1,4 +1,4 @@
-// Makes a renderer and makes sure that it draws. It knows no scenes.
+// Makes a renderer and checks that it draws. It knows no scenes.
 #pragma once
 
 #include <memory>
@@ -9,20 +9,21 @@
 
 namespace taut::pipeline {
 
-// Draws one triangle and looks at the pixels. Throws core::Error(noRenderer) when the picture is blank or wrong, with
+// Draws one triangle and checks the pixels. If the picture is blank or wrong, it throws core::Error(noRenderer) with
 // the strings of the driver.
 void testRenderer(render::Renderer& renderer);
 
-// The same triangle over a ground that it darkens, to hold renderers against each other.
+// The same triangle over a ground that it shades, to compare renderers.
 struct TestDrawing {
     image::Image picture;
     double seconds = 0.0;  // [s] of wall time a picture, the median
 };
-// Expects times >= 1; a first picture, for which the programs are made ready, does not count.
+// Expects times >= 1. One more picture comes first and does not count: it prepares the programs.
 TestDrawing drawTest(render::Renderer& renderer, int times);
 
-// The first of the backends that gives a context and passes the test. Throws core::Error(noRenderer) that tells for
-// each what happened. Expects at least one backend; options.backend is not used.
+// A renderer of the first backend that gives a context and passes the test. If none does, it throws
+// core::Error(noRenderer), which says what happened with each. Expects at least one backend; options.backend is not
+// used.
 std::unique_ptr<render::Renderer> workingRenderer(render::RendererOptions options,
                                                   const std::vector<render::Backend>& backends);
 

@@ -1,4 +1,4 @@
-// The directions of a camera, also of one that looks along its own up direction. Pure geometry.
+// The axes of a camera, also if it looks along its own up direction. Pure geometry.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,21 @@ struct CameraAxes {
     glm::vec3 right, up, forward;  // unit, at right angles
 };
 
-// Where eye and target are the same it looks along -z.
+// If eye and target are the same, it looks along -z.
 CameraAxes axesOf(const view::Camera& camera);
 
-// Where the ground begins to fade and has gone [m], from the camera's target.
+// The distances from the camera's target at which the ground begins to fade and at which it has gone [m].
 struct Fade {
     float start, end;
 };
 Fade fadeOf(const view::FrameView& view);
 
-// World to clip coordinates of GL, with planes that suit how far the camera looks. `aspect` is width / height of the
-// picture, above zero.
+// The matrix from world to GL clip coordinates, with near and far planes that suit the camera's distance. `aspect` is
+// width / height of the picture, above zero.
 float farPlaneOf(const view::Camera& camera);  // [m]
 glm::mat4 projectionOf(const view::Camera& camera, float aspect);
 
-// A place in a disc of radius 1: those of numbers that follow each other are spread evenly.
+// A place in a disc of radius 1. Consecutive numbers give places that are spread evenly.
 inline constexpr std::size_t placesOnLens = 32;
 glm::vec2 placeOnLens(std::size_t number);
 // To the right and up [m], looking the same way.

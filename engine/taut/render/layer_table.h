@@ -1,5 +1,5 @@
-// What a picture can have beside its colours, one row each: files NAME.depth.png of --depth. To add a layer, write one
-// file with how it is drawn and its row, and one line in layer_table.cpp.
+// The layers that a picture can have beside its colours, one row each: --depth writes files NAME.depth.png. To add a
+// layer, write one file that draws it and has its row, and one line in layer_table.cpp.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,17 @@ using Gl = GladGLContext;
 class LayerPass;
 class ShaderFolder;
 
-// What a record says of a layer: names and values, in that order.
+// What a record says about a layer: names and values, in that order.
 using LayerFact = std::variant<double, std::int64_t, std::string, std::vector<double>>;
 using LayerFacts = std::vector<std::pair<std::string, LayerFact>>;
 
-// A layer as somebody asked for it; several renderers may draw the same.
+// A layer with its settings; several renderers may draw the same one.
 class Layer {
   public:
     virtual ~Layer() = default;
     virtual std::string name() const = 0;  // that of its row
     virtual LayerFacts facts() const = 0;
-    // What draws it in a context, for pictures of that size. Expects that the context is current.
+    // The pass that draws it in a context, for pictures of that size. Expects that the context is current.
     virtual std::unique_ptr<LayerPass> pass(const Gl& gl, const ShaderFolder& shaders, glm::ivec2 size) const = 0;
 };
 
@@ -49,7 +49,7 @@ struct LayerKind {
     std::string name;  // "depth": its flag is --depth, its files are NAME.depth.png
     std::string help;  // of the flag
     std::optional<LayerNumber> number{};
-    // As it is asked for, with its number, for a run that shows `first` at first; null: there is nothing to draw.
+    // Makes the layer from its number, for a run whose first view is `first`; null: there is nothing to draw.
     std::function<std::shared_ptr<const Layer>(double number, const view::FrameView& first)> ask{};
 };
 

@@ -85,7 +85,7 @@ std::vector<DrawItem> MeshCache::items(const std::vector<view::Surface>& surface
     forgetExpired();
     std::vector<DrawItem> result;
     result.reserve(surfaces.size());
-    std::vector<Shape> shapes;
+    std::vector<ShadowShape> shapes;
     shapes.reserve(surfaces.size());
     for (const view::Surface& surface : surfaces) {
         TAUT_EXPECTS(surface.topology != nullptr && surface.geometry != nullptr && surface.finish != nullptr);

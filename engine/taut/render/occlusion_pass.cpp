@@ -63,7 +63,7 @@ OcclusionPass::OcclusionPass(const Gl& gl)
 }
 
 void OcclusionPass::draw(std::span<const DrawItem> items, const OcclusionArea& area, float groundHeight, bool anew) {
-    std::vector<Shape> shapes;
+    std::vector<ShadowShape> shapes;
     for (const DrawItem& item : items)
         if (item.bounds.low.y <= groundHeight + occlusionCeiling) shapes.push_back(item.shape);
     if (!anew && area == area_ && groundHeight == groundHeight_ && shapes == shapes_) return;

@@ -1,4 +1,4 @@
-// Draws a FrameView into a picture, off-screen. It knows neither the world that is shown nor files of frames.
+// Draws a FrameView into a picture, off-screen. It knows neither the world nor files of frames.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@
 
 namespace taut::render {
 
-// Which library gives the GL context: Mesa off-screen, in software and the same everywhere, or EGL, with what it finds.
+// The library that gives the GL context: Mesa off-screen, in software and the same everywhere, or EGL, with the driver
+// it finds.
 enum class Backend { osmesa, egl };
 
 struct RendererOptions {
@@ -35,11 +36,11 @@ struct RendererOptions {
     std::filesystem::path shaders;  // folder of the shader files
     std::filesystem::path font;     // TrueType file for labels; empty: the one that Debian installs
 
-    // Called with the name of each pass once GL has ended it, for measurements: waiting for it costs time.
+    // For measurements: called with the name of each pass after GL has finished it. Waiting for that costs time.
     std::function<void(std::string_view)> passDone;
 };
 
-// What draws, in the words of the GL library.
+// The renderer, in the words of the GL library.
 struct RendererInfo {
     std::string backend;
     std::string vendor;
@@ -49,8 +50,8 @@ struct RendererInfo {
     bool isSoftware = true;       // the processor draws
 };
 
-// May be moved between threads between calls, not used by two at once. The picture depends on the view alone,
-// not on the pictures drawn before.
+// Threads may take turns with it, but not call it at the same time. The picture depends on the view alone, not on the
+// pictures drawn before.
 class Renderer {
   public:
     // Throws Error(noRenderer) without a GL context, Error(inputOutput) without a shader file, and
@@ -60,13 +61,13 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    // A picture of width × height. Throws Error(inputOutput) for a texture, or a font that a label needs, that cannot
-    // be read, Error(badContent) for one that is no picture or no font.
+    // Draws a picture of width × height. Throws Error(inputOutput) if a texture, or a font that a label needs, cannot
+    // be read, Error(badContent) if it is no picture or no font.
     image::Image draw(const view::FrameView& view);
 
-    // Draws by another size, samples, size of the shadow map and occlusion from now on, as a renderer made so would;
-    // the rest of the options does not count. Costs less than a picture, for programs and meshes stay. Throws as the
-    // constructor does; then it draws nothing any more.
+    // Changes size, samples, size of the shadow map and occlusion; the other options are ignored. From now on pictures
+    // are those of a renderer that was made with these options. It costs less than a picture, because programs and
+    // meshes stay. Throws as the constructor does; the renderer cannot draw after that.
     void change(const RendererOptions& options);
 
     RendererInfo info() const;  // of the context in use

@@ -63,7 +63,7 @@ ShadowPass::ShadowPass(const Gl& gl, int texels)
 void ShadowPass::draw(std::span<const DrawItem> items, const Shadower& light, bool isWide, bool anew) {
     const LightBox& box = light.box;
     const int wide = isWide ? light.blocks : 0;
-    std::vector<Shape> shapes;
+    std::vector<ShadowShape> shapes;
     for (const DrawItem& item : items) shapes.push_back(item.shape);
     if (!anew && box.toMap == drawnBox_ && wide == wide_ && shapes == shapes_) return;
     shapes_ = std::move(shapes);

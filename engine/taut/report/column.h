@@ -57,9 +57,9 @@ using Columns = std::vector<Column<Row>>;
 
 // Of one of the texts: `csv`, `json` or `people`.
 template <class Row, class Rows>
-Table tableOf(const Columns<Row>& columns, const Rows& rows, In text) {
+TextTable tableOf(const Columns<Row>& columns, const Rows& rows, In text) {
     const bool isForPeople = text == In::people;
-    Table table;
+    TextTable table;
     table.rows.resize(rows.size());
     for (const Column<Row>& column : columns) {
         if (isForPeople ? !column.heading : column.in != In::files && column.in != text) continue;
@@ -73,7 +73,7 @@ Table tableOf(const Columns<Row>& columns, const Rows& rows, In text) {
 // A list of objects, of whatever library for JSON.
 template <class Json, class Row, class Rows>
 Json jsonOf(const Columns<Row>& columns, const Rows& rows) {
-    const Table table = tableOf(columns, rows, In::json);
+    const TextTable table = tableOf(columns, rows, In::json);
     Json list = Json::array();
     for (const auto& cells : table.rows) {
         Json& object = list.emplace_back();

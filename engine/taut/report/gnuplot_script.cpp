@@ -41,7 +41,7 @@ int pointType(Mark mark, bool isFilled) {
 constexpr double stripRow = 11;  // [px] height of a row of the strip
 
 // Where the strip of a panel begins, 0 … 1 of the panel; 1 without one.
-double stripFoot(const Panel& panel, const Box& box) {
+double stripFoot(const Panel& panel, const PanelBox& box) {
     if (panel.strip.rows == 0) return 1;
     return 1 - (panel.strip.rows * stripRow + 6) / (box.top - box.bottom);
 }
@@ -100,7 +100,7 @@ class Script {
     std::string font(double pixels) const { return fmt::format("',{:.2f}'", isPng_ ? pixels * 0.7667 : pixels); }
     double markSize(const Style& style) const { return (isPng_ ? 0.85 : 0.62) * style.size; }
 
-    void begin(const Box& box) {
+    void begin(const PanelBox& box) {
         add("reset\nset encoding utf8\nset lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
             "set tmargin at screen {}\nunset key\nset style textbox opaque noborder fillcolor rgb '#ffffff' margins "
             "0.4,0.3\n",
@@ -123,19 +123,19 @@ class Script {
 
     void addAxis(char name, const Axis& axis);
     void addTicks(char name, const std::vector<Tick>& ticks);
-    void addPanel(const Panel& panel, const Box& box);
+    void addPanel(const Panel& panel, const PanelBox& box);
     void addRegion(const Region& region);
     void addGuide(const Panel& panel, const Guide& guide, double foot);
     void addLabel(const Label& label);
     void addMap(const HeatMap& map);
     void addArrows(const Arrows& arrows);
     void addCurve(const Curve& curve);
-    void addStrip(const EdgeStrip& strip, const Box& box, double foot);
+    void addStrip(const EdgeStrip& strip, const PanelBox& box, double foot);
     void addFrame();
     void addText(double x, double y, const std::string& words, double size, const char* colour);
 
     const Chart& chart_;
-    Layout layout_;
+    ChartLayout layout_;
     bool isPng_ = false;
     bool hasColourBox_ = false;
     int data_ = 0;
@@ -181,7 +181,7 @@ void Script::addAxis(char name, const Axis& axis) {
                               : "2.5,0");
 }
 
-void Script::addPanel(const Panel& panel, const Box& box) {
+void Script::addPanel(const Panel& panel, const PanelBox& box) {
     begin(box);
     add("set border 3 lc rgb '#606060' lw 0.8\nset grid back lt 1 lc rgb '#e4e4e4' lw 0.6\n");
     const double foot = stripFoot(panel, box);
@@ -258,7 +258,7 @@ void Script::addMap(const HeatMap& map) {
         add("set palette defined ({})\nset cbrange [{}:{}]\n", stops, number(scale.stops.front().at),
             number(scale.stops.back().at));
         if (!scale.ticks.empty()) addTicks('c', scale.ticks);
-        const Box& box = layout_.colours;
+        const PanelBox& box = layout_.colours;
         if (hasColourBox_)
             add("unset colorbox\n");
         else
@@ -314,7 +314,7 @@ void Script::addCurve(const Curve& curve) {
     marks(style.isFilled, style.colour);
 }
 
-void Script::addStrip(const EdgeStrip& strip, const Box& box, double foot) {
+void Script::addStrip(const EdgeStrip& strip, const PanelBox& box, double foot) {
     const double height = box.top - box.bottom;
     add("set object rectangle from graph 0, graph {} to graph 1, graph 1 back fillcolor rgb '#f2e9e4' fillstyle solid "
         "noborder\n",

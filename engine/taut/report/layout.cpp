@@ -53,7 +53,7 @@ double leftRoom(const Panel& panel) {
 
 }  // namespace
 
-Layout layoutOf(const Chart& chart) {
+ChartLayout layoutOf(const Chart& chart) {
     const auto count = static_cast<int>(chart.panels.size());
     const int columns = chart.columns > 0 ? std::min(chart.columns, std::max(count, 1)) : std::max(count, 1);
     const int rows = (count + columns - 1) / columns;
@@ -63,7 +63,7 @@ Layout layoutOf(const Chart& chart) {
     };
 
     // Across.
-    Layout layout;
+    ChartLayout layout;
     std::vector<double> lefts;
     double x = edge;
     for (int c = 0; c < columns; ++c) {

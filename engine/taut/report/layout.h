@@ -8,7 +8,7 @@
 
 namespace taut::report {
 
-struct Box {
+struct PanelBox {
     double left = 0, right = 0, bottom = 0, top = 0;  // [px]
 };
 
@@ -18,18 +18,18 @@ struct LegendEntry {
     double x = 0, y = 0;  // [px] left end of the sample line, middle of its height
 };
 
-struct Layout {
+struct ChartLayout {
     double width = 0, height = 0;  // [px]
-    std::vector<Box> panels;       // plotting areas
+    std::vector<PanelBox> panels;  // plotting areas
     std::vector<LegendEntry> legend;
     double title = 0, subtitle = 0;  // [px] middle of the lines' heights
     double left = 0;                 // [px] where title and notes begin
     std::vector<double> notes;       // [px] middle of each line's height
-    Box colours;                     // of the colour scale
+    PanelBox colours;                // of the colour scale
 };
 
 inline constexpr double sampleLength = 34;  // [px] of a line in the legend
 
-Layout layoutOf(const Chart& chart);
+ChartLayout layoutOf(const Chart& chart);
 
 }  // namespace taut::report

@@ -45,7 +45,7 @@ std::size_t widthOf(const std::string& text) {
 
 }  // namespace
 
-std::string csv(const Table& table) {
+std::string csv(const TextTable& table) {
     std::string out;
     const auto line = [&](const auto& cells, const auto& text) {
         for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + text(cells[i]);
@@ -59,7 +59,7 @@ std::string csv(const Table& table) {
     return out;
 }
 
-std::string aligned(const Table& table) {
+std::string aligned(const TextTable& table) {
     std::vector<std::size_t> widths;
     for (const std::string& column : table.columns) widths.push_back(widthOf(column));
     for (const auto& row : table.rows) {

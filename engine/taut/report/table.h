@@ -11,15 +11,15 @@ namespace taut::report {
 // number, a truth (0 or 1), or several texts (with commas between them).
 using Cell = std::variant<std::string, double, long long, bool, std::vector<std::string>>;
 
-struct Table {
+struct TextTable {
     std::vector<std::string> columns;
     std::vector<std::vector<Cell>> rows;  // each as long as columns
 };
 
 // Comma-separated values after RFC 4180: a text with comma, quote or line break is quoted.
-std::string csv(const Table& table);
+std::string csv(const TextTable& table);
 
 // Columns padded with spaces, numbers with four digits and to the right.
-std::string aligned(const Table& table);
+std::string aligned(const TextTable& table);
 
 }  // namespace taut::report

@@ -60,7 +60,7 @@ Verdict verdictOf(const TestReport& report) {
 }
 
 std::string testTable(const TestReport& report) {
-    Table table{{"scenario", "", "checks", "state", "pictures", "time"}, {}};
+    TextTable table{{"scenario", "", "checks", "state", "pictures", "time"}, {}};
     for (const TestScenario& scenario : report.scenarios)
         table.rows.push_back({scenario.name, nameOf(scenario.verdict), countPassed(scenario.checks),
                               stateWord(scenario), countPassed(scenario.pictures),
@@ -105,7 +105,7 @@ std::string testSummary(const TestReport& report) {
 
 std::string calibrationTable(const TestReport& report) {
     if (report.calibration.empty()) return "";
-    Table table{
+    TextTable table{
         {"scenario", "picture", "against", "pixels", "worst tile", "largest", "picture", "state", "meant for", ""}, {}};
     for (const CalibrationRow& row : report.calibration) {
         const auto word = [&](bool has, bool differs) { return !has ? "-" : differs ? "differs" : "same"; };

@@ -100,7 +100,7 @@ report::Columns<MethodThreshold> thresholdColumns(const SceneThresholds& thresho
 }  // namespace
 
 std::string boundariesCsv(const StabilityMap& map) {
-    report::Table table;
+    report::TextTable table;
     table.columns = {"method", "damping", "zeta", "predicted_omega_h", "measured_omega_h", "gap"};
     for (const StabilityPanel& panel : map.panels)
         for (const Boundary& b : panel.boundaries)
@@ -110,7 +110,7 @@ std::string boundariesCsv(const StabilityMap& map) {
 }
 
 std::string growthCsv(const StabilityMap& map) {
-    report::Table table;
+    report::TextTable table;
     table.columns = {"method", "damping", "zeta", "omega_h", "growth_per_step"};
     for (const StabilityPanel& panel : map.panels) {
         if (panel.growth.empty()) continue;
@@ -151,7 +151,7 @@ std::string stabilityJson(const StabilityMap& map, const MachineFacts& machine) 
 }
 
 std::string stabilitySummary(const StabilityMap& map) {
-    report::Table table;
+    report::TextTable table;
     table.columns = {"method", "damping", "ζ = 0", "ζ = 0.5", "ζ = 1", "ζ = 2", "largest gap", "at ζ"};
     for (const StabilityPanel& panel : map.panels) {
         std::vector<report::Cell> row = {panel.method, dampingName(panel.damping)};
@@ -169,7 +169,7 @@ std::string stabilitySummary(const StabilityMap& map) {
 }
 
 std::string phasePlaneCsv(const std::vector<PhasePath>& paths) {
-    report::Table table;
+    report::TextTable table;
     table.columns = {"method", "step", "x", "v_over_omega"};
     for (const PhasePath& path : paths)
         for (std::size_t n = 0; n < path.points.size(); ++n)

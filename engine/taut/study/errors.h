@@ -30,12 +30,12 @@ inline double maxDifference(std::span<const double> a, std::span<const double> b
 }
 
 // What of a state is still worth comparing when its points are not: how large it is, and how low it hangs.
-struct Shape {
+struct StateSize {
     double extent = 0;  // [m] diagonal of the bounding box
     double height = 0;  // [m] mean y
 };
-inline Shape shapeOf(const Observation& seen, int dimensions) {
-    Shape shape;
+inline StateSize shapeOf(const Observation& seen, int dimensions) {
+    StateSize shape;
     const auto d = static_cast<std::size_t>(dimensions);
     double square = 0;
     for (std::size_t p = 0; p < d && p < seen.values.size(); ++p) {

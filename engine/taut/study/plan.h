@@ -18,7 +18,7 @@ namespace taut::study {
 
 struct PlanSettings {
     double effort = 2e10;  // all runs together: evaluations times springs and points, and what takes as long
-    std::function<void(const Progress&)> progress;
+    std::function<void(const StudyProgress&)> progress;
     const std::atomic<bool>* stop = nullptr;
 };
 

@@ -132,7 +132,7 @@ class Watcher {
 double contactCost(const world::World& world) {
     const world::ContactInfo contact = world.contact();
     return costOfInstant * static_cast<double>(contact.instants) * contact.points +
-           costOfPair * static_cast<double>(contact.locatedInAll);
+           costOfPair * static_cast<double>(contact.testedPairs);
 }
 
 // What was computed so far, each evaluation and product taken to cost what it does and `more`.
@@ -156,7 +156,7 @@ double pixelAt(const world::World& world, const world::SceneSpec& model, const S
     return nearest < HUGE_VAL ? nearest * height / model.picture.size.y : 0.0;
 }
 
-class Box {
+class SightBounds {
   public:
     void add(const Sight& sight) {
         for (const dvec3& x : sight) least_ = glm::min(least_, x), most_ = glm::max(most_, x);
@@ -175,7 +175,7 @@ void advance(world::World& world, const world::SceneSpec& model, const Resolutio
     const bool bodiesTouch = world::bodiesTouch(model);
     double costOfAll = 0;
     for (const world::IslandInfo& island : world.islands()) costOfAll += costOf(island);
-    Box box;
+    SightBounds box;
     if (limits.withScales) box.add(watcher.look());
     // Islands are described from scratch at each call: rarely.
     const auto isTooDear = [&] {

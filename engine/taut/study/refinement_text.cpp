@@ -63,7 +63,7 @@ std::string refinementJson(const RefinementStudy& study, const MachineFacts& mac
 }
 
 std::string refinementSummary(const RefinementStudy& study) {
-    report::Table table;
+    report::TextTable table;
     table.columns = {"body", "edges"};
     std::vector<int> cells;
     for (const RefinementRun& run : study.runs)

@@ -35,7 +35,7 @@ class Gathering {
             most_ = std::max(most_, maxDifference(seen.values, wanted.values, study_.dimensions));
             return;
         }
-        const Shape is = shapeOf(seen, study_.dimensions), was = shapeOf(wanted, study_.dimensions);
+        const StateSize is = shapeOf(seen, study_.dimensions), was = shapeOf(wanted, study_.dimensions);
         ++beyond_;
         meanEnergy_ += seen.energy - wanted.energy;
         extent_ += is.extent - was.extent;

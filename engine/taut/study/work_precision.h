@@ -68,7 +68,7 @@ struct WorkPrecision {
     bool isInterrupted = false;
 };
 
-struct Progress {
+struct StudyProgress {
     std::string doing;
     double done = 0;  // 0 … 1
 };
@@ -79,7 +79,7 @@ struct StudySettings {
     double seconds = 0;  // [s] of motion; 0: as the subject says, at most three horizons
     double budget = 40;  // [s] of wall time to aim at
     int halvings = 0;    // of the step, exactly so many for every curve and untimed; 0: as many as the budget allows
-    std::function<void(const Progress&)> progress;
+    std::function<void(const StudyProgress&)> progress;
     const std::atomic<bool>* stop = nullptr;
 };
 

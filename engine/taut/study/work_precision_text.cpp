@@ -120,7 +120,7 @@ std::string workPrecisionJson(const WorkPrecision& study, const std::vector<Step
 }
 
 std::string workPrecisionSummary(const WorkPrecision& study) {
-    report::Table table;
+    report::TextTable table;
     table.columns = {"method",      "precision",         "limit [ms]",          "order", "smallest error",
                      "with h [ms]", "[ms/s] within 1 %", "[ms/s] within 0.1 %", "failed"};
     const double duration = study.grid.duration();

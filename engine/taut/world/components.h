@@ -20,7 +20,7 @@ struct Identity {
     std::string fullName() const { return kind + "." + name; }
 };
 
-// What moves by its own laws.
+// A body: it moves by forces.
 struct BodyPart {
     std::unique_ptr<Body> body;
     std::unique_ptr<BodyDrawing> drawing;
@@ -33,7 +33,7 @@ struct Placement {
     bool moved = false;  // in the tick before
 };
 
-// The way that an action sends a collider, in ticks.
+// The motion that an action gives a collider, in ticks.
 struct PoseMove {
     collision::Pose from, to;
     std::int64_t start = 0, length = 1;
@@ -43,7 +43,7 @@ struct PoseMove {
 struct ColliderPart {
     ColliderSpec spec;
     std::shared_ptr<const ColliderModel> model;
-    std::optional<PoseMove> move{};  // the last; where there is one, keyframes do not count any more
+    std::optional<PoseMove> move{};  // the last one; if there is one, keyframes no longer count
 };
 
 struct CameraPart {

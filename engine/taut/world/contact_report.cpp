@@ -57,7 +57,7 @@ std::vector<BodyCrossing> crossingsOf(ContactStage& stage) {
 
 void ContactReport::look(const ContactStage& stage, double start) {
     contacts_.clear();
-    hasMet_ = hasMet_ || stage.hasMet();
+    hadImpulse_ = hadImpulse_ || stage.hadImpulse();
     for (const contact::ContactPoint& c : stage.contacts())
         if (stage.isOfBody(c.surfaceA) && stage.isOfBody(c.surfaceB))
             contacts_.push_back({c.place, c.normal, c.impulse, &stage.bodyOf(c.surfaceA), &stage.bodyOf(c.surfaceB)});

@@ -193,7 +193,7 @@ int ContactStage::chooseInstants(const TickTime& time) {
         return instants;
     };
     // Nothing touches: what is cheapest for the broad phase.
-    if (!forecast.meets) {
+    if (!forecast.isInContact) {
         const int common = commonSubsteps();
         return -takeInstants(time, std::min(common, enough(1, forecast.deformationRate, mostDeformation)));
     }
@@ -244,23 +244,23 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         const bool isTrial = instants < 0;
         instants_ = std::abs(instants);
         const bool isCoarse = tryTick(time, moving, instants_, faults, isTrial);
-        std::vector<Verdict> verdicts(islands_.size(), Verdict::stands);
+        std::vector<TickVerdict> verdicts(islands_.size(), TickVerdict::stands);
 
         // Does it stand? Each island has a say, and one that diverged may be frozen: the others go on beside it.
         bool isAgain = isCoarse;
         for (std::size_t k = 0; k < islands_.size(); ++k) {
             if (isCoarse) continue;
             verdicts[k] = islands_[k]->judge(time, faults[k]);
-            if (verdicts[k] == Verdict::fails) {
+            if (verdicts[k] == TickVerdict::fails) {
                 if (islands_[k]->plan().solver.onDivergence != OnDivergence::freeze)
                     return Outcome{islands_[k], *faults[k]};
                 islands_[k]->freeze(*faults[k], time);
-                verdicts[k] = Verdict::stands;
+                verdicts[k] = TickVerdict::stands;
                 const Part& part = parts_[k];
                 std::fill(inverseMass_.begin() + part.first, inverseMass_.begin() + part.last, 0.0);
                 isAgain = true;
             }
-            isAgain = isAgain || verdicts[k] == Verdict::again;
+            isAgain = isAgain || verdicts[k] == TickVerdict::again;
         }
         if (!isAgain) break;
 
@@ -292,7 +292,7 @@ bool ContactStage::movesAny() const {
 // be slid apart. Where nothing moves, shorter instants would find the same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
-    if (instants_ < instantsFor(result_.surfaces) || (isTrial && result_.active > 0)) return true;
+    if (instants_ < instantsFor(result_.surfaces) || (isTrial && result_.impulses > 0)) return true;
     return instants_ < mostInstantsForSpeed && (result_.deepest > mostClosing || result_.slides > 0);
 }
 
@@ -366,8 +366,8 @@ void ContactStage::resolveInstant(double h) {
     const auto start = Clock::now();
     result_ = group_->resolve(instant);
     total_.seconds += secondsSince(start);
-    total_.locatedInAll += static_cast<std::int64_t>(group_->testedCount());
-    hasMet_ = hasMet_ || result_.active > 0;
+    total_.testedPairs += static_cast<std::int64_t>(group_->testedCount());
+    hadImpulse_ = hadImpulse_ || result_.impulses > 0;
     total_.slides += result_.slides;
     total_.zones += result_.zones;
     total_.uncertified += result_.uncertified;
@@ -424,9 +424,9 @@ ContactInfo ContactStage::info() const {
     info.points = static_cast<int>(x1_.size());
     info.mostInstants = mostInstants();
     info.lastInstants = instants_;
-    info.located = static_cast<int>(group_->testedCount());
-    info.pressing = result_.active;
-    info.lists = static_cast<std::int64_t>(group_->listsMade());
+    info.lastTestedPairs = static_cast<int>(group_->testedCount());
+    info.lastImpulses = result_.impulses;
+    info.candidateLists = static_cast<std::int64_t>(group_->listsMade());
     info.bytes = group_->bytes();
     return info;
 }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "taut/world/private/impl.h"
+#include "taut/bodies/private/ties.h"
 #include "taut/spec/private/motion.h"
 #include "taut/spec/private/rotation.h"
-#include "taut/bodies/private/ties.h"
+#include "taut/world/private/impl.h"
+#include "taut/world/private/timeline.h"
 
 namespace taut::world {
 
@@ -33,63 +34,35 @@ collision::Pose Hand::poseAt(std::int64_t tick) const {
     return {placeAt(tick), isTurned() ? rotationOf(anglesAt(tick)) : glm::dquat(1, 0, 0, 0)};
 }
 
-Hand& World::Impl::handOf(const ActionSpec& action, const std::string& id) {
-    for (Hand& hand : hands)
+Hand& handOf(WorldImpl& w, const ActionSpec& action, const std::string& id) {
+    for (Hand& hand : w.hands)
         if (hand.id == id) return hand;
     failAction(action, "there is no hand \"" + id + "\" now; grab with it first");
 }
 
-// Where hands go in the coming tick. What they hold starts anew when their speed changes: the extrapolated velocities
+void loosen(WorldImpl& w, const std::string& holder, bool isCollider) {
+    const auto isOwn = [&](const Grip& grip) { return grip.ofCollider == isCollider && grip.holder == holder; };
+    for (const auto& island : w.islands) {
+        const std::vector<Grip>& grips = island->plan().grips;
+        if (island->frozen() != nullptr || std::none_of(grips.begin(), grips.end(), isOwn)) continue;
+        std::erase_if(island->change(w.now(), Change::grips).grips, isOwn);
+    }
+}
+
+// What they hold starts anew when their speed changes: the extrapolated velocities
 // and stored accelerations of methods know nothing of it.
-void World::Impl::leadHands() {
-    for (Hand& hand : hands) {
-        const collision::Pose from = hand.poseAt(tick), to = hand.poseAt(tick + 1);
-        const dvec3 rate = (to.position - from.position) * ticksPerSecond;
-        const double t0 = now().start(), t1 = t0 + 1.0 / ticksPerSecond;
+void leadHands(WorldImpl& w) {
+    for (Hand& hand : w.hands) {
+        const collision::Pose from = hand.poseAt(w.tick), to = hand.poseAt(w.tick + 1);
+        const dvec3 rate = (to.position - from.position) * w.ticksPerSecond;
+        const double t0 = w.now().start(), t1 = t0 + 1.0 / w.ticksPerSecond;
         const mechanics::PosePath path(mechanics::LinearPath::line(from.position, rate, t0), from.rotation, to.rotation,
                                        t0, t1);
         const bool bends = rate != hand.rate || isOther(hand.spin, path.at(t0).spin);
-        for (const auto& island : islands) island->lead(now(), hand.id, path, bends);
+        for (const auto& island : w.islands) island->lead(w.now(), hand.id, path, bends);
         hand.rate = rate;
         hand.spin = path.at(t1).spin;
     }
-    carryTied();
-}
-
-void World::Impl::carryTied() {
-    if (std::none_of(islands.begin(), islands.end(), [](const auto& island) {
-            return !island->plan().grips.empty() || !island->plan().carriers.empty();
-        }))
-        return;
-    registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart&) {
-        const Placement& placement = *registry.find<Placement>(entity);
-        const mechanics::PosePath path = pathOf(placement.from, placement.to, now().start(), ticksPerSecond);
-        for (const auto& island : islands) island->carry(now(), identity.fullName(), path);
-    });
-}
-
-void World::Impl::letGo(const std::string& collider) {
-    const auto isOwn = [&](const Grip& grip) { return grip.ofCollider && grip.holder == collider; };
-    for (const auto& island : islands) {
-        island->release(now(), collider);
-        const std::vector<Grip>& grips = island->plan().grips;
-        if (island->frozen() != nullptr || std::none_of(grips.begin(), grips.end(), isOwn)) continue;
-        std::erase_if(island->change(now(), Change::grips).grips, isOwn);
-    }
-}
-
-std::optional<collision::Pose> World::Impl::poseOf(const std::string& collider) const {
-    std::optional<collision::Pose> pose;
-    registry.each<Identity, ColliderPart>([&](ecs::Entity entity, const Identity& identity, const ColliderPart&) {
-        if (!pose && identity.fullName() == collider) pose = registry.find<Placement>(entity)->to;
-    });
-    return pose;
-}
-
-std::optional<glm::dvec3> World::handPlace(const std::string& id) const {
-    for (const Hand& hand : impl_->hands)
-        if (hand.id == id) return hand.placeAt(impl_->tick);
-    return std::nullopt;
 }
 
 }  // namespace taut::world

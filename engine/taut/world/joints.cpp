@@ -1,7 +1,9 @@
-// What the joints of a scene tie, and what they name and do not tie.
+#include "taut/world/private/joints.h"
+
 #include <algorithm>
 #include <cstdio>
 
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
 #include "taut/spec/targets.h"
 #include "taut/bodies/private/ties.h"
@@ -51,26 +53,21 @@ std::string jumpWarning(const JointReport& report) {
 
 }  // namespace
 
-void World::Impl::takeJoints(const std::vector<JointReport>& reports) {
+void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
     for (const JointReport& report : reports) {
-        joints.push_back(infoOf(report));
-        if (!report.loose.empty()) jointWarnings.push_back(warningOf(report));
-        if (std::string jerk = jumpWarning(report); !jerk.empty()) jointWarnings.push_back(std::move(jerk));
+        w.joints.push_back(infoOf(report));
+        if (!report.loose.empty()) w.jointWarnings.push_back(warningOf(report));
+        if (std::string jerk = jumpWarning(report); !jerk.empty()) w.jointWarnings.push_back(std::move(jerk));
     }
-    for (const JointSpec& joint : spec.joints) {
+    for (const JointSpec& joint : w.spec.joints) {
         if (!isTie(joint)) continue;
         JointInfo info{joint.a, joint.b, std::string(joint.kind()), {}, 0, {}};
         const std::string selector = parseTarget(pointsOf(joint)).selector;
-        const std::vector<Body*> all = allBodies();
-        for (const Body* body : matchBodies(all, pointsOf(joint)))
+        for (const Body* body : matchBodies(bodiesOf(w), pointsOf(joint)))
             info.pairs.push_back(
                 {body->fullName(), colliderOf(joint), static_cast<int>(selectPoints(body->model, selector).size())});
-        joints.push_back(std::move(info));
+        w.joints.push_back(std::move(info));
     }
-}
-
-std::vector<JointInfo> World::joints() const {
-    return impl_->joints;
 }
 
 }  // namespace taut::world

@@ -1,11 +1,14 @@
-// The one hand-over from simulation to pictures.
+#include "taut/world/private/publish.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "taut/spec/private/motion.h"
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/labels.h"
-#include "taut/spec/private/motion.h"
+#include "taut/world/private/tick.h"
 
 namespace taut::world {
 namespace {
@@ -50,8 +53,8 @@ void addTouchMarks(WorldImpl& w, view::Marks& marks) {
         marks.lines.push_back({glm::vec3(c.place - way), glm::vec3(c.place + way), pressing});
         marks.dots.push_back({glm::vec3(c.place), pressing, 2.5F});
     }
-    if (!w.touchesAny()) return;
-    for (const BodyCrossing& c : w.crossings()) marks.dots.push_back({glm::vec3(c.place), crossing, 4.0F});
+    if (!touchesAny(w)) return;
+    for (const BodyCrossing& c : crossingsOf(w)) marks.dots.push_back({glm::vec3(c.place), crossing, 4.0F});
 }
 
 view::Light lightOf(const LightSpec& spec) {
@@ -122,7 +125,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
     std::map<const Island*, std::vector<dvec3>> places;  // of islands that have been met, where they are asked for
     for (const WorldImpl::Member& member : w.bodies) {
         const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
-        const Island& island = w.islandOf(*part.body);
+        const Island& island = islandOf(*part.body);
         drawn.push_back(part.body.get());
         std::vector<glm::vec3> positions;
         positions.reserve(part.body->pointOf.size());
@@ -143,24 +146,23 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
 
 }  // namespace
 
-view::FrameView World::viewAhead(double ahead) const {
+view::FrameView viewAhead(const WorldImpl& w, double ahead) {
     std::vector<Body*> ignored;
-    return sceneOf(*impl_, ahead, ignored);
+    return sceneOf(w, ahead, ignored);
 }
 
-view::FrameView World::view(bool debug) const {
-    const Impl& w = *impl_;
+view::FrameView viewOf(WorldImpl& w, bool debug) {
     std::vector<Body*> bodies;
     view::FrameView view = sceneOf(w, 0.0, bodies);
     for (const LabelSpec& label : w.spec.labels) {
         std::vector<LabelSubject> subjects;
-        for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &w.islandOf(*body)});
+        for (const Body* body : matchBodies(bodies, label.of)) subjects.push_back({body, &islandOf(*body)});
         addLabels(label, subjects, view.labels);
     }
     view.showMarks = debug;
     if (!debug) return view;
     for (const auto& island : w.islands) addMarks(*island, view.marks);
-    addTouchMarks(*impl_, view.marks);
+    addTouchMarks(w, view.marks);
     for (const Hand& hand : w.hands)
         view.marks.dots.push_back({glm::vec3(hand.placeAt(w.tick)), glm::vec3(1.0F, 0.35F, 0.05F), 5.0F});
     return view;

@@ -5,45 +5,33 @@
 
 #include "taut/core/private/hash.h"
 #include "taut/island/private/island_report.h"
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/publish.h"
+#include "taut/world/private/tick.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {
+namespace {
 
-bool World::Impl::touchesAny() const {
-    return std::any_of(
-        islands.begin(), islands.end(), [](const auto& island) { return touches(island->plan()); });
-}
-
-std::vector<BodyCrossing> World::Impl::crossings() {
-    makeContactStage();
-    return crossingsOf(*contactStage);
-}
-
-Metrics World::Impl::metricsOf(const std::function<bool(const Body&)>& wanted, Measures what) {
+Metrics metricsOf(WorldImpl& w, const std::function<bool(const Body&)>& wanted, Measures what) {
     Metrics metrics;
-    metrics.time = seconds();
-    for (const auto& island : islands) addMetrics(*island, now(), wanted, metrics);
+    metrics.time = w.seconds();
+    for (const auto& island : w.islands) addMetrics(*island, w.now(), wanted, metrics);
     const auto counts = [&](const Body& body) { return wanted(body) && body.island->frozen() == nullptr; };
-    for (const BodyContact& contact : contactReport.contacts())
+    for (const BodyContact& contact : w.contactReport.contacts())
         metrics.bodyContacts += counts(*contact.first) || counts(*contact.second) ? 1 : 0;
-    if (what == Measures::butCrossings || !touchesAny()) return metrics;
-    for (const BodyCrossing& crossing : crossings())
+    if (what == Measures::butCrossings || !touchesAny(w)) return metrics;
+    for (const BodyCrossing& crossing : crossingsOf(w))
         metrics.crossings += counts(*crossing.ofEdge) || counts(*crossing.ofTriangle) ? 1 : 0;
-    metrics.facePenetration = contactStage->facePenetration(wanted);
+    metrics.facePenetration = w.contactStage->facePenetration(wanted);
     return metrics;
 }
 
-std::vector<TouchedCollider> World::Impl::met() const {
-    std::vector<TouchedCollider> all;
-    registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
-        all.push_back({collision::outlinesOf(part.model->shape), part.spec.friction, placement.to});
-    });
-    return all;
-}
+}  // namespace
 
 Metrics World::metrics(Measures what) const {
-    return impl_->metricsOf([](const Body&) { return true; }, what);
+    return metricsOf(*impl_, [](const Body&) { return true; }, what);
 }
 
 Metrics World::metrics(const std::string& bodies) const {
@@ -58,7 +46,7 @@ Selection World::select(const std::string& target) const {
     Selection selection;
     selection.generation = impl_->generation;
     const std::string selector = parseTarget(target).selector;
-    for (const Body* body : matchBodies(impl_->allBodies(), target))
+    for (const Body* body : matchBodies(bodiesOf(*impl_), target))
         selection.parts.push_back({body, selectPoints(body->model, selector)});
     return selection;
 }
@@ -71,7 +59,7 @@ Metrics World::metrics(const Selection& selection, Measures what) const {
     TAUT_EXPECTS(isCurrent(selection));
     std::set<const Body*> bodies;
     for (const Selection::Part& part : selection.parts) bodies.insert(part.body);
-    return impl_->metricsOf([&](const Body& body) { return bodies.contains(&body); }, what);
+    return metricsOf(*impl_, [&](const Body& body) { return bodies.contains(&body); }, what);
 }
 
 PointsNow World::points(const Selection& selection) const {
@@ -79,7 +67,7 @@ PointsNow World::points(const Selection& selection) const {
     PointsNow points;
     std::map<const Island*, std::vector<dvec3>> velocities;  // of the islands asked so far
     for (const auto& [body, numbers] : selection.parts) {
-        Island& island = impl_->islandOf(*body);
+        Island& island = islandOf(*body);
         auto known = velocities.find(&island);
         if (known == velocities.end()) known = velocities.emplace(&island, island.velocities(impl_->now())).first;
         for (int i : numbers) {
@@ -96,7 +84,7 @@ std::vector<glm::dvec3> World::positions(const Selection& selection) const {
     TAUT_EXPECTS(isCurrent(selection));
     std::vector<glm::dvec3> positions;
     for (const auto& [body, numbers] : selection.parts) {
-        const Island& island = impl_->islandOf(*body);
+        const Island& island = islandOf(*body);
         for (int i : numbers) positions.push_back(island.position(body->pointOf[static_cast<std::size_t>(i)]));
     }
     return positions;
@@ -105,19 +93,19 @@ std::vector<glm::dvec3> World::positions(const Selection& selection) const {
 std::vector<glm::dvec3> World::positions(ecs::Entity entity) const {
     const BodyPart* part = impl_->registry.find<BodyPart>(entity);
     TAUT_EXPECTS(part != nullptr);
-    const Island& island = impl_->islandOf(*part->body);
+    const Island& island = islandOf(*part->body);
     std::vector<glm::dvec3> positions;
     for (int i : part->body->pointOf) positions.push_back(island.position(i));
     return positions;
 }
 
 ContactInfo World::contact() const {
-    impl_->makeContactStage();
+    makeContactStage(*impl_);
     return impl_->contactStage->info();
 }
 
 bool World::hasTouched() const {
-    return impl_->contactReport.hasMet() ||
+    return impl_->contactReport.hadImpulse() ||
            std::any_of(
                impl_->islands.begin(), impl_->islands.end(), [](const auto& island) { return island->hasTouched(); });
 }
@@ -139,11 +127,34 @@ std::vector<std::string> World::callbacks() const {
     return names;
 }
 
+std::uint64_t World::stateHash() const {
+    return impl_->hash;
+}
+
+std::vector<IslandInfo> World::islands() const {
+    std::vector<IslandInfo> all;
+    for (const auto& island : impl_->islands) all.push_back(infoOf(*island, impl_->now()));
+    return all;
+}
+
+ode::Work World::work() const {
+    ode::Work work;
+    for (const auto& island : impl_->islands) work += island->work();
+    return work;
+}
+
+std::vector<FrozenIsland> World::frozen() const {
+    std::vector<FrozenIsland> all;
+    for (const auto& island : impl_->islands)
+        if (const FrozenIsland* frozen = island->frozen()) all.push_back(*frozen);
+    return all;
+}
+
 std::vector<BodyHash> World::bodyHashes() const {
     std::vector<BodyHash> hashes;
-    for (const Body* body : impl_->allBodies()) {
+    for (const Body* body : bodiesOf(*impl_)) {
         core::Hash hash;
-        impl_->islandOf(*body).addToHash(*body, hash);
+        islandOf(*body).addToHash(*body, hash);
         hashes.push_back({body->fullName(), hash.value()});
     }
     return hashes;
@@ -152,7 +163,7 @@ std::vector<BodyHash> World::bodyHashes() const {
 std::vector<std::uint64_t> World::pointHashes(ecs::Entity entity) const {
     const BodyPart* part = impl_->registry.find<BodyPart>(entity);
     TAUT_EXPECTS(part != nullptr);
-    const Island& island = impl_->islandOf(*part->body);
+    const Island& island = islandOf(*part->body);
     std::vector<std::uint64_t> hashes;
     for (int i : part->body->pointOf) {
         core::Hash hash;
@@ -160,6 +171,24 @@ std::vector<std::uint64_t> World::pointHashes(ecs::Entity entity) const {
         hashes.push_back(hash.value());
     }
     return hashes;
+}
+
+std::vector<JointInfo> World::joints() const {
+    return impl_->joints;
+}
+
+std::optional<glm::dvec3> World::handPlace(const std::string& id) const {
+    for (const Hand& hand : impl_->hands)
+        if (hand.id == id) return hand.placeAt(impl_->tick);
+    return std::nullopt;
+}
+
+view::FrameView World::view(bool debug) const {
+    return viewOf(*impl_, debug);
+}
+
+view::FrameView World::viewAhead(double ahead) const {
+    return world::viewAhead(*impl_, ahead);
 }
 
 }  // namespace taut::world

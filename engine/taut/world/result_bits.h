@@ -1,4 +1,4 @@
-// The generation of results, which files carry that keep results or go on from them. It knows no file.
+// The generation of results. Files that keep results, or go on from them, carry it. It knows no file.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace taut::world {
 
-// Raised by one in the commit that changes what any scene computes, if only in the last bit. What carries no number was
+// A commit that changes what any scene computes, even in the last bit, raises it by one. Results without a number were
 // recorded by bits 1.
 inline constexpr int resultBits = 5;
 

@@ -1,11 +1,13 @@
-// A world as bytes: what its ticks have changed. The scene is not among them; it makes the world that they go into.
+#include "taut/world/private/saving.h"
+
 #include <algorithm>
 
-#include "taut/world/private/impl.h"
 #include "taut/spec/kinds.h"
-#include "taut/world/result_bits.h"
-#include "taut/bodies/state_bytes.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/private/bodies.h"
+#include "taut/world/private/impl.h"
+#include "taut/world/private/tick.h"
+#include "taut/world/result_bits.h"
 
 namespace taut::world {
 namespace {
@@ -137,70 +139,52 @@ void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const st
 
 }  // namespace
 
-void World::Impl::visit(StateBytes& bytes, std::span<const RampAction> applied) {
+void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied) {
     visitBits(bytes);
-    visitKinds(bytes, ownKinds(spec, added, islands, tick), ownActions(spec, longestWay));
-    double rate = ticksPerSecond;
+    visitKinds(bytes, ownKinds(w.spec, w.added, w.islands, w.tick), ownActions(w.spec, longestWay));
+    double rate = w.ticksPerSecond;
     bytes(rate);
-    if (rate != ticksPerSecond) misfit("its frame rate is another");
-    bytes.atLeast(tick, 0, longestWay);
-    bytes(hash);
-    bytes.each(ramps, [&](Ramp& ramp) { visitPart(bytes, ramp, *start, applied, spec); });
-    if (bytes.isReading()) takeRampedParts();
-    std::vector<std::string> targets = spawned;
+    if (rate != w.ticksPerSecond) misfit("its frame rate is another");
+    bytes.atLeast(w.tick, 0, longestWay);
+    bytes(w.hash);
+    bytes.each(w.ramps, [&](Ramp& ramp) { visitPart(bytes, ramp, *w.start, applied, w.spec); });
+    if (bytes.isReading()) takeRampedParts(w);
+    std::vector<std::string> targets = w.spawned;
     bytes.each(targets, [&](std::string& target) { bytes(target); });
     if (bytes.isReading())
         for (const std::string& target : targets)
-            if (!spawnWaiting(target)) misfit("no body \"" + target + "\" waits to be spawned");
+            if (!spawnWaiting(w, target)) misfit("no body \"" + target + "\" waits to be w.spawned");
     bytes.each(
-        hands, [&](Hand& hand) { visitPart(bytes, hand); });
-    registry.each<ColliderPart, Placement>([&](ecs::Entity, ColliderPart& part, Placement& placement) {
+        w.hands, [&](Hand& hand) { visitPart(bytes, hand); });
+    w.registry.each<ColliderPart, Placement>([&](ecs::Entity, ColliderPart& part, Placement& placement) {
         bytes.expect(part.spec.name, "its colliders are others");
         bytes(placement.from);
         bytes(placement.to);
         bytes(placement.moved);
         bytes.optional(part.move, [&](PoseMove& move) { visitPart(bytes, move); });
     });
-    if (bytes.mark(touchMark, contactReport.isWorthSaving())) {
-        const std::vector<Body*> all = allBodies();
-        contactReport.visit(bytes, std::vector<const Body*>(all.begin(), all.end()));
+    if (bytes.mark(touchMark, w.contactReport.isWorthSaving())) {
+        const std::vector<Body*> all = bodiesOf(w);
+        w.contactReport.visit(bytes, std::vector<const Body*>(all.begin(), all.end()));
     }
-    if (touchesAny()) {
-        contactPace.visit([&](auto& number) { bytes(number); });
-        bytes.require(contactPace.isSound());
+    if (touchesAny(w)) {
+        w.contactPace.visit([&](auto& number) { bytes(number); });
+        bytes.require(w.contactPace.isSound());
     }
-    auto count = static_cast<std::uint64_t>(islands.size());
+    auto count = static_cast<std::uint64_t>(w.islands.size());
     bytes(count);
-    if (count != islands.size()) misfit("its bodies hang together in another way");
+    if (count != w.islands.size()) misfit("its bodies hang together in another way");
     // What ramps have made of the bodies, for the next one that takes an island's springs from them.
-    const bool ramped = std::any_of(ramps.begin(), ramps.end(), [](const Ramp& ramp) {
+    const bool ramped = std::any_of(w.ramps.begin(), w.ramps.end(), [](const Ramp& ramp) {
         return ramp.action.field->affects == fields::Affects::springs;
     });
     if (bytes.isReading() && ramped)
-        for (const Member& member : bodies) takeSprings(*member.body);
+        for (const WorldImpl::Member& member : w.bodies) takeSprings(w.spec, *member.body);
     if (bytes.isReading()) {
-        const ForceList current = forces();
-        for (const auto& island : islands) island->setForces(now(), current);
+        const ForceList current = forcesOf(w);
+        for (const auto& island : w.islands) island->setForces(w.now(), current);
     }
-    for (const auto& island : islands) island->visit(bytes);
-}
-
-std::vector<std::byte> World::save() const {
-    core::ByteWriter writer;
-    StateBytes bytes(writer);
-    impl_->visit(bytes);
-    return writer.take();
-}
-
-void World::restore(std::span<const std::byte> content, std::span<const RampAction> applied) {
-    TAUT_EXPECTS(impl_->tick == 0);
-    core::ByteReader reader(content);
-    StateBytes bytes(reader);
-    impl_->visit(bytes, applied);
-    if (!reader.isAtEnd()) misfit("there is more in them than it has");
-    impl_->rebuildColliders();
-    impl_->redrawDamage();
-    impl_->contactStage.reset();
+    for (const auto& island : w.islands) island->visit(bytes);
 }
 
 }  // namespace taut::world

@@ -1,10 +1,12 @@
-// The actions of a scene when they are due, and what they have in common.
+#include "taut/world/private/timeline.h"
+
 #include <algorithm>
 
 #include "taut/core/error.h"
-#include "taut/world/private/impl.h"
 #include "taut/spec/targets.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/private/bodies.h"
+#include "taut/world/private/impl.h"
 
 namespace taut::world {
 namespace {
@@ -33,17 +35,17 @@ double massOf(const Picked& point) {
     return point.island->plan().points[static_cast<std::size_t>(point.point)].mass;
 }
 
-void World::Impl::performDue(World& world) {
-    const Ticks ticks(start->run);
-    for (const ActionSpec& action : start->actions)
-        if (ticks.at(action.t) <= tick && tick <= ticks.at(action.t + action.lasts())) action.perform(world);
+void performDue(World& world) {
+    const WorldImpl& w = WorldAccess::of(world);
+    const Ticks ticks(w.start->run);
+    for (const ActionSpec& action : w.start->actions)
+        if (ticks.at(action.t) <= w.tick && w.tick <= ticks.at(action.t + action.lasts())) action.perform(world);
 }
 
-std::vector<Picked> World::Impl::pick(const PointsAction& action) const {
+std::vector<Picked> pick(const WorldImpl& w, const PointsAction& action) {
     std::vector<Picked> points;
     const std::string selector = parseTarget(action.target).selector;
-    const std::vector<Body*> all = allBodies();
-    for (const Body* body : matchBodies(all, action.target))
+    for (const Body* body : matchBodies(bodiesOf(w), action.target))
         for (int i : selectPoints(body->model, selector))
             points.push_back({&islandOf(*body), body, body->pointOf[static_cast<std::size_t>(i)]});
     if (points.empty()) failAction(action, "target = \"" + action.target + "\" names no point");
@@ -56,7 +58,7 @@ std::vector<Picked> World::Impl::pick(const PointsAction& action) const {
     }
     const auto number = [&](const Picked& p) {
         return std::find_if(
-            islands.begin(), islands.end(), [&](const auto& i) { return i.get() == p.island; });
+            w.islands.begin(), w.islands.end(), [&](const auto& i) { return i.get() == p.island; });
     };
     std::stable_sort(
         points.begin(), points.end(),
@@ -66,41 +68,6 @@ std::vector<Picked> World::Impl::pick(const PointsAction& action) const {
     const auto same = [](const Picked& a, const Picked& b) { return a.island == b.island && a.point == b.point; };
     points.erase(std::unique(points.begin(), points.end(), same), points.end());
     return points;
-}
-
-// Bodies wait from the start, built; an island of each begins now.
-bool World::Impl::spawnWaiting(const std::string& names) {
-    const Target target = parseTarget(names);
-    bool any = false;
-    for (auto& body : waiting) {
-        if (target.kind != body->kind()) continue;
-        if (!matches(target.name, body->name) && !matches(target.name, body->base())) continue;
-        any = true;
-        takeSprings(*body);
-        addAlone(std::move(body));
-        body = nullptr;
-    }
-    if (!any) return false;
-    std::erase(waiting, nullptr);
-    spawned.push_back(names);
-    // Winds and anchors that were without it may act on it.
-    const ForceList current = forces();
-    for (const auto& island : islands) island->setForces(now(), current);
-    rebuildColliders();
-    return true;
-}
-
-void World::Impl::closeIslands() {
-    if (std::none_of(islands.begin(), islands.end(), [](const auto& island) { return island->isOpen(); })) return;
-    threads.run([&] {
-        core::parallelFor(
-            static_cast<int>(islands.size()), [&](int i) { return islands[static_cast<std::size_t>(i)]->callsBack(); },
-            [&](int i) { islands[static_cast<std::size_t>(i)]->close(now()); });
-    });
-}
-
-void World::apply(const ActionSpec& action) {
-    action.perform(*this);
 }
 
 }  // namespace taut::world

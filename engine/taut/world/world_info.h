@@ -1,4 +1,4 @@
-// What a world tells of its bodies, their points and its joints. It knows no world.
+// What a world tells about its bodies, their points and its joints. It does not know the world.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ struct PointsNow {
     std::vector<double> mass;      // (points) [kg]
 };
 
-// What KIND.NAME@SELECTOR names in a world, without @ all points: World::select() finds it, once for many questions.
+// The points that KIND.NAME@SELECTOR names in a world; without @SELECTOR all points. World::select() finds them once,
+// for many queries.
 struct Selection {
     struct Part {
         const Body* body;
@@ -26,7 +27,7 @@ struct Selection {
     std::int64_t generation = 0;  // of the world's bodies
 };
 
-// A body's part of the state hash, to tell which of them differ.
+// A body's part of the state hash: it shows which bodies differ.
 struct BodyHash {
     std::string name;  // "cloth.flag"
     std::uint64_t hash = 0;
@@ -41,8 +42,8 @@ struct JointInfo {
         int points = 0;    // of the first that are tied to the second
     };
     std::vector<Pair> pairs;
-    double jump = 0;                 // [m] of a weld: the largest by which points are moved together as it is made
-    std::vector<std::string> loose;  // bodies that it names and does not tie
+    double jump = 0;                 // [m] of a weld: the furthest that it moves a point when it is made
+    std::vector<std::string> loose;  // bodies that it names but does not tie
 };
 
 }  // namespace taut::world

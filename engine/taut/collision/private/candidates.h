@@ -19,7 +19,7 @@ inline constexpr int candidateBlock = contactBatch;
 // How near to a solid the points have to be to be tried at all: the distance that they keep, and roundings of the
 // largest coordinate in their box [m].
 template <class Real>
-double reachOf(double thickness, const Box& box);
+double reachOf(double thickness, const core::Aabb& box);
 
 class CandidateRooms {
   public:
@@ -29,7 +29,7 @@ class CandidateRooms {
     // there are none.
     template <class Real>
     void look(std::span<const Solid> solids, std::size_t block, const BlockRows<Real>& rows, double thickness,
-              Box& box);
+              core::Aabb& box);
 
     const std::vector<const Solid*>& near() const { return near_; }
     void drop() { blocks_.clear(); }
@@ -39,11 +39,11 @@ class CandidateRooms {
   private:
     // A bounded solid stays in the box, a half-space under the plane.
     struct SolidRoom {
-        Box box;
-        Touch above{};
+        core::Aabb box;
+        HalfSpace above{};
     };
     struct BlockRoom {
-        Box box;
+        core::Aabb box;
         double reach = 0.0;      // [m] see reachOf
         double thickness = 0.0;  // [m]
         bool isKnown = false;

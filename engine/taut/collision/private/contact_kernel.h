@@ -43,7 +43,7 @@ struct ContactArgs {
 };
 
 // What the kernel makes of a point.
-enum class Outcome : long {
+enum class PointOutcome : long {
     free,     // nothing
     touched,  // out of the solid
     left      // its path may lead through: nothing is done
@@ -51,7 +51,7 @@ enum class Outcome : long {
 
 // Of a batch: what the kernel works on, and its results.
 struct ContactLanes {
-    alignas(64) long outcome[contactRow];        // an Outcome each
+    alignas(64) long outcome[contactRow];        // a PointOutcome each
     alignas(64) double impulse[contactRow];      // of touched points, as in Contact
     alignas(64) double position[3][contactRow];  //
     alignas(64) double normal[3][contactRow];    //

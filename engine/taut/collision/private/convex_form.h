@@ -12,14 +12,14 @@ namespace taut::collision {
 template <class T>
 concept ClosedForm = requires(const T shape, const dvec3& p) {
     { shape.nearest(p) } -> std::same_as<Nearest>;
-    { shape.bounds() } -> std::convertible_to<std::optional<Box>>;
+    { shape.bounds() } -> std::convertible_to<std::optional<core::Aabb>>;
 };
 
 // Where a path first comes as near as `gap` [m] to the shape. From outside, every nearest point carries a plane that
 // the shape lies behind, so a step to that plane never goes too far, and a path that leads away from it never
 // arrives: Newton's method on the distance, which for a convex shape converges from one side.
 template <ClosedForm Closed>
-bool reachConvex(const Closed& shape, const Path& path, Nearest near, double gap, Touch& touch) {
+bool reachConvex(const Closed& shape, const Path& path, Nearest near, double gap, HalfSpace& touch) {
     constexpr int mostSteps = 32;
     const double close = nearEnough(path);
     const dvec3 whole = path.to - path.from;
@@ -41,7 +41,7 @@ bool reachConvex(const Closed& shape, const Path& path, Nearest near, double gap
 
 // See Form::sweep.
 template <ClosedForm Closed>
-bool sweepConvex(const Closed& shape, const Path& path, Touch& touch) {
+bool sweepConvex(const Closed& shape, const Path& path, HalfSpace& touch) {
     const Nearest end = shape.nearest(path.to);
     if (end.distance >= path.thickness + path.skin) {
         // The shape lies behind the plane of `end`: a start before that plane means a free path.
@@ -66,8 +66,8 @@ class ConvexForm final : public Form {
   public:
     explicit ConvexForm(Closed shape) : shape_(std::move(shape)) {}
     Nearest nearest(const dvec3& p) const override { return shape_.nearest(p); }
-    bool sweep(const Path& path, Touch& touch, bool&) const override { return sweepConvex(shape_, path, touch); }
-    std::optional<Box> bounds() const override { return shape_.bounds(); }
+    bool sweep(const Path& path, HalfSpace& touch, bool&) const override { return sweepConvex(shape_, path, touch); }
+    std::optional<core::Aabb> bounds() const override { return shape_.bounds(); }
     bool isConvex() const override { return true; }
     ClosedShape closed() const override {
         if constexpr (requires { shape_.closed(); }) return shape_.closed();

@@ -21,15 +21,15 @@ struct BlockRows {
 
 // The box of all paths; a coordinate that is not a number leaves it as it is.
 template <class Real>
-Box boundsOf(const BlockRows<Real>& rows);
+core::Aabb boundsOf(const BlockRows<Real>& rows);
 
 // Whether every path ends in the box; a coordinate that is not a number is taken to.
 template <class Real>
-bool staysIn(const BlockRows<Real>& rows, const Box& box);
+bool staysIn(const BlockRows<Real>& rows, const core::Aabb& box);
 
 // Sets `bit` in the mask of every point whose path's box overlaps the given box.
 template <class Real>
-void markNearBox(const BlockRows<Real>& rows, const Box& box, std::uint32_t bit, std::uint32_t* mask);
+void markNearBox(const BlockRows<Real>& rows, const core::Aabb& box, std::uint32_t bit, std::uint32_t* mask);
 
 // Sets `bit` in the mask of every point whose end is lower than `height` [m] over the plane normal · x = offset.
 template <class Real>

@@ -9,13 +9,13 @@
 
 namespace taut::collision {
 
-struct Triangle {
+struct Facet {
     dvec3 corner, ab, ac;  // [m]
     dvec3 normal;          // unit, along ab × ac
 };
 
 struct Facets {
-    std::vector<Triangle> triangles;     // none without area
+    std::vector<Facet> triangles;        // none without area
     std::vector<std::uint32_t> corners;  // (3 · triangles) vertices; those at one place are the same
     std::vector<bool> isBorder;          // (vertices) an edge that has not a triangle on either side ends here
     bool isClosed = false;               // it has no border; then triangles show their front to the outside

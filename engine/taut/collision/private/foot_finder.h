@@ -49,9 +49,9 @@ class FootFinder {
     Nearest nearestFrom(const dvec3& p, const Foot& foot) const;
     Nearest nearest(const dvec3& p) const { return nearestFrom(p, foot(p, place(p))); }
 
-    const Triangle& triangle(int i) const { return facets_.triangles[static_cast<std::size_t>(i)]; }
+    const Facet& triangle(int i) const { return facets_.triangles[static_cast<std::size_t>(i)]; }
     const MeshTree& tree() const { return tree_; }
-    const Box& bounds() const { return bounds_; }
+    const core::Aabb& bounds() const { return bounds_; }
     bool isClosed() const { return facets_.isClosed; }
     const Facets& facets() const { return facets_; }
 
@@ -88,7 +88,7 @@ class FootFinder {
     Facets facets_;
     std::vector<Prism> prisms_;  // (triangles)
     std::vector<float> flares_;  // (triangles) see widenPrisms
-    Box bounds_;
+    core::Aabb bounds_;
     double rounding_ = 0.0;  // [m] of a prism's heights
 
     glm::ivec3 cellCount_{0};

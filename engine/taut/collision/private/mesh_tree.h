@@ -18,7 +18,7 @@ class MeshTree {
 
     // Calls see(triangle) for every triangle whose box overlaps the given one, always in the same order.
     template <class Visit>
-    void visit(const Box& box, const Visit& see) const {
+    void visit(const core::Aabb& box, const Visit& see) const {
         float low[3];
         float high[3];
         for (int k = 0; k < 3; ++k) {

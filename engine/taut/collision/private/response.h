@@ -14,7 +14,7 @@ struct MovingPoint {
 };
 
 // How the touched surface moves and what it is made of.
-struct Surface {
+struct MovingSurface {
     const Frame& from;
     const Frame& to;
     bool still;          // from and to are the same
@@ -34,7 +34,7 @@ struct Impact {
 };
 
 // Of the surface's place that ends the step at `place`, by its way during the step.
-inline dvec3 surfaceVelocity(const Surface& surface, const dvec3& place) {
+inline dvec3 surfaceVelocity(const MovingSurface& surface, const dvec3& place) {
     if (surface.still) return dvec3(0.0);
     const dvec3 v = (place - surface.from.toWorld(surface.to.toLocal(place))) / surface.h;
     const double speed = std::sqrt(glm::dot(v, v));
@@ -48,7 +48,8 @@ inline dvec3 surfaceVelocity(const Surface& surface, const dvec3& place) {
 //            to o       what gravity adds in a step.
 //
 // Returns false where there is nothing to report; `impact` then means nothing.
-inline bool respond(const Surface& surface, const Path& path, const Touch& touch, MovingPoint& point, Impact& impact) {
+inline bool respond(const MovingSurface& surface, const Path& path, const HalfSpace& touch, MovingPoint& point,
+                    Impact& impact) {
     const dvec3& n = touch.normal;
     const double depth = touch.offset - glm::dot(n, path.to);
     if (!(depth > -path.skin)) return false;

@@ -25,9 +25,9 @@ struct Solid {
     bool convex = true;
     ClosedShape closed;
     bool bounded = true;  // false: a plane
-    Touch above{};        // a plane's half-space in the world at the end of the step
-    Box localBounds;      // [m] unless it is a plane
-    Box bounds;           // [m] in the world, of the whole step
+    HalfSpace above{};    // a plane's half-space in the world at the end of the step
+    core::Aabb localBounds;  // [m] unless it is a plane
+    core::Aabb bounds;    // [m] in the world, of the whole step
 };
 
 // Throws core::Error(badContent) for a compound without parts or with a part whose pose is not finite.

@@ -23,16 +23,16 @@ class TriangleMesh final : public Form {
     // A path that crosses a triangle ends before it; one that ends too near is pushed off on the side where it ends;
     // one that starts inside a closed mesh goes the shortest way out. `crossed` tells the first case. The thickness
     // has to be larger than the skin: a side needs a distance that rounding cannot turn round.
-    bool sweep(const Path& path, Touch& touch, bool& crossed) const override;
+    bool sweep(const Path& path, HalfSpace& touch, bool& crossed) const override;
 
-    std::optional<Box> bounds() const override { return finder_.bounds(); }
+    std::optional<core::Aabb> bounds() const override { return finder_.bounds(); }
 
     Outline outline() const override { return outlineOf(finder_.facets()); }
 
   private:
-    static bool isInFront(const Path& path, const Triangle& t);
-    bool findWayOut(const Path& path, const Foot& end, Touch& touch) const;
-    bool touchNear(const Path& path, const Foot& end, Touch& touch) const;
+    static bool isInFront(const Path& path, const Facet& t);
+    bool findWayOut(const Path& path, const Foot& end, HalfSpace& touch) const;
+    bool touchNear(const Path& path, const Foot& end, HalfSpace& touch) const;
     int firstCrossing(const Path& path) const;
 
     FootFinder finder_;

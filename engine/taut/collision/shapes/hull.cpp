@@ -18,8 +18,8 @@ class Hull final : public Form {
     // Throws core::Error(badContent) for fewer than four vertices or a hull without volume.
     explicit Hull(std::span<const dvec3> vertices);
     Nearest nearest(const dvec3& p) const override;
-    bool sweep(const Path& path, Touch& touch, bool& crossed) const override;
-    std::optional<Box> bounds() const override { return finder_.bounds(); }
+    bool sweep(const Path& path, HalfSpace& touch, bool& crossed) const override;
+    std::optional<core::Aabb> bounds() const override { return finder_.bounds(); }
     bool isConvex() const override { return true; }
     Outline outline() const override { return outlineOf(finder_.facets()); }
 
@@ -41,7 +41,7 @@ Hull::Hull(std::span<const dvec3> vertices) {
     Facets facets = makeFacets(vertices, triangles);
     facets.isClosed = true;  // also where a triangle is too narrow to have a direction
     double depth = std::numeric_limits<double>::infinity();
-    for (const Triangle& t : facets.triangles) depth = std::min(depth, glm::dot(t.corner - mean, t.normal));
+    for (const Facet& t : facets.triangles) depth = std::min(depth, glm::dot(t.corner - mean, t.normal));
     finder_ = FootFinder(std::move(facets));
     const dvec3 size = finder_.bounds().high - finder_.bounds().low;
     const double longest = glm::max(size.x, glm::max(size.y, size.z));
@@ -53,14 +53,14 @@ Nearest Hull::nearest(const dvec3& p) const {
     const Foot foot = finder_.foot(p, finder_.place(p));
     if (foot.triangle < 0) return {std::numeric_limits<double>::infinity(), {0.0, 1.0, 0.0}};
     // Off a face the direction is the face's, which is exact however near the point is. Inside it always is.
-    const Triangle& t = finder_.triangle(foot.triangle);
+    const Facet& t = finder_.triangle(foot.triangle);
     if (foot.square - foot.facing * foot.facing <= 1e-12 * foot.square + tiny_)
         return {glm::dot(p - t.corner, t.normal), t.normal};
     const double distance = std::sqrt(foot.square);
     return {distance, (p - foot.point) * (1.0 / distance)};
 }
 
-bool Hull::sweep(const Path& path, Touch& touch, bool&) const {
+bool Hull::sweep(const Path& path, HalfSpace& touch, bool&) const {
     const FootFinder::Place end = finder_.place(path.to);
     const dvec3 way = path.to - path.from;
     const double least = end.least - path.thickness - path.skin;

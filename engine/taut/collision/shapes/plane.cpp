@@ -12,7 +12,7 @@ struct PlaneForm {
     dvec3 normal{0.0, 1.0, 0.0};
 
     Nearest nearest(const dvec3& p) const { return {glm::dot(normal, p), normal}; }
-    std::optional<Box> bounds() const { return std::nullopt; }
+    std::optional<core::Aabb> bounds() const { return std::nullopt; }
     ClosedShape closed() const { return {ClosedKind::halfSpace}; }
 };
 

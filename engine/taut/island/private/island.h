@@ -51,7 +51,7 @@ struct ColliderMotion {
 };
 
 // What becomes of a try of a tick.
-enum class Verdict { stands, again, fails };
+enum class TickVerdict { stands, again, fails };
 
 // [rad] ω H of the fastest motion of what presses, H the time from one instant of contact to the next. At an instant a
 // step each (2 is the limit of leap-frog) an impulse is one more force of the step's kick, and contact without
@@ -84,8 +84,8 @@ class Island {
     void beginTick(const TickTime& time);
     void beginTry();
     std::optional<Fault> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);
-    Verdict judge(const TickTime& time, std::optional<Fault>& fault);
-    void tryAgain(const TickTime& time, Verdict verdict);
+    TickVerdict judge(const TickTime& time, std::optional<Fault>& fault);
+    void tryAgain(const TickTime& time, TickVerdict verdict);
     void endTick(const TickTime& time);
     int substeps() const { return now_.substeps; }
     bool keepsStep() const { return keepsStep_; }
@@ -172,7 +172,7 @@ class Island {
   private:
     std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first,
                                       int last);
-    Verdict judgeSteps(const TickTime& time, std::optional<Fault>& fault);
+    TickVerdict judgeSteps(const TickTime& time, std::optional<Fault>& fault);
     // From velocities at the time of the positions.
     void startWith(const TickTime& time, int substeps, bool isRepeated);
     std::optional<Fault> overstrained(double t);

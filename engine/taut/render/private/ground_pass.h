@@ -48,7 +48,7 @@ class GroundPass {
     // What ground depends on besides that only still things shade.
     struct StillShade {
         FrameBlock block{};
-        std::vector<Shape> shapes;
+        std::vector<ShadowShape> shapes;
         bool operator==(const StillShade& other) const;
     };
     // How a cell looks in what is kept.

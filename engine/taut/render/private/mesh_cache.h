@@ -13,11 +13,11 @@
 namespace taut::render {
 
 // Where which triangles are: what is the same in two pictures looks the same from the light and from above.
-struct Shape {
+struct ShadowShape {
     std::uint64_t geometry = 0, topology = 0;  // numbers of uploads, each used once
     glm::mat4 transform{1.0F};
     bool twoSided = false;
-    bool operator==(const Shape&) const = default;
+    bool operator==(const ShadowShape&) const = default;
 };
 
 // A surface ready to be drawn.
@@ -30,7 +30,7 @@ struct DrawItem {
     std::size_t vertexCount = 0;
     Bounds bounds;               // in the world
     std::vector<Bounds> pieces;  // in the world, of so many triangles each that their shape shows
-    Shape shape;
+    ShadowShape shape;
     bool isStill = false;  // as in the call before
 };
 
@@ -70,7 +70,7 @@ class MeshCache {
     std::map<const view::Geometry*, GeometryEntry> geometries_;
     std::map<const view::Topology*, TopologyEntry> topologies_;
     std::uint64_t uploads_ = 0;
-    std::vector<Shape> before_;    // of the surfaces of the call before
+    std::vector<ShadowShape> before_;  // of the surfaces of the call before
     std::vector<GlObject> spare_;  // buffers of forgotten meshes, to be filled again
 };
 

@@ -49,7 +49,7 @@ class OcclusionPass {
     GlObject texture_;           // of the map
     OcclusionArea area_;         // of the map as it is
     float groundHeight_ = 0.0F;  // [m]
-    std::vector<Shape> shapes_;  // what the map shows
+    std::vector<ShadowShape> shapes_;  // what the map shows
 
     std::vector<MapTriangle> triangles_;  // seen from above, with heights for depths
     std::vector<glm::vec3> places_;       // (vertices of an item) on the map

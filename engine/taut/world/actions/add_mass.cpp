@@ -1,6 +1,7 @@
 // Points become heavier or lighter.
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/timeline.h"
 
 namespace taut::world {
 
@@ -14,7 +15,7 @@ Kind<ActionSpec> addMassKind() {
 
 void AddMassAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
-    const std::vector<Picked> points = w.pick(*this);
+    const std::vector<Picked> points = pick(w, *this);
     for (const auto& [island, numbers] : byIsland(points)) {
         IslandPlan& plan = island->change(w.now(), Change::points);
         for (int i : numbers) {

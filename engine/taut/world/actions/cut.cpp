@@ -2,7 +2,9 @@
 #include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/island/private/cutting.h"
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/timeline.h"
 
 namespace taut::world {
 
@@ -29,8 +31,7 @@ Kind<ActionSpec> cutKind() {
 
 void CutAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
-    const std::vector<Body*> all = w.allBodies();
-    const std::vector<Body*> bodies = matchBodies(all, target);
+    const std::vector<Body*> bodies = matchBodies(bodiesOf(w), target);
     if (bodies.empty()) failAction(*this, "target = \"" + target + "\" names no body");
     bool any = false;
     for (const auto& island : w.islands) {
@@ -40,7 +41,7 @@ void CutAction::perform(World& world) const {
         if (island->frozen() == nullptr) sever(crossing, island->change(w.now(), Change::shape));
     }
     if (!any) failAction(*this, "there is nothing of \"" + target + "\" where this cuts; put it where the body is");
-    w.redrawDamage();
+    redrawDamage(w);
 }
 
 }  // namespace taut::world

@@ -3,6 +3,7 @@
 
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/timeline.h"
 
 namespace taut::world {
 
@@ -29,7 +30,7 @@ void GrabAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     if (std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& h) { return h.id == id; }))
         failAction(*this, "there is a hand \"" + id + "\" already; release it first");
-    std::vector<Picked> points = w.pick(*this);
+    std::vector<Picked> points = pick(w, *this);
     Hand hand;
     hand.id = id;
     hand.rigid = rigid;
@@ -42,7 +43,7 @@ void GrabAction::perform(World& world) const {
         bodiesOnly.near.reset();
         const std::vector<Picked> named = points;
         points.clear();
-        for (const Picked& candidate : w.pick(bodiesOnly)) {
+        for (const Picked& candidate : pick(w, bodiesOnly)) {
             const dvec3 x = candidate.island->position(candidate.point);
             if (std::any_of(named.begin(), named.end(), [&](const Picked& p) {
                     const dvec3 d = p.island->position(p.point) - x;

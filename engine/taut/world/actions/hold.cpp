@@ -3,7 +3,9 @@
 
 #include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
+#include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/timeline.h"
 #include "taut/bodies/private/ties.h"
 
 namespace taut::world {
@@ -33,7 +35,7 @@ IslandPlan& untied(Island& island, const TickTime& time, std::span<const int> po
 }
 
 void pin(const PointsAction& action, WorldImpl& w, bool isHeld) {
-    for (const auto& [island, numbers] : byIsland(w.pick(action))) {
+    for (const auto& [island, numbers] : byIsland(pick(w, action))) {
         IslandPlan& plan = untied(*island, w.now(), numbers);
         for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = isHeld;
         if (isHeld) island->stop(w.now(), numbers);
@@ -45,9 +47,9 @@ void pin(const PointsAction& action, WorldImpl& w, bool isHeld) {
 void HoldAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     if (holdOn.empty()) return pin(*this, w, true);
-    const auto pose = w.poseOf(holdOn);
+    const auto pose = poseOf(w, holdOn);
     if (!pose) failAction(*this, "there is no " + holdOn + " to hold points on");
-    std::vector<Picked> points = w.pick(*this);
+    std::vector<Picked> points = pick(w, *this);
     std::erase_if(points, [](const Picked& p) { return isInHand(p.island->plan(), p.point); });
     if (points.empty()) failAction(*this, "a hand leads every point of \"" + target + "\"; release them first");
     std::vector<dvec3> x;

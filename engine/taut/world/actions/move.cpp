@@ -6,6 +6,7 @@
 #include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/timeline.h"
 #include "taut/spec/private/rotation.h"
 #include "taut/spec/targets.h"
 
@@ -52,7 +53,7 @@ void checkPace(const MoveAction& action, const Hand& hand, double ticksPerSecond
 }
 
 void moveHand(const MoveAction& action, WorldImpl& w) {
-    Hand& hand = w.handOf(action, action.id);
+    Hand& hand = handOf(w, action, action.id);
     if (!action.to && !action.rotation)
         failAction(action, "it is not said where the hand goes: `to` or `rotation_deg` is missing");
     hand.from = hand.placeAt(w.tick);

@@ -2,6 +2,7 @@
 #include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/timeline.h"
 
 namespace taut::world {
 
@@ -19,7 +20,7 @@ Kind<ActionSpec> pushKind() {
 
 void PushAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
-    std::vector<Picked> points = w.pick(*this);
+    std::vector<Picked> points = pick(w, *this);
     std::erase_if(points, [](const Picked& p) { return !isFree(p.island->plan(), p.point); });
     if (points.empty()) failAction(*this, "every point of \"" + target + "\" is held; free them first");
     double mass = 0;

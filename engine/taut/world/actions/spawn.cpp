@@ -1,6 +1,8 @@
 // A body that was built at the start, and has waited, appears.
 #include "taut/world/private/actions/rows.h"
+#include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/timeline.h"
 
 namespace taut::world {
 
@@ -9,7 +11,7 @@ Kind<ActionSpec> spawnKind() {
 }
 
 void SpawnAction::perform(World& world) const {
-    if (!WorldAccess::of(world).spawnWaiting(target))
+    if (!spawnWaiting(WorldAccess::of(world), target))
         failAction(*this, "no body \"" + target + "\" waits to be spawned");
 }
 

@@ -35,7 +35,7 @@ class ContactReport {
     void forget(const Body& body);
 
     const std::vector<BodyContact>& contacts() const { return contacts_; }  // at the end of the last tick
-    bool hasMet() const { return hasMet_; }                                 // since it was made
+    bool hadImpulse() const { return hadImpulse_; }                   // since it was made
     // One for each two bodies that cross, or have crossed.
     std::vector<std::string> warnings() const;
 
@@ -55,7 +55,7 @@ class ContactReport {
     };
     std::vector<BodyContact> contacts_;
     std::vector<Said> said_;
-    bool hasMet_ = false;
+    bool hadImpulse_ = false;
 };
 
 }  // namespace taut::world

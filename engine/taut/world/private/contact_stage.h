@@ -72,7 +72,7 @@ class ContactStage {
     ContactInfo info() const;
     std::vector<contact::ContactPoint> contacts() const;         // at its end
     std::span<const contact::Crossing> crossingsBefore() const;  // at its start
-    bool hasMet() const { return hasMet_; }                      // a pair had an impulse, in any tick
+    bool hadImpulse() const { return hadImpulse_; }        // a pair had an impulse, in any tick
     const std::vector<contact::Crossing>& crossings();           // now
     dvec3 position(int point) const {
         return x1_[static_cast<std::size_t>(point)];
@@ -118,7 +118,7 @@ class ContactStage {
     ColliderSurfaces colliders_;
     std::unique_ptr<contact::ContactGroup> group_;
     bool hasJumped_ = true;
-    bool hasMet_ = false;
+    bool hadImpulse_ = false;
     bool areCrossingsKnown_ = false;
     std::vector<contact::Crossing> crossings_;
     std::vector<dvec3> x0_, x1_, v_;   // (points)

@@ -1,14 +1,17 @@
-// A hand that leads points of bodies: where it is at each tick, and how it is turned. It knows no island; grips live in
-// the plans of those.
+// Hands that lead points of bodies: where each is at each tick, and how it is turned. Their grips live in the plans of
+// islands.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 #include "taut/collision/colliders.h"
-#include "taut/spec/spec.h"
+#include "taut/spec/source.h"
 
 namespace taut::world {
+
+struct ActionSpec;
+struct WorldImpl;
 
 struct Hand {
     std::string id;
@@ -34,5 +37,12 @@ double shareOfWay(Ease ease, double ticks, std::int64_t length);
 
 // Ticks that a span of time takes: the nearest whole number, at least one, since nothing is faster than a tick.
 std::int64_t ticksIn(double seconds, double ticksPerSecond);
+
+// Throws core::Error(badContent) if there is none of that name.
+Hand& handOf(WorldImpl& w, const ActionSpec& action, const std::string& id);
+// No point is in a grip of that hand or collider any more.
+void loosen(WorldImpl& w, const std::string& holder, bool isCollider);
+// Islands learn where they go in the coming tick.
+void leadHands(WorldImpl& w);
 
 }  // namespace taut::world

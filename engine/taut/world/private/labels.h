@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "taut/spec/picture_spec.h"
 #include "taut/view/frame_view.h"
 #include "taut/island/private/island.h"
 

@@ -19,7 +19,7 @@ inline void expectSize(double size, const char* what) {
 }
 
 // The half size of a solid of revolution about y.
-inline Box roundBounds(double radius, double halfHeight) {
+inline core::Aabb roundBounds(double radius, double halfHeight) {
     return {dvec3(-radius, -halfHeight, -radius), dvec3(radius, halfHeight, radius)};
 }
 
@@ -27,14 +27,14 @@ inline Box roundBounds(double radius, double halfHeight) {
 template <ClosedKind kind>
 struct ShapeByFormula {
     ClosedShape shape;
-    Box filled;
+    core::Aabb filled;
     Outline edges{};
 
     Nearest nearest(const dvec3& p) const {
         const ClosedDistance at = closedDistance<kind>(shape.size, p.x, p.y, p.z);
         return {at.distance, {at.x, at.y, at.z}};
     }
-    Box bounds() const { return filled; }
+    core::Aabb bounds() const { return filled; }
     ClosedShape closed() const { return shape; }
     Outline outline() const { return edges; }
 };
@@ -43,7 +43,7 @@ struct FormulaSizes {
     double a = 0.0, b = 0.0, c = 0.0;
 };
 template <ClosedKind kind>
-std::shared_ptr<const Form> byFormula(const FormulaSizes& sizes, const Box& filled, Outline edges = {}) {
+std::shared_ptr<const Form> byFormula(const FormulaSizes& sizes, const core::Aabb& filled, Outline edges = {}) {
     using Formula = ShapeByFormula<kind>;
     return std::make_shared<ConvexForm<Formula>>(
         Formula{{kind, {sizes.a, sizes.b, sizes.c}}, filled, std::move(edges)});

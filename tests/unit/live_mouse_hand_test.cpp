@@ -1,4 +1,4 @@
-#include "taut/live/hand.h"
+#include "taut/live/mouse_hand.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ Kinds kindsOf(const world::Specs<world::ActionSpec>& deeds) {
     return all;
 }
 
-TEST(Hand, MovesAtMostEveryThirdTickAndOnlyWhenLedElsewhere) {
-    Hand hand("mouse", 60.0);
+TEST(MouseHand, MovesAtMostEveryThirdTickAndOnlyWhenLedElsewhere) {
+    MouseHand hand("mouse", 60.0);
     hand.grab("cloth.a@#3", 0.1, 200.0, 0.3, {0.0, 1.0, 0.0});
     std::vector<std::int64_t> moves;
     for (std::int64_t tick = 10; tick < 40; ++tick) {
@@ -27,11 +27,11 @@ TEST(Hand, MovesAtMostEveryThirdTickAndOnlyWhenLedElsewhere) {
         }
     }
     ASSERT_EQ(moves.size(), 8U);  // ticks 10, 13, … 28 and the rest of the way at 31
-    for (std::size_t i = 1; i < moves.size(); ++i) EXPECT_EQ(moves[i] - moves[i - 1], Hand::moveTicks);
+    for (std::size_t i = 1; i < moves.size(); ++i) EXPECT_EQ(moves[i] - moves[i - 1], MouseHand::moveTicks);
 }
 
-TEST(Hand, WhatItDoesIsRoundedAsAFileHasIt) {
-    Hand hand("mouse", 72.0);
+TEST(MouseHand, WhatItDoesIsRoundedAsAFileHasIt) {
+    MouseHand hand("mouse", 72.0);
     hand.grab("cloth.a@#3", 0.123456, 200.0, 0.3, {0.0, 0.0, 0.0});
     hand.leadTo({0.12345678, -0.0001, 1.0 / 9.0});
     const auto deeds = hand.deedsAt(7);
@@ -43,8 +43,8 @@ TEST(Hand, WhatItDoesIsRoundedAsAFileHasIt) {
     EXPECT_EQ(move.over, 0.041667);  // 3/72
 }
 
-TEST(Hand, IsNoFasterThanAnArm) {
-    Hand hand("mouse", 60.0);
+TEST(MouseHand, IsNoFasterThanAnArm) {
+    MouseHand hand("mouse", 60.0);
     hand.grab("cloth.a@#3", 0.1, 200.0, 0.3, {0.0, 0.0, 0.0});
     hand.leadTo({1.0, 0.0, 0.0});
     std::vector<double> places;
@@ -55,8 +55,8 @@ TEST(Hand, IsNoFasterThanAnArm) {
     EXPECT_EQ(places, (std::vector{0.25, 0.5, 0.75, 1.0}));  // 5 m/s for three ticks each
 }
 
-TEST(Hand, LetsGoBeforeItTakesAgain) {
-    Hand hand("mouse", 60.0);
+TEST(MouseHand, LetsGoBeforeItTakesAgain) {
+    MouseHand hand("mouse", 60.0);
     hand.grab("cloth.a@#3", 0.1, 200.0, 0.3, {0.0, 1.0, 0.0});
     EXPECT_EQ(kindsOf(hand.deedsAt(0)), (Kinds{"grab"}));
     hand.release();
@@ -67,8 +67,8 @@ TEST(Hand, LetsGoBeforeItTakesAgain) {
     EXPECT_TRUE(hand.deedsAt(3).empty());
 }
 
-TEST(Hand, AClickBetweenTwoTicksIsNothing) {
-    Hand hand("mouse", 60.0);
+TEST(MouseHand, AClickBetweenTwoTicksIsNothing) {
+    MouseHand hand("mouse", 60.0);
     hand.grab("cloth.a@#3", 0.1, 200.0, 0.3, {0.0, 1.0, 0.0});
     hand.release();
     EXPECT_TRUE(hand.deedsAt(0).empty());

@@ -1,4 +1,4 @@
-#include "taut/live/hand.h"
+#include "taut/live/mouse_hand.h"
 
 #include <cmath>
 #include <utility>
@@ -24,14 +24,14 @@ double rounded(double value, int decimals) {
 }
 
 template <class Own>
-Own Hand::action(std::int64_t tick) const {
+Own MouseHand::action(std::int64_t tick) const {
     Own action;
     action.id = id_;
     action.t = rounded(static_cast<double>(tick) / ticksPerSecond_, timeDecimals);
     return action;
 }
 
-void Hand::grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place) {
+void MouseHand::grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place) {
     if (isHolding_) wantsRelease_ = true;
     auto grab = action<world::GrabAction>(0);
     grab.target = std::move(target);
@@ -43,16 +43,16 @@ void Hand::grab(std::string target, double radius, double strength, double dampi
     last_ = roundedPlace(place);
 }
 
-void Hand::leadTo(glm::dvec3 place) {
+void MouseHand::leadTo(glm::dvec3 place) {
     if (glm::length(place - goal_.value_or(last_)) > leastWay) goal_ = roundedPlace(place);
 }
 
-void Hand::release() {
+void MouseHand::release() {
     grab_.reset();  // a click shorter than a tick
     if (isHolding_) wantsRelease_ = true;
 }
 
-world::Specs<world::ActionSpec> Hand::deedsAt(std::int64_t tick) {
+world::Specs<world::ActionSpec> MouseHand::deedsAt(std::int64_t tick) {
     world::Specs<world::ActionSpec> deeds;
     if (wantsRelease_) {
         deeds.add(action<world::ReleaseAction>(tick));

@@ -1,0 +1,14 @@
+// The one hand-over from simulation to pictures.
+#pragma once
+
+#include "taut/view/frame_view.h"
+
+namespace taut::world {
+
+struct WorldImpl;
+
+// As World::view() and World::viewAhead() have them.
+view::FrameView viewOf(WorldImpl& w, bool debug);
+view::FrameView viewAhead(const WorldImpl& w, double ahead);
+
+}  // namespace taut::world

@@ -1,0 +1,96 @@
+#include "taut/world/private/tick.h"
+
+#include <algorithm>
+
+#include "taut/core/private/hash.h"
+#include "taut/island/private/island_report.h"
+#include "taut/world/private/bodies.h"
+#include "taut/world/private/colliders.h"
+#include "taut/world/private/impl.h"
+
+namespace taut::world {
+namespace {
+
+// Everything as it was when the tick began.
+void undoTick(WorldImpl& w) {
+    for (const auto& island : w.islands) island->undoTick();
+    w.registry.each<Placement>([](ecs::Entity, Placement& placement) { placement.to = placement.from; });
+}
+
+}  // namespace
+
+void closeIslands(WorldImpl& w) {
+    if (std::none_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->isOpen(); })) return;
+    w.threads.run([&] {
+        const auto island = [&](int i) -> Island& { return *w.islands[static_cast<std::size_t>(i)]; };
+        core::parallelFor(
+            static_cast<int>(w.islands.size()), [&](int i) { return island(i).callsBack(); },
+            [&](int i) { island(i).close(w.now()); });
+    });
+}
+
+std::optional<Divergence> tickIslands(WorldImpl& w, const std::vector<ColliderMotion>& moving) {
+    const TickTime time = w.now();
+    makeContactStage(w);
+    std::vector<Island*> alone;
+    for (const auto& island : w.islands)
+        if (!touches(island->plan())) alone.push_back(island.get());
+    std::vector<std::optional<Fault>> faults(alone.size());
+    std::optional<ContactStage::Outcome> outcome;
+    w.threads.run([&] {
+        core::parallelFor(
+            static_cast<int>(alone.size()), [&](int i) { return alone[static_cast<std::size_t>(i)]->callsBack(); },
+            [&](int i) {
+                const auto k = static_cast<std::size_t>(i);
+                faults[k] = alone[k]->tick(time, moving);
+            });
+        if (!w.contactStage->isEmpty()) outcome = w.contactStage->tick(time, moving);
+    });
+    const auto diagnose = [&](Island& island, const Fault& fault) {
+        undoTick(w);
+        return world::diagnose(island, fault, time);
+    };
+    for (std::size_t i = 0; i < faults.size(); ++i)
+        if (faults[i]) {
+            if (alone[i]->plan().solver.onDivergence != OnDivergence::freeze) return diagnose(*alone[i], *faults[i]);
+            alone[i]->freeze(*faults[i], time);
+        }
+    if (outcome) return diagnose(*outcome->island, outcome->fault);
+    if (!w.contactStage->isEmpty()) w.contactReport.look(*w.contactStage, time.start());
+    return std::nullopt;
+}
+
+void updateHash(WorldImpl& w) {
+    core::Hash next;
+    next.add(w.hash);
+    next.add(static_cast<std::uint64_t>(w.tick));
+    for (const WorldImpl::Member& member : w.bodies) {
+        next.add(member.name);
+        islandOf(*member.body).addToHash(*member.body, next);
+    }
+    w.hash = next.value();
+}
+
+bool touchesAny(const WorldImpl& w) {
+    return std::any_of(
+        w.islands.begin(), w.islands.end(), [](const auto& island) { return touches(island->plan()); });
+}
+
+void makeContactStage(WorldImpl& w) {
+    // What a cut bares is surface from then on.
+    std::size_t gone = 0;
+    for (const auto& island : w.islands)
+        if (touches(island->plan()))
+            for (const Body* body : island->plan().bodies) gone += body->damage.goneAround();
+    if (w.contactStage && gone == w.goneAround) return;
+    w.goneAround = gone;
+    w.contactStage = std::make_unique<ContactStage>(w.islands, w.spec.contact, 1.0 / w.ticksPerSecond, w.contactPace,
+                                                    [&w] { return touchedColliders(w); });
+}
+
+std::vector<BodyCrossing> crossingsOf(WorldImpl& w) {
+    makeContactStage(w);
+    return crossingsOf(*w.contactStage);
+}
+
+}  // namespace taut::world

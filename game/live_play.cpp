@@ -15,6 +15,7 @@
 #include "taut/image/private/resize.h"
 #include "taut/live/between.h"
 #include "taut/live/picking.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

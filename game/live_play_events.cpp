@@ -14,6 +14,7 @@
 #include "taut/live/recording.h"
 #include "taut/scene/private/merge.h"
 #include "taut/spec/common_rows.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {

@@ -9,6 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/pipeline/stages.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/world.h"
 
 namespace taut::pipeline {
 namespace {

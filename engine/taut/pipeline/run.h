@@ -13,7 +13,11 @@
 #include "taut/image/frame_sink.h"
 #include "taut/pipeline/record_log.h"
 #include "taut/view/frame_view.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+struct RunSpec;
+class World;
+}  // namespace taut::world
 
 namespace taut::pipeline {
 

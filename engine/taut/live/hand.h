@@ -25,8 +25,10 @@ class Hand {
     bool isHolding() const { return isHolding_; }
 
     // What the hand is to do next. grab: target "cloth.curtain@#12" and the points within `radius` [m] of it, by
-    // springs of `strength` [N/m] in all and that damping ratio; `place` [m] is where that point is.
-    void grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place);
+    // springs of `strength` [N/m] in all and that damping ratio; `place` [m] is where that point is. It pulls with
+    // `maxForce` [N] at most, and with any at 0.
+    void grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place,
+              double maxForce = 0.0);
     void leadTo(glm::dvec3 place);  // a way of less than 2 mm is none
     void release();
 

@@ -38,6 +38,9 @@ struct PickedPoint {
     glm::dvec3 position{0.0};
 };
 
+// As scenes and checks name it: "cloth.curtain@#12".
+std::string nameOf(const PickedPoint& picked);
+
 // The point nearest to the ray. Where the ray meets a body, one of that body; elsewhere one within `reach` [m for each
 // metre of distance] of the ray that nothing opaque hides. None when a collider is in the way, or nothing is near.
 std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,

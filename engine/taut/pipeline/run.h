@@ -50,6 +50,9 @@ struct RunOptions {
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
 };
 
+// The world as it is now, as the picture of a run shows it: with marks, an open shutter and a lens as asked for.
+view::FrameView shownNow(const world::World& world, const RunOptions& options);
+
 // Hears of progress; every function may be left empty. They are called from several threads, never two at a time for
 // the same function, and in ascending order.
 struct RunListener {

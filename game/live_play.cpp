@@ -64,7 +64,6 @@ void LivePlay::makeLevels() {
     picture.size = {level.pixels(width_), level.pixels(height_)};
     picture.samples = level.samples;
     picture.shadowSize = level.shadowSize;
-    renderer_.reset();
     renderer_ = makeRenderer(picture, threadsThatDraw(settings_.threads), settings_.gl);
 }
 

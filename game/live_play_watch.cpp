@@ -56,8 +56,7 @@ std::string LivePlay::follow(scene::Loaded scene) {
     adopt(std::move(session), std::move(scene.keys));
     dragging_ = Dragging::nothing;
     return fmt::format("{}read again; simulated from the start to {:.2f} s{}{}", kept, time,
-                       isThere ? "" : ", for more takes long",
-                       isRecording_ ? "; the recording starts anew" : "");
+                       isThere ? "" : ", as far as 2 s let it", isRecording_ ? "; the recording starts anew" : "");
 }
 
 // Of a scene that cannot be read the files that were its own, the one that it says it builds on, and the folder, in

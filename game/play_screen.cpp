@@ -101,7 +101,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
     return lines;
 }
 
-// Across the middle of the picture; as many lines as it has room for.
+// Above the messages at the lower edge; as many lines as the picture has room for.
 void paintFault(Painting& painting, glm::vec2 size, float em, const std::string& fault) {
     const float line = 1.4F * em, edge = 0.8F * em;
     const auto columns = static_cast<std::size_t>(std::max(8.0F, (size.x - 4.0F * edge) / painting.widthOf("0", em)));
@@ -112,7 +112,7 @@ void paintFault(Painting& painting, glm::vec2 size, float em, const std::string&
         lines.back() = "…";
     }
     const float height = static_cast<float>(lines.size()) * line + 1.2F * em;
-    const float top = std::round(0.5F * (size.y - height));
+    const float top = std::round(size.y - 3.3F * em - height);
     painting.plate({{edge, top}, {size.x - edge, top + height}}, 0.7F * em, faultInk, 0.93F);
     float y = top + 1.6F * em;
     for (const std::string& text : lines) {

@@ -55,6 +55,7 @@ class LivePlay {
     scene::Loaded readScene(const std::vector<std::string>& changes) const;
     void rebuild(std::vector<std::string> changes, const std::string& said);
     void reload();
+    std::unique_ptr<live::Session> goingOn(const scene::Loaded& scene) const;
     std::string follow(scene::Loaded scene);
     void adopt(std::unique_ptr<live::Session> session, scene::StateKeys keys);
     std::string keptRecording();

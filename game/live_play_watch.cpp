@@ -35,17 +35,25 @@ void LivePlay::reload() {
     }
 }
 
-// To the moment that is shown: with the state as it is where the new scene leads to the same one, else by simulating
-// from the start, as far as there is time. Returns what to say of it.
-std::string LivePlay::follow(scene::Loaded scene) {
+// With the state as it is, where the new scene leads to the same one; else none.
+std::unique_ptr<live::Session> LivePlay::goingOn(const scene::Loaded& scene) const {
     const std::int64_t tick = session_->tick();
+    if (session_->divergence() || scene.keys.stateAt(tick) != keys_.stateAt(tick)) return nullptr;
+    try {
+        return std::make_unique<live::Session>(scene.spec, settings_.threads, *session_);
+    } catch (const core::Error&) {
+        return nullptr;  // what happens later asks for other steps
+    }
+}
+
+// To the moment that is shown, by simulating from the start where nothing else leads there, as far as there is time.
+// Returns what to say of it.
+std::string LivePlay::follow(scene::Loaded scene) {
     const double moment = session_->world().time();
-    if (!session_->divergence() && scene.keys.stateAt(tick) == keys_.stateAt(tick)) try {
-            adopt(std::make_unique<live::Session>(scene.spec, settings_.threads, *session_), scene.keys);
-            return fmt::format("read again; goes on at {:.2f} s", moment);
-        } catch (const core::Error&) {
-            // What happens later asks for other steps.
-        }
+    if (std::unique_ptr<live::Session> next = goingOn(scene)) {
+        adopt(std::move(next), std::move(scene.keys));
+        return fmt::format("read again; goes on at {:.2f} s", moment);
+    }
     auto session = std::make_unique<live::Session>(std::move(scene.spec), settings_.threads);
     const auto wanted = static_cast<int>(std::min(moment / session->world().tickSeconds() + 0.5, 1e9));
     session->begin(wanted, catchingUp);

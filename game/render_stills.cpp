@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include "game/exit_code.h"
 #include "game/folders.h"
@@ -80,7 +82,9 @@ class Walk {
     }
 
     void hear() {
+        const auto now = std::chrono::steady_clock::now();
         pipeline::FrameRecord record{.frame = world.tick() / world.ticksPerFrame(), .time = world.time()};
+        record.simulating = std::chrono::duration<double>(now - std::exchange(heard_, now)).count();
         if (isMeasured_) {
             record.metrics = world.metrics();
             overlay_.add({*record.metrics, world.tick()});
@@ -91,6 +95,7 @@ class Walk {
     pipeline::Overlay overlay_;
     bool isMeasured_;
     Progress progress_;
+    std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace

@@ -51,6 +51,7 @@ TEST(Session, HeldPointsAreNotOffered) {
     ASSERT_EQ(session.bodies().size(), 1U);
     EXPECT_EQ(session.bodies()[0].points.size(), 110U);  // 11 · 11 without the upper edge
     EXPECT_EQ(session.bodies()[0].points.front(), 11);
+    EXPECT_EQ(session.bodies(true)[0].points.size(), 121U);  // to be named, not taken
 }
 
 TEST(Session, ShowsTheLastTwoTicks) {

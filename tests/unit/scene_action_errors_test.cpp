@@ -67,9 +67,9 @@ TEST(SceneErrors, ActionsThatAreIncompleteAreReported) {
          "]\n"
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n",
-         "s.toml:3:83: error: a rigid hand leads its points whatever it takes\n"
+         "s.toml:3:82: error: a rigid hand leads its points whatever it takes\n"
          "    { t = 1, do = \"grab\", id = \"h\", target = \"rope.r\", rigid = true, max_force_N = 30 },\n"
-         "                                                                                    ^ leave max_force_N or "
+         "                                                                                   ^ leave max_force_N or "
          "rigid out"},
         {"a hand without a name",
          "at = [\n"

@@ -54,6 +54,9 @@ struct RunOptions {
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
 };
 
+// The world as it is now, as the picture of a run shows it: with marks, an open shutter and a lens as asked for.
+view::FrameView shownNow(const world::World& world, const RunOptions& options);
+
 // Is told about progress; every function may be empty. Several threads call them, but never two the same function at
 // the same time, and frames ascend.
 struct RunListener {

@@ -56,6 +56,12 @@ std::filesystem::path fontFile() {
     return wish != nullptr && *wish != '\0' ? std::filesystem::path(wish) : render::defaultFont();
 }
 
+std::filesystem::path fixedFontFile() {
+    const std::filesystem::path font = fontFile(), fixed = font.parent_path() / "DejaVuSansMono.ttf";
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(fixed, ignored) ? fixed : font;
+}
+
 std::vector<std::string> shippedScenes() {
     return namesIn(assetFolder() / "scenes", ".toml");
 }

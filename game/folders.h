@@ -18,6 +18,8 @@ std::filesystem::path manualFolder();
 
 // The font for labels: $TAUT_FONT, or the one that Debian installs; empty when there is none.
 std::filesystem::path fontFile();
+// Its neighbour with letters of one width; the same where there is none.
+std::filesystem::path fixedFontFile();
 
 // Names of the scenes in the asset folder, without ".toml", sorted.
 std::vector<std::string> shippedScenes();

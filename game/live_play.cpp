@@ -15,6 +15,7 @@
 #include "taut/image/private/resize.h"
 #include "taut/live/between.h"
 #include "taut/live/picking.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {
@@ -37,8 +38,9 @@ std::string titleOf(const std::string& scene) {
 
 }  // namespace
 
-LivePlay::LivePlay(PlaySettings settings) : settings_(std::move(settings)) {
+LivePlay::LivePlay(PlaySettings settings) : settings_(std::move(settings)), screen_(fixedFontFile()) {
     rebuild({}, "");
+    if (settings_.watches) watchFiles(false);
     window_ = std::make_unique<Window>(titleOf(settings_.scene), settings_.width, settings_.height);
     width_ = static_cast<int>(std::lround(settings_.width * window_->density()));
     height_ = static_cast<int>(std::lround(settings_.height * window_->density()));
@@ -53,9 +55,10 @@ void LivePlay::makeLevels() {
     levels_ = adapts ? drawingLevels(scene) : std::vector{levelNamed(settings_.quality, scene)};
     std::vector<double> costs;
     for (const DrawingLevel& level : levels_) costs.push_back(level.cost);
-    // Where most machines end up, or a level below.
+    // As fine as before; at first where most machines end up, or a level below.
     const auto first = std::find_if(levels_.begin(), levels_.end(), [](const auto& l) { return l.name == "normal"; });
-    const auto begin = std::min(first - levels_.begin(), std::ssize(levels_) - 1);
+    const auto begin = std::min(adaptation_ ? static_cast<std::ptrdiff_t>(adaptation_->level()) : first - levels_.begin(),
+                                std::ssize(levels_) - 1);
     adaptation_.emplace(std::move(costs), static_cast<int>(begin), longestTurn);
     const DrawingLevel& level = levels_[static_cast<std::size_t>(begin)];
     world::PictureSpec picture = scene;
@@ -65,23 +68,40 @@ void LivePlay::makeLevels() {
     renderer_ = makeRenderer(picture, threadsThatDraw(settings_.threads), settings_.gl);
 }
 
-// A new world from the start; the old one stays when the scene cannot be built so.
-void LivePlay::rebuild(std::vector<std::string> changes, const std::string& said) {
+scene::Loaded LivePlay::readScene(const std::vector<std::string>& changes) const {
     std::vector<std::string> overrides = settings_.overrides;
     overrides.insert(overrides.end(), changes.begin(), changes.end());
-    std::string kept;  // of the recording so far, which is not to be lost
+    scene::Loaded scene = readSceneWithKeys(settings_.scene, overrides);
+    if (!settings_.isQuiet) notePreparation(scene.spec);
+    return scene;
+}
+
+// A new world from the start; the old one stays when the scene cannot be built so.
+void LivePlay::rebuild(std::vector<std::string> changes, const std::string& said) {
+    std::string kept;
     try {
-        world::SceneSpec spec = readScene(settings_.scene, overrides);
-        if (!settings_.isQuiet) notePreparation(spec);
-        auto session = std::make_unique<live::Session>(std::move(spec), settings_.threads);
-        if (session_ && isRecording_ && session_->tick() > 0) kept = savedRecording(true) + "; ";
-        session_ = std::move(session);
+        scene::Loaded scene = readScene(changes);
+        auto session = std::make_unique<live::Session>(std::move(scene.spec), settings_.threads);
+        kept = keptRecording();
+        adopt(std::move(session), std::move(scene.keys));
     } catch (const core::Error& error) {
         if (!session_) throw;
         const std::string message = error.what();
         return say("That cannot be: " + message.substr(0, message.find('\n')));
     }
     changes_ = std::move(changes);
+    dragging_ = Dragging::nothing;
+    if (!said.empty()) say(kept + said + (isRecording_ ? "; the recording starts anew" : ""));
+}
+
+// Of the recording so far, which is not to be lost.
+std::string LivePlay::keptRecording() {
+    return session_ && isRecording_ && session_->tick() > 0 ? savedRecording(true) + "; " : "";
+}
+
+void LivePlay::adopt(std::unique_ptr<live::Session> session, scene::StateKeys keys) {
+    session_ = std::move(session);
+    keys_ = std::move(keys);
     for (const std::string& warning : session_->world().warnings())
         if (!settings_.isQuiet) printWarnings({warning});
     overlay_ = std::make_unique<pipeline::Overlay>(fontFile(), pipeline::smallestStep(session_->world()));
@@ -89,12 +109,10 @@ void LivePlay::rebuild(std::vector<std::string> changes, const std::string& said
     pace_ = live::Pace(session_->world().tickSeconds());
     session_->showMarks(showsMarks_);
     shownCamera_ = session_->now().camera;
-    dragging_ = Dragging::nothing;
     saidDivergence_ = false;
-    printed_ = 0;
+    printed_ = session_->deeds().size();
     steps_ = 0;
     hasChanged_ = true;
-    if (!said.empty()) say(kept + said + (isRecording_ ? "; the recording starts anew" : ""));
 }
 
 void LivePlay::run(const std::atomic<bool>& stop) {
@@ -106,6 +124,7 @@ void LivePlay::run(const std::atomic<bool>& stop) {
     while (!isOver_ && !stop && (settings_.seconds <= 0.0 || secondsSince(start) < settings_.seconds)) {
         for (const WindowEvent& event : window_->events()) handle(event);
         if (isOver_) break;
+        if (files_.hasChanged()) reload();
         const bool wasSaying = screen_.isSaying();
         if (isPaused_ && steps_ == 0 && !hasChanged_ && !wasSaying) {
             std::this_thread::sleep_for(std::chrono::duration<double>(idlePause));
@@ -121,6 +140,7 @@ void LivePlay::run(const std::atomic<bool>& stop) {
         shownCamera_ = view.camera;
         view.camera = camera();
         lead();
+        findName();
         const std::int64_t before = session_->tick();
         hasChanged_ = wasSaying;  // its end is to be seen
         const int due = ticksDue(wall);
@@ -163,7 +183,7 @@ void LivePlay::drawPicture(const view::FrameView& view, double wall) {
                                                           {"quality", qualityText()}};
         covered_ = overlay_->paint(picture, view.time + session_->world().tickSeconds(), above, look);
     }
-    screen_.paint(picture, overlay_->letters(), marks(), look, hand());
+    screen_.paint(picture, overlay_->letters(), {marks(), hand(), named()}, look);
     window_->show(picture);
     drawing_ = std::chrono::duration<double>(Clock::now() - start).count();
     ++pictures_;
@@ -192,6 +212,14 @@ std::string LivePlay::qualityText() const {
 std::optional<glm::vec2> LivePlay::hand() const {
     if (dragging_ != Dragging::point) return std::nullopt;
     return glm::vec2(mouse_ * glm::dvec2(width_, height_));
+}
+
+std::optional<NamedPoint> LivePlay::named() const {
+    if (!named_) return std::nullopt;
+    const glm::dvec2 size(width_, height_);
+    const auto at = live::seenAt(camera(), named_->position, size.x / size.y);
+    if (!at) return std::nullopt;
+    return NamedPoint{glm::vec2(*at * size), glm::vec2(mouse_ * size), live::nameOf(*named_)};
 }
 
 void LivePlay::moveFigures(const view::FrameView& view, double wall) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "game/file_watch.h"
 #include "game/play_figures.h"
 #include "game/play_quality.h"
 #include "game/play_screen.h"
@@ -17,9 +18,11 @@
 #include "taut/live/adaptation.h"
 #include "taut/live/orbit.h"
 #include "taut/live/pace.h"
+#include "taut/live/picking.h"
 #include "taut/live/session.h"
 #include "taut/pipeline/overlay.h"
 #include "taut/render/renderer.h"
+#include "taut/scene/load.h"
 
 namespace taut::game {
 
@@ -32,6 +35,7 @@ struct PlaySettings {
     int threads = 0;                     // 0: all of the machine
     double seconds = 0.0;                // [s] of wall time after which it ends; 0: when the user ends it
     bool records = false;                // from the start
+    bool watches = false;                // the scene is read again when one of its files changes
     std::filesystem::path record;        // the file to write; empty: named after the scene, in the current folder
     bool isQuiet = false;                // says on standard error only what went wrong
     bool isVerbose = false;              // prints every action on standard error
@@ -48,12 +52,21 @@ class LivePlay {
   private:
     using Clock = std::chrono::steady_clock;
 
-    void rebuild(std::vector<std::string> overrides, const std::string& said);
+    scene::Loaded readScene(const std::vector<std::string>& changes) const;
+    void rebuild(std::vector<std::string> changes, const std::string& said);
+    void reload();
+    std::unique_ptr<live::Session> goingOn(const scene::Loaded& scene) const;
+    std::string follow(scene::Loaded scene);
+    void adopt(std::unique_ptr<live::Session> session, scene::StateKeys keys);
+    std::string keptRecording();
+    void watchFiles(bool isBroken);
     void handle(const WindowEvent& event);
     void press(const std::string& key, bool isRepeat);
     void beginDrag(const WindowEvent& event);
     void drag(const WindowEvent& event);
     void lead();
+    void findName();
+    void copyName();
     void nextMethod();
     void changeStep(double factor);
     void toggleRecording();
@@ -67,6 +80,7 @@ class LivePlay {
     void adapt(double drawing, double turn);
     void moveFigures(const view::FrameView& view, double wall);
     std::optional<glm::vec2> hand() const;
+    std::optional<NamedPoint> named() const;
     std::string qualityText() const;
     view::Camera camera() const;
     std::vector<std::string> marks() const;
@@ -80,10 +94,13 @@ class LivePlay {
     std::optional<live::Adaptation> adaptation_;
     std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<live::Session> session_;
+    scene::StateKeys keys_;  // of its scene
+    FileWatch files_;        // of its scene, if it is watched
     std::unique_ptr<pipeline::Overlay> overlay_;
     live::Pace pace_{1.0};
     live::Orbit orbit_;
     PlayScreen screen_;
+    std::optional<live::PickedPoint> named_;  // under the mouse, where names are shown
     FiguresPlace figures_;
     pipeline::PictureBox covered_;  // [px] by the figures
 
@@ -96,6 +113,7 @@ class LivePlay {
     view::Camera shownCamera_;  // of the scene, in the picture that is shown
 
     bool isOver_ = false, isPaused_ = false, showsMarks_ = false, showsOverlay_ = true, isRecording_ = false;
+    bool showsNames_ = false;
     bool hasChanged_ = true;  // since the last picture
     int steps_ = 0;           // single ticks asked for
     int slowness_ = 0;        // motion is 2 to the power of this slower

@@ -14,6 +14,7 @@
 #include "taut/live/recording.h"
 #include "taut/scene/private/merge.h"
 #include "taut/spec/common_rows.h"
+#include "taut/world/world.h"
 
 namespace taut::game {
 namespace {
@@ -41,18 +42,6 @@ std::filesystem::path freeName(const std::filesystem::path& wish, bool isKept) {
     return name;
 }
 
-// The scene that a scenario builds on, found as the loader finds it; the file itself when `base` is empty.
-std::filesystem::path baseOf(const std::filesystem::path& scene, const std::string& base) {
-    if (base.empty()) return scene;
-    const auto [plain, isShipped] = scene::nameOfBase(base);
-    const std::string name = plain.ends_with(".toml") ? plain : plain + ".toml";
-    const std::filesystem::path beside = scene.parent_path() / name;
-    std::error_code ignored;
-    const bool isBeside = !isShipped && std::filesystem::is_regular_file(beside, ignored) &&
-                          !std::filesystem::equivalent(beside, scene, ignored);
-    return isBeside ? beside : assetFolder() / "scenes" / name;
-}
-
 // How a file in `folder` names the scene: a shipped one by its name, another by the way from there.
 std::string referenceTo(const std::filesystem::path& scene, const std::filesystem::path& folder) {
     std::error_code ignored;
@@ -68,7 +57,7 @@ std::string referenceTo(const std::filesystem::path& scene, const std::filesyste
 
 void LivePlay::handle(const WindowEvent& event) {
     using What = WindowEvent::What;
-    hasChanged_ = hasChanged_ || event.what != What::motion || dragging_ != Dragging::nothing;
+    hasChanged_ = hasChanged_ || event.what != What::motion || dragging_ != Dragging::nothing || showsNames_;
     switch (event.what) {
         case What::quit: isOver_ = true; return;
         case What::key: return press(event.key, event.isRepeat);
@@ -111,6 +100,8 @@ void LivePlay::press(const std::string& key, bool isRepeat) {
     if (is({"o"})) showsOverlay_ = !showsOverlay_;
     if (is({"c"})) orbit_.follow();
     if (is({"r"})) toggleRecording();
+    if (is({"n"})) showsNames_ = !showsNames_;
+    if (is({"y"})) copyName();
     if (is({"h", "f1"})) screen_.toggleHelp();
 }
 
@@ -121,9 +112,10 @@ void LivePlay::beginDrag(const WindowEvent& event) {
     if (!picked) return;
     const auto body = std::find_if(bodies.begin(), bodies.end(),
                                    [&](const live::BodyPoints& other) { return other.name == picked->body; });
-    const std::string target = fmt::format("{}@#{}", picked->body, picked->point);
+    const std::string target = live::nameOf(*picked);
     const world::HandSpec& hand = session_->spec().hand;
-    session_->hand().grab(target, gripShare * diagonalOf(*body), hand.strength, hand.dampingRatio, picked->position);
+    session_->hand().grab(target, gripShare * diagonalOf(*body), hand.strength, hand.dampingRatio, picked->position,
+                          session_->handForce(picked->body));
     held_ = picked->position;
     offset_ = picked->position - live::onPicturePlane(ray, camera(), picked->position);
     dragging_ = Dragging::point;
@@ -145,6 +137,19 @@ void LivePlay::lead() {
     const glm::dvec3 place = live::onPicturePlane(ray, camera(), held_ - offset_) + offset_;
     held_ = place;
     session_->hand().leadTo(place);
+}
+
+// What is under the mouse now, held points too.
+void LivePlay::findName() {
+    named_.reset();
+    if (!showsNames_ || dragging_ == Dragging::view) return;
+    const live::Ray ray = live::rayThrough(camera(), mouse_, 1.0 * settings_.width / settings_.height);
+    named_ = live::pick(ray, session_->now().surfaces, session_->bodies(true), reach);
+}
+
+void LivePlay::copyName() {
+    if (!named_) return say(showsNames_ ? "there is no point under the mouse" : "n shows names, y copies the one shown");
+    say(window_->copy(live::nameOf(*named_)) ? "copied " + live::nameOf(*named_) : "there is no clipboard");
 }
 
 void LivePlay::nextMethod() {

@@ -64,6 +64,9 @@ Action declarePlay(Options& options) {
     options.value("--seconds", settings.seconds, "End by itself after this time, and tell the pictures a second")
         .check(numberWithin(leastSeconds, mostSeconds));
     options.value("--record", flags->record, "Record from the start into this scenario file").typeName("FILE");
+    options.flag("--watch", settings.watches,
+                 "Read the scene again whenever one of its files is written: same camera, same moment; what is wrong "
+                 "with it stands over the picture");
     options.value("--threads", settings.threads, "Threads to use; all of the machine when not given").within(1, 1024);
     addInstructionSetFlag(options, flags->isa);
     options.value("--set", settings.overrides, "Override a field: --set cloth.flag.cells=[72,48]; repeatable")
@@ -73,9 +76,11 @@ Action declarePlay(Options& options) {
     options.flag("--verbose", settings.isVerbose, "Print every action as it is done").excludes(quiet);
     options.footer(
         "In the window h shows the keys. R records: the session becomes a scenario file, which\n"
-        "taut render and taut test play again to the same state.\n"
+        "taut render and taut test play again to the same state. The hand pulls with 3 times the\n"
+        "weight of what hangs together at most, and slips from what that does not move.\n"
         "Examples:\n"
         "  taut play curtain\n"
+        "  taut play my.toml --watch\n"
         "  taut play flag --size 1280x720 --quality full --record pulled.toml");
     return [flags] { return play(*flags); };
 }

@@ -26,6 +26,7 @@
 #include "game/render_flags.h"
 #include "game/render_jobs.h"
 #include "game/render_outputs.h"
+#include "game/render_stills.h"
 #include "game/renderers.h"
 #include "game/run_part.h"
 #include "game/scene_file.h"
@@ -234,6 +235,7 @@ void warnOfNew(const std::vector<std::string>& foreseen, std::vector<std::string
 int render(const RenderFlags& flags) {
     endWithStarter();
     checkFlags(flags);
+    if (!flags.at.empty()) return renderStills(flags);
     const scene::Loaded scene = readSceneWithKeys(flags.scene, allOverrides(flags), flags.isConfined);
     const world::SceneSpec& spec = scene.spec;
     const RunPart part = partOf(flags, spec.run);

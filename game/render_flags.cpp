@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "game/flags.h"
 #include "game/outputs.h"
@@ -61,10 +62,39 @@ void checkJobs(const RenderFlags& flags) {
         failRender("--jobs keeps states of its own: leave --checkpoint-every, --checkpoints, --resume and --from out");
 }
 
+void checkStills(const RenderFlags& flags) {
+    const std::pair<bool, const char*> ofRuns[] = {
+        {!flags.frames.empty(), "--frames"},
+        {!flags.shard.empty(), "--shard"},
+        {flags.jobs > 0, "--jobs"},
+        {!flags.video.empty(), "--video"},
+        {flags.noPictures, "--no-pictures"},
+        {flags.writesMetrics(), "--metrics"},
+        {flags.hash, "--hash"},
+        {flags.continuation.isWanted() || !flags.continuation.folder.empty(), "checkpoints"},
+    };
+    for (const auto& [isGiven, name] : ofRuns)
+        if (isGiven) failRender(fmt::format("--at draws moments, not a run: leave {} out", name));
+    if (flags.output.empty()) failRender("say where the picture goes: -o still.png");
+    if (image::isVideoPath(flags.output)) failRender("--at draws pictures, not a video: -o still.png");
+    (void)stillPattern(flags);
+    checkLayerFlags(flags.layers, flags.output, flags.video);
+}
+
 }  // namespace
+
+image::FramePattern stillPattern(const RenderFlags& flags) {
+    const std::filesystem::path output = flags.output;
+    const bool isOne = output.extension() == ".png" && output.filename().string().find('#') == std::string::npos;
+    if (isOne && flags.at.size() > 1)
+        failRender(fmt::format("--at: {} moments need numbers in their names: -o {}_#.png", flags.at.size(),
+                               (output.parent_path() / output.stem()).string()));
+    return isOne ? image::FramePattern::ofOne(output) : image::FramePattern(output);
+}
 
 void checkFlags(const RenderFlags& flags) {
     const auto fail = [](const char* message) { throw core::Error(core::ErrorKind::usage, message); };
+    if (!flags.at.empty()) return checkStills(flags);
     if (!flags.output.empty()) checkOutputName(flags.output);
     if (!flags.video.empty() && flags.output.empty()) fail("--video is written besides -o: give -o too, or only -o");
     if (!flags.video.empty() && !image::isVideoPath(flags.video))
@@ -112,6 +142,14 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
                "Draw these frames only: 0-119, 60, or 60-; from the last state before in --checkpoints")
         .typeName("A-B");
     options
+        .value("--at", flags.at,
+               "Draw the moment at this time alone, -o still.png: the state of the nearest tick. 1,2.5: several, "
+               "numbered from 0, -o still_#.png")
+        .typeName("SECONDS,…")
+        .separatedBy(',')
+        .oneValue()
+        .check(numberWithin(0.0, mostSeconds));
+    options
         .value("--shard", flags.shard,
                "Draw this of N pieces of the frames, 0/N to N-1/N, into a folder that they share; then taut join")
         .typeName("K/N");
@@ -157,6 +195,7 @@ void addRenderFlags(Options& options, RenderFlags& flags) {
         "Examples:\n"
         "  taut render flag -o flag.mp4\n"
         "  taut render flag -o out/frame_######.png --size 640x360 --seconds 2\n"
+        "  taut render flag -o still.png --at 2.5\n"
         "  taut render drape -o drape.webm --alpha\n"
         "  taut render show -o out/show --depth --mask\n"
         "  taut render show -o out/show --checkpoint-every 60 --resume\n"

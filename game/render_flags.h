@@ -7,6 +7,7 @@
 #include "game/command_line.h"
 #include "game/continuation.h"
 #include "game/layer_flags.h"
+#include "taut/image/frame_sequence.h"
 
 namespace taut::game {
 
@@ -16,6 +17,7 @@ struct RenderFlags {
     std::string frames, shard, size, camera, gl, isa, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
     int threads = 0, samples = 0, drawThreads = 0, jobs = 0;
+    std::vector<std::string> at;  // [s]: stills of these moments instead of a run
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     LayerFlags layers;
@@ -28,6 +30,9 @@ void addRenderFlags(Options& options, RenderFlags& flags);
 
 // Throws core::Error(usage) for what does not go together.
 void checkFlags(const RenderFlags& flags);
+
+// The files that --at draws, by number. Throws core::Error(usage) where their names have no place for one.
+image::FramePattern stillPattern(const RenderFlags& flags);
 
 // What --fps, --seconds, --size and --camera ask for, in the words of the scene format.
 std::vector<std::string> allOverrides(const RenderFlags& flags);

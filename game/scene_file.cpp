@@ -11,6 +11,7 @@
 #include "taut/core/whole_file.h"
 #include "taut/image/private/light_image.h"
 #include "taut/scene/load.h"
+#include "taut/scene/private/merge.h"
 
 namespace taut::game {
 
@@ -38,6 +39,17 @@ std::filesystem::path sceneFile(const std::string& argument) {
                                   !hint.empty() || scenes.empty()
                                       ? hint
                                       : fmt::format("; the shipped ones are {}", fmt::join(scenes, ", "))));
+}
+
+std::filesystem::path baseOf(const std::filesystem::path& scene, const std::string& base) {
+    if (base.empty()) return scene;
+    const auto [plain, isShipped] = scene::nameOfBase(base);
+    const std::string name = plain.ends_with(".toml") ? plain : plain + ".toml";
+    const std::filesystem::path beside = scene.parent_path() / name;
+    std::error_code ignored;
+    const bool isBeside = !isShipped && std::filesystem::is_regular_file(beside, ignored) &&
+                          !std::filesystem::equivalent(beside, scene, ignored);
+    return isBeside ? beside : assetFolder() / "scenes" / name;
 }
 
 namespace {

@@ -166,6 +166,10 @@ std::vector<WindowEvent> Window::events() {
     return all;
 }
 
+bool Window::copy(const std::string& text) {
+    return SDL_SetClipboardText(text.c_str()) == 0;
+}
+
 void Window::show(const image::Image& picture) {
     TAUT_EXPECTS(picture.isWhole());
     // Where SDL shows by GL: another context has been current in this thread, of which it does not know.

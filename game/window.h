@@ -35,6 +35,9 @@ class Window {
     // What happened since the last call.
     std::vector<WindowEvent> events();
 
+    // To the clipboard; false where there is none.
+    bool copy(const std::string& text);
+
     double density() const;  // pixels for one of a common screen
 
     // A window of another size shows it scaled, with the proportions that it was made with.

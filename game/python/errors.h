@@ -4,7 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include "taut/core/error.h"
-#include "taut/world/world.h"
+#include "taut/island/report.h"
 
 namespace taut::python {
 

@@ -282,6 +282,9 @@ void addDoing(Class& type) {
              "Calls system(world, t, dt) at the start of every tick, with the time at its end and its length [s]. It "
              "may ask the world, place() colliders and apply() actions. What it raises ends the tick, which then has "
              "not happened.");
+}
+
+void addSaving(Class& type) {
     type.def(
         "save", [](const LiveWorld& w) { return py::bytes(w.save()); },
         "The state as bytes, which restore() takes and no other version of taut may.");
@@ -315,6 +318,7 @@ void addWorld(py::module_& module) {
     addAsking(world);
     addArrays(world);
     addDoing(world);
+    addSaving(world);
 }
 
 }  // namespace taut::python

@@ -104,6 +104,27 @@ press q 2>/dev/null || :  # the window may be gone before the key is let go
 wait $player || fail "exit $? of the window"
 grep -q 'pictures a second' heard || fail "it does not tell the pictures a second"
 
+# Watched: what is written is played from the moment that is shown, what is wrong is said and the scene goes on.
+"$taut" play sheet.toml --watch --size 320x240 --quality draft >/dev/null 2>said &
+player=$!
+started="$started $player"
+until_true xdotool search --onlyvisible --name 'taut play'
+window=$(xdotool search --onlyvisible --name 'taut play' | head -n 1)
+cp sheet.toml before.toml
+sed 's/300\.0/400.0/' before.toml >new.toml
+mv new.toml sheet.toml
+until_true said_times '^read again; simulated from the start to' 1
+echo 'nonsense = 1' >>sheet.toml
+until_true said_times '^sheet.toml:[0-9]*:1: error: ' 1
+sed 's/eye = .*/eye = [1.0, 1.0, 3.5]/; s/300\.0/400.0/' before.toml >sheet.toml
+until_true said_times '^read again; goes on at' 1
+xdotool mousemove --window "$window" 160 130
+press n
+until_true sh -c "xdotool key --window $window y; grep -q '^copied cloth.sheet@#' said"
+press q 2>/dev/null || :
+wait $player || fail "exit $? of the window that watches"
+mv before.toml sheet.toml
+
 # Played again without a window: the same state at the same tick.
 for file in sheet-played sheet-played-1; do
     told=$(sed -n "s/^$file.toml: .* state hash \([0-9a-f]*\) at tick \([0-9]*\)/\2 \1/p" heard)

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <thread>
 
+#include "game/file_watch.h"
 #include "game/play_figures.h"
 #include "game/play_quality.h"
 #include "image_support.h"
@@ -92,6 +95,58 @@ TEST(PlayQuality, LevelsEndWithTheScenesOwnAndNoneIsFiner) {
 }
 
 // The figures cover a corner; everything else, and every picture without the flag, is as it was.
+// Frames at 20 a second, three ticks apart.
+TEST(RenderCommand, AStillIsThePictureOfItsMomentAndLeavesNoRecord) {
+    const TemporaryFolder folder, alone;
+    const std::string file = springFile(folder);
+    ASSERT_EQ(run({"render", file, "-o", (folder / "frame_######.png").string(), "--quiet", "--size", "64x36"}).code, 0);
+    const auto still = [&](const std::string& at, const std::string& name) {
+        return run({"render", file, "-o", (alone / name).string(), "--quiet", "--size", "64x36", "--at", at}).code;
+    };
+    ASSERT_EQ(still("0.104", "still.png"), 0);
+    ASSERT_EQ(still("0.05,0.12,0.15", "still_##.png"), 0);
+    const auto pixels = [](const std::filesystem::path& path) { return image::readImage(path).rgb; };
+    EXPECT_EQ(pixels(alone / "still.png"), pixels(folder / "frame_000002.png"));
+    EXPECT_EQ(pixels(alone / "still_00.png"), pixels(folder / "frame_000001.png"));
+    EXPECT_EQ(pixels(alone / "still_02.png"), pixels(folder / "frame_000003.png"));
+    EXPECT_NE(pixels(alone / "still_01.png"), pixels(folder / "frame_000002.png"));  // a tick between two frames
+    EXPECT_EQ(alone.entryCount(), 4);
+}
+
+TEST(RenderCommand, AStillIsNoRun) {
+    const TemporaryFolder folder;
+    const std::string file = springFile(folder), one = (folder / "still.png").string();
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--at", "0.3"}, {"--at", "0.1,0.2"}, {"--at", "0.1", "--frames", "0-2"},
+          {"--at", "0.1", "--metrics"}, {"--at", "-1"}}) {
+        std::vector<std::string> arguments = {"render", file, "-o", one};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run(arguments).code, 2) << more.back();
+    }
+    EXPECT_EQ(run({"render", file, "-o", (folder / "still.mp4").string(), "--at", "0.1"}).code, 2);
+    EXPECT_FALSE(std::filesystem::exists(one));
+}
+
+TEST(FileWatch, TellsOnceOfAFileThatIsReplaced) {
+    const TemporaryFolder folder;
+    test::writeText(folder / "a.toml", "schema = 1\n");
+    FileWatch watch;
+    watch.watch({(folder / "a.toml").string()});
+    EXPECT_FALSE(watch.hasChanged());
+    test::writeText(folder / "a.toml~", "schema = 1\n\n");
+    std::filesystem::rename(folder / "a.toml~", folder / "a.toml");
+    const auto changesWithinTwoLooks = [&] {
+        bool has = false;
+        for (int i = 0; i < 3; ++i) {
+            std::this_thread::sleep_for(FileWatch::pause);
+            has = watch.hasChanged() || has;
+        }
+        return has;
+    };
+    EXPECT_TRUE(changesWithinTwoLooks());
+    EXPECT_FALSE(changesWithinTwoLooks());
+}
+
 TEST(RenderCommand, TheOverlayChangesItsCornerOnly) {
     const TemporaryFolder folder;
     const std::string file = springFile(folder);

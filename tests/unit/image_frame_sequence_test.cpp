@@ -30,7 +30,7 @@ TEST(FramePattern, SaysWhatIsWrongAndShowsAnExample) {
     const auto message = [](const char* pattern) {
         return messageOf(ErrorKind::usage, [&] { FramePattern p(pattern); });
     };
-    EXPECT_NE(message("out/a.png").find("for example out/a_######.png, and for one picture alone --frames"),
+    EXPECT_NE(message("out/a.png").find("for example out/a_######.png, and for one picture alone --at"),
               std::string::npos)
         << message("out/a.png");
     EXPECT_NE(message("a#b#.png").find("one place"), std::string::npos);

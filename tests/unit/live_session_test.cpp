@@ -51,6 +51,7 @@ TEST(Session, HeldPointsAreNotOffered) {
     ASSERT_EQ(session.bodies().size(), 1U);
     EXPECT_EQ(session.bodies()[0].points.size(), 110U);  // 11 · 11 without the upper edge
     EXPECT_EQ(session.bodies()[0].points.front(), 11);
+    EXPECT_EQ(session.bodies(true)[0].points.size(), 121U);  // to be named, not taken
 }
 
 TEST(Session, ShowsTheLastTwoTicks) {
@@ -77,6 +78,45 @@ TEST(Session, AHandThatFindsNothingIsSaidAndNotRecorded) {
     EXPECT_EQ(session.takeFaults().size(), 1U);
     EXPECT_TRUE(session.takeFaults().empty());
     EXPECT_TRUE(session.deeds().empty());
+}
+
+TEST(Session, GoesOnWhereAnotherOfTheSceneIs) {
+    Session whole(scene(), 1);
+    advance(whole, 5);
+    const BodyPoints body = whole.bodies()[0];
+    const glm::dvec3 place = body.positions.back();
+    whole.hand().grab(body.name + "@#120", 0.12, 150.0, 0.3, place);
+    whole.hand().leadTo(place + glm::dvec3(0.0, 0.0, 0.3));
+    advance(whole, 2);  // in the middle of a way
+    Session next(scene(), 1, whole);
+    EXPECT_EQ(next.tick(), whole.tick());
+    for (Session* session : {&whole, &next}) {
+        session->hand().leadTo(place + glm::dvec3(0.3, 0.0, 0.3));
+        advance(*session, 6);
+    }
+    EXPECT_EQ(next.world().stateHash(), whole.world().stateHash());
+    EXPECT_EQ(next.deeds().size(), whole.deeds().size());
+    EXPECT_EQ(next.record().hash, whole.record().hash);
+}
+
+// A mass of 2 kg on a spring of 1 m, led 5 m down: the spring has its weight and three times that to hold.
+TEST(Session, TheHandSlipsFromWhatItCannotMove) {
+    const std::string text = R"(schema = 1
+[net.bell]
+drag_per_s = 8.0
+points = [ { name = "nail", position = [0, 2, 0], hold = true }, { name = "bob", position = [0, 1, 0], mass_kg = 2.0 } ]
+springs = [ { a = "nail", b = "bob", stiffness_N_per_m = 1000.0, rest_length_m = 1.0 } ]
+[camera.main]
+)";
+    Session session(scene::loadSceneText(text, "bell.toml", {}).spec, 1);
+    const double force = session.handForce("net.bell");
+    EXPECT_NEAR(force, 3 * 2.0 * 9.81, 1e-9);
+    session.hand().grab("net.bell@bob", 0.0, 200.0, 0.3, {0, 1, 0}, force);
+    session.hand().leadTo({0, -4, 0});
+    advance(session, 150);  // 5 s, and e^-4 in each of them
+    EXPECT_NEAR(session.metrics().maxStrain, 4 * 2.0 * 9.81 / 1000.0, 1e-4);
+    const Recording recording = session.record();
+    EXPECT_NE(scenarioText(recording).find("max_force_N = 58.86"), std::string::npos);
 }
 
 // What the whole of this folder is for: the file does what the hand did.

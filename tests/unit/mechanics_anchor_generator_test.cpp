@@ -87,6 +87,60 @@ TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergy) {
     EXPECT_EQ(product[state.index(2, 2)], 21.0);
 }
 
+// A point 5 m away on a spring of 10 N/m, and one 0.5 m away on the same: 8 N at most.
+constexpr double mostForce = 8.0;
+const std::vector<dvec3> farAndNear = {{3.0, 4.0, 0.0}, {0.0, 0.0, 0.5}};
+const std::vector<double> twoMasses = {1.0, 1.0};
+
+Anchor<double> cutAnchor(double damping) {
+    return {{0, 1}, {0, 0, 0}, {10.0, 10.0}, {damping, damping}, {}, {mostForce, mostForce}};
+}
+
+TEST(Anchor, PullsNoHarderThanItsLargestForce) {
+    PlanarState<double> state(farAndNear, twoMasses);
+    const std::vector<dvec3> f = state.forces(cutAnchor(0.0));
+    EXPECT_NEAR(glm::length(f[0] - dvec3(-4.8, -6.4, 0.0)), 0.0, anchorRounding);  // 8 N along (3, 4, 0)
+    EXPECT_EQ(f[1], dvec3(0.0, 0.0, -5.0));                                        // as without
+    // The dashpot's force counts: 50 N along and 30 N across, cut to 8 N in the same direction.
+    state.set(state.v, 0, {0.0, 0.0, 10.0});
+    EXPECT_NEAR(glm::length(state.forces(cutAnchor(3.0))[0]), mostForce, anchorRounding);
+}
+
+TEST(Anchor, ForceAndStiffnessAreSlopesOfItsEnergyWhereItIsCut) {
+    PlanarState<double> state(farAndNear, twoMasses);
+    Anchor<double> anchor = cutAnchor(0.0);
+    // 8 N from 0.8 m on, 3.2 J up to there; and 10 N/m · (0.5 m)² / 2.
+    EXPECT_NEAR(anchor.potentialEnergy(state.motion()), 3.2 + 8.0 * 4.2 + 1.25, 1e-12);
+    const std::vector<dvec3> f = state.forces(anchor);
+    anchor.linearise(state.motion(), 1.0, 0.0);
+    core::AlignedArray<double> diagonal(state.planes());
+    anchor.addDiagonal(state.stride, diagonal.data());
+    for (int i = 0; i < 2; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            double& x = state.x[state.index(i, axis)];
+            const double h = 1e-4, here = x;
+            x = here + h;
+            const double up = anchor.potentialEnergy(state.motion());
+            const std::vector<dvec3> forceUp = state.forces(anchor);
+            x = here - h;
+            const double down = anchor.potentialEnergy(state.motion());
+            const std::vector<dvec3> forceDown = state.forces(anchor);
+            x = here;
+            // Differences err by h² of third derivatives, 8 N / (5 m)², and by rounding, 4e-15 · 38 J / h.
+            EXPECT_NEAR(f[static_cast<std::size_t>(i)][axis], (down - up) / (2.0 * h), 1e-8);
+            core::AlignedArray<double> u(state.planes()), product(state.planes()), weighted(state.planes());
+            u[state.index(i, axis)] = 1.0;
+            anchor.addStiffnessProduct(state.motion(), u.data(), product.data());
+            anchor.addProduct(state.stride, u.data(), weighted.data());
+            const auto slope = (forceDown[static_cast<std::size_t>(i)] - forceUp[static_cast<std::size_t>(i)]) / (2 * h);
+            for (int other = 0; other < 3; ++other) {
+                EXPECT_NEAR(product[state.index(i, other)], slope[other], 1e-8);
+                EXPECT_EQ(weighted[state.index(i, other)], product[state.index(i, other)]);
+            }
+            EXPECT_NEAR(diagonal[state.index(i, axis)], slope[axis], 1e-8);
+        }
+}
+
 TEST(Anchor, SharesItsStiffnessAndDampingRate) {
     const PlanarState<float> state(threePlaces, threeMasses);
     const Anchor<float> anchor({1}, {0, 0, 0}, 10.0, 3.0);

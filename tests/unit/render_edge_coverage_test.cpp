@@ -12,7 +12,7 @@
 namespace taut::render {
 namespace {
 
-constexpr PictureBox tileBox{32, 16, edgeTileSize, edgeTileSize};
+constexpr PixelBox tileBox{32, 16, edgeTileSize, edgeTileSize};
 
 EdgeTriangle coveringTriangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, std::uint32_t mark, double depth) {
     EdgeTriangle result;

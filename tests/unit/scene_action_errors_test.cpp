@@ -61,6 +61,16 @@ TEST(SceneErrors, ActionsThatAreIncompleteAreReported) {
          "s.toml:3:3: error: do = \"grab\" needs id\n"
          "    { t = 1, do = \"grab\", target = \"rope.r@end\" },\n"
          "    ^ id is the name of the hand"},
+        {"a rigid hand with a largest force",
+         "at = [\n"
+         "  { t = 1, do = \"grab\", id = \"h\", target = \"rope.r\", rigid = true, max_force_N = 30 },\n"
+         "]\n"
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n",
+         "s.toml:3:82: error: a rigid hand leads its points whatever it takes\n"
+         "    { t = 1, do = \"grab\", id = \"h\", target = \"rope.r\", rigid = true, max_force_N = 30 },\n"
+         "                                                                                   ^ leave max_force_N or "
+         "rigid out"},
         {"a hand without a name",
          "at = [\n"
          "  { t = 1, do = \"grab\", id = \"\", target = \"rope.r@end\" },\n"

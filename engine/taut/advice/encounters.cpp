@@ -7,6 +7,7 @@
 #include "taut/world/private/tick.h"
 #include "taut/spec/ticks.h"
 #include "taut/advice/contact_doubts.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

@@ -12,6 +12,7 @@
 #include "taut/advice/private/pins.h"
 #include "taut/advice/private/start_doubts.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/world.h"
 
 namespace taut::world {
 namespace {

@@ -31,6 +31,7 @@ struct Grip {
     std::vector<int> points;                 // ascending
     std::vector<dvec3> offsets;              // (points) [m] from it, as it is unturned
     std::vector<double> stiffness, damping;  // (points) [N/m], [kg/s]; not of rigid ones
+    std::vector<double> mostForce;           // (points) [N] > 0; empty: any
     mechanics::PosePath path;                // of it; the place on a line during each tick
 };
 

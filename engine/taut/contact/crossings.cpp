@@ -194,6 +194,17 @@ void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vect
     }
 }
 
+// Leaves, brought to these places, whose boxes overlap.
+std::vector<LeafPair> overlapping(Bvh& leaves, std::span<const dvec3> x) {
+    leaves.start(x, x);
+    leaves.followAll(x, x);
+    std::vector<core::Aabb> boxes;
+    for (int p = 0; p < leaves.count(); ++p) boxes.push_back(leaves.motion(p).box);
+    std::vector<LeafPair> near;
+    leaves.findNear(boxes, 0.0, near);
+    return near;
+}
+
 }  // namespace
 
 dvec3 acrossEdge(const Edge& edge, int beside, std::span<const dvec3> x) {
@@ -211,15 +222,8 @@ dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec
 
 std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
-    leaves.start(x, x);
-    leaves.followAll(x, x);
-    std::vector<core::Aabb> boxes;
-    for (int p = 0; p < leaves.count(); ++p) boxes.push_back(leaves.motion(p).box);
-    std::vector<LeafPair> near;
-    leaves.findNear(boxes, 0.0, near);
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
-    // Edges of the one leaf against triangles of the other, by boxes first. Over 60 lines with this, which needs most
-    // of what is here.
+    // Edges of the one leaf against triangles of the other, by boxes first.
     struct Boxed {
         int item;
         core::Aabb box;
@@ -264,7 +268,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
             }
         }
     };
-    for (LeafPair pair : near) {
+    for (LeafPair pair : overlapping(leaves, x)) {
         const int a = lowOf(pair), b = highOf(pair);
         const core::Aabb &boxA = leaves.motion(a).box, &boxB = leaves.motion(b).box;
         tryBoth(leaves[a], leaves[b], boxA, boxB);

@@ -38,7 +38,7 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
     if (first == std::string::npos)
         fail(
             fmt::format("the frame number has no place; put '#' for each digit, for example {}_######.png, and for one "
-                        "picture alone --frames with its number",
+                        "picture alone --at with its moment",
                         (pattern.parent_path() / pattern.stem()).string()));
     const std::size_t last = std::min(name.find_first_not_of('#', first), name.size());
     if (name.find('#', last) != std::string::npos) fail("'#' may stand at one place only");
@@ -48,8 +48,19 @@ FramePattern::FramePattern(const std::filesystem::path& pattern) {
     digits_ = last - first;
 }
 
+FramePattern FramePattern::ofOne(const std::filesystem::path& picture) {
+    TAUT_EXPECTS(picture.extension() == ".png");
+    FramePattern pattern;
+    pattern.folder_ = picture.parent_path();
+    pattern.before_ = picture.stem().string();
+    pattern.after_ = ".png";
+    pattern.digits_ = 0;
+    return pattern;
+}
+
 std::filesystem::path FramePattern::pathOf(std::int64_t frame) const {
     TAUT_EXPECTS(frame >= 0);
+    if (digits_ == 0) return folder_ / (before_ + after_);
     return folder_ / fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
 }
 
@@ -58,8 +69,9 @@ std::string FramePattern::name() const {
 }
 
 std::vector<std::int64_t> FramePattern::framesThere() const {
-    std::vector<std::int64_t> frames;
     std::error_code ignored;
+    if (digits_ == 0) return std::vector<std::int64_t>(std::filesystem::exists(pathOf(0), ignored) ? 1 : 0);
+    std::vector<std::int64_t> frames;
     for (const auto& entry : std::filesystem::directory_iterator(folder_.empty() ? "." : folder_, ignored)) {
         const std::string name = entry.path().filename().string();
         if (name.size() < before_.size() + digits_ + after_.size()) continue;

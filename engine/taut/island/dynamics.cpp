@@ -329,7 +329,7 @@ class DynamicsOf final : public Dynamics {
             anchors_.push_back(nullptr);
             if (grip.rigid) continue;
             auto anchor = std::make_unique<mechanics::Anchor<Real>>(grip.points, grip.path.place.from, grip.stiffness,
-                                                                    grip.damping, grip.offsets);
+                                                                    grip.damping, grip.offsets, grip.mostForce);
             anchor->setPlace(grip.path);
             anchors_.back() = anchor.get();
             system_.add(std::move(anchor));

@@ -12,8 +12,12 @@ namespace {
 // Before the bytes of a grip that a collider has, or that turns; no length of a name, with which all others begin.
 constexpr std::uint64_t poseMark = 0xfff8'7461'7574'0003ULL;
 
+// Before the largest forces of a grip; neither that nor such a length.
+constexpr std::uint64_t mostForceMark = 0xfff8'7461'7574'0006ULL;
+
 void visitPart(StateBytes& bytes, Grip& grip, std::size_t pointCount) {
     mechanics::PosePath& path = grip.path;
+    if (bytes.mark(mostForceMark, !grip.mostForce.empty())) bytes.list(grip.mostForce);
     if (bytes.mark(poseMark, grip.ofCollider || path.isTurned())) {
         bytes(grip.ofCollider);
         for (glm::dquat* rotation : {&path.from, &path.to}) bytes(*rotation);
@@ -31,11 +35,13 @@ void visitPart(StateBytes& bytes, Grip& grip, std::size_t pointCount) {
     const std::size_t count = grip.points.size(), forces = grip.rigid ? 0 : count;
     bytes.require(count > 0 && grip.offsets.size() == count && grip.stiffness.size() == forces &&
                   grip.damping.size() == forces);
+    bytes.require(grip.mostForce.empty() || grip.mostForce.size() == forces);
     for (std::size_t i = 0; i < count; ++i)
         bytes.require(grip.points[i] > (i == 0 ? -1 : grip.points[i - 1]) &&
                       static_cast<std::size_t>(grip.points[i]) < pointCount);
     for (const std::vector<double>* list : {&grip.stiffness, &grip.damping})
         for (double number : *list) bytes.require(number >= 0 && std::isfinite(number));
+    for (double number : grip.mostForce) bytes.require(number > 0 && std::isfinite(number));
 }
 
 void visitPart(StateBytes& bytes, Damage& damage, const mechanics::Model& model) {

@@ -1,10 +1,5 @@
-<<<<<<< HEAD:engine/taut/island/metric_table.h
-// What is measured of bodies, one row each: claims call it, metrics.csv has it a frame, the records of a run keep it.
-// To add a metric, write its row, with the function that measures it of an island.
-=======
 // The metrics of bodies, one row each. Claims call them as functions, metrics.csv has a line of them for each frame,
-// and the records of a run keep them. To add a metric, measure it (Metrics) and write its row.
->>>>>>> words:engine/taut/world/metric_table.h
+// and the records of a run keep them. To add a metric, write its row, with the function that measures it of an island.
 #pragma once
 
 #include <cstdint>
@@ -63,14 +58,10 @@ struct Metric {
 
 std::span<const Metric> metricTable();
 
-<<<<<<< HEAD:engine/taut/island/metric_table.h
 // Adds what rows measure by themselves.
 void addMeasured(const MeasuredIsland& island, Metrics& metrics);
 
-// The time, and every number that a row of the table is made of, in the order of the table.
-=======
-// Visits the time, then every number that a row is made of, in the order of the table.
->>>>>>> words:engine/taut/world/metric_table.h
+// Visits the time, and every number that a row of the table is made of, in the order of the table.
 void eachNumber(Metrics& metrics, const NumberVisitor& visit);
 
 bool isCounted(Counts counts, const BodySpec& body);

@@ -1,5 +1,6 @@
 #include "taut/live/mouse_hand.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,8 @@ namespace {
 constexpr int placeDecimals = 3;    // [m]: to the millimetre
 constexpr double leastWay = 0.002;  // [m]
 constexpr int timeDecimals = 6;     // [s]: far finer than a tick
+constexpr int forceDecimals = 3;    // [N]
+constexpr double leastForce = 1e-3;  // [N]
 
 glm::dvec3 roundedPlace(const glm::dvec3& place) {
     return {rounded(place.x, placeDecimals), rounded(place.y, placeDecimals), rounded(place.z, placeDecimals)};
@@ -31,13 +34,15 @@ Own MouseHand::action(std::int64_t tick) const {
     return action;
 }
 
-void MouseHand::grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place) {
+void MouseHand::grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place,
+                double maxForce) {
     if (isHolding_) wantsRelease_ = true;
     auto grab = action<world::GrabAction>(0);
     grab.target = std::move(target);
     grab.radius = rounded(radius, placeDecimals);
     grab.strength = strength;
     grab.dampingRatio = dampingRatio;
+    grab.maxForce = maxForce > 0.0 ? std::max(rounded(maxForce, forceDecimals), leastForce) : 0.0;
     grab_ = std::move(grab);
     goal_.reset();
     last_ = roundedPlace(place);

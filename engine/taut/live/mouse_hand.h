@@ -26,7 +26,9 @@ class MouseHand {
 
     // What the hand does next. grab() takes the target "cloth.curtain@#12" and the points within `radius` [m] of it, by
     // springs of `strength` [N/m] in total with that damping ratio; `place` [m] is the target's place.
-    void grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place);
+    // It pulls with `maxForce` [N] at most, and with any force at 0.
+    void grab(std::string target, double radius, double strength, double dampingRatio, glm::dvec3 place,
+              double maxForce = 0.0);
     void leadTo(glm::dvec3 place);  // ways of less than 2 mm are ignored
     void release();
 

@@ -90,6 +90,10 @@ glm::dvec3 onPicturePlane(const Ray& ray, const view::Camera& camera, glm::dvec3
     return ray.from + ray.along * (depth / ahead);
 }
 
+std::string nameOf(const PickedPoint& picked) {
+    return picked.body + "@#" + std::to_string(picked.point);
+}
+
 std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
                            double reach) {
     const Hit hit = firstHit(ray, surfaces);

@@ -39,6 +39,9 @@ struct PickedPoint {
     glm::dvec3 position{0.0};
 };
 
+// As scenes and checks name it: "cloth.curtain@#12".
+std::string nameOf(const PickedPoint& picked);
+
 // The point nearest to the ray. If the ray hits a body, it is a point of that body. Otherwise it is a point within
 // `reach` [m per metre of distance] of the ray that nothing opaque hides. None if a collider is in the way, or nothing
 // is near.

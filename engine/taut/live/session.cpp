@@ -140,6 +140,16 @@ struct Session::Impl {
 
 Session::Session(world::SceneSpec spec, int threads)
     : spec_(withHands(std::move(spec))), impl_(std::make_unique<Impl>(spec_, threads)) {}
+Session::Session(world::SceneSpec spec, int threads, const Session& from) : Session(std::move(spec), threads) {
+    Impl& w = *impl_;
+    const Impl& other = *from.impl_;
+    w.world.restore(other.world.save());
+    w.hand = other.hand;
+    w.deeds = other.deeds;
+    w.strains = other.strains;
+    w.before = w.now = w.look();
+    w.measure();
+}
 Session::~Session() = default;
 
 void Session::begin(int ticks, double budget) {
@@ -191,19 +201,35 @@ void Session::showMarks(bool shown) {
     impl_->before = impl_->now = impl_->look();
 }
 
-std::vector<BodyPoints> Session::bodies() const {
+std::vector<BodyPoints> Session::bodies(bool withHeld) const {
     std::vector<BodyPoints> all;
     impl_->world.registry().each<world::BodyPart>([&](ecs::Entity entity, const world::BodyPart& part) {
         BodyPoints body{part.body->fullName(), {}, {}};
         const std::vector<glm::dvec3> positions = impl_->world.positions(entity);
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            if (part.body->model.held[i]) continue;
+            if (part.body->model.held[i] && !withHeld) continue;
             body.points.push_back(static_cast<int>(i));
             body.positions.push_back(positions[i]);
         }
         all.push_back(std::move(body));
     });
     return all;
+}
+
+double Session::handForce(const std::string& body) const {
+    constexpr double earth = 9.81;  // [m/s²]
+    const std::vector<world::IslandInfo> islands = impl_->world.islands();
+    const auto has = [](const world::IslandInfo& island, const std::string& name) {
+        return std::find(island.bodies.begin(), island.bodies.end(), name) != island.bodies.end();
+    };
+    const auto own = std::find_if(islands.begin(), islands.end(), [&](const auto& island) { return has(island, body); });
+    double mass = 0.0;
+    impl_->world.registry().each<world::BodyPart>([&](ecs::Entity, const world::BodyPart& part) {
+        if (own == islands.end() || !has(*own, part.body->fullName())) return;
+        const std::vector<double> masses = impl_->world.points(part.body->fullName()).mass;
+        for (std::size_t i = 0; i < masses.size(); ++i) mass += part.body->model.held[i] ? 0.0 : masses[i];
+    });
+    return weights * earth * mass;
 }
 
 Recording Session::record() {

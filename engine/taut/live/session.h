@@ -25,6 +25,9 @@ class Session {
   public:
     // Builds the world, with hands allowed anywhere. Throws core::Error(badContent).
     Session(world::SceneSpec spec, int threads);
+    // The same at the moment where `from` is, with what its hand does and has done: of a scene that leads there too.
+    // Throws core::Error(badContent) where that state does not fit it.
+    Session(world::SceneSpec spec, int threads, const Session& from);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -47,8 +50,12 @@ class Session {
 
     MouseHand& hand();
     const world::Specs<world::ActionSpec>& deeds() const;  // of the hand since the start
-    // The points that may be grabbed, at their present places: free points only.
-    std::vector<BodyPoints> bodies() const;
+    // The points that may be grabbed, at their present places: free points only, unless `withHeld`.
+    std::vector<BodyPoints> bodies(bool withHeld = false) const;
+    // [N] that a hand in a window pulls this body with at most, so that it slips from what it cannot move instead of
+    // stretching it: `weights` times the weight on earth of the free points of all that hangs together with it.
+    static constexpr double weights = 3.0;
+    double handForce(const std::string& body) const;
 
     // After a divergence, why nothing moves any more.
     const std::optional<world::Divergence>& divergence() const;

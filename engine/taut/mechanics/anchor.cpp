@@ -1,6 +1,7 @@
 #include "taut/mechanics/private/anchor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "taut/core/error.h"
@@ -15,10 +16,11 @@ Anchor<Real>::Anchor(std::vector<int> points, const glm::dvec3& place, double st
 
 template <class Real>
 Anchor<Real>::Anchor(std::vector<int> points, const glm::dvec3& place, std::vector<double> stiffness,
-                     std::vector<double> damping, std::vector<glm::dvec3> offsets)
+                     std::vector<double> damping, std::vector<glm::dvec3> offsets, std::vector<double> most)
     : path_(LinearPath{place, place, 0.0, 0.0}) {
     TAUT_EXPECTS(stiffness.size() == points.size() && damping.size() == points.size());
     TAUT_EXPECTS(offsets.empty() || offsets.size() == points.size());
+    TAUT_EXPECTS(most.empty() || most.size() == points.size());
     offsets.resize(points.size(), glm::dvec3(0.0));
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -30,7 +32,36 @@ Anchor<Real>::Anchor(std::vector<int> points, const glm::dvec3& place, std::vect
         offsets_.push_back(offsets[i]);
         stiffness_.push_back(stiffness[i]);
         damping_.push_back(damping[i]);
+        if (!most.empty()) most_.push_back(most[i]);
     }
+}
+
+template <class Real>
+glm::dvec3 Anchor<Real>::pull(const Motion<Real>& motion, const PosePath::Frame& frame, std::size_t p) const {
+    const glm::dvec3 arm = frame.arm(offsets_[p]), velocity = frame.velocityOf(arm);
+    glm::dvec3 force;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(axis) * motion.stride + points_[p];
+        const double away = static_cast<double>(motion.x[i]) - (frame.place[axis] + arm[axis]);
+        const double speed = static_cast<double>(motion.v[i]) - velocity[axis];
+        force[axis] = -stiffness_[p] * away - damping_[p] * speed;
+    }
+    return force;
+}
+
+template <class Real>
+typename Anchor<Real>::Slope Anchor<Real>::slope(const glm::dvec3& pull, std::size_t p) const {
+    const double square = glm::dot(pull, pull);
+    if (most_.empty() || !(square > most_[p] * most_[p])) return {};
+    const double length = std::sqrt(square);
+    return {most_[p] / length, pull / length};
+}
+
+// Quadratic as far as the spring's force is the largest, linear from there on.
+template <class Real>
+double Anchor<Real>::energy(std::size_t p, double distance) const {
+    const double force = std::min(stiffness_[p] * distance, most_[p]);
+    return stiffness_[p] > 0.0 ? force * (distance - 0.5 * force / stiffness_[p]) : 0.0;
 }
 
 template <class Real>
@@ -40,13 +71,10 @@ void Anchor<Real>::addForces(const Motion<Real>& motion, int first, int last, Re
     const auto end = std::lower_bound(begin, points_.end(), last);
     for (auto point = begin; point != end; ++point) {
         const auto p = static_cast<std::size_t>(point - points_.begin());
-        const glm::dvec3 arm = frame.arm(offsets_[p]), velocity = frame.velocityOf(arm);
-        for (int axis = 0; axis < 3; ++axis) {
-            const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(axis) * motion.stride + *point;
-            const double away = static_cast<double>(motion.x[i]) - (frame.place[axis] + arm[axis]);
-            const double speed = static_cast<double>(motion.v[i]) - velocity[axis];
-            f[i] += static_cast<Real>(-stiffness_[p] * away - damping_[p] * speed);
-        }
+        glm::dvec3 force = pull(motion, frame, p);
+        if (!most_.empty()) force *= slope(force, p).share;
+        for (int axis = 0; axis < 3; ++axis)
+            f[static_cast<std::ptrdiff_t>(axis) * motion.stride + *point] += static_cast<Real>(force[axis]);
     }
 }
 
@@ -57,42 +85,64 @@ double Anchor<Real>::potentialEnergy(const Motion<Real>& motion, const std::vect
     for (std::size_t p = 0; p < points_.size(); ++p) {
         if (!only.empty() && !only[static_cast<std::size_t>(points_[p])]) continue;
         const glm::dvec3 arm = frame.arm(offsets_[p]);
+        double square = 0.0;
         for (int axis = 0; axis < 3; ++axis) {
             const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(axis) * motion.stride + points_[p];
             const double away = static_cast<double>(motion.x[i]) - (frame.place[axis] + arm[axis]);
-            energy += 0.5 * stiffness_[p] * away * away;
+            if (most_.empty()) energy += 0.5 * stiffness_[p] * away * away;
+            square += away * away;
         }
+        if (!most_.empty()) energy += this->energy(p, std::sqrt(square));
     }
     return energy;
 }
 
 template <class Real>
-void Anchor<Real>::addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const {
-    for (std::size_t p = 0; p < points_.size(); ++p)
-        for (int axis = 0; axis < 3; ++axis) {
-            const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(axis) * motion.stride + points_[p];
-            out[i] += static_cast<Real>(stiffness_[p]) * u[i];
-        }
+void Anchor<Real>::addProduct(std::size_t p, Real weight, const Slope& slope, int stride, const Real* u,
+                              Real* out) const {
+    const auto at = [&](int axis) { return static_cast<std::ptrdiff_t>(axis) * stride + points_[p]; };
+    double along = 0.0;
+    if (slope.share < 1.0)
+        for (int axis = 0; axis < 3; ++axis) along += slope.along[axis] * static_cast<double>(u[at(axis)]);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real change = slope.share < 1.0 ? static_cast<Real>(slope.share * (static_cast<double>(u[at(axis)]) -
+                                                                                 along * slope.along[axis]))
+                                              : u[at(axis)];
+        out[at(axis)] += weight * change;
+    }
 }
 
 template <class Real>
-void Anchor<Real>::linearise(const Motion<Real>&, double stiffness, double damping) {
-    weight_.resize(points_.size());
+void Anchor<Real>::addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const {
+    const PosePath::Frame frame = path_.at(motion.t);
     for (std::size_t p = 0; p < points_.size(); ++p)
+        addProduct(p, static_cast<Real>(stiffness_[p]), slope(pull(motion, frame, p), p), motion.stride, u, out);
+}
+
+template <class Real>
+void Anchor<Real>::linearise(const Motion<Real>& motion, double stiffness, double damping) {
+    const PosePath::Frame frame = path_.at(motion.t);
+    weight_.resize(points_.size());
+    slopes_.resize(points_.size());
+    for (std::size_t p = 0; p < points_.size(); ++p) {
         weight_[p] = static_cast<Real>(stiffness * stiffness_[p] + damping * damping_[p]);
+        slopes_[p] = slope(pull(motion, frame, p), p);
+    }
 }
 
 template <class Real>
 void Anchor<Real>::addProduct(int stride, const Real* u, Real* out) const {
-    for (std::size_t p = 0; p < weight_.size(); ++p)
-        for (int axis = 0; axis < 3; ++axis)
-            out[axis * stride + points_[p]] += weight_[p] * u[axis * stride + points_[p]];
+    for (std::size_t p = 0; p < weight_.size(); ++p) addProduct(p, weight_[p], slopes_[p], stride, u, out);
 }
 
 template <class Real>
 void Anchor<Real>::addDiagonal(int stride, Real* out) const {
     for (std::size_t p = 0; p < weight_.size(); ++p)
-        for (int axis = 0; axis < 3; ++axis) out[axis * stride + points_[p]] += weight_[p];
+        for (int axis = 0; axis < 3; ++axis) {
+            const double along = slopes_[p].along[axis];
+            out[static_cast<std::ptrdiff_t>(axis) * stride + points_[p]] +=
+                weight_[p] * static_cast<Real>(slopes_[p].share * (1.0 - along * along));
+        }
 }
 
 template <class Real>

@@ -141,8 +141,13 @@ void StateBound<Real>::sumSprings(const SpringNetwork<Real>& network, const Real
             }
         }
     }
-    const SpringSingles<Real>& s = network.singles;
-    alignas(64) Real ends[2][3][slice];
+    sumSingles(network.singles, x, what, weights);
+}
+
+template <class Real>
+void StateBound<Real>::sumSingles(const SpringSingles<Real>& s, const Real* x, Of what, const Real* weights) {
+    Entries<Real> g;
+    alignas(64) Real k[slice], rest[slice], ends[2][3][slice];
     for (int first = 0; first < s.size(); first += slice) {
         const int n = std::min(slice, s.size() - first);
         const int *a = s.a.data() + first, *b = s.b.data() + first;

@@ -11,6 +11,7 @@
 #include "taut/core/error.h"
 #include "taut/pipeline/bounded_queue.h"
 #include "taut/world/components.h"
+#include "taut/world/world.h"
 
 namespace taut::pipeline {
 namespace {

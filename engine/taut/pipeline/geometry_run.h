@@ -9,7 +9,10 @@
 
 #include "taut/geometry/geometry_sink.h"
 #include "taut/geometry/points_writer.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+class World;
+}  // namespace taut::world
 
 namespace taut::pipeline {
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "taut/pipeline/energy_graph.h"
+#include "taut/world/world.h"
 
 namespace taut::pipeline {
 namespace {

@@ -12,8 +12,12 @@
 #include <vector>
 
 #include "taut/image/image.h"
+#include "taut/island/report.h"
 #include "taut/pipeline/painting.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+class World;
+}  // namespace taut::world
 
 namespace taut::pipeline {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "taut/core/private/hash.h"
-#include "taut/world/world.h"
+#include "taut/island/report.h"
 
 namespace taut::pipeline {
 

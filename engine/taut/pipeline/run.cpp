@@ -9,6 +9,7 @@
 #include "taut/core/error.h"
 #include "taut/pipeline/stages.h"
 #include "taut/spec/ticks.h"
+#include "taut/world/world.h"
 
 namespace taut::pipeline {
 namespace {
@@ -17,6 +18,23 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void addMoments(const world::World& world, const RunOptions& options, view::FrameView& view) {
+    const double open = options.shutter * world.ticksPerFrame() * world.tickSeconds();
+    for (int i = 0; i < options.blurMoments; ++i) {
+        view.moments.push_back(world.viewAhead(open * ((i + 0.5) / options.blurMoments - 0.5)));
+        view.moments.back().marks = view.marks;
+        view.moments.back().showMarks = view.showMarks;
+    }
+}
+
+void openLens(const RunOptions& options, view::Camera& camera) {
+    if (!(options.fStop > 0.0)) return;
+    constexpr double halfFilm = 0.012;  // [m]
+    const double focalLength = halfFilm / std::tan(0.5 * static_cast<double>(camera.fieldOfView));
+    camera.lensRadius = static_cast<float>(0.5 * focalLength / options.fStop);
+    camera.focus = options.focus > 0.0 ? static_cast<float>(options.focus) : glm::distance(camera.eye, camera.target);
 }
 
 // The simulating side of a run. Its records wait in `pending_` until the picture of their frame is on disk.
@@ -62,11 +80,7 @@ class Player {
                 continue;
             }
             const auto start = Clock::now();
-            view::FrameView view = world_.view(options_.debugView);
-            view.frame = current_.frame;
-            view.time = current_.time;
-            addMoments(view);
-            openLens(view.camera);
+            view::FrameView view = shownNow(world_, options_);
             current_.simulating += secondsSince(start);
             current_.pictured = true;
             const std::lock_guard lock(mutex_);
@@ -94,24 +108,6 @@ class Player {
     RunResult& result() { return result_; }
 
   private:
-    void addMoments(view::FrameView& view) const {
-        const double open = options_.shutter * world_.ticksPerFrame() * world_.tickSeconds();
-        for (int i = 0; i < options_.blurMoments; ++i) {
-            view.moments.push_back(world_.viewAhead(open * ((i + 0.5) / options_.blurMoments - 0.5)));
-            view.moments.back().marks = view.marks;
-            view.moments.back().showMarks = view.showMarks;
-        }
-    }
-
-    void openLens(view::Camera& camera) const {
-        if (!(options_.fStop > 0.0)) return;
-        constexpr double halfFilm = 0.012;  // [m]
-        const double focalLength = halfFilm / std::tan(0.5 * static_cast<double>(camera.fieldOfView));
-        camera.lensRadius = static_cast<float>(0.5 * focalLength / options_.fStop);
-        camera.focus =
-            options_.focus > 0.0 ? static_cast<float>(options_.focus) : glm::distance(camera.eye, camera.target);
-    }
-
     // The state of the current frame waits until the frames before are on disk.
     void saveState() {
         const std::int64_t frame = current_.frame, every = options_.checkpointEvery;
@@ -146,6 +142,13 @@ class Player {
 };
 
 }  // namespace
+
+view::FrameView shownNow(const world::World& world, const RunOptions& options) {
+    view::FrameView view = world.view(options.debugView);
+    addMoments(world, options, view);
+    openLens(options, view.camera);
+    return view;
+}
 
 std::int64_t frameCount(const world::RunSpec& run) {
     return world::Ticks(run).lastFrame + 1;

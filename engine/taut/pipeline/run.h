@@ -13,7 +13,11 @@
 #include "taut/image/frame_sink.h"
 #include "taut/pipeline/record_log.h"
 #include "taut/view/frame_view.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+struct RunSpec;
+class World;
+}  // namespace taut::world
 
 namespace taut::pipeline {
 
@@ -49,6 +53,9 @@ struct RunOptions {
     std::int64_t startFrame = 0;       // the first frame to play: the world is at its time already
     std::int64_t checkpointEvery = 0;  // [frames] the listener gets the state so often; 0: never
 };
+
+// The world as it is now, as the picture of a run shows it: with marks, an open shutter and a lens as asked for.
+view::FrameView shownNow(const world::World& world, const RunOptions& options);
 
 // Is told about progress; every function may be empty. Several threads call them, but never two the same function at
 // the same time, and frames ascend.

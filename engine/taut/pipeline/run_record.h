@@ -12,8 +12,11 @@
 #include "taut/pipeline/machine.h"
 #include "taut/pipeline/run.h"
 #include "taut/render/renderer.h"
-#include "taut/spec/spec.h"
-#include "taut/world/world.h"
+
+namespace taut::world {
+struct SceneSpec;
+class World;
+}  // namespace taut::world
 
 namespace taut::pipeline {
 

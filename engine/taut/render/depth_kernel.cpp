@@ -55,6 +55,7 @@ struct Side {
     }
 };
 
+// Over 60 lines: what is worked out for the triangle stays in registers through its rows and columns.
 void drawTriangle(const MapTriangle& triangle, int edge, int low, int high, std::uint16_t* map) {
     const float *x = triangle.x, *y = triangle.y, *depth = triangle.depth;
     const Range columns(least(least(x[0], x[1]), x[2]) - 0.002F, largest(largest(x[0], x[1]), x[2]) + 0.002F - 1.0F, 0,

@@ -7,7 +7,6 @@
 #include "taut/fields/node.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/kinds.h"
-#include "taut/spec/spec.h"
 
 namespace taut::scene {
 

@@ -60,6 +60,28 @@ std::string faultOf(const NameReference& reference, const LoadOptions& options, 
     return "";
 }
 
+// Puts what was found in the place of its names.
+void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
+    for (world::BodySpec& body : scene.spec.bodies) {
+        if (world::MeshSource* source = body.meshSource()) {
+            setMesh(*source, meshes);
+            if (body.finish.weave > 0 && source->meshData != nullptr && source->meshData->uv.empty()) {
+                body.finish.weave = 0;
+                problems.addWarning(
+                    scene.owners.at(body.fullName()),
+                    fmt::format("{} has no texture coordinates for threads to run along: no weave", source->mesh),
+                    "unwrap the mesh, or leave weave out");
+            }
+        }
+        setTexture(body.finish.texture, textures);
+    }
+    for (world::ColliderSpec& collider : scene.spec.colliders) {
+        setMesh(collider, meshes);
+        for (world::ColliderSpec& part : collider.parts) setMesh(part, meshes);
+        setTexture(collider.finish.texture, textures);
+    }
+}
+
 }  // namespace
 
 void loadAssets(const path& sceneFolder, const path& baseFolder, const LoadOptions& options,
@@ -105,24 +127,7 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const LoadOptio
     }
 
     setTexture(scene.spec.environment.image, environments);
-    for (world::BodySpec& body : scene.spec.bodies) {
-        if (world::MeshSource* source = body.meshSource()) {
-            setMesh(*source, meshes);
-            if (body.finish.weave > 0 && source->meshData != nullptr && source->meshData->uv.empty()) {
-                body.finish.weave = 0;
-                problems.addWarning(
-                    scene.owners.at(body.fullName()),
-                    fmt::format("{} has no texture coordinates for threads to run along: no weave", source->mesh),
-                    "unwrap the mesh, or leave weave out");
-            }
-        }
-        setTexture(body.finish.texture, textures);
-    }
-    for (world::ColliderSpec& collider : scene.spec.colliders) {
-        setMesh(collider, meshes);
-        for (world::ColliderSpec& part : collider.parts) setMesh(part, meshes);
-        setTexture(collider.finish.texture, textures);
-    }
+    useAssets(meshes, textures, scene, problems);
 }
 
 }  // namespace taut::scene

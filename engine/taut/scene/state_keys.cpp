@@ -7,6 +7,7 @@
 #include "taut/scene/private/document.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/ticks.h"
+#include "taut/spec/spec.h"
 
 namespace taut::scene {
 namespace {

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "taut/fields/node.h"
-#include "taut/spec/spec.h"
+
+namespace taut::world {
+struct SceneSpec;
+}  // namespace taut::world
 
 namespace taut::scene {
 

@@ -151,6 +151,25 @@ bool isDrawable(double step) {
     return step > 0 && std::isfinite(step);
 }
 
+// Up to where a method stands.
+std::string standingText(const MethodThreshold& method) {
+    if (method.kind == ThresholdKind::aboveMost) return "stands the longest tick of a scene  →";
+    if (method.kind == ThresholdKind::belowLeast)
+        return fmt::format("←  fails at {:.2g} ms already", inMilliseconds(method.fails));
+    if (!(method.stands > 0)) return "";
+    return fmt::format("{:.3g} ms", inMilliseconds(method.stands)) +
+           (method.predicted.lanczos == 0 ? ", no threshold: grows slowly at less" : "");
+}
+
+// As a sentence, in two lines.
+void addCriterion(std::vector<std::string>& notes, std::string criterion) {
+    if (!criterion.empty() && criterion[0] == 'a') criterion[0] = 'A';
+    const std::size_t middle = criterion.find(" and the kinetic");
+    if (middle == std::string::npos) return;
+    notes.push_back(criterion.substr(0, middle));
+    notes.push_back(criterion.substr(middle + 1) + ".");
+}
+
 }  // namespace
 
 Chart stabilityChart(const StabilityMap& map, const std::vector<std::string>& notes) {
@@ -252,15 +271,9 @@ Chart thresholdChart(const SceneThresholds& thresholds, const std::vector<std::s
     row = rows;
     for (const MethodThreshold& method : thresholds.methods) {
         const double h = method.kind == ThresholdKind::found ? method.stands : 0;
-        std::string text;
-        if (h > 0) text = fmt::format("{:.3g} ms", inMilliseconds(h));
-        if (method.predicted.lanczos == 0 && h > 0) text += ", no threshold: grows slowly at less";
-        if (method.kind == ThresholdKind::aboveMost) text = "stands the longest tick of a scene  →";
-        if (method.kind == ThresholdKind::belowLeast)
-            text = fmt::format("←  fails at {:.2g} ms already", inMilliseconds(method.fails));
         const bool isRight = method.kind == ThresholdKind::aboveMost;
         const double at = isRight ? most / 1.05 : h > 0 ? h : least * 1.05;
-        panel.labels.push_back({inMilliseconds(at), row, text, "#303030",
+        panel.labels.push_back({inMilliseconds(at), row, standingText(method), "#303030",
                                 isRight ? report::Align::right : report::Align::left, 0, 14, 10.5});
         row -= 1;
     }
@@ -276,13 +289,7 @@ Chart thresholdChart(const SceneThresholds& thresholds, const std::vector<std::s
     chart.panelWidth = 620;
     chart.panelHeight = static_cast<int>(44 * rows + 20);
     chart.notes.push_back("Measured by bisection to 1 %, beside the steps that bounds and theory give.");
-    std::string criterion = thresholds.criterion;
-    if (!criterion.empty() && criterion[0] == 'a') criterion[0] = 'A';
-    const std::size_t middle = criterion.find(" and the kinetic");
-    if (middle != std::string::npos) {
-        chart.notes.push_back(criterion.substr(0, middle));
-        chart.notes.push_back(criterion.substr(middle + 1) + ".");
-    }
+    addCriterion(chart.notes, thresholds.criterion);
     chart.notes.insert(chart.notes.end(), notes.begin(), notes.end());
     return chart;
 }

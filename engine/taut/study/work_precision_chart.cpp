@@ -239,12 +239,45 @@ Chart chartOf(const WorkPrecision& study, const Quantities& quantities, const st
     return chart;
 }
 
+Quantities errorOverTime(const WorkPrecision& study) {
+    Quantities time;
+    time.x = [&study](const RunPoint& p) {
+        return (p.status == RunStatus::ok ? p.seconds : secondsOf(study, p)) / study.grid.duration();
+    };
+    time.y = [](const RunPoint& p) { return p.rmsError; };
+    time.isAtFloor = [](const RunPoint& p) { return p.isAtFloor; };
+    time.xLabel = study.unit.empty() ? "wall time for a unit of t [s]" : "wall time for a second of motion [s]";
+    time.yLabel = "RMS error of " + (study.unit.empty() ? "y" : "positions [" + study.unit + "]");
+    time.hasTimes = true;
+    return time;
+}
+
+Quantities errorOverEvaluations(const WorkPrecision& study) {
+    Quantities evaluations = errorOverTime(study);
+    evaluations.x = [&study](const RunPoint& p) {
+        return (p.status == RunStatus::ok ? workOf(p) : fullWorkOf(study, p)) / study.grid.duration();
+    };
+    evaluations.xLabel = study.unit.empty() ? "evaluations of y' for a unit of t" : "force evaluations for a second";
+    evaluations.hasTimes = false;
+    return evaluations;
+}
+
+Quantities energyOverStep() {
+    Quantities energy;
+    energy.x = [](const RunPoint& p) { return p.step; };
+    energy.y = [](const RunPoint& p) { return p.energyError; };
+    energy.isAtFloor = [](const RunPoint& p) { return p.isEnergyAtFloor; };
+    energy.xLabel = "step h [s]";
+    energy.yLabel = "energy drift / largest kinetic energy";
+    energy.hasSteps = true;
+    return energy;
+}
+
 }  // namespace
 
 std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const std::vector<std::string>& notes) {
     std::vector<NamedChart> charts;
     const double simulated = study.grid.duration();
-    const std::string unit = study.unit.empty() ? "" : " [" + study.unit + "]";
     const std::string what = study.unit.empty() ? "y" : "positions";
     const bool hasFailed = std::any_of(study.points.begin(), study.points.end(), isFailed);
     const std::string failures =
@@ -258,27 +291,13 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
     });
     const std::string marks = failures + (hasLimit ? ring : "") + (hasFloor ? floors : "");
 
-    Quantities time;
-    time.x = [&](const RunPoint& p) {
-        return (p.status == RunStatus::ok ? p.seconds : secondsOf(study, p)) / simulated;
-    };
-    time.y = [](const RunPoint& p) { return p.rmsError; };
-    time.isAtFloor = [](const RunPoint& p) { return p.isAtFloor; };
-    time.xLabel = study.unit.empty() ? "wall time for a unit of t [s]" : "wall time for a second of motion [s]";
-    time.yLabel = "RMS error of " + what + unit;
-    time.hasTimes = true;
     const std::string error = "RMS error of " + what + " at " + spanText(study) + ", ";
-    charts.push_back({"time", chartOf(study, time, error + "against wall time",
+    charts.push_back({"time", chartOf(study, errorOverTime(study), error + "against wall time",
                                       {marks + " Times: median, bars over the middle half of the repeats."}, notes)});
 
-    Quantities evaluations = time;
-    evaluations.x = [&](const RunPoint& p) {
-        return (p.status == RunStatus::ok ? workOf(p) : fullWorkOf(study, p)) / simulated;
-    };
+    const Quantities evaluations = errorOverEvaluations(study);
     const bool hasSolver =
         std::any_of(study.points.begin(), study.points.end(), [](const RunPoint& p) { return p.iterations > 0; });
-    evaluations.xLabel = study.unit.empty() ? "evaluations of y' for a unit of t" : "force evaluations for a second";
-    evaluations.hasTimes = false;
     std::string counted = marks;
     if (hasSolver) counted += " Each product with the stiffness in a solver counts as an evaluation.";
     charts.push_back(
@@ -287,16 +306,8 @@ std::vector<NamedChart> workPrecisionCharts(const WorkPrecision& study, const st
                  {counted}, notes)});
 
     if (study.hasEnergy) {
-        Quantities energy = time;
-        energy.x = [](const RunPoint& p) { return p.step; };
-        energy.y = [](const RunPoint& p) { return p.energyError; };
-        energy.isAtFloor = [](const RunPoint& p) { return p.isEnergyAtFloor; };
-        energy.xLabel = "step h [s]";
-        energy.yLabel = "energy drift / largest kinetic energy";
-        energy.hasTimes = false;
-        energy.hasSteps = true;
         charts.push_back(
-            {"energy", chartOf(study, energy,
+            {"energy", chartOf(study, energyOverStep(),
                                "Largest difference of the energy from the reference's within " + number(simulated) +
                                    " s, against the step",
                                {failures + (hasFloor ? floors : "") +

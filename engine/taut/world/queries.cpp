@@ -9,6 +9,7 @@
 #include "taut/world/private/impl.h"
 #include "taut/world/private/publish.h"
 #include "taut/world/private/tick.h"
+#include "taut/world/world.h"
 #include "taut/spec/targets.h"
 
 namespace taut::world {

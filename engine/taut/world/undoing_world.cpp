@@ -9,6 +9,13 @@
 namespace taut::world {
 namespace {
 
+// True while it lives.
+struct Flag {
+    bool& is;
+    explicit Flag(bool& flag) : is(flag) { is = true; }
+    ~Flag() { is = false; }
+};
+
 struct Lead {
     ColliderPart* part = nullptr;
     Placement* placement = nullptr;
@@ -41,15 +48,12 @@ World UndoingWorld::made(const Added& added) const {
 }
 
 // A world begins with an evaluation of its forces, of which the state that it goes to leaves nothing.
-World UndoingWorld::made(const Added& added, std::span<const std::byte> state) const {
-    struct GoingBack {
-        bool& is;
-        explicit GoingBack(bool& flag) : is(flag) { is = true; }
-        ~GoingBack() { is = false; }
-    } goingBack(*isGoingBack_);
+void UndoingWorld::goTo(std::span<const std::byte> state, Added added) {
+    const Flag isGoing(*isGoingBack_);
     World fresh = made(added);
     fresh.restore(state, added.ramps);
-    return fresh;
+    world_ = std::move(fresh);
+    added_ = std::move(added);
 }
 
 bool UndoingWorld::mayThrow() const {
@@ -63,28 +67,27 @@ bool UndoingWorld::mayThrow() const {
 
 template <class Doing>
 auto UndoingWorld::orUndo(Doing&& doing) {
+    isUntouched_ = false;
+    if (isTicking_) return doing();  // what throws ends the tick, which is undone
     const std::vector<std::byte> before = world_.save();
     const Added added = added_;
     try {
         return doing();
     } catch (...) {
-        added_ = added;
-        world_ = made(added, before);
+        goTo(before, added);
         throw;
     }
 }
 
 std::optional<Divergence> UndoingWorld::advance() {
     TAUT_EXPECTS(!isTicking_);
-    struct Ticking {
-        bool& is;
-        ~Ticking() { is = false; }
-    } ticking{isTicking_};
-    const bool isGuarded = mayThrow();
+    const auto tick = [&] {
+        const Flag ticking(isTicking_);
+        return world_.advance();
+    };
+    if (mayThrow()) return orUndo(tick);
     isUntouched_ = false;
-    isTicking_ = true;
-    if (!isGuarded) return world_.advance();
-    return orUndo([&] { return world_.advance(); });
+    return tick();
 }
 
 void UndoingWorld::apply(const ActionSpec& action) {
@@ -92,8 +95,7 @@ void UndoingWorld::apply(const ActionSpec& action) {
     if (isTicking_ && move != nullptr && move->id.empty())
         throw core::Error(core::ErrorKind::usage,
                           "within a tick a collider is not sent on its way; let the system lead it, tick by tick");
-    isUntouched_ = false;
-    const auto perform = [&] {
+    orUndo([&] {
         action.foresee([&](const ActionSpec& part) {
             const auto* ramp = dynamic_cast<const RampAction*>(&part);
             if (ramp == nullptr) return;
@@ -101,11 +103,7 @@ void UndoingWorld::apply(const ActionSpec& action) {
             added_.ramps.push_back(*ramp);
         });
         world_.apply(action);
-    };
-    if (isTicking_)
-        perform();  // what throws ends the tick, which is undone
-    else
-        orUndo(perform);
+    });
 }
 
 void UndoingWorld::place(const std::string& collider, const collision::Pose& pose) {
@@ -130,19 +128,15 @@ void UndoingWorld::addForce(CallbackSpec spec) {
     spec.force = unlessGoingBack(spec.force);
     if (spec.energy) spec.energy = unlessGoingBack(spec.energy);
     const std::shared_ptr<const Force> force = callbackForce(std::move(spec));
+    if (!isUntouched_)
+        return orUndo([&] {
+            world_.addForce(force);
+            added_.lateForces.push_back(force);
+        });
     Added added = added_;
-    if (!isUntouched_) {
-        added.lateForces.push_back(force);
-        const auto add = [&] { world_.addForce(force); };
-        if (isTicking_)
-            add();
-        else
-            orUndo(add);
-    } else {
-        World(spec_, added.options).addForce(force);  // refuses what it has to
-        added.options.forces.push_back(force);
-        world_ = made(added);
-    }
+    World(spec_, added.options).addForce(force);  // refuses what it has to
+    added.options.forces.push_back(force);
+    world_ = made(added);
     added_ = std::move(added);
 }
 
@@ -155,8 +149,7 @@ void UndoingWorld::restore(std::span<const std::byte> bytes, std::vector<RampAct
     TAUT_EXPECTS(!isTicking_);
     Added added = added_;
     added.ramps = std::move(applied);
-    world_ = made(added, bytes);
-    added_ = std::move(added);
+    goTo(bytes, std::move(added));
     isUntouched_ = false;
 }
 

@@ -1,5 +1,10 @@
 // A world for programs whose forces and systems may throw: what throws in the middle of a tick, or of an action, has
 // not happened. It knows no language.
+//
+// It goes back by another world that is made of the same scene and reads what save() wrote. Between its start and where
+// a tick throws, actions, ramps and tears may have changed all that a world has: who is there, plans, networks, methods
+// and forces of islands, the fields of the scene. save() lists that once, as what differs from the scene; memories as
+// values, such as IslandMemory of what a tick does to an island whose plan stays, would list it a second time.
 #pragma once
 
 #include <memory>
@@ -59,8 +64,8 @@ class UndoingWorld {
         std::vector<RampAction> ramps;
     };
     World made(const Added& added) const;
+    void goTo(std::span<const std::byte> state, Added added);
     bool mayThrow() const;
-    World made(const Added& added, std::span<const std::byte> state) const;
     template <class Doing>
     auto orUndo(Doing&& doing);
 

@@ -33,6 +33,10 @@ WorldImpl::WorldImpl(const SceneSpec& scene, const Options& options)
     updateHash(*this);
 }
 
+WorldImpl& WorldAccess::of(World& world) {
+    return *world.impl_;
+}
+
 World::World(const SceneSpec& spec, const Options& options) : impl_(std::make_unique<WorldImpl>(spec, options)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;

@@ -10,7 +10,9 @@
 namespace taut::mechanics {
 
 // On a point: F = -k (x - p) - c (v - ṗ), p the place at the time plus the point's own offset from it, which turns with
-// the place if that turns.
+// the place if that turns. Where a largest force is said, what is longer is cut to that length. That projects onto a ball,
+// which is monotone: the slopes of F are no steeper than without, and with U = ∫ min(k d, most) dd, d = |x - p|, the
+// dashpot still takes energy and never adds any.
 template <class Real>
 class Anchor final : public ForceGenerator<Real> {
   public:
@@ -18,9 +20,9 @@ class Anchor final : public ForceGenerator<Real> {
     // apart; none: all are drawn to the place itself. Expects different points.
     Anchor(std::vector<int> points, const glm::dvec3& place, double stiffness, double damping,
            std::vector<glm::dvec3> offsets = {});
-    // The same with k and c of each point for itself (points).
+    // The same with k and c of each point for itself (points), and the largest force on each (points) [N] > 0, if any.
     Anchor(std::vector<int> points, const glm::dvec3& place, std::vector<double> stiffness, std::vector<double> damping,
-           std::vector<glm::dvec3> offsets = {});
+           std::vector<glm::dvec3> offsets = {}, std::vector<double> most = {});
 
     // The place stays, moves evenly from one to the other between t0 and t1 [s], or as the path says.
     void setPlace(const glm::dvec3& place) { path_ = LinearPath{place, place, 0.0, 0.0}; }
@@ -43,11 +45,25 @@ class Anchor final : public ForceGenerator<Real> {
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
   private:
+    // How a force that is cut changes with the one before: by `share`, and not along it.
+    struct Slope {
+        double share = 1.0;
+        glm::dvec3 along{0.0};  // unit; 0 where nothing is cut
+    };
+
+    glm::dvec3 pull(const Motion<Real>& motion, const PosePath::Frame& frame, std::size_t p) const;  // before it is cut
+    Slope slope(const glm::dvec3& pull, std::size_t p) const;
+    double energy(std::size_t p, double distance) const;  // [J] of one that may be cut
+    // Adds weight · slope · u of one point.
+    void addProduct(std::size_t p, Real weight, const Slope& slope, int stride, const Real* u, Real* out) const;
+
     std::vector<int> points_;
     std::vector<glm::dvec3> offsets_;  // (points) [m]
     PosePath path_;
     std::vector<double> stiffness_, damping_;  // (points) [N/m], [kg/s]
+    std::vector<double> most_;                 // (points) [N]; empty: nothing is cut
     std::vector<Real> weight_;                 // (points) s k + d c for the s and d of linearise()
+    std::vector<Slope> slopes_;                // (points) there
 };
 
 extern template class Anchor<float>;

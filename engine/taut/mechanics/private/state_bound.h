@@ -49,6 +49,7 @@ class StateBound {
     void findWeights(const SpringNetwork<Real>& network, const Real* inverseMass);
     double largestShare() const;
     void sumSprings(const SpringNetwork<Real>& network, const Real* x, Of what, const Real* weights);
+    void sumSingles(const SpringSingles<Real>& s, const Real* x, Of what, const Real* weights);
     void lookAtCells(const Real* x);
     void sumCells(const Real* weights);
     // a (points) from the sums: w λ_max.

@@ -1,6 +1,7 @@
 // A hand takes hold of points.
 #include <algorithm>
 
+#include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/timeline.h"
@@ -17,10 +18,15 @@ Kind<ActionSpec> grabKind() {
             .number("strength_N_per_m", &GrabAction::strength, "N/m", fields::positive,
                     "Of the whole hand, shared by mass.")
             .number("damping_ratio", &GrabAction::dampingRatio, "", Range{0.0, 10.0},
-                    "Of the grabbed mass on the hand's spring."),
+                    "Of the grabbed mass on the hand's spring.")
+            .number("max_force_N", &GrabAction::maxForce, "N", fields::positive,
+                    "The hand pulls no harder than this, and slips instead; any force if left out. Shared by mass."),
         [](const fields::CheckInput& input, const GrabAction& grab) {
             needsTarget(input, grab);
             needsId(input, grab);
+            if (grab.rigid && grab.maxForce > 0)
+                input.problems.addError(input.at("max_force_N"), "a rigid hand leads its points whatever it takes",
+                                        "leave max_force_N or rigid out");
         });
 }
 
@@ -71,6 +77,7 @@ void GrabAction::perform(World& world) const {
             if (rigid) continue;
             grip.stiffness.push_back(share * rates.omega2);
             grip.damping.push_back(share * rates.damping);
+            if (maxForce > 0) grip.mostForce.push_back(share / mass * maxForce);
         }
         plan.grips.push_back(std::move(grip));
         if (rigid) island->stop(w.now(), numbers);

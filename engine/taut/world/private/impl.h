@@ -14,6 +14,11 @@
 // The class World itself is world.cpp, building and the tick, and queries.cpp, what is asked of it.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "taut/core/private/parallel.h"
 #include "taut/island/private/island.h"
 #include "taut/spec/spec.h"
@@ -22,9 +27,12 @@
 #include "taut/world/private/contact_stage.h"
 #include "taut/world/private/hands.h"
 #include "taut/world/private/ramps.h"
-#include "taut/world/world.h"
+#include "taut/world/world_info.h"
 
 namespace taut::world {
+
+class World;
+struct Options;
 
 struct WorldImpl {
     SceneSpec spec;                          // as ramps have left it
@@ -32,7 +40,7 @@ struct WorldImpl {
     core::ThreadLimit threads;
     bool keepsSteps = false;
     ForceList added;  // by addForce()
-    std::vector<World::System> systems;
+    std::vector<std::function<void(World&, double t, double dt)>> systems;
     std::vector<std::string> callbackSystems;  // the names of those that are
 
     double ticksPerSecond = 60;
@@ -72,7 +80,7 @@ struct WorldImpl {
 
 // The way of actions into a world.
 struct WorldAccess {
-    static WorldImpl& of(World& world) { return *world.impl_; }
+    static WorldImpl& of(World& world);
 };
 
 }  // namespace taut::world

@@ -1,0 +1,89 @@
+// The scene of a window follows its files: read again when one of them changes.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "game/live_play.h"
+#include "game/messages.h"
+#include "game/scene_file.h"
+#include "taut/core/error.h"
+#include "taut/core/whole_file.h"
+#include "taut/live/recording.h"
+#include "taut/scene/private/used_files.h"
+#include "taut/world/world.h"
+
+namespace taut::game {
+namespace {
+
+constexpr double catchingUp = 2.0;  // [s] of wall time at most
+
+}  // namespace
+
+// The scene that is there goes on where the file cannot be read.
+void LivePlay::reload() {
+    try {
+        scene::Loaded scene = readScene(changes_);
+        const std::string said = follow(std::move(scene));
+        screen_.showFault("");
+        watchFiles(false);
+        makeLevels();  // what is drawn with may be another, and textures have to be read again
+        say(said);
+    } catch (const core::Error& error) {
+        watchFiles(true);
+        screen_.showFault(error.what());
+        hasChanged_ = true;
+        printNote("{}\n", error.what());
+    }
+}
+
+// With the state as it is, where the new scene leads to the same one; else none.
+std::unique_ptr<live::Session> LivePlay::goingOn(const scene::Loaded& scene) const {
+    const std::int64_t tick = session_->tick();
+    if (session_->divergence() || scene.keys.stateAt(tick) != keys_.stateAt(tick)) return nullptr;
+    try {
+        return std::make_unique<live::Session>(scene.spec, settings_.threads, *session_);
+    } catch (const core::Error&) {
+        return nullptr;  // what happens later asks for other steps
+    }
+}
+
+// To the moment that is shown, by simulating from the start where nothing else leads there, as far as there is time.
+// Returns what to say of it.
+std::string LivePlay::follow(scene::Loaded scene) {
+    const double moment = session_->world().time();
+    if (std::unique_ptr<live::Session> next = goingOn(scene)) {
+        adopt(std::move(next), std::move(scene.keys));
+        return fmt::format("read again; goes on at {:.2f} s", moment);
+    }
+    auto session = std::make_unique<live::Session>(std::move(scene.spec), settings_.threads);
+    const auto wanted = static_cast<int>(std::min(moment / session->world().tickSeconds() + 0.5, 1e9));
+    session->begin(wanted, catchingUp);
+    session->wait();
+    const std::string kept = keptRecording();
+    const double time = session->world().time();
+    const bool isThere = session->tick() >= wanted;
+    adopt(std::move(session), std::move(scene.keys));
+    dragging_ = Dragging::nothing;
+    return fmt::format("{}read again; simulated from the start to {:.2f} s{}{}", kept, time,
+                       isThere ? "" : ", as far as 2 s let it", isRecording_ ? "; the recording starts anew" : "");
+}
+
+// Of a scene that cannot be read the files that were its own, the one that it says it builds on, and the folder, in
+// which what is missing may come.
+void LivePlay::watchFiles(bool isBroken) {
+    std::vector<std::string> files;
+    for (const scene::UsedFile& file : scene::usedFiles(session_->spec())) files.push_back(file.path);
+    if (isBroken) {
+        const std::filesystem::path file = session_->spec().file, folder = file.parent_path();
+        files.push_back(folder.empty() ? "." : folder.string());
+        try {
+            if (const std::string base = live::partsOf(core::fileContent(file)).scene; !base.empty())
+                files.push_back(baseOf(file, base).string());
+        } catch (const core::Error&) {
+            // The file itself has to change.
+        }
+    }
+    files_.watch(std::move(files));
+}
+
+}  // namespace taut::game

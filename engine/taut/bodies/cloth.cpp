@@ -38,10 +38,10 @@ mechanics::ClothMaterial materialOf(const ClothSpec& spec, const SceneSpec& scen
             .stretch = m.stretch,
             .shear = m.shear.value_or(0.5 * m.stretch),
             .bend = m.bend,
-            .rigidity = rigidityOf(m.rigidity),
             .dampingTime = m.dampingTime,
             .dragRate = m.drag,
-            .lumping = m.lumping};
+            .lumping = m.lumping,
+            .rigidity = rigidityOf(m.rigidity)};
 }
 
 mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {

@@ -42,10 +42,10 @@ struct ClothMaterial {
     double stretch = 900.0;    // structural spring constant of a square cell k_s [N/m]
     double shear = 450.0;      // diagonal k_d [N/m]
     double bend = 1.0;         // span-2 k_b [N/m]
-    BendingRigidity rigidity;  // of grids
     double dampingTime = 0.0;  // τ [s]
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
+    BendingRigidity rigidity{};  // of grids
 };
 
 struct ClothShape {

@@ -40,11 +40,11 @@ struct MaterialSpec {             // of cloth, per metre of material
     double stretch = 900.0;       // k_s [N/m]
     std::optional<double> shear;  // k_d [N/m]; none: stretch / 2, isotropic
     double bend = 1.0;            // k_b [N/m]
-    BendingSpec rigidity{};
     double dampingTime = 1e-4;    // τ [s]
     double drag = 0.3;            // γ/m [1/s]
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
+    BendingSpec rigidity{};
 };
 
 // Which surfaces of bodies keep off each other: none, those of different bodies, or all, a body's own parts among them.

@@ -8,8 +8,8 @@
 
 namespace taut::fields {
 
-// Where something was written. Origin 0 is the file, -1 the file that it builds on; origin k is the k-th override,
-// which has no lines.
+// Where something was written. Origin 0 is the file, -1 the file that it builds on, -2 the one below that, and so on;
+// origin k is the k-th override, which has no lines.
 struct Place {
     int origin = 0;
     int line = 0;    // from 1

@@ -41,18 +41,6 @@ std::filesystem::path freeName(const std::filesystem::path& wish, bool isKept) {
     return name;
 }
 
-// The scene that a scenario builds on, found as the loader finds it; the file itself when `base` is empty.
-std::filesystem::path baseOf(const std::filesystem::path& scene, const std::string& base) {
-    if (base.empty()) return scene;
-    const auto [plain, isShipped] = scene::nameOfBase(base);
-    const std::string name = plain.ends_with(".toml") ? plain : plain + ".toml";
-    const std::filesystem::path beside = scene.parent_path() / name;
-    std::error_code ignored;
-    const bool isBeside = !isShipped && std::filesystem::is_regular_file(beside, ignored) &&
-                          !std::filesystem::equivalent(beside, scene, ignored);
-    return isBeside ? beside : assetFolder() / "scenes" / name;
-}
-
 // How a file in `folder` names the scene: a shipped one by its name, another by the way from there.
 std::string referenceTo(const std::filesystem::path& scene, const std::filesystem::path& folder) {
     std::error_code ignored;
@@ -61,6 +49,7 @@ std::string referenceTo(const std::filesystem::path& scene, const std::filesyste
     };
     const std::filesystem::path real = whole(scene), from = whole(folder.empty() ? "." : folder);
     if (real.parent_path() == whole(assetFolder() / "scenes")) return "shipped:" + real.stem().string();
+    if (real.parent_path() == whole(assetFolder() / "scenarios")) return "shipped:scenarios/" + real.stem().string();
     return std::filesystem::relative(real, from, ignored).string();
 }
 
@@ -190,9 +179,8 @@ std::string LivePlay::savedRecording(bool goesOn) {
     const std::filesystem::path file = freeName(
         settings_.record.empty() ? std::filesystem::path(scene.stem().string() + "-played.toml") : settings_.record,
         goesOn);
-    const live::ScenarioParts parts = live::partsOf(core::fileContent(scene));
-    recording.scene = referenceTo(baseOf(scene, parts.scene), file.parent_path());
-    for (const auto& changes : {parts.changes, settings_.overrides, changes_})
+    recording.scene = referenceTo(scene, file.parent_path());
+    for (const auto& changes : {settings_.overrides, changes_})
         recording.overrides.insert(recording.overrides.end(), changes.begin(), changes.end());
     core::writeWholeFile(file, live::scenarioText(recording));
     const std::string what = fmt::format("{}: {} actions, state hash {:016x} at tick {}", file.string(),

@@ -61,7 +61,8 @@ TEST(SceneInheritance, EverySectionWithNamesHasIt) {
 }
 
 TEST(SceneInheritance, AStateHasTheKeyThatItHasWithAllWrittenOut) {
-    const std::string own = "[rope.a]\nradius = 0.01\n" + std::string(straightEnds) + "[rope.b]\nradius = 0.01\n" + straightEnds;
+    const std::string own = "[rope.a]\nradius = 0.01\n" + std::string(straightEnds) +
+                            "[rope.b]\nradius = 0.01\n" + straightEnds;
     const std::string taken =
         "[defaults.rope]\nradius = 0.01\n[rope.a]\n" + std::string(straightEnds) + "[rope.b]\nlike = \"a\"\n";
     EXPECT_EQ(loaded(own).keys.stateAt(9), loaded(taken).keys.stateAt(9));

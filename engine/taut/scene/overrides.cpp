@@ -71,7 +71,12 @@ class Override {
   public:
     Override(std::vector<std::string> parts, const Node& value, Place place, const std::vector<SceneSection>& sections,
              Node& root, Problems& problems)
-        : parts_(std::move(parts)), value_(value), place_(place), sections_(sections), root_(root), problems_(problems) {
+        : parts_(std::move(parts)),
+          value_(value),
+          place_(place),
+          sections_(sections),
+          root_(root),
+          problems_(problems) {
         const auto section = std::find_if(sections.begin(), sections.end(), [&](const Section& s) {
             return !s.name.empty() && s.name == parts_.front();
         });

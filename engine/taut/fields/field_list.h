@@ -289,6 +289,12 @@ class FieldList {
             key, FieldKind::table, std::move(section), help,
             [=](Spec& s, const core::Source&) -> void* { return &(s.*member); });
     }
+    template <class Part, class Base>
+    FieldList& table(const char* key, std::optional<Part> Base::*member, Section section, const char* help) {
+        return addInside(
+            key, FieldKind::table, std::move(section), help,
+            [=](Spec& s, const core::Source&) -> void* { return s.*member ? &*(s.*member) : &(s.*member).emplace(); });
+    }
     FieldList& tableOfSelf(const char* key, Section section, const char* help) {
         return addInside(
             key, FieldKind::table, std::move(section), help, [](Spec& s, const core::Source&) -> void* { return &s; });

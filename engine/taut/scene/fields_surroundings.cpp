@@ -85,7 +85,10 @@ Section partSection(const collision::ShapeKinds& shapes) {
     Section section;
     section.variant = shapeOf;
     section.variantKey = "shape";
-    section.fields = shapeFields(shapes, In::compound).take();
+    section.fields = shapeFields(shapes, In::compound)
+                         .table("finish", &ColliderSpec::ownFinish, finishSection(),
+                                "How it looks; as the compound if not given.")
+                         .take();
     return section;
 }
 

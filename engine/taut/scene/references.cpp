@@ -83,6 +83,7 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
     for (const auto& collider : scene.spec.colliders) colliders.push_back("collider." + collider.name);
 
     for (const NameReference& reference : scene.references) {
+        problems.about(reference.owner);
         switch (reference.role) {
             case Role::material: checkName(reference, "material", materials, problems); break;
             case Role::camera: checkName(reference, "camera", cameras, problems); break;
@@ -105,6 +106,7 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
             default: break;
         }
     }
+    problems.about("");
     for (std::size_t i = 0; i < scene.spec.joints.size(); ++i)
         checkJoint(scene.spec.joints[i], scene.owners.at(fmt::format("joint[{}]", i)), bodies, problems);
 }

@@ -12,7 +12,6 @@
 #include "game/scene_file.h"
 #include "taut/core/whole_file.h"
 #include "taut/live/recording.h"
-#include "taut/scene/private/merge.h"
 #include "taut/spec/common_rows.h"
 #include "taut/world/world.h"
 

@@ -269,6 +269,12 @@ t = 3
 do = "ramp"
 key = "wind.breeze.velocity"
 to = [9, 8, 7]
+[[at]]
+t = 3.5
+do = "grab"
+id = "right"
+target = "rope.rail@50%"
+max_force_N = 30
 [[check]]
 that = "height(cloth.flag.*) > 0"
 at = 2

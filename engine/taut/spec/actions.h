@@ -34,7 +34,7 @@ struct GrabAction final : SpecOf<GrabAction, PointsAction> {
     bool rigid = false;         // led exactly; else drawn by springs
     double strength = 200.0;    // [N/m] of the whole hand, shared by mass
     double dampingRatio = 0.3;  // of the grabbed mass on the hand's spring [-]
-    double maxForce = 0.0;      // [N] of the whole hand at most, shared by mass; 0: any
+    std::optional<double> maxForce;  // [N] of the whole hand at most, shared by mass; none: any
 };
 
 // A hand, or a collider, goes from where it is to somewhere.

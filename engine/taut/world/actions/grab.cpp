@@ -24,7 +24,7 @@ Kind<ActionSpec> grabKind() {
         [](const fields::CheckInput& input, const GrabAction& grab) {
             needsTarget(input, grab);
             needsId(input, grab);
-            if (grab.rigid && grab.maxForce > 0)
+            if (grab.rigid && grab.maxForce)
                 input.problems.addError(input.at("max_force_N"), "a rigid hand leads its points whatever it takes",
                                         "leave max_force_N or rigid out");
         });
@@ -77,7 +77,7 @@ void GrabAction::perform(World& world) const {
             if (rigid) continue;
             grip.stiffness.push_back(share * rates.omega2);
             grip.damping.push_back(share * rates.damping);
-            if (maxForce > 0) grip.mostForce.push_back(share / mass * maxForce);
+            if (maxForce) grip.mostForce.push_back(share / mass * *maxForce);
         }
         plan.grips.push_back(std::move(grip));
         if (rigid) island->stop(w.now(), numbers);

@@ -42,7 +42,7 @@ class Leash final : public ConstraintOf<Leash> {
     bool projectPositions(const Moment& now) override {
         const dvec3 d = now.x[1] - now.x[0];
         const double length = std::sqrt(glm::dot(d, d)), excess = length - most_, w = weight(now);
-        if (isCut_ || !(w > 0) || excess <= 1e-13) return false;
+        if (!holds() || !(w > 0) || excess <= 1e-13) return false;
         now.x[0] += now.inverseMass[0] / w * excess / length * d;
         now.x[1] -= now.inverseMass[1] / w * excess / length * d;
         return true;
@@ -50,22 +50,16 @@ class Leash final : public ConstraintOf<Leash> {
     bool projectVelocities(const Moment& now) override {
         const dvec3 d = now.x[1] - now.x[0], u = now.v[1] - now.v[0];
         const double away = glm::dot(u, d) / glm::dot(d, d), w = weight(now);
-        if (isCut_ || !(w > 0) || away <= 1e-14 || glm::dot(d, d) < most_ * most_ * (1 - 1e-9)) return false;
+        if (!holds() || !(w > 0) || away <= 1e-14 || glm::dot(d, d) < most_ * most_ * (1 - 1e-9)) return false;
         now.v[0] += now.inverseMass[0] / w * away * d;
         now.v[1] -= now.inverseMass[1] / w * away * d;
         return true;
     }
-    bool sever(const IsCut& isCut) override {
-        isCut_ = isCut_ || isCut(points_[0], points_[1]);
-        return isCut_;
-    }
-    void visit(StateBytes& bytes) override { bytes(isCut_); }
 
   private:
     static double weight(const Moment& now) { return now.inverseMass[0] + now.inverseMass[1]; }
     std::array<int, 2> points_;
     double most_;  // [m]
-    bool isCut_ = false;
 };
 
 struct LeashJoint final : SpecOf<LeashJoint, JointSpec> {

@@ -71,7 +71,7 @@ void World::Impl::carryTied() {
 void World::Impl::letGo(const std::string& collider) {
     const auto isOwn = [&](const Grip& grip) { return grip.ofCollider && grip.holder == collider; };
     for (const auto& island : islands) {
-        island->release(now(), collider);
+        island->release(now(), [&](const JointTie& tie) { return tie.collider == collider; });
         const std::vector<Grip>& grips = island->plan().grips;
         if (island->frozen() != nullptr || std::none_of(grips.begin(), grips.end(), isOwn)) continue;
         std::erase_if(island->change(now(), Change::grips).grips, isOwn);

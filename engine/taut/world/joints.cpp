@@ -17,8 +17,19 @@ std::string metres(double length) {
     return text;
 }
 
-JointInfo infoOf(const JointReport& report) {
-    JointInfo info{report.spec->a, report.spec->b, std::string(report.spec->kind()), {}, report.jump, {}};
+JointInfo infoOf(const JointSpec& joint, int number) {
+    JointInfo info;
+    info.a = joint.a.text();
+    info.b = joint.b.text();
+    info.name = joint.name;
+    info.kind = joint.kind();
+    info.number = number;
+    return info;
+}
+
+JointInfo infoOf(const JointReport& report, int number) {
+    JointInfo info = infoOf(*report.spec, number);
+    info.jump = report.jump;
     for (const auto& [a, b, points] : report.pairs) info.pairs.push_back({a->fullName(), b->fullName(), points});
     for (const auto& [body, distance] : report.loose) info.loose.push_back(body->fullName());
     return info;
@@ -32,7 +43,7 @@ std::string warningOf(const JointReport& report) {
         names += (i > 0 ? ", " : "") + body->fullName() + (joint.isWeld() ? " (" + metres(distance) + " off)" : "");
     }
     if (report.loose.size() > mostNamed) names += " and " + std::to_string(report.loose.size() - mostNamed) + " more";
-    return asWarning(at(joint.source)) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" does not tie " + names +
+    return asWarning(at(joint.source)) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" does not tie " + names +
            (joint.isWeld() ? "; it reaches " + metres(joint.reach()) +
                          ": move them together, raise reach_m, or use kind = \"spring\""
                    : ": other bodies are nearer");
@@ -44,7 +55,7 @@ std::string jumpWarning(const JointReport& report) {
     for (const auto& [a, b, points] : report.pairs) cell = std::min({cell, shortestEdge(*a), shortestEdge(*b)});
     if (!(report.jump > cell)) return "";
     const JointSpec& joint = *report.spec;
-    return asWarning(at(joint.source)) + "the weld \"" + joint.a + "\" – \"" + joint.b +
+    return asWarning(at(joint.source)) + "the weld \"" + joint.a.text() + "\" – \"" + joint.b.text() +
            "\" jerks points together by " + metres(report.jump) + ", more than a cell (" + metres(cell) +
            "): move the bodies together, lower reach_m, or use kind = \"spring\"";
 }
@@ -52,25 +63,67 @@ std::string jumpWarning(const JointReport& report) {
 }  // namespace
 
 void World::Impl::takeJoints(const std::vector<JointReport>& reports) {
-    for (const JointReport& report : reports) {
-        joints.push_back(infoOf(report));
-        if (!report.loose.empty()) jointWarnings.push_back(warningOf(report));
-        if (std::string jerk = jumpWarning(report); !jerk.empty()) jointWarnings.push_back(std::move(jerk));
-    }
+    std::size_t next = 0;
+    std::vector<JointInfo> tied;
+    int number = 0;
     for (const JointSpec& joint : spec.joints) {
-        if (!isTie(joint)) continue;
-        JointInfo info{joint.a, joint.b, std::string(joint.kind()), {}, 0, {}};
-        const std::string selector = parseTarget(pointsOf(joint)).selector;
-        const std::vector<Body*> all = allBodies();
-        for (const Body* body : matchBodies(all, pointsOf(joint)))
-            info.pairs.push_back(
-                {body->fullName(), colliderOf(joint), static_cast<int>(selectPoints(body->model, selector).size())});
-        joints.push_back(std::move(info));
+        if (!isTie(joint)) {
+            const JointReport& report = reports[next++];
+            joints.push_back(infoOf(report, number));
+            if (!report.loose.empty()) jointWarnings.push_back(warningOf(report));
+            if (std::string jerk = jumpWarning(report); !jerk.empty()) jointWarnings.push_back(std::move(jerk));
+        } else {
+            JointInfo& info = tied.emplace_back(infoOf(joint, number));
+            for (const Body* body : allBodies())
+                if (names(pointsOf(joint), *body))
+                    info.pairs.push_back({body->fullName(), colliderOf(joint), countNamed(pointsOf(joint), *body)});
+        }
+        ++number;
+    }
+    joints.insert(joints.end(), tied.begin(), tied.end());
+    for (const JointSpec& joint : spec.joints)
+        drawings.push_back(joint.isDrawn() ? std::make_shared<const TieDrawing>(joint) : nullptr);
+}
+
+bool World::Impl::isJoint(const std::string& name) const {
+    return !name.empty() &&
+           std::any_of(spec.joints.begin(), spec.joints.end(), [&](const JointSpec& joint) { return joint.name == name; });
+}
+
+void World::Impl::releaseJoints(const std::string& name) {
+    for (const auto& island : islands)
+        island->release(now(), [&](const JointTie& tie) {
+            return spec.joints[static_cast<std::size_t>(tie.joint)].name == name;
+        });
+}
+
+// Between two ticks, so that no tick that is taken again has to hold them again.
+void World::Impl::breakJoints() {
+    for (const auto& island : islands) {
+        const std::vector<bool> isOver = island->overloaded();
+        if (std::find(isOver.begin(), isOver.end(), true) == isOver.end()) continue;
+        std::size_t next = 0;
+        island->release(now(), [&](const JointTie&) { return isOver[next++]; });
     }
 }
 
+int World::Impl::jointsLeft(const JointInfo& info) const {
+    int ties = 0, left = 0;
+    for (const auto& island : islands)
+        for (const JointTie& tie : island->plan().ties) {
+            if (tie.joint != info.number) continue;
+            ++ties;
+            left += holds(island->plan(), tie) ? 1 : 0;
+        }
+    if (ties > 0) return left;
+    for (const auto& pair : info.pairs) left += pair.points;
+    return left;
+}
+
 std::vector<JointInfo> World::joints() const {
-    return impl_->joints;
+    std::vector<JointInfo> all = impl_->joints;
+    for (JointInfo& info : all) info.left = impl_->jointsLeft(info);
+    return all;
 }
 
 }  // namespace taut::world

@@ -61,13 +61,12 @@ void World::Impl::addBodies() {
 
 // A body that comes later cannot be tied to others: islands are made once.
 void World::Impl::checkUntied(Body& body) const {
-    const std::vector<Body*> one{&body};
     for (const JointSpec& joint : spec.joints) {
         if (isTie(joint)) continue;
-        for (const std::string& side : {joint.a, joint.b})
-            if (!matchBodies(one, side).empty())
+        for (const JointSide& side : {joint.a, joint.b})
+            if (names(side, body))
                 throw core::Error(core::ErrorKind::badContent,
-                                  at(joint.source) + "\"" + side + "\" ties " + body.fullName() +
+                                  at(joint.source) + "\"" + side.text() + "\" ties " + body.fullName() +
                                       ", which is spawned later; a spawned body cannot be tied to another");
     }
 }
@@ -311,6 +310,7 @@ std::optional<Divergence> World::advance() {
     const std::vector<ColliderMotion> moving = w.movingColliders();
     if (auto divergence = w.tickIslands(moving)) return divergence;
     ++w.tick;
+    w.breakJoints();
     if (std::any_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->hasTorn(); }))
         w.redrawDamage();
     w.changePicture();

@@ -29,6 +29,7 @@ void GrabAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     if (std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& h) { return h.id == id; }))
         failAction(*this, "there is a hand \"" + id + "\" already; release it first");
+    if (w.isJoint(id)) failAction(*this, "\"" + id + "\" is the name of a joint; give the hand another id");
     std::vector<Picked> points = w.pick(*this);
     Hand hand;
     hand.id = id;

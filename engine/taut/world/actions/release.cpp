@@ -1,4 +1,4 @@
-// A hand lets go.
+// A hand lets go, or the joints of a name.
 #include <algorithm>
 
 #include "taut/world/private/actions/rows.h"
@@ -7,11 +7,16 @@
 namespace taut::world {
 
 Kind<ActionSpec> releaseKind() {
-    return actionKind<ReleaseAction>(withId<ReleaseAction>(), needsId);
+    return actionKind<ReleaseAction>(
+        fields::FieldList<ReleaseAction>().text("id", &ReleaseAction::id, fields::Role::none,
+                                                "Name of the hand; or of joints, all of which let go."),
+        needsId);
 }
 
 void ReleaseAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
+    const bool isHand = std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& hand) { return hand.id == id; });
+    if (!isHand && w.isJoint(id)) return w.releaseJoints(id);
     w.handOf(*this, id);
     const auto isOwn = [&](const auto& held) { return !held.ofCollider && held.holder == id; };
     for (const auto& island : w.islands) {

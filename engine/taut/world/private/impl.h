@@ -1,6 +1,6 @@
 // What a world is made of, shared by its sources only.
 //
-//   joints.cpp         what the joints of the scene tie
+//   joints.cpp         what the joints of the scene tie, and what lets go
 //   world.cpp          building, the tick, what is asked of a world
 //   timeline.cpp       actions when they are due, and the points that they name
 //   actions/           what each kind of action does
@@ -16,6 +16,7 @@
 
 #include <optional>
 
+#include "taut/bodies/private/joints/tie_drawing.h"
 #include "taut/core/private/parallel.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/spec.h"
@@ -73,6 +74,7 @@ struct World::Impl {
     std::vector<std::string> spawned;            // targets of the spawn actions so far
     std::vector<JointInfo> joints;               // of the scene, as they tied bodies at the start
     std::vector<std::string> jointWarnings;
+    std::vector<std::shared_ptr<const TieDrawing>> drawings;  // (joints of the scene) null: not drawn
     std::vector<Hand> hands;  // in the order of grabbing
     std::vector<Ramp> ramps;  // one for each key, in the order in which they began
 
@@ -86,6 +88,10 @@ struct World::Impl {
     ForceList forces() const;
     void checkUntied(Body& body) const;
     void takeJoints(const std::vector<JointReport>& reports);
+    bool isJoint(const std::string& name) const;
+    void releaseJoints(const std::string& name);
+    void breakJoints();  // that the last tick has overloaded
+    int jointsLeft(const JointInfo& info) const;
     void checkForces() const;
     collision::Colliders colliders() const;  // where they are now
     void rebuildColliders();

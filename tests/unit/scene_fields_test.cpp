@@ -199,6 +199,7 @@ TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
     const world::RopeSpec& winding = named(scene.bodies.of<world::RopeSpec>(), "winding");
     ASSERT_EQ(winding.through.size(), 2U);
     EXPECT_EQ(winding.through[1].position, dvec3(0.6, 5, 1.3));
+    EXPECT_TRUE(winding.isClosed);
     const world::BlockSpec& jelly = named(scene.bodies.of<world::BlockSpec>(), "jelly");
     EXPECT_EQ(jelly.size, dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(jelly.cells, ivec3(2, 3, 5));

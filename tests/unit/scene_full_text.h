@@ -292,6 +292,7 @@ size = [320, 180]
 [rope.winding]
 ends = [[0, 5, 1], [1, 5, 1]]
 through = [{ position = [0.4, 5.2, 1] }, { position = [0.6, 5, 1.3] }]
+closed = true
 )toml";
 
 }  // namespace taut::scene

@@ -75,8 +75,9 @@ TEST(Pins, KeepMomentumAndAngularMomentum) {
     const Metrics before = world.metrics();
     run(world, 100);
     const Metrics after = world.metrics();
-    EXPECT_LT(lengthOf(after.momentum - before.momentum), 1e-11);                // 1000 steps, of places over h
-    EXPECT_LT(lengthOf(after.angularMomentum - before.angularMomentum), 1e-11);  // likewise
+    // Places of 2 m over h are rounded to 4e-13 m/s, of 6 kg, at random in 1000 steps: 8e-11.
+    EXPECT_LT(lengthOf(after.momentum - before.momentum), 1e-10);
+    EXPECT_LT(lengthOf(after.angularMomentum - before.angularMomentum), 1e-10);
     EXPECT_EQ(world.points("net.n@a").x, world.points("net.n@c").x);
 }
 
@@ -179,7 +180,8 @@ TEST(LettingGo, WhatHasLetGoIsSavedAndGoesOnTheSame) {
 
 TEST(LettingGo, FreeReleasesARodToACollider) {
     World world(sceneOf(withAction("t = 0.1, do = \"free\", target = \"net.o@b\"",
-                                   hanging("a = \"net.o@b\"\nb = \"collider.k\"\nkind = \"rod\"\n") + ball + "3, 0]\n")));
+                                   hanging("a = \"net.o@b\"\nb = \"collider.k\"\nkind = \"rod\"\n") + ball +
+                                       "3, 0]\n")));
     run(world, 10);
     EXPECT_EQ(left(world, "peg"), 1);
     run(world, 1);
@@ -203,7 +205,8 @@ TEST(LettingGo, RodsUnderTensionShortenStepsOfAuto) {
         points += "{ name = \"p" + n + "\", position = [" + std::to_string(0.05 * i) + ", 2, 0]" +
                   (i == 0 ? ", hold = true" : "") + " }, ";
         if (i > 0)
-            rods += "[[joint]]\na = \"net.c@p" + std::to_string(i - 1) + "\"\nb = \"net.c@p" + n + "\"\nkind = \"rod\"\n";
+            rods += "[[joint]]\na = \"net.c@p" + std::to_string(i - 1) + "\"\nb = \"net.c@p" + n +
+                    "\"\nkind = \"rod\"\n";
     }
     World world(sceneOf("schema = 1\n[run]\nfps = 60\nseconds = 10\n[net.c]\npoints = [" + points + "]\n" + rods));
     const double start = world.metrics().energy();

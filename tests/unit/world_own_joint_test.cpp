@@ -151,9 +151,10 @@ TEST(OwnJoint, AConstraintOfItsOwnHoldsIsSavedAndCut) {
 
 // A mass of 1 kg on a leash that is taut: its kind says nothing of names and forces.
 TEST(OwnJoint, IsReleasedByNameAndBreaksByTheForceThroughIt) {
-    const std::string hanging = "schema = 1\nat = [{ t = 0.1, do = \"release\", id = \"dog\" }]\n[solver]\nprecision = "
-                                "\"double\"\ndt = 0.001\n[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0], hold = "
-                                "true }, { name = \"b\", position = [0, -1, 0] }]\ndrag_per_s = 0\n[[joint]]\nname = \"dog\"\n";
+    const std::string hanging =
+        "schema = 1\nat = [{ t = 0.1, do = \"release\", id = \"dog\" }]\n[solver]\nprecision = \"double\"\ndt = 0.001\n"
+        "[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0], hold = true }, { name = \"b\", position = [0, -1, 0] }]\n"
+        "drag_per_s = 0\n[[joint]]\nname = \"dog\"\n";
     for (const double share : {0.999, 1.001}) {
         World world(scene::loadSceneText(hanging + "a = \"net.n@a\"\nb = \"net.n@b\"\nkind = \"leash\"\nbreak_N = " +
                                              std::to_string(share * support::g) + "\n",

@@ -125,7 +125,8 @@ class Planner {
         const std::vector<PointRef> as = points(joint.a, joint.source);
         std::vector<PointRef> bs = points(joint.b, joint.source);
         const auto isOther = [&](const PointRef& p) { return p.body != as.front().body; };
-        const bool isOneBody = std::none_of(as.begin(), as.end(), isOther) && std::none_of(bs.begin(), bs.end(), isOther);
+        const bool isOneBody =
+            std::none_of(as.begin(), as.end(), isOther) && std::none_of(bs.begin(), bs.end(), isOther);
         const bool mayTieWithin = isOneBody || joint.tiesWithin();
         const bool merges = joint.isWeld() && !isOneBody && !joint.hasOwnTies();
         JointReport& report = reports_.emplace_back();
@@ -171,7 +172,8 @@ class Planner {
                                               "; move the bodies together, or use kind = \"spring\""
                                         : "both sides are the same point";
             throw Error(ErrorKind::badContent,
-                        at(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" joins nothing: " + why);
+                        at(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
+                            "\" joins nothing: " + why);
         }
         for (const auto& [numbers, points] : pairs)
             report.pairs.push_back({&body(numbers.first), &body(numbers.second), points});

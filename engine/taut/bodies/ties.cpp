@@ -143,7 +143,8 @@ const JointSide& pointsOf(const JointSpec& joint) {
 }
 
 bool names(const JointSide& side, const Body& body) {
-    return std::any_of(side.targets.begin(), side.targets.end(), [&](const auto& target) { return names(target, body); });
+    return std::any_of(side.targets.begin(), side.targets.end(),
+                       [&](const auto& target) { return names(target, body); });
 }
 int countNamed(const JointSide& side, const Body& body) {
     return static_cast<int>(namedPoints(side, body).size());
@@ -171,7 +172,8 @@ void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const FindP
         poseOf(colliderOf(joint), find, joint.source);
         for (const std::string& target : pointsOf(joint).targets) {
             const JointSide one(target);
-            if (std::all_of(bodies.begin(), bodies.end(), [&](const Body* body) { return countNamed(one, *body) == 0; }))
+            if (std::all_of(bodies.begin(), bodies.end(),
+                            [&](const Body* body) { return countNamed(one, *body) == 0; }))
                 fail(joint.source, "\"" + target + "\" names no point");
         }
     }

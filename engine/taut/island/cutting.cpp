@@ -78,7 +78,8 @@ CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Bod
         const Knife knife = isPlane ? planeThrough(action, island, *body) : isAll ? Knife{} : segmentOn(action, *body);
         for (const auto& [a, b] : edgesOf(body->model)) {
             if (body->damage.isSevered(a, b)) continue;
-            if (const std::optional<double> share = isAll ? 0.5 : knife.crossing(a, b)) crossing.edges.push_back({body, a, b, *share});
+            const std::optional<double> share = isAll ? 0.5 : knife.crossing(a, b);
+            if (share) crossing.edges.push_back({body, a, b, *share});
         }
         if (!isPlane && !isAll) continue;
         for (std::size_t i = 0; i < body->pointOf.size(); ++i) {

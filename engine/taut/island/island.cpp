@@ -177,7 +177,9 @@ Verdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
         now_.budget.add(work, tickSeconds_);
         return Verdict::stands;
     }
-    if (fault && (!fault->isNumber || ++tries_.rescues > mostRescues || need > mostSubsteps)) return Verdict::fails;
+    // Constraints that a step turns too far have no solution, rather than one that is too fast.
+    const bool isHopeless = fault && !fault->isNumber && plan_.constraints.empty();
+    if (fault && (isHopeless || ++tries_.rescues > mostRescues || need > mostSubsteps)) return Verdict::fails;
     if (!isTooLong) {
         now_.budget.factor *= 2;
         now_.budget.calmTicks = 0;

@@ -271,7 +271,8 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
         if (plan.solver.dt) return *plan.solver.dt;
         // What turns on rods has a limit that only its state tells.
         const bool isBounded =
-            std::isfinite(of.limit) || (!plan.constraints.empty() && std::isfinite(method->automaticStep({.omega = 1.0})));
+            std::isfinite(of.limit) ||
+            (!plan.constraints.empty() && std::isfinite(method->automaticStep({.omega = 1.0})));
         if (now == nullptr || !method->caution.empty() || !isBounded)
             return plan.solver.safety * of.limit;
         const mechanics::FastestNow then{now->omega2, part * now->damping, part * now->pairs};

@@ -43,7 +43,8 @@ std::string warningOf(const JointReport& report) {
         names += (i > 0 ? ", " : "") + body->fullName() + (joint.isWeld() ? " (" + metres(distance) + " off)" : "");
     }
     if (report.loose.size() > mostNamed) names += " and " + std::to_string(report.loose.size() - mostNamed) + " more";
-    return asWarning(at(joint.source)) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() + "\" does not tie " + names +
+    return asWarning(at(joint.source)) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
+           "\" does not tie " + names +
            (joint.isWeld() ? "; it reaches " + metres(joint.reach()) +
                          ": move them together, raise reach_m, or use kind = \"spring\""
                    : ": other bodies are nearer");
@@ -78,16 +79,16 @@ void World::Impl::takeJoints(const std::vector<JointReport>& reports) {
                 if (names(pointsOf(joint), *body))
                     info.pairs.push_back({body->fullName(), colliderOf(joint), countNamed(pointsOf(joint), *body)});
         }
+        drawings.push_back(joint.isDrawn() ? std::make_shared<const TieDrawing>(joint, number) : nullptr);
         ++number;
     }
     joints.insert(joints.end(), tied.begin(), tied.end());
-    for (const JointSpec& joint : spec.joints)
-        drawings.push_back(joint.isDrawn() ? std::make_shared<const TieDrawing>(joint) : nullptr);
 }
 
 bool World::Impl::isJoint(const std::string& name) const {
     return !name.empty() &&
-           std::any_of(spec.joints.begin(), spec.joints.end(), [&](const JointSpec& joint) { return joint.name == name; });
+           std::any_of(spec.joints.begin(), spec.joints.end(),
+                       [&](const JointSpec& joint) { return joint.name == name; });
 }
 
 void World::Impl::releaseJoints(const std::string& name) {

@@ -91,7 +91,8 @@ std::vector<dvec3> placesAhead(const Island& island, double ahead) {
 
 // What joints look like. What is between bodies is as far as they are.
 void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
-    if (std::none_of(w.drawings.begin(), w.drawings.end(), [](const auto& drawing) { return drawing != nullptr; })) return;
+    const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
+    if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
     std::map<std::string, glm::mat4> poses;  // of the colliders
     w.registry.each<Identity, Placement>([&](ecs::Entity, const Identity& identity, const Placement& placement) {
         poses.emplace(identity.fullName(), matrixOf(poseAhead(placement, ahead * w.ticksPerSecond)));

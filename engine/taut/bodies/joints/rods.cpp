@@ -148,7 +148,8 @@ void Rods::factor(std::span<const dvec3> x, std::span<const double> inverseMass)
         const Rod& rod = rods_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
         const dvec3 d = between(rod, x);
         const double length = norm(d);
-        direction_[static_cast<std::size_t>(i)] = !holds(order_[static_cast<std::size_t>(i)]) || !(length > 0) ? dvec3(0.0) : d / length;
+        const bool pulls = holds(order_[static_cast<std::size_t>(i)]) && length > 0;
+        direction_[static_cast<std::size_t>(i)] = pulls ? d / length : dvec3(0.0);
     }
     std::fill(lower_.begin(), lower_.end(), 0.0);
     for (const Coupling& c : couplings_)

@@ -5,7 +5,8 @@
 namespace taut::world {
 
 void SpringJoint::tie(IslandPlan& plan, int first, int second, double distance) const {
-    plan.springs.push_back({first, second, stiffness, restLength.value_or(distance), dampingTime, mechanics::SpringKind::joint});
+    plan.springs.push_back(
+        {first, second, stiffness, restLength.value_or(distance), dampingTime, mechanics::SpringKind::joint});
 }
 
 // Each point is drawn to its place on it.

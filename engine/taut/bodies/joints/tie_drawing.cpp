@@ -21,8 +21,10 @@ glm::vec3 across(const glm::vec3& axis) {
 
 }  // namespace
 
-TieDrawing::TieDrawing(const JointSpec& joint)
-    : name_("joint" + (joint.name.empty() ? "" : "." + joint.name)), look_(joint.look), finish_(finishOf(*look_.finish)) {
+TieDrawing::TieDrawing(const JointSpec& joint, int number)
+    : name_("joint." + (joint.name.empty() ? std::to_string(number) : joint.name)),
+      look_(joint.look),
+      finish_(finishOf(*look_.finish)) {
     const auto points = static_cast<int>(line({0, 0, 0}, {1, 0, 0}).size());
     topology_ = std::make_shared<view::Topology>(
         view::tubeTopology(points, 1, sides, 1.0F, static_cast<float>(look_.radius)));

@@ -18,7 +18,8 @@ void WeldJoint::tie(IslandPlan& plan, int first, int second, double) const {
     const auto held = std::find_if(cluster.begin(), cluster.end(),
                                    [&](int i) { return plan.points[static_cast<std::size_t>(i)].held; });
     const int place = held != cluster.end() ? *held : cluster.front();
-    for (const int i : cluster) plan.positions[static_cast<std::size_t>(i)] = plan.positions[static_cast<std::size_t>(place)];
+    for (const int i : cluster)
+        plan.positions[static_cast<std::size_t>(i)] = plan.positions[static_cast<std::size_t>(place)];
 }
 
 void WeldJoint::carry(IslandPlan& plan, Grip grip) const {

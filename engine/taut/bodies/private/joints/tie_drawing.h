@@ -12,8 +12,8 @@ namespace taut::world {
 
 class TieDrawing {
   public:
-    // Expects a joint that is drawn.
-    explicit TieDrawing(const JointSpec& joint);
+    // Expects a joint that is drawn; its number stands for a name.
+    TieDrawing(const JointSpec& joint, int number);
     // From end to end [m].
     view::Surface surface(const glm::vec3& a, const glm::vec3& b) const;
 

@@ -4,6 +4,7 @@
 
 #include "taut/fields/private/problems.h"
 #include "taut/ode/method_table.h"
+#include "taut/spec/actions.h"
 
 namespace taut::world {
 
@@ -23,6 +24,10 @@ void checkJoint(const fields::CheckInput& input, const JointSpec& joint) {
     if (input.table.find("name") != nullptr && !fields::isName(joint.name))
         input.problems.addError(input.at("name"), fmt::format("\"{}\" cannot be the name of a joint", joint.name),
                                 "a name has letters, digits, - and _");
+    else if (joint.name.starts_with(liveHand))
+        input.problems.addError(input.at("name"),
+                                fmt::format("names that begin with \"{}\" are those of a player's hands", liveHand),
+                                "give the joint another name");
     if (joint.isDrawn()) return;
     for (const char* key : {"radius", "turns", "coil_radius"})
         if (input.table.find(key) != nullptr)

@@ -222,7 +222,7 @@ TEST(LettingGo, RodsUnderTensionShortenStepsOfAuto) {
 TEST(LettingGo, TiesAreDrawnOnlyWithAFinishAndWhileTheyHold) {
     const auto surfaces = [](const World& world) {
         int count = 0;
-        for (const view::Surface& surface : world.view(false).surfaces) count += surface.name == "joint.peg";
+        for (const view::Surface& surface : world.view(false).surfaces) count += surface.name == "joint.peg.0";
         return count;
     };
     const std::string spring = "a = \"net.o@b\"\nb = \"net.n@z\"\nkind = \"spring\"\n";

@@ -94,6 +94,7 @@ void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
     const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
     if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
     std::map<std::string, glm::mat4> poses;  // of the colliders
+    std::map<std::string, int> count;        // of ties so far, by the name of what is drawn
     w.registry.each<Identity, Placement>([&](ecs::Entity, const Identity& identity, const Placement& placement) {
         poses.emplace(identity.fullName(), matrixOf(poseAhead(placement, ahead * w.ticksPerSecond)));
     });
@@ -102,11 +103,13 @@ void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
         const std::vector<dvec3> x = placesAhead(*island, ahead);
         for (const JointTie& tie : plan.ties) {
             const auto& drawing = w.drawings[static_cast<std::size_t>(tie.joint)];
-            if (!drawing || !holds(plan, tie)) continue;
+            if (!drawing) continue;
+            const int number = count[drawing->name()]++;
+            if (!holds(plan, tie)) continue;
             const glm::vec3 a(x[static_cast<std::size_t>(tie.a)]);
             const glm::vec3 b = tie.b >= 0 ? glm::vec3(x[static_cast<std::size_t>(tie.b)])
                                            : glm::vec3(poses.at(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
-            view.surfaces.push_back(drawing->surface(a, b));
+            view.surfaces.push_back(drawing->surface(a, b, number));
             if (island->frozen() != nullptr) view.surfaces.back().dulled = frozenDullness;
         }
     }

@@ -23,6 +23,7 @@ glm::vec3 across(const glm::vec3& axis) {
 
 TieDrawing::TieDrawing(const JointSpec& joint, int number)
     : name_("joint." + (joint.name.empty() ? std::to_string(number) : joint.name)),
+      mayLetGo_(joint.mayLetGo()),
       look_(joint.look),
       finish_(finishOf(*look_.finish)) {
     const auto points = static_cast<int>(line({0, 0, 0}, {1, 0, 0}).size());
@@ -49,9 +50,9 @@ std::vector<glm::vec3> TieDrawing::line(const glm::vec3& a, const glm::vec3& b) 
     return line;
 }
 
-view::Surface TieDrawing::surface(const glm::vec3& a, const glm::vec3& b) const {
+view::Surface TieDrawing::surface(const glm::vec3& a, const glm::vec3& b, int number) const {
     view::Surface surface;
-    surface.name = name_;
+    surface.name = name_ + (mayLetGo_ ? "." + std::to_string(number) : "");
     surface.topology = topology_;
     const auto radius = static_cast<float>(look_.radius);
     surface.geometry = std::make_shared<view::Geometry>(view::tubeGeometry(line(a, b), 1, sides, radius));

@@ -1,4 +1,4 @@
-// A rope between two points.
+// A rope between two points, or a ring.
 #pragma once
 
 #include "taut/spec/body_spec.h"
@@ -16,6 +16,7 @@ struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
     int segments = 40;
     double length = 0.0;  // natural length [m]; 0: the distance of the ends
     std::vector<RopePlaceSpec> through;
+    bool isClosed = false;      // a ring
     double mass = 1.0;          // [kg]
     double stretch = 1e4;       // EA [N]
     double bend = 0.0;          // EA of the span-2 springs [N]

@@ -195,4 +195,10 @@ std::string targetFault(const world::SceneSpec& scene, const std::string& target
     return fault->message + (fault->remedy.empty() ? "" : "; " + fault->remedy);
 }
 
+std::string jointFault(const world::SceneSpec& scene, const std::string& name) {
+    const auto fault = nameFault(scene, name);
+    if (!fault) return {};
+    return fault->message + (fault->remedy.empty() ? "" : "; " + fault->remedy);
+}
+
 }  // namespace taut::scene

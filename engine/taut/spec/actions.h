@@ -55,7 +55,7 @@ struct ReleaseAction final : SpecOf<ReleaseAction, ActionSpec> {
     static constexpr std::string_view kindName = "release";
     void perform(World& world) const override;
 
-    std::string id;  // of the hand
+    std::string id;  // of the hand, or name of joints
 };
 
 struct PushAction final : SpecOf<PushAction, PointsAction> {
@@ -77,7 +77,7 @@ struct FreeAction final : SpecOf<FreeAction, PointsAction> {
     void perform(World& world) const override;
 };
 
-// Cuts the springs of bodies that cross …
+// Cuts the springs of bodies, all of them or those that cross …
 struct CutAction final : SpecOf<CutAction, ActionSpec> {
     static constexpr std::string_view kindName = "cut";
     void perform(World& world) const override;

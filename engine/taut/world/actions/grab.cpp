@@ -4,6 +4,7 @@
 #include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/joints.h"
 #include "taut/world/private/timeline.h"
 
 namespace taut::world {
@@ -36,6 +37,7 @@ void GrabAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     if (std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& h) { return h.id == id; }))
         failAction(*this, "there is a hand \"" + id + "\" already; release it first");
+    if (isJoint(w, id)) failAction(*this, "\"" + id + "\" is the name of a joint; give the hand another id");
     std::vector<Picked> points = pick(w, *this);
     Hand hand;
     hand.id = id;

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "game/command_line.h"
@@ -10,8 +13,9 @@
 #include "game/outputs.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
-#include "taut/pipeline/run.h"
 #include "taut/advice/rehearsal.h"
+#include "taut/pipeline/run.h"
+#include "taut/regression/scenario.h"
 
 namespace taut::game {
 namespace {
@@ -31,10 +35,25 @@ void printAdvice(const std::vector<std::string>& all) {
     if (count > most) printNote("taut: note: … and {} more; taut info lists them\n", count - most);
 }
 
-// Reads, builds and rehearses each scene; goes on after one that is wrong, and returns the code of the first failure.
+// Of a folder the scenes in it, as `taut test` finds scenarios.
+std::vector<std::string> scenesOf(const std::vector<std::string>& arguments) {
+    std::vector<std::string> scenes;
+    for (const std::string& argument : arguments) {
+        std::error_code ignored;
+        if (!std::filesystem::is_directory(argument, ignored))
+            scenes.push_back(argument);
+        else
+            for (const std::filesystem::path& file : regression::scenarioFilesIn(argument))
+                scenes.push_back(file.string());
+    }
+    return scenes;
+}
+
+// Reads, builds and rehearses each scene; goes on after one that is wrong, and returns the worst code.
 int check(const CheckFlags& flags) {
     ExitCode code = ExitCode::ok;
-    for (const std::string& argument : flags.scenes) {
+    const std::vector<std::string> scenes = scenesOf(flags.scenes);
+    for (const std::string& argument : scenes) {
         try {
             const world::SceneSpec spec = readScene(argument, flags.overrides, flags.isConfined);
             notePreparation(spec);
@@ -49,7 +68,8 @@ int check(const CheckFlags& flags) {
             if (!large.empty()) printResult("{}: {}\n", spec.file, large);
         } catch (const core::Error& error) {
             printError(error);
-            if (code == ExitCode::ok) code = exitCodeOf(error.kind());
+            if (scenes.size() > 1) printResult("{}: wrong\n", argument);
+            code = std::max(code, exitCodeOf(error.kind()));
         }
     }
     return static_cast<int>(code);
@@ -57,11 +77,17 @@ int check(const CheckFlags& flags) {
 
 Action declareCheck(Options& options) {
     const auto flags = std::make_shared<CheckFlags>();
-    options.value("SCENE", flags->scenes, "Scene files, or names of shipped scenes").required();
+    options.value("SCENE", flags->scenes, "Scene files, folders of them, or names of shipped scenes").required();
     options.value("--set", flags->overrides, "Override a field: --set cloth.flag.cells=[72,48]")
         .typeName("KEY=VALUE")
         .oneValue();
     addConfinedFlag(options, flags->isConfined);
+    options.footer(
+        "Of a folder every file NAME.toml in it, a line each. The exit code is that of the worst.\n"
+        "Examples:\n"
+        "  taut check my.toml\n"
+        "  taut check my --confined\n"
+        "  taut check hammock --set 'rope.*.radius=0.01' --set defaults.rope.segments=20");
     return [flags] { return check(*flags); };
 }
 

@@ -7,6 +7,7 @@
     COMMAND(joinCommand)                 \
     COMMAND(playCommand)                 \
     CHOOSING(exportCommand)              \
+    COMMAND(newCommand)                  \
     COMMAND(checkCommand)                \
     COMMAND(infoCommand)                 \
     COMMAND(chartCommand)                \

@@ -159,8 +159,7 @@ std::vector<Destination> destinationsOf(const ExportFlags& flags, const Formats&
 
 std::vector<std::string> allOverrides(const ExportFlags& flags) {
     std::vector<std::string> overrides = flags.overrides;
-    if (flags.fps > 0.0) overrides.push_back(fmt::format("run.fps={}", flags.fps));
-    if (flags.seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
+    addRunOverrides(flags.fps, flags.seconds, overrides);
     return overrides;
 }
 
@@ -374,8 +373,7 @@ Action declareExport(Options& options, const Formats& formats) {
     options.value("--frames", flags->frames, "These frames only: 0-119, 60, or 60-").typeName("A-B");
     options.value("--every", flags->every, "Every n-th frame only, and the last; tells how far off that is in between")
         .within<std::int64_t>(1, 1000000);
-    options.value("--fps", flags->fps, "Frames a second of scene time").check(numberWithin(1e-3, 1e6));
-    options.value("--seconds", flags->seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+    addRunFlags(options, flags->fps, flags->seconds);
     options.flag("--no-normals", flags->noNormals, "Leave normals out: half the size, and others shade as they like");
     options
         .value("--digits", flags->digits,

@@ -11,8 +11,8 @@ namespace taut::game {
 
 class FileWatch {
   public:
-    // From now on these, each once; a folder changes when a file in it comes, goes or is replaced. Those that were watched
-    // before are still compared with what they were when last told of.
+    // From now on these, each once; a folder changes when a file in it comes, goes or is replaced. Those that were
+    // watched before are still compared with what they were when last told of.
     void watch(std::vector<std::string> files);
 
     // Whether one of them is another than when this was last true, or watch() was called: once it has stayed so from

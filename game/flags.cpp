@@ -66,6 +66,16 @@ Size pictureSize(const std::string& text) {
     throw core::Error(core::ErrorKind::usage, "--size " + text + ": expected a size in pixels like 1280x720");
 }
 
+void addRunFlags(Options& options, double& fps, double& seconds) {
+    options.value("--fps", fps, "Frames a second of scene time").check(numberWithin(1e-3, 1e6));
+    options.value("--seconds", seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+}
+
+void addRunOverrides(double fps, double seconds, std::vector<std::string>& overrides) {
+    if (fps > 0.0) overrides.push_back(fmt::format("run.fps={}", fps));
+    if (seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", seconds));
+}
+
 void addInstructionSetFlag(Options& options, std::string& isa) {
     const std::string name = "--isa";
     options

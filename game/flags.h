@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace taut::game {
 
@@ -44,6 +45,11 @@ class Options;
 
 // --isa, which fixes the instruction set of the kernels before anything asks for it. `isa` holds what was given.
 void addInstructionSetFlag(Options& options, std::string& isa);
+
+// --fps and --seconds, which stand over what the scene says of its run; 0: not given.
+void addRunFlags(Options& options, double& fps, double& seconds);
+// What they ask for, in the words of the scene format.
+void addRunOverrides(double fps, double seconds, std::vector<std::string>& overrides);
 
 // What `--seconds` takes: more motion, or less, than anybody waits for is a slip of the hand.
 inline constexpr double leastSeconds = 1e-3, mostSeconds = 86400.0;  // [s]

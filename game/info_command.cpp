@@ -135,12 +135,21 @@ Json islandJson(const world::IslandInfo& i) {
             {"bytes", i.bytes}};
 }
 
+int countOf(const world::JointInfo& joint) {
+    int points = 0;
+    for (const auto& pair : joint.pairs) points += pair.points;
+    return points;
+}
+
 Json jointJson(const world::JointInfo& joint) {
     Json pairs = Json::array();
     for (const auto& pair : joint.pairs) pairs.push_back({{"a", pair.a}, {"b", pair.b}, {"points", pair.points}});
     return {{"a", joint.a},
             {"b", joint.b},
+            {"name", joint.name},
             {"kind", joint.kind},
+            {"points", countOf(joint)},
+            {"left", joint.left},
             {"pairs", std::move(pairs)},
             {"largest_jump_m", joint.jump},
             {"loose", joint.loose}};
@@ -219,10 +228,10 @@ std::string lengthText(double metres) {
 }
 
 void printJoint(const world::JointInfo& joint) {
-    int points = 0;
-    for (const auto& pair : joint.pairs) points += pair.points;
-    printResult("\n{} {} – {}: {} point{}{}\n", joint.kind == "spring" ? "spring joint" : joint.kind, joint.a, joint.b, points,
-                points == 1 ? "" : "s",
+    const int points = countOf(joint);
+    const std::string name = joint.name.empty() ? "" : " \"" + joint.name + "\"";
+    printResult("\n{}{} {} – {}: {} point{}{}\n", joint.kind == "spring" ? "spring joint" : joint.kind, name, joint.a,
+                joint.b, points, points == 1 ? "" : "s",
                 joint.jump > 0 ? fmt::format(", moved together by up to {}", lengthText(joint.jump)) : "");
     for (const auto& pair : joint.pairs) printResult("  {} – {}  {}\n", pair.a, pair.b, pair.points);
 }

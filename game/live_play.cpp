@@ -57,8 +57,8 @@ void LivePlay::makeLevels() {
     for (const DrawingLevel& level : levels_) costs.push_back(level.cost);
     // As fine as before; at first where most machines end up, or a level below.
     const auto first = std::find_if(levels_.begin(), levels_.end(), [](const auto& l) { return l.name == "normal"; });
-    const auto begin = std::min(adaptation_ ? static_cast<std::ptrdiff_t>(adaptation_->level()) : first - levels_.begin(),
-                                std::ssize(levels_) - 1);
+    const std::ptrdiff_t wanted = adaptation_ ? adaptation_->level() : first - levels_.begin();
+    const auto begin = std::min(wanted, std::ssize(levels_) - 1);
     adaptation_.emplace(std::move(costs), static_cast<int>(begin), longestTurn);
     const DrawingLevel& level = levels_[static_cast<std::size_t>(begin)];
     world::PictureSpec picture = scene;

@@ -12,7 +12,6 @@
 #include "game/scene_file.h"
 #include "taut/core/whole_file.h"
 #include "taut/live/recording.h"
-#include "taut/scene/private/merge.h"
 #include "taut/spec/common_rows.h"
 #include "taut/world/world.h"
 
@@ -50,6 +49,7 @@ std::string referenceTo(const std::filesystem::path& scene, const std::filesyste
     };
     const std::filesystem::path real = whole(scene), from = whole(folder.empty() ? "." : folder);
     if (real.parent_path() == whole(assetFolder() / "scenes")) return "shipped:" + real.stem().string();
+    if (real.parent_path() == whole(assetFolder() / "scenarios")) return "shipped:scenarios/" + real.stem().string();
     return std::filesystem::relative(real, from, ignored).string();
 }
 
@@ -195,9 +195,8 @@ std::string LivePlay::savedRecording(bool goesOn) {
     const std::filesystem::path file = freeName(
         settings_.record.empty() ? std::filesystem::path(scene.stem().string() + "-played.toml") : settings_.record,
         goesOn);
-    const live::ScenarioParts parts = live::partsOf(core::fileContent(scene));
-    recording.scene = referenceTo(baseOf(scene, parts.scene), file.parent_path());
-    for (const auto& changes : {parts.changes, settings_.overrides, changes_})
+    recording.scene = referenceTo(scene, file.parent_path());
+    for (const auto& changes : {settings_.overrides, changes_})
         recording.overrides.insert(recording.overrides.end(), changes.begin(), changes.end());
     core::writeWholeFile(file, live::scenarioText(recording));
     const std::string what = fmt::format("{}: {} actions, state hash {:016x} at tick {}", file.string(),

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -21,6 +22,7 @@
 #include "taut/scene/load.h"
 #include "taut/scene/private/splice.h"
 #include "taut/study/plan.h"
+#include "taut/study/plan_changes.h"
 #include "taut/study/plan_text.h"
 
 namespace taut::game {
@@ -50,10 +52,17 @@ study::Plan search(const world::SceneSpec& spec, const PlanFlags& flags, const s
 }
 
 // The scene file with the changes, whole or not at all.
-void write(const std::filesystem::path& file, const std::string& text, const study::Plan& plan) {
+void write(const std::filesystem::path& file, const std::string& text, const world::SceneSpec& spec,
+           const study::Plan& plan) {
     if (plan.changes.empty()) return printResult("\n{}: nothing to write\n", file.string());
     const std::string changed = scene::spliced(text, plan.changes);
-    (void)scene::loadSceneText(changed, file.string(), loadOptions());  // throws for what a scene may not say
+    const world::SceneSpec now = scene::loadSceneText(changed, file.string(), loadOptions()).spec;
+    for (const scene::Change& change : study::planChanges(spec, now))  // what is like a body changes with it
+        if (std::none_of(plan.changes.begin(), plan.changes.end(),
+                         [&](const scene::Change& planned) { return planned.key == change.key; }))
+            throw core::Error(core::ErrorKind::badContent,
+                              fmt::format("{}: {} would change too, by its like; give it a value of its own first",
+                                          file.string(), change.key));
     if (plan.unseen() > 0)
         printNote("warning: what happens between {:.3g} s and {:.3g} s was not looked at; look at the film\n",
                   plan.seconds, plan.runSeconds);
@@ -68,12 +77,12 @@ int plan(const PlanFlags& flags) {
     const std::filesystem::path file = sceneFile(flags.scene);
     const std::string text = core::fileContent(file);
     const world::SceneSpec spec = readScene(flags.scene, flags.overrides);
-    if (flags.write && !spec.base.empty())
+    if (flags.write && !spec.bases.empty())
         throw core::Error(
             core::ErrorKind::usage,
             fmt::format("{}: --write needs a scene that is one file; this one builds on {}: plan that, or "
                         "leave --write out and copy the values",
-                        file.string(), spec.base));
+                        file.string(), spec.bases.front()));
     if (!flags.json.empty()) core::prepareFolderOf(flags.json);
 
     const Interruption interruption;
@@ -91,7 +100,7 @@ int plan(const PlanFlags& flags) {
         if (flags.write) printResult("\n{}: nothing is written, as the need is not met\n", file.string());
         return static_cast<int>(ExitCode::needNotMet);
     }
-    if (flags.write) write(file, text, result);
+    if (flags.write) write(file, text, spec, result);
     return static_cast<int>(ExitCode::ok);
 }
 

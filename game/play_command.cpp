@@ -76,8 +76,8 @@ Action declarePlay(Options& options) {
     options.flag("--verbose", settings.isVerbose, "Print every action as it is done").excludes(quiet);
     options.footer(
         "In the window h shows the keys. R records: the session becomes a scenario file, which\n"
-        "taut render and taut test play again to the same state. The hand pulls with 3 times the\n"
-        "weight of what hangs together at most, and slips from what that does not move.\n"
+        "taut render and taut test play again to the same state. The hand pulls with twice the weight\n"
+        "of what hangs together at most, and slips from what that does not move.\n"
         "Examples:\n"
         "  taut play curtain\n"
         "  taut play my.toml --watch\n"

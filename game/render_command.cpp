@@ -69,7 +69,9 @@ std::shared_ptr<check::Figures> figuresOf(const std::string& text, const world::
     try {
         auto figures = std::make_shared<check::Figures>(check::Figures::parse(text));
         for (const check::Mention& mention : figures->mentions())
-            if (const std::string fault = scene::targetFault(spec, mention.target, mention.hasPoints, mention.against);
+            if (const std::string fault =
+                    mention.isJoint ? scene::jointFault(spec, mention.target)
+                                    : scene::targetFault(spec, mention.target, mention.hasPoints, mention.against);
                 !fault.empty())
                 fail(fault);
         return figures;

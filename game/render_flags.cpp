@@ -17,8 +17,7 @@ namespace taut::game {
 
 std::vector<std::string> allOverrides(const RenderFlags& flags) {
     std::vector<std::string> overrides = flags.overrides;
-    if (flags.fps > 0.0) overrides.push_back(fmt::format("run.fps={}", flags.fps));
-    if (flags.seconds > 0.0) overrides.push_back(fmt::format("run.seconds={}", flags.seconds));
+    addRunOverrides(flags.fps, flags.seconds, overrides);
     if (!flags.size.empty()) {
         const Size size = pictureSize(flags.size);
         overrides.push_back(fmt::format("picture.size=[{}, {}]", size.width, size.height));
@@ -158,8 +157,7 @@ void addPictureFlags(Options& options, RenderFlags& flags) {
                "Draw by so many processes, each a piece of the frames; the same pictures and video")
         .typeName("N")
         .within(1, 1024);
-    options.value("--fps", flags.fps, "Pictures a second of scene time").check(numberWithin(1e-3, 1e6));
-    options.value("--seconds", flags.seconds, "Length of scene time").check(numberWithin(leastSeconds, mostSeconds));
+    addRunFlags(options, flags.fps, flags.seconds);
     options.value("--size", flags.size, "Size of the pictures in pixels").typeName("WxH");
     options.value("--camera", flags.camera, "Look through this camera of the scene").typeName("NAME");
     options

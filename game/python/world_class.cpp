@@ -78,6 +78,17 @@ py::list islandsOf(const LiveWorld& world) {
     return all;
 }
 
+py::list jointsOf(const LiveWorld& world) {
+    py::list all;
+    for (const world::JointInfo& joint : world.asked().joints()) {
+        int points = 0;
+        for (const auto& pair : joint.pairs) points += pair.points;
+        all.append(py::dict("name"_a = joint.name, "kind"_a = joint.kind, "a"_a = joint.a, "b"_a = joint.b,
+                            "points"_a = points, "left"_a = joint.left));
+    }
+    return all;
+}
+
 // A surface as it is drawn.
 struct Surface {
     // As a world's: of an object that holds none.
@@ -193,6 +204,10 @@ void addAsking(Class& type) {
     type.def_property_readonly("islands", &islandsOf,
                                "Of each island a dict: name, bodies, points, springs, mass [kg], method, step [s], "
                                "step_limit [s], substeps.");
+    type.def_property_readonly("joints", &jointsOf,
+                               "Of each joint a dict: name, kind, a, b, points that it tied as the scene started, and "
+                               "left, how many of those it ties still. apply({\"do\": \"release\", \"id\": name}) "
+                               "lets go.");
     type.def_property_readonly(
         "methods",
         [](const LiveWorld& w) {

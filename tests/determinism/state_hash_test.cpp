@@ -24,6 +24,7 @@ const std::filesystem::path source = TAUT_SOURCE_DIR;
 std::filesystem::path pathOf(const std::string& scene) {
     if (const std::size_t colon = scene.find(':'); colon != std::string::npos) return pathOf(scene.substr(0, colon));
     if (scene == "every_method") return source / "tests/determinism/every_method.toml";
+    if (scene == "joints") return source / "tests/determinism/joints.toml";
     if (scene == "everything") return source / "tests/determinism/everything.toml";
     return source / "assets/scenes" / (scene + ".toml");
 }
@@ -71,6 +72,13 @@ TEST_P(EveryPrecision, HashesOfEveryMethodAreTheSameForThreadsAndInstructionSets
         EXPECT_EQ(one, hashes(scene, GetParam(), 12, 2, core::InstructionSet::sse2));
         EXPECT_TRUE(seen.emplace(one.back(), method.name).second) << "the same as " << seen[one.back()];
     }
+}
+
+// Pins, rods and springs that break, are released and cut, and a step that follows the pull of rods.
+TEST_P(EveryPrecision, HashesOfJointsThatLetGoAreTheSameForThreadsAndInstructionSets) {
+    const auto one = hashes("joints", GetParam(), 40, 1, core::InstructionSet::sse2);
+    EXPECT_EQ(one, hashes("joints", GetParam(), 40, 2, core::instructionSet()));
+    EXPECT_EQ(one, hashes("joints", GetParam(), 40, 7, core::instructionSet()));
 }
 
 INSTANTIATE_TEST_SUITE_P(StateHash, EveryPrecision, testing::Values("single", "double"));

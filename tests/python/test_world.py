@@ -112,6 +112,20 @@ class Runs(Case):
         world.run(until=1.0)
         self.assertAlmostEqual(world.positions("net.ball1@m")[0, 1], 3.0, places=5)  # 6 N s on 2 kg for 1 s
 
+    def test_joints_are_listed_and_released_by_their_name(self):
+        w = taut.loads(
+            'schema = 1\n[net.n]\npoints = [{ name = "a", position = [0, 2, 0], hold = true }]\n'
+            '[net.o]\npoints = [{ name = "b", position = [0, 2, 0] }]\n'
+            '[[joint]]\nname = "peg"\na = "net.o@b"\nb = "net.n@a"\n')
+        told = {"name": "peg", "kind": "weld", "a": "net.o@b", "b": "net.n@a", "points": 1}
+        self.assertEqual(w.joints, [{**told, "left": 1}])
+        w.step()
+        self.assertEqual(w.positions("net.o")[0, 1], 2.0)
+        w.apply({"do": "release", "id": "peg"})
+        self.assertEqual(w.joints, [{**told, "left": 0}])
+        w.step()
+        self.assertLess(w.positions("net.o")[0, 1], 2.0)
+
     def test_two_threads_and_an_interruption(self):
         world = taut.load("flag")
         done = threading.Event()

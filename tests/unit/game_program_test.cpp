@@ -216,6 +216,39 @@ TEST(Program, CheckReportsEveryFaultAndTheRightFilesToo) {
     EXPECT_TRUE(has(outcome.out, "spring.toml: ok")) << outcome.out;
 }
 
+TEST(Program, CheckOfAFolderHasALineForEveryFileAndTheWorstCode) {
+    const TemporaryFolder folder;
+    springScene(folder);
+    test::writeText(folder / "bad.toml", "schema = 1\n[run]\nfps = -3\n");
+    test::writeText(folder / "notes.txt", "no scene\n");
+    const Outcome outcome = run({"check", (folder / "no-such-scene.toml").string(), (folder / "").string()});
+    EXPECT_EQ(outcome.code, 6);  // of 6 and 3
+    EXPECT_TRUE(has(outcome.out, "no-such-scene.toml: wrong\n")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "bad.toml: wrong\n")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "spring.toml: ok\n")) << outcome.out;
+    EXPECT_FALSE(has(outcome.out + outcome.err, "notes.txt")) << outcome.err;
+    EXPECT_EQ(run({"check", (folder / "bad.toml").string()}).out, "");
+}
+
+TEST(Program, ANewSceneIsRightAndIsNotOverwritten) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "own/first.toml").string();
+    const Outcome made = run({"new", (folder / "own/first").string(), "--with", "rope", "--with", "cloth", "--with",
+                              "block", "--with", "net", "--with", "rope"});
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_TRUE(has(made.out, "taut render " + file + " -o first.mp4\n")) << made.out;
+    const Outcome checked = run({"check", file});
+    EXPECT_EQ(checked.code, 0);
+    EXPECT_FALSE(has(checked.err, "warning")) << checked.err;
+    EXPECT_TRUE(has(test::contentOf(file), "[rope.first2]"));
+    EXPECT_EQ(run({"new", file}).code, 6);
+    EXPECT_TRUE(has(test::contentOf(file), "[rope.first2]"));
+    EXPECT_EQ(run({"new", file, "-y"}).code, 0);
+    EXPECT_FALSE(has(test::contentOf(file), "[rope.first2]"));
+    EXPECT_EQ(run({"new", (folder / "a b").string()}).code, 2);
+    EXPECT_EQ(run({"new", (folder / "c").string(), "--with", "string"}).code, 2);
+}
+
 TEST(Program, CheckRefusesWhatTheRunWouldRefuseLater) {
     const TemporaryFolder folder;
     const std::filesystem::path spring = springScene(folder);

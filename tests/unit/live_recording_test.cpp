@@ -88,22 +88,12 @@ TEST(Recording, TheFileIsAScenarioWithTheLastWordOnEachKey) {
     EXPECT_NE(text.find("  # { that = \"max_strain(cloth.curtain) < 0.079\" },  # measured 0.061"), std::string::npos);
 }
 
-TEST(Recording, AScenarioIsTakenApartIntoItsSceneAndItsChanges) {
-    const ScenarioParts parts = partsOf(R"(schema = 1
-scene = "curtain"
-title = "A \"pull\""
-at = [ { t = 1.0, do = "release", id = "hand" } ]
-[solver]
-dt = 1e-4
-[collider.ball]
-keys = [ { t = 0.0, position = [0.0, 1.0, 2.0] } ]
-[[check]]
-that = "max_strain(cloth.*) < 0.1"
-)");
-    EXPECT_EQ(parts.scene, "curtain");
-    EXPECT_EQ(parts.changes, (std::vector<std::string>{"title=\"A \\\"pull\\\"\"", "solver.dt=0.0001",
-                                                       "collider.ball.keys=[{t = 0, position = [0, 1, 2]}]"}));
-    EXPECT_TRUE(partsOf("schema = 1\ntitle = \"alone\"\n").changes.empty());
+TEST(Recording, AnOverrideOfSeveralThingsIsACommentAsAFileCannotSayIt) {
+    Recording recording = small();
+    recording.overrides = {"rope.*.segments=9"};
+    const std::string text = scenarioText(recording);
+    EXPECT_EQ(scene::documentTree(text, 0).find("rope"), nullptr);
+    EXPECT_NE(text.find("# It was played with --set 'rope.*.segments=9'"), std::string::npos);
 }
 
 // At one tick the hand comes first, as it did when it was played.

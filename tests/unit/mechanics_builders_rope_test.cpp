@@ -200,5 +200,36 @@ TEST(RopeBuilder, LaidThroughPlacesItGoesThroughThemUnstretched) {
     EXPECT_EQ(at(model.positions, 200), shape.end);
 }
 
+// Level, around the diameter between its ends; or through places, back to where it began. Every point has two neighbours.
+TEST(RopeBuilder, ClosedItIsAnUnstretchedRing) {
+    for (const bool isLoop : {false, true}) {
+        RopeShape shape;
+        shape.start = {-1.0, 2.0, 0.0};
+        shape.end = {1.0, 2.0, 0.0};
+        shape.segments = 40;
+        shape.bend = 1.0;
+        shape.isClosed = true;
+        if (isLoop) shape.through = {{0.0, 2.0, 1.5}};
+        const Model model = buildRope(shape);
+        EXPECT_EQ(brokenRule(model), "");
+        ASSERT_EQ(model.pointCount(), 40);
+        std::vector<int> neighbours(40, 0);
+        for (const Spring& s : model.springs) {
+            if (s.kind != SpringKind::structural) continue;
+            ++neighbours[static_cast<std::size_t>(s.a)];
+            ++neighbours[static_cast<std::size_t>(s.b)];
+            EXPECT_NEAR(glm::length(at(model.positions, s.b) - at(model.positions, s.a)), s.restLength, 1e-9);
+        }
+        for (const int count : neighbours) EXPECT_EQ(count, 2);
+        EXPECT_LT(glm::length(at(model.positions, model.groups.at("start")[0]) - shape.start), 1e-9);
+        EXPECT_LT(glm::length(at(model.positions, model.groups.at("end")[0]) - shape.end),
+                  0.51 * model.springs.front().restLength);
+        if (isLoop) continue;
+        EXPECT_EQ(model.groups.at("end")[0], 20);
+        for (const glm::dvec3& p : model.positions)
+            EXPECT_NEAR(glm::length(p - glm::dvec3(0, 2, 0)), 1.0, ropeRounding);
+    }
+}
+
 }  // namespace
 }  // namespace taut::mechanics

@@ -134,15 +134,14 @@ TEST(SceneErrors, ActionsThatAreIncompleteAreReported) {
          "s.toml:3:3: error: [[at]] needs impulse_Ns\n"
          "    { t = 1, do = \"push\", target = \"rope.r@end\" },\n"
          "    ^ impulse_Ns is a list of 3 numbers [N s]: Of all the points, shared by mass"},
-        {"a cut along nothing",
+        {"a cut along two things",
          "at = [\n"
-         "  { t = 1, do = \"cut\", target = \"rope.r\" },\n"
+         "  { t = 1, do = \"cut\", target = \"cloth.c\", plane = [[0, 0, 0], [1, 0, 0]], segment = [[0, 0], [1, 1]] },\n"
          "]\n"
-         "[rope.r]\n"
-         "ends = [[0, 0, 0], [1, 0, 0]]\n",
-         "s.toml:3:3: error: do = \"cut\" needs either plane or segment\n"
-         "    { t = 1, do = \"cut\", target = \"rope.r\" },\n"
-         "    ^ write plane = [[point], [normal]] in metres or segment = [[u, v], [u, v]] on a cloth grid"},
+         "[cloth.c]\nmaterial = \"m\"\n[material.m]\n",
+         "s.toml:3:86: error: a cut has a plane or a segment, not both\n"
+         "    { t = 1, do = \"cut\", target = \"cloth.c\", plane = [[0, 0, 0], [1, 0, 0]], segment = [[0, 0], [1, 1]] },\n"
+         "                                                                                       ^ leave one out; without either all of the body comes apart"},
         {"a cut along a point",
          "at = [\n"
          "  { t = 1, do = \"cut\", target = \"cloth.c\", segment = [[0.5, 0.5], [0.5, 0.5]] },\n"

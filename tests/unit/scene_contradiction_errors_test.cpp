@@ -126,7 +126,7 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "stiffness_N_per_m = 10\n",
          "s.toml:7:1: error: stiffness_N_per_m does not go with a weld\n"
          "  stiffness_N_per_m = 10\n"
-         "  ^ it belongs to a spring joint"},
+         "  ^ it belongs to a spring joint, a spring joint to a collider"},
         {"a spring joint with a reach",
          "[rope.r]\n"
          "ends = [[0, 0, 0], [1, 0, 0]]\n"

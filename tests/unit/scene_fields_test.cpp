@@ -199,6 +199,7 @@ TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
     const world::RopeSpec& winding = named(scene.bodies.of<world::RopeSpec>(), "winding");
     ASSERT_EQ(winding.through.size(), 2U);
     EXPECT_EQ(winding.through[1].position, dvec3(0.6, 5, 1.3));
+    EXPECT_TRUE(winding.isClosed);
     const world::BlockSpec& jelly = named(scene.bodies.of<world::BlockSpec>(), "jelly");
     EXPECT_EQ(jelly.size, dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(jelly.cells, ivec3(2, 3, 5));
@@ -238,8 +239,19 @@ TEST(SceneFields, NetLandsInItsMembers) {
 TEST(SceneFields, TiesAndWindLandInTheirMembers) {
     const world::SceneSpec scene = fullSpec();
     ASSERT_EQ(scene.joints.size(), 3U);
-    EXPECT_EQ(scene.joints[0].a, "rope.rail@end");
-    EXPECT_EQ(scene.joints[0].b, "net.cradle@b");
+    const world::JointSpec& spring = scene.joints[0];
+    EXPECT_EQ(spring.a.targets, std::vector<std::string>{"rope.rail@end"});
+    EXPECT_EQ(spring.b.targets, std::vector<std::string>{"net.cradle@b"});
+    EXPECT_EQ(spring.name, "peg");
+    EXPECT_EQ(spring.breakForce, 12.0);
+    EXPECT_EQ(spring.look.turns, 6);
+    EXPECT_EQ(spring.look.radius, 0.003);
+    EXPECT_EQ(spring.look.coil, 0.02);
+    ASSERT_TRUE(spring.look.finish);
+    EXPECT_EQ(spring.look.finish->colour, dvec3(1, 0, 0));
+    EXPECT_EQ(scene.joints.of<world::SpringJoint>().at(0).restLength, 0.4);
+    EXPECT_EQ(scene.joints[1].a.text(), "rope.rail@start, rope.rail@50%");
+    EXPECT_FALSE(scene.joints[1].isDrawn());
     EXPECT_EQ(scene.joints.of<world::SpringJoint>().at(0).stiffness, 50.0);
     EXPECT_EQ(scene.joints.of<world::SpringJoint>().at(0).dampingTime, 7e-4);
     EXPECT_EQ(scene.joints[1].kind(), "weld");

@@ -1,5 +1,6 @@
 // Scene files on disk, and the files that they name.
 #include "taut/bodies/rope.h"
+#include "taut/world/world.h"
 #include "unit/scene_support.h"
 
 namespace taut::scene {
@@ -230,6 +231,23 @@ TEST(SceneFiles, TheShippedScenesAndScenariosLoad) {
         EXPECT_EQ(loaded.warnings, std::vector<std::string>());
         EXPECT_FALSE(loaded.spec.title.empty());
     }
+}
+
+// A part has its own finish, in pictures and in what is exported, which are made of the same surfaces.
+TEST(SceneFiles, APartOfACompoundMayHaveAFinishOfItsOwn) {
+    const AssetFolder folder;
+    const world::SceneSpec scene =
+        folder
+            .load("schema = 1\n[collider.post]\nshape = \"compound\"\nfinish = { roughness = 0.25 }\nparts = [\n"
+                  "{ shape = \"sphere\", radius = 1 },\n"
+                  "{ shape = \"sphere\", radius = 2, finish = { roughness = 0.5, texture = \"square.png\", "
+                  "pattern = \"image\" } } ]\n")
+            .spec;
+    const auto surfaces = world::World(scene).view(false).surfaces;
+    ASSERT_EQ(surfaces.size(), 2U);
+    EXPECT_EQ(surfaces[0].finish->roughness, 0.25F);
+    EXPECT_EQ(surfaces[1].finish->roughness, 0.5F);
+    EXPECT_EQ(scene.colliders[0].parts[1].ownFinish->texture, (folder / "square.png").string());
 }
 
 }  // namespace

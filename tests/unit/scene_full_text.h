@@ -136,8 +136,15 @@ b = "net.cradle@b"
 kind = "spring"
 stiffness_N_per_m = 50
 damping_time_s = 7e-4
+rest_length_m = 0.4
+name = "peg"
+break_N = 12
+turns = 6
+radius = 0.003
+coil_radius = 0.02
+finish = { colour = [1, 0, 0] }
 [[joint]]
-a = "rope.rail@start"
+a = ["rope.rail@start", "rope.rail@50%"]
 b = "net.cradle@a"
 kind = "weld"
 reach_m = 0.05
@@ -269,6 +276,12 @@ t = 3
 do = "ramp"
 key = "wind.breeze.velocity"
 to = [9, 8, 7]
+[[at]]
+t = 3.5
+do = "grab"
+id = "right"
+target = "rope.rail@50%"
+max_force_N = 30
 [[check]]
 that = "height(cloth.flag.*) > 0"
 at = 2
@@ -285,6 +298,7 @@ size = [320, 180]
 [rope.winding]
 ends = [[0, 5, 1], [1, 5, 1]]
 through = [{ position = [0.4, 5.2, 1] }, { position = [0.6, 5, 1.3] }]
+closed = true
 )toml";
 
 }  // namespace taut::scene

@@ -35,8 +35,8 @@ TEST(SceneMerge, TablesAreMergedDeeplyAndAllElseIsReplaced) {
     EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[1].start, dvec3(0, 2, 0));
     EXPECT_EQ(scene.cameras[0].eye, dvec3(0, 1, 5));
     EXPECT_EQ(scene.file, (folder / "s.toml").string());
-    EXPECT_EQ(scene.base, (folder / "yard.toml").string());
-    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].source.file, scene.base);
+    EXPECT_EQ(scene.bases, std::vector<std::string>{(folder / "yard.toml").string()});
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].source.file, scene.bases.at(0));
     EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].source.line, 6);
     EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[1].source.file, scene.file);
     EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[1].source.line, 7);
@@ -74,7 +74,7 @@ TEST(SceneMerge, AShippedSceneIsFoundAlsoByAFileOfItsName) {
         folder.write("s.toml", "schema = 1\nscene = \"" + std::string(name) + "\"\n");
         const world::SceneSpec scene = loadScene(folder / "s.toml", options).spec;
         EXPECT_EQ(scene.bodies.of<world::RopeSpec>().at(0).segments, 8) << name;
-        EXPECT_EQ(scene.base, (assets / "" / "scenes/s.toml").string()) << name;
+        EXPECT_EQ(scene.bases.at(0), (assets / "" / "scenes/s.toml").string()) << name;
     }
 }
 
@@ -117,11 +117,71 @@ TEST(SceneMerge, ASceneThatIsNotTomlIsReportedWhereItIsNot) {
               "      ^");
 }
 
-TEST(SceneMerge, AChainOfScenesIsRefused) {
-    EXPECT_EQ(messageOver("schema = 1\nscene = \"s.toml\"\n", ""),
-              "yard.toml:2:1: error: a scene that another builds on must not build on a third\n"
-              "  scene = \"s.toml\"\n"
-              "  ^ name that one in the first file");
+TEST(SceneMerge, ASceneBuildsOnOneThatBuildsOnAnother) {
+    const AssetFolder folder;
+    std::filesystem::create_directory(folder / "below");
+    folder.write("below/ground.toml", mergedYard);
+    folder.write("below/sail.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    folder.write("below/yard.toml",
+                 "schema = 1\nscene = \"ground\"\nrun = { fps = 20, seconds = 8 }\n"
+                 "[material.m]\n[cloth.c]\nmaterial = \"m\"\nmesh = \"sail.obj\"\n");
+    const world::SceneSpec scene = folder.load("schema = 1\nscene = \"below/yard\"\nrun.seconds = 3\n").spec;
+    EXPECT_EQ(scene.run.seconds, 3.0);
+    EXPECT_EQ(scene.run.fps, 20.0);
+    EXPECT_EQ(scene.title, "a yard");
+    EXPECT_NE(scene.bodies.of<world::ClothSpec>().at(0).meshData, nullptr);
+    EXPECT_EQ(scene.bases, (std::vector<std::string>{(folder / "below/yard.toml").string(),
+                                                     (folder / "below/ground.toml").string()}));
+    EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].source.file, scene.bases[1]);
+}
+
+TEST(SceneMerge, AMessageNamesTheFileOfAChainThatIsWrong) {
+    const AssetFolder folder;
+    folder.write("ground.toml", "schema = 1\n[run]\nfps = \"fast\"\n");
+    folder.write("yard.toml", "schema = 1\nscene = \"ground\"\n[rope.line]\nsegmets = 8\n"
+                              "ends = [[0, 1, 0], [1, 1, 0]]\n");
+    EXPECT_EQ(folder.messageOf("schema = 1\nscene = \"yard\"\n[run]\nseconds = -1\n"),
+              "s.toml:4:11: error: seconds must be between 0.001 and 1e+06 s, not -1\n"
+              "  seconds = -1\n"
+              "            ^\n"
+              "yard.toml:4:1: error: [rope.line] has no key \"segmets\"\n"
+              "  segmets = 8\n"
+              "  ^ did you mean \"segments\"?\n"
+              "ground.toml:3:7: error: fps must be a number [1/s], not \"fast\"\n"
+              "  fps = \"fast\"\n"
+              "        ^");
+}
+
+TEST(SceneMerge, AChainThatComesBackToItselfIsNamed) {
+    const AssetFolder folder;
+    const std::string text = "schema = 1\nscene = \"a\"\n";
+    folder.write("s.toml", text);
+    folder.write("a.toml", "schema = 1\nscene = \"b\"\n");
+    folder.write("b.toml", "schema = 1\nscene = \"a\"\n");
+    EXPECT_EQ(folder.messageOf(text),
+              "b.toml:2:9: error: these scenes build on each other: s.toml -> a.toml -> b.toml -> a.toml\n"
+              "  scene = \"a\"\n"
+              "          ^");
+}
+
+TEST(SceneMerge, AChainHasEightFilesBelowTheFirst) {
+    const AssetFolder folder;
+    folder.write("a8.toml", mergedYard);
+    for (int i = 0; i < 8; ++i)
+        folder.write("a" + std::to_string(i) + ".toml", "schema = 1\nscene = \"a" + std::to_string(i + 1) + "\"\n");
+    EXPECT_EQ(folder.load("schema = 1\nscene = \"a1\"\n").spec.bases.size(), 8U);
+    EXPECT_TRUE(folder.messageOf("schema = 1\nscene = \"a0\"\n")
+                    .starts_with("a7.toml:2:9: error: a scene builds on 8 others at most, one upon another: "
+                                 "s.toml -> a0.toml -> "));
+}
+
+TEST(SceneMerge, AShippedScenarioIsNamedByItsFolder) {
+    const AssetFolder folder, assets;
+    std::filesystem::create_directories(assets / "scenarios");
+    assets.write("scenarios/yard.toml", mergedYard);
+    LoadOptions options;
+    options.assetFolders = {assets / ""};
+    EXPECT_EQ(folder.load("schema = 1\nscene = \"shipped:scenarios/yard\"\n", options).spec.run.fps, 30.0);
 }
 
 TEST(SceneMerge, ANameThatFindsNoOtherSceneIsReported) {

@@ -44,6 +44,22 @@ TEST(SceneOverrides, ReachIntoLists) {
     EXPECT_EQ(scene.bodies.of<world::RopeSpec>()[0].end, glm::dvec3(2, 0, 0));
 }
 
+TEST(SceneOverrides, AStarStandsForAnyLettersOfAName) {
+    const AssetFolder folder;
+    const std::string text = std::string(yard) +
+                             "[rope.rig]\nends = [[0, 1, 0], [1, 1, 0]]\n[rope.sag]\nends = [[0, 2, 0], [1, 2, 0]]\n";
+    LoadOptions options;
+    options.overrides = {"rope.*.segments=7", "rope.r*.segments=9", "mass.*.mass_kg=3"};
+    const world::SceneSpec scene = folder.load(text, options).spec;
+    std::vector<int> segments;
+    for (const world::RopeSpec& rope : scene.bodies.of<world::RopeSpec>()) segments.push_back(rope.segments);
+    EXPECT_EQ(segments, (std::vector<int>{9, 9, 7}));  // r, rig, sag
+    EXPECT_EQ(scene.masses[0].mass, 3.0);
+    options.overrides = {"rope.*.segments=0"};  // said once
+    EXPECT_EQ(folder.messageOf(text, options),
+              "--set rope.*.segments: error: segments must be between 1 and 1e+09, not 0");
+}
+
 TEST(SceneOverrides, TheLastOneWins) {
     EXPECT_EQ(sceneWith({"run.fps=30", "run.fps=24"}).run.fps, 24.0);
 }
@@ -58,6 +74,8 @@ TEST(SceneOverrides, FaultsAreNamedByTheirKey) {
         {"cloth.falg.cells=[72,1]",
          "--set cloth.falg.cells: error: there is no cloth \"falg\"; did you mean \"flag\"?"},
         {"block.b.cells=[1,1,1]", "--set block.b.cells: error: there is no block \"b\""},
+        {"rope.x*.segments=1", "--set rope.x*.segments: error: there is no rope \"x*\""},
+        {"block.*.cells=[1,1,1]", "--set block.*.cells: error: there is no block \"*\""},
         {"clth.flag.cells=[72,1]", "--set clth.flag.cells: error: a scene has no \"clth\"; did you mean \"cloth\"?"},
         {"joint.0.kind=weld", "--set joint.0.kind: error: the scene has no [[joint]]"},
         {"mass.1.mass_kg=3", "--set mass.1.mass_kg: error: mass has no element \"1\"; write mass.0 … mass.0"},

@@ -56,6 +56,42 @@ TEST(SceneErrors, HandsOutOfTheirOrderAreReported) {
          "s.toml:4:30: error: \"h\" is holding something since 1 s\n"
          "    { t = 2, do = \"grab\", id = \"h\", target = \"rope.r@start\" },\n"
          "                               ^ release it first, or give this hand another id"},
+        {"a hand called as a joint",
+         "at = [{ t = 1, do = \"grab\", id = \"peg\", target = \"rope.r@end\" }]\n"
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "[[joint]]\n"
+         "name = \"peg\"\n"
+         "a = \"rope.r@start\"\n"
+         "b = \"rope.r@end\"\n"
+         "kind = \"rod\"\n",
+         "s.toml:2:34: error: \"peg\" is the name of a joint\n"
+         "  at = [{ t = 1, do = \"grab\", id = \"peg\", target = \"rope.r@end\" }]\n"
+         "                                   ^ give the hand another id, for both are released by it"},
+        {"a mistyped joint",
+         "at = [{ t = 1, do = \"release\", id = \"pegg\" }]\n"
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "[[joint]]\n"
+         "name = \"peg\"\n"
+         "a = \"rope.r@start\"\n"
+         "b = \"rope.r@end\"\n"
+         "kind = \"rod\"\n",
+         "s.toml:2:37: error: \"pegg\" has grabbed nothing before 1 s\n"
+         "  at = [{ t = 1, do = \"release\", id = \"pegg\" }]\n"
+         "                                      ^ did you mean \"peg\"?"},
+        {"a claim about a joint that is not there",
+         "check = [{ that = \"joints_left(pig) == 1\" }]\n"
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "[[joint]]\n"
+         "name = \"peg\"\n"
+         "a = \"rope.r@start\"\n"
+         "b = \"rope.r@end\"\n"
+         "kind = \"rod\"\n",
+         "s.toml:2:32: error: there is no joint \"pig\"\n"
+         "  check = [{ that = \"joints_left(pig) == 1\" }]\n"
+         "                                 ^ did you mean \"peg\"?"},
     });
 }
 

@@ -26,7 +26,7 @@ world::SceneSpec readFullScene() {
 
 TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
     const Specs<ActionSpec> actions = readFullScene().actions;
-    ASSERT_EQ(actions.size(), 9U);
+    ASSERT_EQ(actions.size(), 10U);
     const auto& grab = dynamic_cast<const GrabAction&>(actions[0]);
     EXPECT_EQ(grab.t, 1.0);
     EXPECT_EQ(grab.id, "left");
@@ -34,6 +34,7 @@ TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
     EXPECT_EQ(grab.near, dvec3(1, 2, 3));
     EXPECT_EQ(grab.radius, 0.2);
     EXPECT_TRUE(grab.rigid);
+    EXPECT_EQ(grab.maxForce, std::nullopt);
     EXPECT_EQ(grab.strength, 140.0);
     EXPECT_EQ(grab.dampingRatio, 0.2);
     EXPECT_GT(grab.source.line, 0);
@@ -59,6 +60,7 @@ TEST(SceneTimeline, ActionsComeByTimeAndLandInTheirMembers) {
     const auto& ramp = dynamic_cast<const RampAction&>(actions[8]);
     EXPECT_EQ(ramp.key, "wind.breeze.velocity");
     EXPECT_EQ(ramp.value, (std::vector<double>{9, 8, 7}));
+    EXPECT_EQ(dynamic_cast<const GrabAction&>(actions[9]).maxForce, 30.0);
 }
 
 TEST(SceneTimeline, HandChecksAndGoldensLandInTheirMembers) {

@@ -28,7 +28,7 @@ SceneSpec calmAndWild(bool wild = true) {
     return scene;
 }
 
-std::vector<dvec3> positionsOf(World& world, const std::string& kind) {
+std::vector<dvec3> placesOfKind(World& world, const std::string& kind) {
     std::vector<dvec3> positions;
     world.registry().each<Identity, BodyPart>([&](ecs::Entity entity, const Identity& identity, const BodyPart&) {
         if (identity.kind == kind) positions = world.positions(entity);
@@ -48,9 +48,9 @@ int untilFrozen(World& world) {
 TEST(Freeze, ADivergedBodyStaysBitForBitWhereItWas) {
     World world(calmAndWild());
     ASSERT_GT(untilFrozen(world), 0);
-    const std::vector<dvec3> kept = positionsOf(world, "cloth");
+    const std::vector<dvec3> kept = placesOfKind(world, "cloth");
     for (int i = 0; i < 60; ++i) ASSERT_FALSE(world.advance());
-    EXPECT_EQ(positionsOf(world, "cloth"), kept);
+    EXPECT_EQ(placesOfKind(world, "cloth"), kept);
     EXPECT_EQ(world.frozen().size(), 1U);
 }
 
@@ -59,7 +59,7 @@ TEST(Freeze, TheOthersGoOnAsIfTheyWereAlone) {
     ASSERT_GT(untilFrozen(with), 0);
     for (int i = 0; i < 60; ++i) ASSERT_FALSE(with.advance());
     while (without.tick() < with.tick()) ASSERT_FALSE(without.advance());
-    EXPECT_EQ(positionsOf(with, "rope"), positionsOf(without, "rope"));
+    EXPECT_EQ(placesOfKind(with, "rope"), placesOfKind(without, "rope"));
 }
 
 // The rest state is 1/10 m a cell: what is kept is a cloth still, torn but not scattered.
@@ -69,7 +69,7 @@ TEST(Freeze, WhatIsKeptIsWithinTheStrainThatWasSet) {
         scene.solver.freezeStrain = strain;
         World world(scene);
         ASSERT_GT(untilFrozen(world), 0);
-        const std::vector<dvec3> x = positionsOf(world, "cloth");
+        const std::vector<dvec3> x = placesOfKind(world, "cloth");
         double largest = 0;
         for (std::size_t row = 0; row < 11; ++row)
             for (std::size_t i = 0; i < 10; ++i)

@@ -42,7 +42,7 @@ class Leash final : public ConstraintOf<Leash> {
     bool projectPositions(const Moment& now) override {
         const dvec3 d = now.x[1] - now.x[0];
         const double length = std::sqrt(glm::dot(d, d)), excess = length - most_, w = weight(now);
-        if (isCut_ || !(w > 0) || excess <= 1e-13) return false;
+        if (!holds() || !(w > 0) || excess <= 1e-13) return false;
         now.x[0] += now.inverseMass[0] / w * excess / length * d;
         now.x[1] -= now.inverseMass[1] / w * excess / length * d;
         return true;
@@ -50,22 +50,16 @@ class Leash final : public ConstraintOf<Leash> {
     bool projectVelocities(const Moment& now) override {
         const dvec3 d = now.x[1] - now.x[0], u = now.v[1] - now.v[0];
         const double away = glm::dot(u, d) / glm::dot(d, d), w = weight(now);
-        if (isCut_ || !(w > 0) || away <= 1e-14 || glm::dot(d, d) < most_ * most_ * (1 - 1e-9)) return false;
+        if (!holds() || !(w > 0) || away <= 1e-14 || glm::dot(d, d) < most_ * most_ * (1 - 1e-9)) return false;
         now.v[0] += now.inverseMass[0] / w * away * d;
         now.v[1] -= now.inverseMass[1] / w * away * d;
         return true;
     }
-    bool sever(const IsCut& isCut) override {
-        isCut_ = isCut_ || isCut(points_[0], points_[1]);
-        return isCut_;
-    }
-    void visit(StateBytes& bytes) override { bytes(isCut_); }
 
   private:
     static double weight(const Moment& now) { return now.inverseMass[0] + now.inverseMass[1]; }
     std::array<int, 2> points_;
     double most_;  // [m]
-    bool isCut_ = false;
 };
 
 struct LeashJoint final : SpecOf<LeashJoint, JointSpec> {
@@ -153,6 +147,24 @@ TEST(OwnJoint, AConstraintOfItsOwnHoldsIsSavedAndCut) {
     run(world, 5);
     run(late, 5);
     EXPECT_EQ(world.save(), late.save());
+}
+
+// A mass of 1 kg on a leash that is taut: its kind says nothing of names and forces.
+TEST(OwnJoint, IsReleasedByNameAndBreaksByTheForceThroughIt) {
+    const std::string hanging =
+        "schema = 1\nat = [{ t = 0.1, do = \"release\", id = \"dog\" }]\n[solver]\nprecision = \"double\"\ndt = 0.001\n"
+        "[net.n]\npoints = [{ name = \"a\", position = [0, 0, 0], hold = true }, { name = \"b\", position = [0, -1, 0] }]\n"
+        "drag_per_s = 0\n[[joint]]\nname = \"dog\"\n";
+    for (const double share : {0.999, 1.001}) {
+        World world(scene::loadSceneText(hanging + "a = \"net.n@a\"\nb = \"net.n@b\"\nkind = \"leash\"\nbreak_N = " +
+                                             std::to_string(share * support::g) + "\n",
+                                         "s.toml", {.kinds = withOwn()})
+                        .spec);
+        run(world, 3);
+        EXPECT_EQ(world.joints()[0].left, share < 1 ? 0 : 1);
+        run(world, 4);
+        EXPECT_EQ(world.joints()[0].left, 0);  // after 1/10 s, the sixth tick
+    }
 }
 
 TEST(OwnJoint, IsInTheManualAndRefusedByNameWhereItIsNotKnown) {

@@ -52,7 +52,8 @@ class Maker {
         for (const collision::OwnSize& own : kind->own) sizes.own.emplace(own.key, own.standard);
         shape.form = kind->form(sizes);
         sizes.stands = stands(sizes, transform);
-        if (pieces_ != nullptr) pieces_->push_back({kind->mesh(sizes), transform, finishOf(whole_.finish)});
+        if (pieces_ != nullptr)
+            pieces_->push_back({kind->mesh(sizes), transform, finishOf(spec.ownFinish.value_or(whole_.finish))});
         return shape;
     }
 

@@ -10,6 +10,7 @@
 #include "taut/mechanics/bending.h"
 #include "taut/spec/spec.h"
 #include "taut/spec/targets.h"
+#include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/private/ties.h"
 
 namespace taut::world {
@@ -48,6 +49,7 @@ struct PointRef {
 struct JointPair {
     PointRef a, b;
     const JointSpec* spec;
+    int number;       // of the scene's joints
     double distance;  // [m]
 };
 
@@ -59,8 +61,11 @@ class Planner {
           islands_(bodies.size()),
           firstGlobal_(firsts(bodies)),
           welds_(firstGlobalEnd()) {
-        for (const JointSpec& joint : spec.joints)
-            if (!isTie(joint)) addJoint(joint);
+        int number = 0;
+        for (const JointSpec& joint : spec.joints) {
+            if (!isTie(joint)) addJoint(joint, number);
+            ++number;
+        }
     }
 
     std::vector<IslandPlan> plans() {
@@ -94,19 +99,37 @@ class Planner {
     Body& body(int i) const { return *bodies_[static_cast<std::size_t>(i)]; }
     dvec3 position(PointRef p) const { return body(p.body).model.positions[static_cast<std::size_t>(p.point)]; }
 
-    std::vector<PointRef> points(const std::string& text, const Source& source) const {
+    // Each once; of one target in the order of its bodies.
+    std::vector<PointRef> points(const JointSide& side, const Source& source) const {
         std::vector<PointRef> found;
-        for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
-            if (names(text, body(number)))
-                for (int i : selectPoints(body(number).model, parseTarget(text).selector)) found.push_back({number, i});
-        if (found.empty()) throw Error(ErrorKind::badContent, at(source) + "\"" + text + "\" names no point");
-        return found;
+        for (const std::string& text : side.targets) {
+            const std::size_t before = found.size();
+            for (int number = 0; number < static_cast<int>(bodies_.size()); ++number)
+                if (names(text, body(number)))
+                    for (int i : selectPoints(body(number).model, parseTarget(text).selector))
+                        found.push_back({number, i});
+            if (found.size() == before)
+                throw Error(ErrorKind::badContent, at(source) + "\"" + text + "\" names no point");
+        }
+        if (side.targets.size() < 2) return found;
+        std::vector<PointRef> once;
+        std::vector<bool> isMet(firstGlobalEnd(), false);
+        for (const PointRef& p : found)
+            if (!isMet[static_cast<std::size_t>(global(p))]) {
+                isMet[static_cast<std::size_t>(global(p))] = true;
+                once.push_back(p);
+            }
+        return once;
     }
 
-    void addJoint(const JointSpec& joint) {
+    void addJoint(const JointSpec& joint, int ofScene) {
         const std::vector<PointRef> as = points(joint.a, joint.source);
         std::vector<PointRef> bs = points(joint.b, joint.source);
-        const bool weld = joint.isWeld();
+        const auto isOther = [&](const PointRef& p) { return p.body != as.front().body; };
+        const bool isOneBody =
+            std::none_of(as.begin(), as.end(), isOther) && std::none_of(bs.begin(), bs.end(), isOther);
+        const bool mayTieWithin = isOneBody || joint.tiesWithin();
+        const bool merges = joint.isWeld() && !isOneBody && !joint.hasOwnTies();
         JointReport& report = reports_.emplace_back();
         report.spec = &joint;
         std::map<std::pair<int, int>, int> pairs;  // bodies: points joined
@@ -121,7 +144,7 @@ class Planner {
             for (std::size_t i = 0; i < bs.size(); ++i) {
                 const dvec3 d = position(bs[i]) - position(a);
                 const double distance = std::sqrt(glm::dot(d, d));
-                if (bs[i].body == a.body && (!joint.tiesWithin() || bs[i].point == a.point)) continue;
+                if (bs[i].body == a.body && (!mayTieWithin || bs[i].point == a.point)) continue;
                 double& otherReach = reached.at(bs[i].body);
                 otherReach = std::min(otherReach, distance);
                 if (distance < bestDistance) {
@@ -135,22 +158,23 @@ class Planner {
             islands_.unite(a.body, bs[best].body);
             ++pairs[{a.body, bs[best].body}];
             ++made;
-            if (weld) {
+            if (merges)
                 welds_.unite(global(a), global(bs[best]));
-                report.jump = std::max(report.jump, bestDistance);
-                bs.erase(bs.begin() + static_cast<std::ptrdiff_t>(best));
-            } else {
-                joints_.push_back({a, bs[best], &joint, bestDistance});
-            }
+            else
+                joints_.push_back({a, bs[best], &joint, ofScene, bestDistance});
+            if (!joint.isWeld()) continue;
+            report.jump = std::max(report.jump, bestDistance);
+            bs.erase(bs.begin() + static_cast<std::ptrdiff_t>(best));
         }
         if (made == 0) {
             const std::string why = std::isfinite(nearest)
                                         ? "the nearest two points are " + std::to_string(nearest) +
                                               " m apart, more than reach_m = " + std::to_string(joint.reach()) +
                                               "; move the bodies together, or use kind = \"spring\""
-                                        : "both sides are the same body";
+                                        : "both sides are the same point";
             throw Error(ErrorKind::badContent,
-                        at(joint.source) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" joins nothing: " + why);
+                        at(joint.source) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
+                            "\" joins nothing: " + why);
         }
         for (const auto& [numbers, points] : pairs)
             report.pairs.push_back({&body(numbers.first), &body(numbers.second), points});
@@ -166,12 +190,21 @@ class Planner {
                     std::vector<int>& numberOf) {
         IslandPlan plan;
         for (int body : members) addBody(plan, body, numberOf);
-        for (const JointPair& joint : joints)
-            joint.spec->tie(plan, pointOf(joint.a), pointOf(joint.b), joint.distance);
+        for (const bool isWeld : {true, false})  // which move points
+            for (const JointPair& joint : joints)
+                if (joint.spec->isWeld() == isWeld) tie(plan, joint);
         plan.origins.resize(plan.springs.size());
         plan.broken.resize(plan.springs.size(), false);
         plan.solver = solverOf(plan);
         return plan;
+    }
+
+    void tie(IslandPlan& plan, const JointPair& joint) const {
+        const int a = pointOf(joint.a), b = pointOf(joint.b);
+        addTie(
+            plan,
+            {.joint = joint.number, .a = a, .b = b, .breakForce = joint.spec->breakForce.value_or(HUGE_VAL)},
+            [&] { joint.spec->tie(plan, a, b, joint.distance); });
     }
 
     std::size_t firstGlobalEnd() const {
@@ -304,6 +337,63 @@ std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSp
     return planner.plans();
 }
 
+void addTie(IslandPlan& plan, JointTie tie, const std::function<void()>& add) {
+    const std::size_t springs = plan.springs.size(), grips = plan.grips.size();
+    std::vector<int> sizes;  // of the constraints
+    for (const auto& constraint : plan.constraints) sizes.push_back(constraint->size());
+    add();
+    for (std::size_t s = springs; s < plan.springs.size(); ++s) tie.springs.push_back(static_cast<int>(s));
+    sizes.resize(plan.constraints.size(), 0);
+    for (std::size_t c = 0; c < sizes.size(); ++c) {
+        const Constraint& constraint = *plan.constraints[c];
+        for (int own = sizes[c]; own < constraint.size(); ++own) tie.parts.push_back({static_cast<int>(c), own});
+        if (constraint.size() > sizes[c] && tie.b < 0 && !constraint.places().empty())
+            tie.offset = constraint.places().back().offset;
+    }
+    tie.isGrip = plan.grips.size() > grips;
+    if (tie.isGrip) tie.offset = plan.grips.back().offsets.back();
+    if (tie.isGrip || !tie.springs.empty() || !tie.parts.empty()) plan.ties.push_back(std::move(tie));
+}
+
+namespace {
+
+// Of a tie of its own, or of several.
+bool isOf(const Grip& grip, const IslandPlan& plan, const JointTie& tie) {
+    if (grip.tie >= 0) return &plan.ties[static_cast<std::size_t>(grip.tie)] == &tie;
+    return grip.ofCollider && grip.holder == tie.collider &&
+           std::binary_search(grip.points.begin(), grip.points.end(), tie.a);
+}
+
+}  // namespace
+
+bool holds(const IslandPlan& plan, const JointTie& tie) {
+    return std::any_of(tie.springs.begin(), tie.springs.end(),
+                       [&](int s) { return !plan.broken[static_cast<std::size_t>(s)]; }) ||
+           std::any_of(tie.parts.begin(), tie.parts.end(),
+                       [&](const JointTie::Part& part) {
+                           return plan.constraints[static_cast<std::size_t>(part.constraint)]->holds(part.tie);
+                       }) ||
+           (tie.isGrip && std::any_of(plan.grips.begin(), plan.grips.end(),
+                                      [&](const Grip& grip) { return isOf(grip, plan, tie); }));
+}
+
+bool letGo(IslandPlan& plan, std::size_t number) {
+    const JointTie& tie = plan.ties[number];
+    if (!holds(plan, tie)) return false;
+    for (const int s : tie.springs) {
+        plan.broken[static_cast<std::size_t>(s)] = true;
+        plan.springs[static_cast<std::size_t>(s)].stiffness = 0;
+    }
+    for (const JointTie::Part& part : tie.parts) {
+        auto& constraint = plan.constraints[static_cast<std::size_t>(part.constraint)];
+        std::shared_ptr<Constraint> changed = constraint->copy();
+        changed->letGo(part.tie);
+        constraint = std::move(changed);
+    }
+    std::erase_if(plan.grips, [&](const Grip& grip) { return grip.tie == static_cast<int>(number); });
+    return true;
+}
+
 void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::PosePath& path) {
     const bool isThere = std::any_of(plan.carriers.begin(), plan.carriers.end(),
                                      [&](const Carrier& carrier) { return carrier.collider == collider; });
@@ -378,9 +468,17 @@ std::pair<const Body*, int> authored(const IslandPlan& plan, int point) {
     return {nullptr, point};
 }
 
+bool isPinned(const IslandPlan& plan, int point) {
+    return std::any_of(plan.constraints.begin(), plan.constraints.end(),
+                       [&](const auto& constraint) { return constraint->carries(point); });
+}
+
 std::vector<bool> heldPointsOf(const IslandPlan& plan) {
     std::vector<bool> isHeld;
     for (const mechanics::PointMass& p : plan.points) isHeld.push_back(p.held);
+    for (const auto& constraint : plan.constraints)
+        for (const int i : constraint->points())
+            if (constraint->carries(i)) isHeld[static_cast<std::size_t>(i)] = true;
     for (const Grip& grip : plan.grips)
         if (grip.ofCollider && grip.rigid)
             for (int i : grip.points) isHeld[static_cast<std::size_t>(i)] = true;
@@ -388,7 +486,7 @@ std::vector<bool> heldPointsOf(const IslandPlan& plan) {
 }
 
 bool isFree(const IslandPlan& plan, int point) {
-    return !plan.points[static_cast<std::size_t>(point)].held &&
+    return !plan.points[static_cast<std::size_t>(point)].held && !isPinned(plan, point) &&
            std::none_of(
                plan.grips.begin(), plan.grips.end(),
                [&](const Grip& grip) {

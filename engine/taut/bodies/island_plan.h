@@ -1,6 +1,8 @@
 // Which bodies move together, and with which points and springs: the plan from which an island is built.
 #pragma once
 
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,12 +35,29 @@ struct Grip {
     std::vector<double> stiffness, damping;  // (points) [N/m], [kg/s]; not of rigid ones
     std::vector<double> mostForce;           // (points) [N] > 0; empty: any
     mechanics::PosePath path;                // of it; the place on a line during each tick
+    int tie = -1;                            // of the plan, whose it is alone; -1: of none
 };
 
 // A collider that constraints are fixed to.
 struct Carrier {
     std::string collider;      // "collider.pole"
     mechanics::PosePath path;  // as of a Grip
+};
+
+// One pair of what a joint ties: two points, or a point and a place on a collider. It holds as long as anything that its
+// kind made of it does.
+struct JointTie {
+    int joint = -1;         // of the scene
+    int a = -1, b = -1;     // points; b -1: a collider
+    std::string collider{};   // "collider.pole", or empty
+    dvec3 offset{0.0};      // [m] of the place, from the collider as it is unturned
+    double breakForce = HUGE_VAL;  // [N]
+    std::vector<int> springs{};    // of the plan
+    struct Part {
+        int constraint, tie;  // of the plan, and of it
+    };
+    std::vector<Part> parts{};
+    bool isGrip = false;  // or part of one
 };
 
 // Points in the island's own numbering: body by body, welded points once.
@@ -54,6 +73,7 @@ struct IslandPlan {
     std::vector<Grip> grips;                    // in the order of grabbing
     std::vector<std::shared_ptr<const Constraint>> constraints;  // another takes the place of one that changes
     std::vector<Carrier> carriers;                               // of their places, each once
+    std::vector<JointTie> ties;                                  // of joints, but for points that are merged
 };
 
 // What a joint of the scene has become.
@@ -74,6 +94,12 @@ struct JointReport {
 std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSpec& spec,
                                     std::vector<JointReport>* joints = nullptr);
 
+// Adds a tie, made of what `add` adds to the plan; none if that is nothing.
+void addTie(IslandPlan& plan, JointTie tie, const std::function<void()>& add);
+bool holds(const IslandPlan& plan, const JointTie& tie);
+// Takes a tie out of the plan, if it holds. Returns whether it did.
+bool letGo(IslandPlan& plan, std::size_t tie);
+
 // Records that a place of a constraint is fixed to this collider, which moves on this path.
 void carryBy(IslandPlan& plan, const std::string& collider, const mechanics::PosePath& path);
 
@@ -93,6 +119,8 @@ mechanics::Bending bendingOf(const IslandPlan& plan, const Body& body);
 // The body of a point and the point's number there; of welded bodies the first. Null and the point itself if no body
 // has it.
 std::pair<const Body*, int> authored(const IslandPlan& plan, int point);
+// Whether a collider carries a point by a constraint.
+bool isPinned(const IslandPlan& plan, int point);
 // (points) whether it is held, in place or on a collider.
 std::vector<bool> heldPointsOf(const IslandPlan& plan);
 // Whether a point moves by itself: neither held nor in a rigid grip.

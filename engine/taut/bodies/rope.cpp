@@ -1,5 +1,8 @@
 #include "taut/bodies/rope.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include "taut/fields/private/problems.h"
 #include "taut/mechanics/builders.h"
 #include "taut/view/private/tube.h"
@@ -30,24 +33,25 @@ class RopeDrawing final : public BodyDrawing {
         double length = 0;
         for (const mechanics::Spring& s : model.springs)
             if (s.kind == mechanics::SpringKind::structural) length += s.restLength;
-        const int last = model.pointCount() - 1;
+        order_ = orderOf(spec, body);
+        const int last = static_cast<int>(order_.size()) - 1;
         const auto perSegment = static_cast<float>(length / last);
         Piece piece;
         for (int i = 0; i <= last; ++i) {
-            const bool isSevered = i < last && body.damage.isSevered(i, i + 1);
+            const bool isSevered = i < last && body.damage.isSevered(point(i), point(i + 1));
             if (i < last && !isSevered) continue;
             piece.last = i;
-            piece.after = isSevered ? static_cast<float>(body.damage.share(i, i + 1)) : 0.0F;
+            piece.after = isSevered ? static_cast<float>(body.damage.share(point(i), point(i + 1))) : 0.0F;
             addPiece(piece, perSegment);
             piece = {};
             piece.first = i + 1;
-            piece.before = isSevered ? static_cast<float>(body.damage.share(i + 1, i)) : 0.0F;
+            piece.before = isSevered ? static_cast<float>(body.damage.share(point(i + 1), point(i))) : 0.0F;
         }
     }
     void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const override {
         for (const Piece& piece : pieces_) {
             std::vector<glm::vec3> line;
-            const auto at = [&](int i) { return positions[static_cast<std::size_t>(i)]; };
+            const auto at = [&](int i) { return positions[static_cast<std::size_t>(point(i))]; };
             if (piece.before > 0)
                 line.push_back(at(piece.first) + piece.before * (at(piece.first) - at(piece.first + 1)));
             for (int i = piece.first; i <= piece.last; ++i) line.push_back(at(i));
@@ -65,10 +69,25 @@ class RopeDrawing final : public BodyDrawing {
 
   private:
     struct Piece {
-        int first = 0, last = 0;      // points
+        int first = 0, last = 0;      // of order_
         float before = 0, after = 0;  // segments more at its ends
         std::shared_ptr<const view::Topology> topology;
     };
+    // From one end to the other. A ring is drawn from its first cut on, which comes last again.
+    static std::vector<int> orderOf(const RopeSpec& spec, const Body& body) {
+        const int count = body.model.pointCount();
+        std::vector<int> order(static_cast<std::size_t>(count));
+        std::iota(order.begin(), order.end(), 0);
+        if (!spec.isClosed) return order;
+        for (int i = 0; i < count; ++i)
+            if (body.damage.isSevered(i, (i + 1) % count)) {
+                std::rotate(order.begin(), order.begin() + i, order.end());
+                break;
+            }
+        order.push_back(order.front());
+        return order;
+    }
+    int point(int i) const { return order_[static_cast<std::size_t>(i)]; }
     void addPiece(Piece piece, float perSegment) {
         if (piece.last == piece.first) return;  // a point without a segment: it has no direction
         const int points = piece.last - piece.first + 1 + (piece.before > 0 ? 1 : 0) + (piece.after > 0 ? 1 : 0);
@@ -81,6 +100,7 @@ class RopeDrawing final : public BodyDrawing {
     std::string name_;
     float radius_;
     std::shared_ptr<const view::Finish> finish_;
+    std::vector<int> order_;  // points of the model as they are drawn
     std::vector<Piece> pieces_;
 };
 
@@ -97,7 +117,7 @@ Section ropePlaceSection() {
 
 Section RopeSpec::section() {
     Section section;
-    section.help = "A rope between two points.";
+    section.help = "A rope between two points, or a ring.";
     FieldList<RopeSpec> list;
     list.segment("ends", &RopeSpec::start, &RopeSpec::end, "Its two ends.")
         .required()
@@ -106,13 +126,17 @@ Section RopeSpec::section() {
                 "Natural length; 0 means the distance of the ends. A longer rope starts hanging on its catenary.")
         .tables("through", &RopeSpec::through, ropePlaceSection(),
                 "Places that it is laid through on its way from one end to the other, in a curve, as long as that is.")
+        .flag("closed", &RopeSpec::isClosed,
+              "Whether its ends are joined. Then `ends` are the ends of a diameter of a level ring, or with `through` "
+              "two places of a loop, which leads from the second back to the first.")
         .number("mass_kg", &RopeSpec::mass, "kg", positive, "Mass of the whole rope.")
         .number("stretch_N", &RopeSpec::stretch, "N", positive, "Stiffness EA: force that doubles its length.")
         .ramps(Affects::springs)
         .number("bend_N", &RopeSpec::bend, "N", notNegative, "The same of springs across two segments.")
         .ramps(Affects::springs);
-    list.number("bending_rigidity_N_m2", &RopeSpec::rigidity, "N m²", notNegative,
-                "Bending rigidity EI, the same for any number of segments; it is straight at rest.")
+    list.number("bending_rigidity_N_m2", &RopeSpec::rigidity, "N m²", positive,
+                "Bending rigidity EI, the same for any number of segments; it is straight at rest. Not of closed "
+                "ropes.")
         .ramps(Affects::springs);
     section.fields = withPlasticity(withLosses(list))
                          .number("radius", &RopeSpec::radius, "m", lengthRange,
@@ -121,12 +145,21 @@ Section RopeSpec::section() {
                                  "How mass is shared out: by length, or the same for every point.")
                          .take();
     section.check = [](const fields::CheckInput& input, void* target) {
+        constexpr int leastOfRing = 3;
         auto& rope = *static_cast<RopeSpec*>(target);
         keepRadius(input, rope.radius, rope);
         if (!input.isClean) return;
         if (rope.start == rope.end && rope.through.empty())
             input.problems.addError(input.at("ends"), "the two ends are the same point");
-        if (rope.length > 0.0 && !rope.through.empty())
+        if (rope.isClosed && rope.segments < leastOfRing)
+            input.problems.addError(input.at("segments"), "a closed rope has at least 3 segments");
+        if (rope.rigidity && rope.isClosed)
+            input.problems.addError(input.at("bending_rigidity_N_m2"), "a closed rope has no bending rigidity",
+                                    "use bend_N");
+        if (rope.length > 0.0 && rope.isClosed)
+            input.problems.addError(input.at("length_m"), "a closed rope is as long as its way round",
+                                    "leave length_m out");
+        else if (rope.length > 0.0 && !rope.through.empty())
             input.problems.addError(input.at("length_m"), "a rope with `through` is as long as its way",
                                     "leave length_m out");
     };
@@ -141,10 +174,11 @@ mechanics::Model RopeSpec::build(const SceneSpec&) const {
                                  .segments = segments,
                                  .length = length,
                                  .through = std::move(places),
+                                 .isClosed = isClosed,
                                  .mass = mass,
                                  .stretch = stretch,
                                  .bend = bend,
-                                 .rigidity = rigidity,
+                                 .rigidity = rigidity.value_or(0.0),
                                  .dampingTime = dampingTime,
                                  .dragRate = drag,
                                  .lumping = lumping});
@@ -157,8 +191,8 @@ std::unique_ptr<BodyDrawing> RopeSpec::drawing(const Body& body) const {
 BodyOutline RopeSpec::outline(const SceneSpec&) const {
     BodyOutline outline;
     const double n = segments;
-    outline.points = n + 1;
-    outline.springs = bend > 0.0 ? 2.0 * n - 1 : n;
+    outline.points = isClosed ? n : n + 1;
+    outline.springs = bend > 0.0 ? 2.0 * n - (isClosed ? 0 : 1) : n;
     outline.isLine = true;
     outline.groups = mechanics::ropeGroups();
     return outline;

@@ -1,5 +1,7 @@
-// A rope between two points.
+// A rope between two points, or a ring.
 #pragma once
+
+#include <optional>
 
 #include "taut/spec/body_spec.h"
 #include "taut/spec/specs.h"
@@ -16,10 +18,11 @@ struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
     int segments = 40;
     double length = 0.0;  // natural length [m]; 0: the distance of the ends
     std::vector<RopePlaceSpec> through;
+    bool isClosed = false;      // a ring
     double mass = 1.0;          // [kg]
     double stretch = 1e4;       // EA [N]
     double bend = 0.0;          // EA of the span-2 springs [N]
-    double rigidity = 0.0;  // EI of bending [N m²]
+    std::optional<double> rigidity;  // EI of bending [N m²]; none: it has none
     double dampingTime = 1e-4;  // [s]
     double drag = 0.3;          // [1/s]
     double radius = 0.02;       // [m] drawn

@@ -20,6 +20,17 @@ collision::Pose poseOf(const std::string& collider, const FindPose& find, const 
     return *pose;
 }
 
+// Points of the body's model, each once.
+std::vector<int> namedPoints(const JointSide& side, const Body& body) {
+    std::vector<int> points;
+    for (const std::string& target : side.targets)
+        if (names(target, body))
+            for (const int i : selectPoints(body.model, parseTarget(target).selector))
+                if (side.targets.size() == 1 || std::find(points.begin(), points.end(), i) == points.end())
+                    points.push_back(i);
+    return points;
+}
+
 // What the scene ties of one plan.
 class Tying {
   public:
@@ -32,23 +43,51 @@ class Tying {
         lead(body.spec->holdOn, std::move(points), body.spec->source);
     }
 
-    void tie(const JointSpec& joint) {
+    void tie(const JointSpec& joint, int number) {
         std::vector<int> points;
         for (const Body* body : plan_.bodies)
-            if (names(pointsOf(joint), *body))
-                for (int i : selectPoints(body->model, parseTarget(pointsOf(joint)).selector))
-                    points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
+            for (const int i : namedPoints(pointsOf(joint), *body))
+                points.push_back(body->pointOf[static_cast<std::size_t>(i)]);
         if (points.empty()) return;
-        if (joint.isWeld()) return lead(colliderOf(joint), std::move(points), joint.source);
+        const std::string& collider = colliderOf(joint);
+        if (joint.isWeld() && !joint.hasOwnTies()) return lead(collider, std::move(points), joint.source);
         sort(points);
-        const collision::Pose pose = poseOf(colliderOf(joint), find_, joint.source);
-        joint.carry(plan_, tieTo(colliderOf(joint), pose, std::move(points), plan_.positions));
+        const collision::Pose pose = poseOf(collider, find_, joint.source);
+        const std::size_t grips = plan_.grips.size();
+        for (const int point : points) {
+            const std::size_t own = plan_.grips.size();
+            const int tie = static_cast<int>(plan_.ties.size());
+            addTie(
+                plan_,
+                {.joint = number,
+                 .a = point,
+                 .collider = collider,
+                 .breakForce = joint.breakForce.value_or(HUGE_VAL)},
+                [&] { joint.carry(plan_, tieTo(collider, pose, {point}, plan_.positions)); });
+            if (joint.hasOwnTies())
+                for (std::size_t g = own; g < plan_.grips.size(); ++g) plan_.grips[g].tie = tie;
+        }
+        if (!joint.hasOwnTies()) join(grips);
     }
 
   private:
     static void sort(std::vector<int>& points) {
         std::sort(points.begin(), points.end());
         points.erase(std::unique(points.begin(), points.end()), points.end());
+    }
+
+    // All grips from that one on are one, of ascending points.
+    void join(std::size_t first) {
+        if (plan_.grips.size() <= first + 1) return;
+        Grip& all = plan_.grips[first];
+        for (std::size_t g = first + 1; g < plan_.grips.size(); ++g) {
+            const Grip& own = plan_.grips[g];
+            all.points.insert(all.points.end(), own.points.begin(), own.points.end());
+            all.offsets.insert(all.offsets.end(), own.offsets.begin(), own.offsets.end());
+            all.stiffness.insert(all.stiffness.end(), own.stiffness.begin(), own.stiffness.end());
+            all.damping.insert(all.damping.end(), own.damping.begin(), own.damping.end());
+        }
+        plan_.grips.resize(first + 1);
     }
 
     // Points that it has hold of already are left out.
@@ -90,36 +129,54 @@ bool isCollider(const std::string& target) {
     return parseTarget(target).kind == "collider";
 }
 
+bool isCollider(const JointSide& side) {
+    return std::any_of(side.targets.begin(), side.targets.end(), [](const auto& target) { return isCollider(target); });
+}
+
 bool isTie(const JointSpec& joint) {
     return isCollider(joint.a) || isCollider(joint.b);
 }
 const std::string& colliderOf(const JointSpec& joint) {
-    return isCollider(joint.a) ? joint.a : joint.b;
+    return (isCollider(joint.a) ? joint.a : joint.b).targets.front();
 }
-const std::string& pointsOf(const JointSpec& joint) {
+const JointSide& pointsOf(const JointSpec& joint) {
     return isCollider(joint.a) ? joint.b : joint.a;
+}
+
+bool names(const JointSide& side, const Body& body) {
+    return std::any_of(side.targets.begin(), side.targets.end(),
+                       [&](const auto& target) { return names(target, body); });
+}
+int countNamed(const JointSide& side, const Body& body) {
+    return static_cast<int>(namedPoints(side, body).size());
 }
 
 void addTies(IslandPlan& plan, const SceneSpec& spec, const FindPose& find) {
     Tying tying(plan, find);
     for (Body* body : plan.bodies)
         if (!body->carried.empty()) tying.hold(*body);
-    for (const JointSpec& joint : spec.joints)
-        if (isTie(joint)) tying.tie(joint);
+    int number = 0;
+    for (const JointSpec& joint : spec.joints) {
+        if (isTie(joint)) tying.tie(joint, number);
+        ++number;
+    }
 }
 
 void checkTies(const SceneSpec& spec, std::span<Body* const> bodies, const FindPose& find) {
     for (const JointSpec& joint : spec.joints) {
         if (!isTie(joint)) continue;
         if (isCollider(joint.a) && isCollider(joint.b))
-            fail(joint.source, "both sides of the joint \"" + joint.a + "\" – \"" + joint.b +
+            fail(joint.source, "both sides of the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
                                    "\" are colliders; one has to be points of a body");
+        if ((isCollider(joint.a) ? joint.a : joint.b).targets.size() > 1)
+            fail(joint.source, "a collider is a side of a joint by itself; write a [[joint]] for each");
         poseOf(colliderOf(joint), find, joint.source);
-        const std::vector<Body*> named = matchBodies(bodies, pointsOf(joint));
-        const std::string selector = parseTarget(pointsOf(joint)).selector;
-        if (std::all_of(named.begin(), named.end(),
-                        [&](const Body* body) { return selectPoints(body->model, selector).empty(); }))
-            fail(joint.source, "\"" + pointsOf(joint) + "\" names no point");
+        for (const std::string& target : pointsOf(joint).targets) {
+            const JointSide one(target);
+            if (std::all_of(bodies.begin(), bodies.end(),
+                            [&](const Body* body) { return countNamed(one, *body) == 0; }))
+                fail(joint.source, "\"" + target + "\" names no point");
+        }
     }
 }
 

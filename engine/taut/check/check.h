@@ -30,12 +30,13 @@ struct ClaimError : std::runtime_error {
     std::string remedy;  // a short phrase; may be empty
 };
 
-// Bodies or points that a claim speaks of.
+// Bodies or points that a claim speaks of, or joints.
 struct Mention {
     std::size_t at = 0;      // byte of the text
     std::string target;      // "cloth.*", "cloth.flag@left"
     bool hasPoints = false;  // it may have a @SELECTOR
     bool isNeeded = false;   // there must be such when it is evaluated
+    bool isJoint = false;    // the name of joints
     std::string against;     // of the second of two bodies that something is measured between: the first
 };
 

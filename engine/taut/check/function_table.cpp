@@ -15,13 +15,14 @@ const char* word(Takes takes) {
         case Takes::place: return "PLACE";
         case Takes::number: return "NUMBER";
         case Takes::vector: return "VECTOR";
+        case Takes::joint: return "JOINT";
     }
     return "";
 }
 
 std::vector<Function> joinedTable() {
     std::vector<Function> table = pointFunctions();
-    for (const auto& rows : {bodyFunctions(), gapFunctions(), numberFunctions()})
+    for (const auto& rows : {bodyFunctions(), gapFunctions(), jointFunctions(), numberFunctions()})
         table.insert(table.end(), rows.begin(), rows.end());
     return table;
 }
@@ -43,7 +44,8 @@ std::string functionsManual() {
     std::string out =
         "  Numbers and functions, + - * /, parentheses, compared by < <= > >= == !=, also in a chain:\n"
         "  \"0.1 < height(cloth.flag) < 0.2\". BODIES are KIND.NAME, POINTS are KIND.NAME@SELECTOR or all of a body,\n"
-        "  a PLACE is POINTS, which stand for their centre of mass, or [x, y, z]. Of a vector .x, .y and .z.\n\n";
+        "  a PLACE is POINTS, which stand for their centre of mass, or [x, y, z], a JOINT is the\n"
+        "  name of joints. Of a vector .x, .y and .z.\n\n";
     for (const Function& function : functionTable()) {
         const std::string unit = function.unit.empty() ? "" : fmt::format(" [{}]", function.unit);
         const char* kind = function.isVector ? "a vector" : "a number";

@@ -306,12 +306,19 @@ class Parser {
         expression.part = Part::target;
         expression.begin = begin;
         expression.end = lastEnd();
-        if (expression.end <= begin) fail(begin, "a target is missing", "write KIND.NAME, e.g. cloth.flag");
+        const bool isJoint = takes == Takes::joint;
+        if (expression.end <= begin)
+            fail(begin, isJoint ? "the name of a joint is missing" : "a target is missing",
+                 isJoint ? "write " + function.signature() : "write KIND.NAME, e.g. cloth.flag");
         expression.target = text_.substr(begin, expression.end - begin);
+        if (isJoint) {
+            mentions_.push_back({.at = begin, .target = expression.target, .isJoint = true, .against = {}});
+            return expression;
+        }
         if (expression.target.find('.') == std::string::npos)
             fail(begin, fmt::format("\"{}\" is no target", expression.target), "write KIND.NAME, e.g. cloth.flag");
         const bool hasPoints = takes != Takes::bodies;
-        mentions_.push_back({begin, expression.target, hasPoints, hasPoints || function.isBetween(), {}});
+        mentions_.push_back({begin, expression.target, hasPoints, hasPoints || function.isBetween(), false, {}});
         return expression;
     }
 

@@ -65,6 +65,7 @@ std::string description(const Field& field) {
         case FieldKind::segment:
             return fmt::format("a list of two points, each a list of {} numbers{}", field.components, unit);
         case FieldKind::texts: return "a list of texts";
+        case FieldKind::oneOrMoreTexts: return "a text or a list of texts";
         case FieldKind::wholes: return "a list of whole numbers";
         case FieldKind::numbers: return "a number, a list of numbers or \"#rrggbb\"";
         case FieldKind::table: return field.inside.front().alone.empty() ? "a table" : "a number or a table";

@@ -30,6 +30,7 @@ enum class FieldKind {
     colour,       // three numbers 0 … 1 or "#rrggbb"
     segment,      // two points of `components` numbers
     texts,        // a list of texts
+    oneOrMoreTexts,  // a text, or a list of texts
     wholes,       // a list of whole numbers
     numbers,      // a number, a list of numbers or a colour: what another field may hold
     table,        // fields of its own

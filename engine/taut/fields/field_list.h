@@ -98,6 +98,15 @@ class FieldList {
                     return s.*member ? Value(static_cast<std::int64_t>(*(s.*member))) : Value();
             });
     }
+    // A whole number of a part of the struct.
+    template <class Part, class Base>
+    FieldList& whole(const char* key, Part Base::*part, int Part::*member, const char* unit, Range range,
+                     const char* help) {
+        return add(
+            key, FieldKind::whole, unit, range, help,
+            [=](Spec& s, const Value& value) { (s.*part).*member = static_cast<int>(std::get<std::int64_t>(value)); },
+            [=](const Spec& s) -> Value { return static_cast<std::int64_t>((s.*part).*member); });
+    }
     FieldList& flag(const char* key, bool Spec::*member, const char* help) {
         return add(
             key, FieldKind::flag, "", anyNumber, help,
@@ -282,12 +291,39 @@ class FieldList {
             .role(role);
     }
 
+    // A text or several, of a part of the struct.
+    template <class Part, class Base>
+    FieldList& targets(const char* key, Part Base::*part, std::vector<std::string> Part::*member, Role role,
+                       const char* help) {
+        return add(
+                   key, FieldKind::oneOrMoreTexts, "", anyNumber, help,
+                   [=](Spec& s, const Value& value) {
+                       (s.*part).*member = std::get<std::vector<std::string>>(value);
+                   },
+                   [=](const Spec& s) -> Value { return (s.*part).*member; })
+            .role(role);
+    }
+
+    // A table inside that may be left out, of a part of the struct.
+    template <class Inside, class Part, class Base>
+    FieldList& tableOr(const char* key, Part Base::*part, std::optional<Inside> Part::*member, Section section,
+                       const char* help) {
+        return addInside(
+            key, FieldKind::table, std::move(section), help,
+            [=](Spec& s, const core::Source&) -> void* { return &((s.*part).*member).emplace(); });
+    }
     // A table inside, for a member of the struct, or for the struct itself.
     template <class Part, class Base>
     FieldList& table(const char* key, Part Base::*member, Section section, const char* help) {
         return addInside(
             key, FieldKind::table, std::move(section), help,
             [=](Spec& s, const core::Source&) -> void* { return &(s.*member); });
+    }
+    template <class Part, class Base>
+    FieldList& table(const char* key, std::optional<Part> Base::*member, Section section, const char* help) {
+        return addInside(
+            key, FieldKind::table, std::move(section), help,
+            [=](Spec& s, const core::Source&) -> void* { return s.*member ? &*(s.*member) : &(s.*member).emplace(); });
     }
     FieldList& tableOfSelf(const char* key, Section section, const char* help) {
         return addInside(

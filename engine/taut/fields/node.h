@@ -8,8 +8,8 @@
 
 namespace taut::fields {
 
-// The place where something was written. Origin 0 is the file, -1 the file that it builds on; origin k is the k-th
-// override, which has no lines.
+// The place where something was written. Origin 0 is the file, -1 the file that it builds on, -2 the file below that,
+// and so on. Origin k is the k-th override, which has no lines.
 struct Place {
     int origin = 0;
     int line = 0;    // from 1

@@ -43,11 +43,6 @@ std::size_t characterLength(std::string_view text) {
     return length;
 }
 
-// The file comes first, then the one that it builds on, then the overrides.
-int order(Place place) {
-    return place.origin < 0 ? 1 : place.origin == 0 ? 0 : place.origin + 1;
-}
-
 // The source line fit to print, and the caret's indent in characters.
 std::pair<std::string, std::size_t> excerpt(std::string_view line, int column) {
     // Split into characters; a byte that continues one belongs to the character before.
@@ -84,25 +79,24 @@ std::string lowerCase(std::string_view word) {
 }  // namespace
 
 Problems::Problems(std::string_view text, std::string fileName, std::vector<std::string> labels)
-    : text_(text), fileName_(std::move(fileName)), labels_(std::move(labels)), lines_(lineStartsOf(text)) {}
+    : files_{{std::move(fileName), text, lineStartsOf(text)}}, labels_(std::move(labels)) {}
 
-void Problems::setBase(std::string text, std::string fileName) {
-    baseText_ = std::move(text);
-    baseName_ = std::move(fileName);
-    baseLines_ = lineStartsOf(baseText_);
+int Problems::addBase(std::string text, std::string fileName) {
+    const std::string& kept = baseTexts_.emplace_back(std::move(text));
+    files_.push_back({std::move(fileName), kept, lineStartsOf(kept)});
+    return 1 - static_cast<int>(files_.size());
 }
 
 const std::string& Problems::fileOf(Place place) const {
     if (place.origin > 0) return labels_[static_cast<std::size_t>(place.origin) - 1];
-    return place.origin < 0 ? baseName_ : fileName_;
+    return writtenIn(place).name;
 }
 
 std::string_view Problems::lineOf(Place place) const {
-    const std::string_view text = place.origin < 0 ? std::string_view(baseText_) : text_;
-    const std::vector<std::size_t>& starts = place.origin < 0 ? baseLines_ : lines_;
+    const File& file = writtenIn(place);
     const auto line = static_cast<std::size_t>(std::max(place.line, 1)) - 1;
-    if (line >= starts.size()) return {};
-    const std::string_view rest = text.substr(starts[line]);
+    if (line >= file.lines.size()) return {};
+    const std::string_view rest = file.text.substr(file.lines[line]);
     return rest.substr(0, rest.find('\n'));
 }
 
@@ -126,18 +120,19 @@ Place Problems::placeInside(Place place, std::string_view value, std::size_t byt
 }
 
 void Problems::addError(Place place, std::string message, std::string remedy) {
-    errors_.push_back({place, printable(std::move(message)), printable(std::move(remedy))});
+    errors_.push_back({place, printable(std::move(message)), printable(std::move(remedy)), subject_});
 }
 
 void Problems::addWarning(Place place, std::string message, std::string remedy) {
-    warnings_.push_back({place, printable(std::move(message)), printable(std::move(remedy))});
+    warnings_.push_back({place, printable(std::move(message)), printable(std::move(remedy)), subject_});
 }
 
 std::string Problems::errors() const {
     std::string all;
     std::size_t shown = 0;
-    for (const Problem& problem : sorted(errors_)) {
-        if (shown++ == maxShown) return all + fmt::format("\n… and {} more errors", errors_.size() - maxShown);
+    const std::vector<Problem> problems = sorted(errors_);
+    for (const Problem& problem : problems) {
+        if (shown++ == maxShown) return all + fmt::format("\n… and {} more errors", problems.size() - maxShown);
         all += (all.empty() ? "" : "\n") + print(problem, "error");
     }
     return all;
@@ -152,12 +147,27 @@ std::vector<std::string> Problems::warnings() const {
     return all;
 }
 
-std::vector<Problems::Problem> Problems::sorted(std::vector<Problem> problems) {
-    std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
-        const int first = order(a.place), second = order(b.place);
-        return std::tie(first, a.place.line, a.place.column) < std::tie(second, b.place.line, b.place.column);
-    });
-    return problems;
+std::vector<Problems::Problem> Problems::sorted(const std::vector<Problem>& problems) const {
+    // The file comes first, then those that it builds on, then the overrides.
+    const auto rank = [&](const Problem& problem) {
+        const int origin = problem.place.origin;
+        return std::tuple(origin <= 0 ? -origin : static_cast<int>(files_.size()) + origin, problem.place.line,
+                          problem.place.column);
+    };
+    std::vector<Problem> all = problems;
+    std::stable_sort(all.begin(), all.end(), [&](const Problem& a, const Problem& b) { return rank(a) < rank(b); });
+    std::vector<Problem> once;
+    std::size_t first = 0;  // of those at the same place
+    for (Problem& problem : all) {
+        if (first < once.size() && rank(once[first]) != rank(problem)) first = once.size();
+        const bool isSaid = std::any_of(
+            once.begin() + static_cast<std::ptrdiff_t>(first), once.end(), [&](const Problem& other) {
+                const bool isOfAnother = !other.subject.empty() && !problem.subject.empty();
+                return other.message == problem.message || (isOfAnother && other.subject != problem.subject);
+            });
+        if (!isSaid) once.push_back(std::move(problem));
+    }
+    return once;
 }
 
 std::string Problems::print(const Problem& problem, std::string_view severity) const {

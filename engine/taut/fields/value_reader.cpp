@@ -29,6 +29,10 @@ class ValueReader {
             case FieldKind::colour: return wrapped(colour(node));
             case FieldKind::segment: return segment(node);
             case FieldKind::texts: return texts(node);
+            case FieldKind::oneOrMoreTexts:
+                if (node.kind == NodeKind::text) return Value(std::vector<std::string>{node.text});
+                if (node.kind == NodeKind::list && node.items.empty()) return failKind(node);
+                return texts(node);
             case FieldKind::wholes: return wholes(node);
             case FieldKind::numbers: return anyNumbers(node);
             case FieldKind::table:

@@ -1,9 +1,8 @@
 #include "taut/island/private/cutting.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
-
-#include "taut/bodies/joints/constraint.h"
 
 namespace taut::world {
 namespace {
@@ -70,50 +69,38 @@ CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Bod
     CutEdges crossing;
     const IslandPlan& plan = island.plan();
     const bool isPlane = action.planePoint.has_value() && action.planeNormal.has_value();
+    const bool isAll = !isPlane && !action.from;
     std::vector<double> side(plan.points.size(), 0.0);
     std::vector<bool> isCut(plan.points.size(), false);
     for (Body* body : plan.bodies) {
         if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) continue;
-        if (!isPlane && (body->model.grid[0] == 0 || !action.from || !action.upTo)) continue;
-        const Knife knife = isPlane ? planeThrough(action, island, *body) : segmentOn(action, *body);
+        if (!isPlane && !isAll && (body->model.grid[0] == 0 || !action.from || !action.upTo)) continue;
+        const Knife knife = isPlane ? planeThrough(action, island, *body) : isAll ? Knife{} : segmentOn(action, *body);
         for (const auto& [a, b] : edgesOf(body->model)) {
             if (body->damage.isSevered(a, b)) continue;
-            if (const auto share = knife.crossing(a, b)) crossing.edges.push_back({body, a, b, *share});
+            const std::optional<double> share = isAll ? 0.5 : knife.crossing(a, b);
+            if (share) crossing.edges.push_back({body, a, b, *share});
         }
-        if (!isPlane) continue;
+        if (!isPlane && !isAll) continue;
         for (std::size_t i = 0; i < body->pointOf.size(); ++i) {
             const auto point = static_cast<std::size_t>(body->pointOf[i]);
             isCut[point] = true;
-            side[point] = knife.side[i];
+            if (isPlane) side[point] = knife.side[i];
         }
     }
-    for (std::size_t s = 0; s < plan.springs.size(); ++s) {
-        const auto a = static_cast<std::size_t>(plan.springs[s].a), b = static_cast<std::size_t>(plan.springs[s].b);
-        if (plan.origins[s].body >= 0 || plan.broken[s] || !isCut[a] || !isCut[b]) continue;
-        if ((side[a] >= 0) != (side[b] >= 0)) crossing.joints.push_back(static_cast<int>(s));
+    for (std::size_t t = 0; t < plan.ties.size(); ++t) {
+        const JointTie& tie = plan.ties[t];
+        if (tie.b < 0 || !holds(plan, tie)) continue;
+        const auto a = static_cast<std::size_t>(tie.a), b = static_cast<std::size_t>(tie.b);
+        if (isCut[a] && isCut[b] && (isAll || (side[a] >= 0) != (side[b] >= 0))) crossing.ties.push_back(t);
     }
-    const auto isAcross = [&](int a, int b) {
-        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-        return isCut[i] && isCut[j] && (side[i] >= 0) != (side[j] >= 0);
-    };
-    bool any = false;
-    for (const auto& constraint : plan.constraints) {
-        const std::shared_ptr<Constraint> cut = constraint->copy();
-        any = cut->sever(isAcross) || any;
-        crossing.constraints.push_back(cut);
-    }
-    if (!any) crossing.constraints.clear();
     return crossing;
 }
 
 void sever(const CutEdges& crossing, IslandPlan& plan) {
     for (const CutEdges::Edge& edge : crossing.edges) edge.body->damage.sever(edge.a, edge.b, edge.share);
     for (Body* body : plan.bodies) body->damage.assess(body->model);
-    for (int joint : crossing.joints) {
-        plan.broken[static_cast<std::size_t>(joint)] = true;
-        plan.springs[static_cast<std::size_t>(joint)].stiffness = 0;
-    }
-    if (!crossing.constraints.empty()) plan.constraints = crossing.constraints;
+    for (const std::size_t tie : crossing.ties) letGo(plan, tie);
     breakSevered(plan);
 }
 

@@ -141,6 +141,15 @@ class DynamicsOf final : public Dynamics {
     double strain(double t, const std::vector<bool>& only) override {
         return constraints_.isEmpty() ? 0.0 : constraints_.strain(t, only);
     }
+    void forgetImpulses() override {
+        if (!constraints_.isEmpty()) constraints_.forgetImpulses();
+    }
+    dvec3 impulse(const JointTie::Part& part) const override {
+        return constraints_.impulse(static_cast<std::size_t>(part.constraint), part.tie);
+    }
+    double turning(double t, double seconds) override {
+        return constraints_.isEmpty() ? 0.0 : constraints_.turning(t, seconds);
+    }
     void watchContacts(bool isOn) override { contacts_.watch(isOn); }
     ContactWork takeContactWork() override { return contacts_.takeWork(); }
     dvec3 gravity(double t) const override {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "taut/bodies/joints/constraint.h"
 #include "taut/bodies/private/ties.h"
 #include "taut/island/private/island_report.h"
 #include "taut/spec/private/motion.h"
@@ -127,6 +126,8 @@ void Island::beginTry() {
     if (frozen_) return;
     dynamics_->keep(Since::tick);
     before_ = now_;
+    dynamics_->forgetImpulses();
+    tieLoad_.begin(plan_);
     now_.contacts.clear();
     dynamics_->takeContactWork();  // of a try that others gave up
 }
@@ -163,7 +164,9 @@ TickVerdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault
     bool isTooLong = fault.has_value();
     double need = 2.0 * now_.following.substeps();
     if (!fault && choice_.need) {
-        need = (*choice_.need)(dynamics_->fastestNow());
+        mechanics::FastestNow fastest = dynamics_->fastestNow();
+        fastest.omega2 += dynamics_->turning(time.at(1, 1), tickSeconds_);
+        need = (*choice_.need)(fastest);
         isTooLong = now_.following.isExceededBy(need / now_.budget.factor);
     }
     // Where shorter steps have not helped, still shorter ones will not.
@@ -174,7 +177,9 @@ TickVerdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault
         now_.budget.add(work, tickSeconds_);
         return TickVerdict::stands;
     }
-    if (fault && (!fault->isNumber || ++tries_.rescues > mostRescues || need > mostSubsteps)) return TickVerdict::fails;
+    // Constraints that a step turns too far have no solution, rather than one that is too fast.
+    const bool isHopeless = fault && !fault->isNumber && plan_.constraints.empty();
+    if (fault && (isHopeless || ++tries_.rescues > mostRescues || need > mostSubsteps)) return TickVerdict::fails;
     if (!isTooLong) {
         now_.budget.factor *= 2;
         now_.budget.calmTicks = 0;
@@ -280,6 +285,7 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
             if (const auto fault = overstrained(end())) return fault;
         if (yielding_.isOn() && yielding_.giveWay(plan_, *dynamics_, forces_))
             isChanged_ = true;  // of steps that stand
+        if (tieLoad_.isOn()) tieLoad_.add(plan_, *dynamics_, end());
     }
     return std::nullopt;
 }
@@ -420,12 +426,15 @@ void Island::carry(const TickTime& time, const std::string& collider, const mech
         if (carrier.collider == collider) carrier.path = path;
 }
 
-void Island::release(const TickTime& time, const std::string& collider) {
+void Island::release(const TickTime& time, const std::function<bool(const JointTie&)>& wanted) {
     if (frozen_) return;
-    for (std::size_t c = 0; c < plan_.constraints.size(); ++c) {
-        std::shared_ptr<Constraint> constraint = plan_.constraints[c]->copy();
-        if (constraint->release(collider)) change(time, Change::shape).constraints[c] = std::move(constraint);
-    }
+    for (std::size_t t = 0; t < plan_.ties.size(); ++t)
+        if (wanted(plan_.ties[t]) && holds(plan_, plan_.ties[t])) letGo(change(time, Change::shape), t);
+}
+
+std::vector<bool> Island::overloaded() const {
+    return tieLoad_.isOn() && !frozen_ ? tieLoad_.overloaded(plan_, *dynamics_, tickSeconds_)
+                                      : std::vector<bool>(plan_.ties.size(), false);
 }
 
 void Island::setPath(std::size_t grip, const mechanics::PosePath& path) {

@@ -36,6 +36,11 @@ void addSprings(const IslandPlan& plan, std::span<const dvec3> x, const std::vec
         if (s.restLength > 0 && s.kind != mechanics::SpringKind::bend)
             metrics.maxStrain = std::max(metrics.maxStrain, std::abs(stretch) / s.restLength);
     }
+    // Of joints of other kinds.
+    for (const JointTie& tie : plan.ties)
+        if (tie.springs.empty() && only[static_cast<std::size_t>(tie.a)] &&
+            only[static_cast<std::size_t>(tie.b < 0 ? tie.a : tie.b)] && !holds(plan, tie))
+            ++metrics.brokenSprings;
 }
 
 void addCells(const Body& body, std::span<const dvec3> x, Metrics& metrics) {

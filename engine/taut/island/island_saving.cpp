@@ -15,9 +15,17 @@ constexpr std::uint64_t poseMark = 0xfff8'7461'7574'0003ULL;
 // Before the largest forces of a grip; neither that nor such a length.
 constexpr std::uint64_t mostForceMark = 0xfff8'7461'7574'0006ULL;
 
-void visitPart(StateBytes& bytes, Grip& grip, std::size_t pointCount) {
+// Before the number of the tie of a grip that is of a tie alone; neither that nor such a length.
+constexpr std::uint64_t tieMark = 0xfff8'7461'7574'0005ULL;
+
+void visitPart(StateBytes& bytes, Grip& grip, const IslandPlan& plan) {
+    const std::size_t pointCount = plan.points.size();
     mechanics::PosePath& path = grip.path;
     if (bytes.mark(mostForceMark, !grip.mostForce.empty())) bytes.list(grip.mostForce);
+    if (bytes.mark(tieMark, grip.tie >= 0)) {
+        bytes(grip.tie);
+        bytes.require(grip.tie >= 0 && grip.tie < static_cast<int>(plan.ties.size()));
+    }
     if (bytes.mark(poseMark, grip.ofCollider || path.isTurned())) {
         bytes(grip.ofCollider);
         for (glm::dquat* rotation : {&path.from, &path.to}) bytes(*rotation);
@@ -112,7 +120,7 @@ void Island::visitPlan(StateBytes& bytes) {
         bytes(point.held);
     }
     for (Body* body : plan_.bodies) visitPart(bytes, *body);
-    bytes.each(plan_.grips, [&](Grip& grip) { visitPart(bytes, grip, plan_.points.size()); });
+    bytes.each(plan_.grips, [&](Grip& grip) { visitPart(bytes, grip, plan_); });
     std::vector<bool> isLed(plan_.points.size(), false);
     for (const Grip& grip : plan_.grips) {
         if (!grip.rigid) continue;

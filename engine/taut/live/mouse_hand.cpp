@@ -42,7 +42,7 @@ void MouseHand::grab(std::string target, double radius, double strength, double 
     grab.radius = rounded(radius, placeDecimals);
     grab.strength = strength;
     grab.dampingRatio = dampingRatio;
-    grab.maxForce = maxForce > 0.0 ? std::max(rounded(maxForce, forceDecimals), leastForce) : 0.0;
+    if (maxForce > 0.0) grab.maxForce = std::max(rounded(maxForce, forceDecimals), leastForce);
     grab_ = std::move(grab);
     goal_.reset();
     last_ = roundedPlace(place);

@@ -96,54 +96,7 @@ std::string claimsText(const Recording& recording) {
     return text + "]\n";
 }
 
-std::string keyText(const std::string& key) {
-    const bool isBare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
-        return (c < 128 && std::isalnum(c) != 0) || c == '-' || c == '_';
-    });
-    return isBare ? key : quoted(key);
-}
-
-std::string valueText(const scene::Node& node) {
-    using Kind = scene::NodeKind;
-    if (node.kind == Kind::flag) return node.flag ? "true" : "false";
-    if (node.kind == Kind::whole) return fmt::format("{}", node.whole);
-    if (node.kind == Kind::number) return fmt::format("{}", node.number);
-    if (node.kind == Kind::text || node.kind == Kind::time) return quoted(node.text);
-    std::string text;
-    if (node.kind == Kind::list) {
-        for (const scene::Node& item : node.items) text += (text.empty() ? "" : ", ") + valueText(item);
-        return "[" + text + "]";
-    }
-    for (const scene::Member& member : node.members)
-        text += (text.empty() ? "" : ", ") + keyText(member.key) + " = " + valueText(member.value);
-    return "{" + text + "}";
-}
-
-void addChanges(const scene::Node& table, const std::string& before, std::vector<std::string>& changes) {
-    for (const scene::Member& member : table.members) {
-        const std::string key = before + keyText(member.key);
-        if (member.value.kind == scene::NodeKind::table && !member.value.members.empty())
-            addChanges(member.value, key + ".", changes);
-        else
-            changes.push_back(key + "=" + valueText(member.value));
-    }
-}
-
 }  // namespace
-
-ScenarioParts partsOf(const std::string& scenario) {
-    ScenarioParts parts;
-    scene::Node root = scene::documentTree(scenario, 0);
-    if (const scene::Member* scene = root.find("scene"); scene != nullptr) parts.scene = scene->value.text;
-    if (parts.scene.empty()) return parts;
-    std::erase_if(root.members, [](const scene::Member& member) {
-        for (const char* left : {"schema", "scene", "at", "check", "golden"})
-            if (member.key == left) return true;
-        return false;
-    });
-    addChanges(root, "", parts.changes);
-    return parts;
-}
 
 std::string actionText(const world::ActionSpec& action, double t, const world::KindTable<world::ActionSpec>& kinds) {
     const auto* kind = kinds.find(action.kind());
@@ -167,7 +120,8 @@ std::string overrideLine(const std::string& text) {
     const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
     for (std::size_t begin = 0; begin <= key.size();) {
         const std::size_t end = std::min(key.find('.', begin), key.size());
-        if (key.substr(begin, end - begin).find_first_not_of("0123456789") == std::string::npos) return "";
+        const std::string part = key.substr(begin, end - begin);
+        if (part.find_first_not_of("0123456789") == std::string::npos || part.find('*') != std::string::npos) return "";
         begin = end + 1;
     }
     const std::string line =

@@ -14,7 +14,7 @@
 namespace taut::live {
 
 struct Recording {
-    std::string scene;                   // as the file names it: a path beside it, or a shipped scene
+    std::string scene;                   // that was played, as the file names it: a path beside it, or a shipped one
     std::vector<std::string> overrides;  // "solver.dt=1e-4": what was changed besides
     world::RunSpec run;
     double ticksPerSecond = 60.0;
@@ -38,16 +38,7 @@ std::string scenarioText(const Recording& recording);
 // core::Error(badContent) for an action of a kind that is not in the table.
 std::string actionText(const world::ActionSpec& action, double t, const world::KindTable<world::ActionSpec>& kinds);
 
-// What a scenario file changes of the scene that it names, without its timeline, checks and goldens. A recording of the
-// scenario names that scene too, because a file cannot build on one that builds on another.
-struct ScenarioParts {
-    std::string scene;                 // empty: the text is a scene of its own
-    std::vector<std::string> changes;  // "solver.dt=1e-4", …
-};
-// Throws scene::SyntaxError.
-ScenarioParts partsOf(const std::string& scenario);
-
-// "solver.dt = 1e-4" for "solver.dt=1e-4", a plain word in quotes; empty for an element of a list.
+// "solver.dt = 1e-4" for "solver.dt=1e-4", a plain word in quotes; empty for an element of a list and for a key with a *.
 std::string overrideLine(const std::string& text);
 
 }  // namespace taut::live

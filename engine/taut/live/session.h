@@ -54,7 +54,7 @@ class Session {
     std::vector<BodyPoints> bodies(bool withHeld = false) const;
     // [N] that a hand in a window pulls this body with at most, so that it slips from what it cannot move instead of
     // stretching it: `weights` times the weight on earth of the free points of all that hangs together with it.
-    static constexpr double weights = 3.0;
+    static constexpr double weights = 2.0;
     double handForce(const std::string& body) const;
 
     // After a divergence, why nothing moves any more.

@@ -24,6 +24,9 @@ struct RopeShape {
     // Places that the rope passes on its way from start to end, along a smooth curve. It is then neither slack nor
     // stretched, and `length` is not used.
     std::vector<glm::dvec3> through{};
+    // Its last segment leads back to the first point: a level ring whose diameter goes from start to end, or through
+    // those places, from end on to start; `length` is not looked at either.
+    bool isClosed = false;
     double mass = 1.0;         // whole rope [kg]
     double stretch = 1e4;      // EA [N]
     double bend = 0.0;         // EA of the span-2 springs [N]
@@ -32,7 +35,8 @@ struct RopeShape {
     double dragRate = 0.0;     // γ/m [1/s]
     Lumping lumping = Lumping::weighted;
 };
-// Points from start to end. Groups: start, end, ends, all. Expects segments >= 1 and mass > 0; throws
+// Points from start to end; of a ring round to the one before start, which lies nearest to end in the middle. Groups:
+// start, end, ends, all. Expects segments >= 1, of a ring >= 3, and mass > 0; throws
 // core::Error(badContent) when there is neither a length nor a distance.
 Model buildRope(const RopeShape& shape);
 std::vector<std::string> ropeGroups();  // besides all, as the others

@@ -94,18 +94,22 @@ void bendArc(const RopeShape& shape, double distance, double link, std::vector<d
 }
 
 // The way through given places, finely divided: Catmull and Rom's cubics, which leave each place in the direction from
-// the one before to the one behind it.
+// the one before to the one behind it. A ring goes on from its end to its start.
 std::vector<dvec3> smoothWay(const RopeShape& shape) {
     constexpr int parts = 64;
     std::vector<dvec3> places{shape.start};
     places.insert(places.end(), shape.through.begin(), shape.through.end());
     places.push_back(shape.end);
+    if (shape.isClosed) places.push_back(shape.start);
     const auto last = places.size() - 1;
+    const dvec3 beforeFirst = shape.isClosed ? places[last - 1] : places[0], afterLast = places[1];
     std::vector<dvec3> way{shape.start};
     for (std::size_t i = 0; i < last; ++i) {
         const dvec3 a = places[i], b = places[i + 1];
-        const dvec3 leaving = i > 0 ? 0.5 * (b - places[i - 1]) : b - a;
-        const dvec3 arriving = i + 1 < last ? 0.5 * (places[i + 2] - a) : b - a;
+        const dvec3 leaving = i > 0 ? 0.5 * (b - places[i - 1]) : shape.isClosed ? 0.5 * (b - beforeFirst) : b - a;
+        const dvec3 arriving = i + 1 < last     ? 0.5 * (places[i + 2] - a)
+                               : shape.isClosed ? 0.5 * (afterLast - a)
+                                                : b - a;
         for (int k = 1; k <= parts; ++k) {
             const double t = static_cast<double>(k) / parts, r = 1.0 - t;
             way.push_back(r * r * (1.0 + 2.0 * t) * a + t * t * (1.0 + 2.0 * r) * b +
@@ -165,10 +169,67 @@ void placePoints(const RopeShape& shape, double distance, double length, std::ve
     }
 }
 
+// A level ring around the middle between start and end, upright if they lie one above the other. Returns the length of
+// a link.
+double layRing(const RopeShape& shape, std::vector<dvec3>& positions) {
+    const dvec3 arm = 0.5 * (shape.end - shape.start), centre = shape.start + arm;
+    const double radius = glm::length(arm);
+    const dvec3 level = glm::cross(arm, dvec3(0, 1, 0));
+    const dvec3 side = radius * (glm::length(level) > 1e-9 * radius ? glm::normalize(level) : dvec3(1, 0, 0));
+    const auto count = static_cast<double>(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const double angle = 2.0 * core::pi * static_cast<double>(i) / count;
+        positions[i] = centre - core::cosine(angle) * arm + core::sine(angle) * side;
+    }
+    return 2.0 * radius * core::sine(core::pi / count);
+}
+
+// Laid through its places, all the way round.
+double layLoop(const RopeShape& shape, std::vector<dvec3>& positions) {
+    std::vector<dvec3> round(positions.size() + 1);
+    const double link = layAlong(smoothWay(shape), round);
+    std::copy(round.begin(), round.end() - 1, positions.begin());
+    return link;
+}
+
+// As of a rope with ends, but that every point has two neighbours.
+Model buildRing(const RopeShape& shape) {
+    TAUT_EXPECTS(shape.segments >= 3 && shape.mass > 0.0);
+    const int n = shape.segments;
+    if (shape.start == shape.end && shape.through.empty())
+        throw core::Error(core::ErrorKind::badContent, "a closed rope needs two distinct ends");
+    Model model;
+    detail::addRestingPoints(model, n, shape.dragRate);
+    const double link = shape.through.empty() ? layRing(shape, model.positions) : layLoop(shape, model.positions);
+    int far = 0;
+    for (int i = 0; i < n; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        model.positions[at] = detail::withoutNegativeZero(model.positions[at]);
+        model.masses[at] = shape.mass / n;
+        model.uv[at] = {link * i, 0.0};
+        const auto distance = [&](int point) {
+            return glm::length(model.positions[static_cast<std::size_t>(point)] - shape.end);
+        };
+        if (distance(i) < distance(far)) far = i;
+    }
+    for (int i = 0; i < n; ++i)
+        model.springs.push_back(
+            {i, (i + 1) % n, shape.stretch / link, link, shape.dampingTime, SpringKind::structural});
+    if (shape.bend > 0.0 && n > 4)
+        for (int i = 0; i < n; ++i)
+            model.springs.push_back(
+                {i, (i + 2) % n, shape.bend / (2.0 * link), 2.0 * link, shape.dampingTime, SpringKind::bend});
+    model.groups["start"] = {0};
+    model.groups["end"] = {far};
+    model.groups["ends"] = {0, far};
+    return model;
+}
+
 }  // namespace
 
 // k = EA/ℓ: a link of length ℓ under the tension EA ε grows by ε ℓ. A span-2 spring is a link of length 2ℓ.
 Model buildRope(const RopeShape& shape) {
+    if (shape.isClosed) return buildRing(shape);
     TAUT_EXPECTS(shape.segments >= 1 && shape.mass > 0.0 && shape.length >= 0.0);
     const int n = shape.segments;
     const double distance = glm::length(shape.end - shape.start);

@@ -13,7 +13,19 @@
 namespace taut::regression {
 namespace {
 
-std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder) {
+[[noreturn]] void refuse(const world::SceneSpec& spec, const world::Source& source, const std::string& what) {
+    throw core::Error(core::ErrorKind::badContent, source.line > 0 ? fmt::format("{}:{}:{}: error: {}", source.file,
+                                                                                 source.line, source.column, what)
+                                                                   : fmt::format("{}: {}", spec.file, what));
+}
+
+}  // namespace
+
+std::string GoldenRequest::key() const {
+    return fmt::format("{:06}{}{}", frame, camera.empty() ? "" : "-" + camera, debug ? "-debug" : "");
+}
+
+std::vector<std::filesystem::path> scenarioFilesIn(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
     std::error_code error;
     for (auto entry = std::filesystem::directory_iterator(folder, error);
@@ -29,24 +41,12 @@ std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder) 
     return files;
 }
 
-[[noreturn]] void refuse(const world::SceneSpec& spec, const world::Source& source, const std::string& what) {
-    throw core::Error(core::ErrorKind::badContent, source.line > 0 ? fmt::format("{}:{}:{}: error: {}", source.file,
-                                                                                 source.line, source.column, what)
-                                                                   : fmt::format("{}: {}", spec.file, what));
-}
-
-}  // namespace
-
-std::string GoldenRequest::key() const {
-    return fmt::format("{:06}{}{}", frame, camera.empty() ? "" : "-" + camera, debug ? "-debug" : "");
-}
-
 std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesystem::path>& named) {
     std::vector<std::filesystem::path> files;
     for (const std::filesystem::path& path : named) {
         std::error_code error;
         if (std::filesystem::is_directory(path, error)) {
-            const std::vector<std::filesystem::path> inside = filesIn(path);
+            const std::vector<std::filesystem::path> inside = scenarioFilesIn(path);
             files.insert(files.end(), inside.begin(), inside.end());
         } else if (!std::filesystem::exists(path, error)) {
             throw core::Error(core::ErrorKind::inputOutput,

@@ -31,6 +31,9 @@ struct Scenario {
     std::vector<std::string> warnings;   // of the loader
 };
 
+// All "*.toml" in a folder, by name. Throws core::Error(inputOutput) for a folder without any.
+std::vector<std::filesystem::path> scenarioFilesIn(const std::filesystem::path& folder);
+
 // The scenario files named: of a folder all "*.toml" in it, by name. Throws core::Error: inputOutput for what is not
 // there or a folder without any, usage when two have the same name.
 std::vector<std::filesystem::path> scenarioFiles(const std::vector<std::filesystem::path>& named);

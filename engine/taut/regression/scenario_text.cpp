@@ -7,10 +7,11 @@ namespace taut::regression {
 
 std::string scenarioText(const Scenario& scenario) {
     std::string text = core::fileContent(scenario.file);
-    if (scenario.spec.base.empty()) return text;
-    if (!text.ends_with('\n')) text += '\n';
-    const std::filesystem::path base = scenario.spec.base;
-    return text + "\n# " + base.filename().string() + ", which it builds on\n" + core::fileContent(base);
+    for (const std::filesystem::path base : scenario.spec.bases) {
+        if (!text.ends_with('\n')) text += '\n';
+        text += "\n# " + base.filename().string() + ", which it builds on\n" + core::fileContent(base);
+    }
+    return text;
 }
 
 std::vector<report::TextChange> changedText(const Scenario& scenario, const GoldenFolder& folder) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <system_error>
@@ -60,6 +61,17 @@ std::string faultOf(const NameReference& reference, const LoadOptions& options, 
     return "";
 }
 
+// Where a file that is named there lies: beside the file that names it, else beside the scene and what it builds on.
+std::vector<path> foldersFor(Place place, const world::SceneSpec& spec) {
+    std::vector<path> folders{path(spec.file).parent_path()};
+    for (const std::string& base : spec.bases) folders.push_back(path(base).parent_path());
+    if (place.origin < 0) folders.insert(folders.begin(), folders[static_cast<std::size_t>(-place.origin)]);
+    std::vector<path> once;
+    for (const path& folder : folders)
+        if (std::find(once.begin(), once.end(), folder) == once.end()) once.push_back(folder);
+    return once;
+}
+
 // Puts what was found in the place of its names.
 void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
     for (world::BodySpec& body : scene.spec.bodies) {
@@ -77,15 +89,17 @@ void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, P
     }
     for (world::ColliderSpec& collider : scene.spec.colliders) {
         setMesh(collider, meshes);
-        for (world::ColliderSpec& part : collider.parts) setMesh(part, meshes);
+        for (world::ColliderSpec& part : collider.parts) {
+            setMesh(part, meshes);
+            if (part.ownFinish) setTexture(part.ownFinish->texture, textures);
+        }
         setTexture(collider.finish.texture, textures);
     }
 }
 
 }  // namespace
 
-void loadAssets(const path& sceneFolder, const path& baseFolder, const LoadOptions& options,
-                const Confinement& confinement, ReadScene& scene, Problems& problems) {
+void loadAssets(const LoadOptions& options, const Confinement& confinement, ReadScene& scene, Problems& problems) {
     Assets meshes, textures, environments;
     for (const NameReference& reference : scene.references) {
         Assets* of = nullptr;
@@ -95,12 +109,11 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const LoadOptio
         if (of == nullptr) continue;
         Assets& assets = *of;
         if (assets.contains(reference.text)) continue;
+        problems.about(reference.owner);
 
         Asset asset;
         std::vector<std::string> searched;
-        std::vector<path> folders{sceneFolder};
-        if (!scene.spec.base.empty() && baseFolder != sceneFolder)
-            folders.insert(reference.place.origin < 0 ? folders.begin() : folders.end(), baseFolder);
+        const std::vector<path> folders = foldersFor(reference.place, scene.spec);
         for (const path& place : placesFor(reference.text, folders, options.assetFolders)) {
             std::error_code code;
             searched.push_back(place.string());
@@ -125,6 +138,7 @@ void loadAssets(const path& sceneFolder, const path& baseFolder, const LoadOptio
         }
         assets.emplace(reference.text, asset);
     }
+    problems.about("");
 
     setTexture(scene.spec.environment.image, environments);
     useAssets(meshes, textures, scene, problems);

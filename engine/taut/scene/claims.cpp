@@ -8,6 +8,7 @@
 #include "taut/check/check.h"
 #include "taut/check/private/function_table.h"
 #include "taut/scene/private/body_index.h"
+#include "taut/scene/private/references.h"
 #include "taut/scene/private/timeline.h"
 #include "taut/spec/actions.h"
 #include "taut/spec/ticks.h"
@@ -58,6 +59,11 @@ class Claims {
 
     void checkMention(const world::CheckSpec& spec, const Node& that, const check::Mention& mention) {
         const Place place = problems_.placeInside(that.place, that.text, mention.at);
+        if (mention.isJoint) {
+            if (const auto fault = nameFault(scene_.spec, mention.target))
+                problems_.addError(place, fault->message, fault->remedy);
+            return;
+        }
         const auto fault = mention.hasPoints ? bodies_.targetFault(mention.target) : bodies_.bodyFault(mention.target);
         if (fault) return problems_.addError(place, fault->message, fault->remedy);
         if (!mention.against.empty())

@@ -85,7 +85,10 @@ Section partSection(const collision::ShapeKinds& shapes) {
     Section section;
     section.variant = shapeOf;
     section.variantKey = "shape";
-    section.fields = shapeFields(shapes, In::compound).take();
+    section.fields = shapeFields(shapes, In::compound)
+                         .table("finish", &ColliderSpec::ownFinish, finishSection(),
+                                "How it looks; as the compound if not given.")
+                         .take();
     return section;
 }
 
@@ -134,14 +137,17 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
     SceneSection section;
     section.name = "joint";
     section.layout = Layout::list;
-    section.help = "Ties points of a body to points of another, or to a collider that carries them.";
+    section.help = "Ties points of bodies to each other, or to a collider that carries them.";
     section.variant = [kinds](const Node& table) -> std::string {
         const Member* kind = table.find("kind");
         const Kind<JointSpec>* row = kind != nullptr ? kinds.find(kind->value.text) : nullptr;
         const std::vector<std::string> variants = variantsOf(row != nullptr ? *row : kinds.all().front());
         const auto isOn = [&](const char* key) {
             const Member* side = table.find(key);
-            return side != nullptr && isCollider(side->value.text);
+            return side != nullptr &&
+                   (isCollider(side->value.text) ||
+                    std::any_of(side->value.items.begin(), side->value.items.end(),
+                                [](const Node& item) { return isCollider(item.text); }));
         };
         return isOn("a") || isOn("b") ? variants.back() : variants.front();
     };

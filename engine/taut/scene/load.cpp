@@ -10,6 +10,7 @@
 #include "taut/scene/private/body_size.h"
 #include "taut/scene/private/claims.h"
 #include "taut/scene/private/document.h"
+#include "taut/scene/private/inheritance.h"
 #include "taut/scene/private/merge.h"
 #include "taut/scene/private/overrides.h"
 #include "taut/scene/private/references.h"
@@ -117,22 +118,28 @@ Confinement confinementOf(const std::string& fileName, const LoadOptions& option
     return confinement;
 }
 
-// Lays the document over the scene that it names, if it names one, and says which.
-std::filesystem::path layOnBase(Node& root, const std::string& fileName, const LoadOptions& options,
-                                Problems& problems) {
-    BaseFile base =
-        baseFileOf(root, fileName, options.assetFolders, confinementOf(fileName, options), maxSceneSize, problems);
-    throwIfAny(problems);
-    if (base.path.empty()) return {};
-    problems.setBase(base.text, base.path.string());
-    Node below = treeOf(base.text, -1, problems);
-    if (const Member* scene = below.find("scene")) {
-        problems.addError(scene->place, "a scene that another builds on must not build on a third",
-                          "name that one in the first file");
+// Lays the document over the scene that it names, and that over the one that it names, and says which, the nearest
+// first.
+std::vector<std::string> layOnBases(Node& root, const std::string& fileName, const LoadOptions& options,
+                                    Problems& problems) {
+    std::vector<std::filesystem::path> chain{fileName};
+    std::vector<Node> trees;
+    std::vector<std::string> bases;
+    while (true) {
+        BaseFile base = baseFileOf(trees.empty() ? root : trees.back(), chain, options.assetFolders,
+                                   confinementOf(fileName, options), maxSceneSize, problems);
         throwIfAny(problems);
+        if (base.path.empty()) break;
+        chain.push_back(base.path);
+        bases.push_back(base.path.string());
+        trees.push_back(treeOf(base.text, problems.addBase(base.text, base.path.string()), problems));
     }
-    root = merged(std::move(below), root);
-    return base.path;
+    if (trees.empty()) return {};
+    // From the lowest up, as each was meant for what lies below it.
+    Node sum = std::move(trees.back());
+    for (auto over = trees.rbegin() + 1; over != trees.rend(); ++over) sum = merged(std::move(sum), *over);
+    root = merged(std::move(sum), root);
+    return bases;
 }
 
 }  // namespace
@@ -150,16 +157,16 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
     const world::Kinds kinds = options.kinds ? *options.kinds : world::builtIn();
 
     Node root = treeOf(text, 0, problems);
-    const std::filesystem::path base = layOnBase(root, fileName, options, problems);
+    std::vector<std::string> bases = layOnBases(root, fileName, options, problems);
     const std::vector<SceneSection> sections = sceneSections(kinds);
     for (std::size_t i = 0; i < options.overrides.size(); ++i)
         applyOverride(options.overrides[i], static_cast<int>(i) + 1, sections, root, problems);
     if (const Member* member = root.find("scene"); member != nullptr && member->value.place.origin > 0)
         problems.addError(member->value.place, "the scene that a file builds on cannot be set");
+    inherit(sections, root, problems);
     ReadScene scene = readScene(root, sections, fileName, problems);
-    scene.spec.base = base.string();
-    loadAssets(std::filesystem::path(fileName).parent_path(), base.parent_path(), options,
-               confinementOf(fileName, options), scene, problems);
+    scene.spec.bases = std::move(bases);
+    loadAssets(options, confinementOf(fileName, options), scene, problems);
     const BodyIndex bodies(scene.spec, kinds, scene.faulty);
     checkReferences(scene, bodies, problems);
     checkTimeline(root, sections, bodies, scene, problems);
@@ -184,6 +191,12 @@ std::string targetFault(const world::SceneSpec& scene, const std::string& target
     const BodyIndex bodies(scene, world::builtIn(), {});
     auto fault = mayHavePoints ? bodies.targetFault(target) : bodies.bodyFault(target);
     if (!fault && !against.empty()) fault = bodies.betweenFault(against, target);
+    if (!fault) return {};
+    return fault->message + (fault->remedy.empty() ? "" : "; " + fault->remedy);
+}
+
+std::string jointFault(const world::SceneSpec& scene, const std::string& name) {
+    const auto fault = nameFault(scene, name);
     if (!fault) return {};
     return fault->message + (fault->remedy.empty() ? "" : "; " + fault->remedy);
 }

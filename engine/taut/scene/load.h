@@ -51,6 +51,9 @@ Loaded loadSceneText(std::string_view text, const std::string& fileName, const L
 std::string targetFault(const world::SceneSpec& scene, const std::string& target, bool mayHavePoints,
                         const std::string& against = {});
 
+// Why no joint of the scene has the name; empty if one has.
+std::string jointFault(const world::SceneSpec& scene, const std::string& name);
+
 // The format as a JSON schema (draft 2020-12), for editors.
 std::string jsonSchema(const world::Kinds& kinds = world::builtIn());
 

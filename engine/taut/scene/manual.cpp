@@ -45,9 +45,11 @@ std::string manual(const world::Kinds& kinds) {
         const std::string title = section.name.empty()              ? "the file"
                                   : section.layout == Layout::named ? fmt::format("[{}.NAME]", section.name)
                                   : section.layout == Layout::list  ? fmt::format("[[{}]]", section.name)
+                                  : section.name == "defaults"      ? "[defaults.SECTION]"
                                                                     : fmt::format("[{}]", section.name);
         out += fmt::format("\n{}\n  {}\n\n", title, section.help);
-        writeFields(section, section.enter(scene, "name", {}), "  ", out);
+        if (section.name != "defaults")  // they are the keys of the sections above
+            writeFields(section, section.enter(scene, "name", {}), "  ", out);
     }
     out +=
         "\nTargets\n"

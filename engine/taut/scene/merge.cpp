@@ -20,6 +20,17 @@ bool isSame(const path& a, const path& b) {
     return std::filesystem::equivalent(a, b, ignored);
 }
 
+bool isAmong(const path& file, const std::vector<path>& files) {
+    return std::any_of(files.begin(), files.end(), [&](const path& other) { return isSame(file, other); });
+}
+
+// "a.toml -> b.toml -> c.toml": each builds on the next.
+std::string text(const std::vector<path>& chain, const path& last) {
+    std::string all;
+    for (const path& file : chain) all += file.string() + " -> ";
+    return all + last.string();
+}
+
 bool isFile(const path& file) {
     std::error_code ignored;
     return std::filesystem::is_regular_file(file, ignored);
@@ -57,11 +68,17 @@ Node merged(Node base, const Node& over) {
     return base;
 }
 
-BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<path>& assetFolders,
+BaseFile baseFileOf(const Node& root, const std::vector<path>& chain, const std::vector<path>& assetFolders,
                     const Confinement& confinement, std::uint64_t maxBytes, Problems& problems) {
     const Member* member = root.find("scene");
-    if (member == nullptr || member->value.kind != NodeKind::text) return {};  // a wrong type is reported by the reader
+    if (member == nullptr) return {};
     const Node& value = member->value;
+    const path& sceneFile = chain.back();
+    if (value.kind != NodeKind::text) {  // in the first file a wrong type is reported by the reader
+        if (chain.size() > 1)
+            problems.addError(value.place, fmt::format("scene must be a text, not {}", description(value)));
+        return {};
+    }
     const bool isControlFree =
         std::all_of(value.text.begin(), value.text.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7F; });
     if (value.text.empty() || !isControlFree) {
@@ -71,7 +88,10 @@ BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<p
     const auto [name, isShipped] = nameOfBase(value.text);
     std::vector<path> folders;
     if (!isShipped) folders.push_back(sceneFile.parent_path());
-    for (const path& folder : assetFolders) folders.push_back(folder / "scenes");
+    for (const path& folder : assetFolders) {
+        folders.push_back(folder / "scenes");
+        if (name.find('/') != std::string::npos && isShipped) folders.push_back(folder);
+    }
 
     const std::string fileName = name.ends_with(".toml") ? name : name + ".toml";
     bool namesItself = false;
@@ -81,6 +101,13 @@ BaseFile baseFileOf(const Node& root, const path& sceneFile, const std::vector<p
         searched.push_back(file.string());
         if (isFile(file) && isSame(file, sceneFile)) {
             namesItself = true;
+        } else if (isFile(file) && isAmong(file, chain)) {
+            problems.addError(value.place, fmt::format("these scenes build on each other: {}", text(chain, file)));
+            return {};
+        } else if (isFile(file) && chain.size() > mostBases) {
+            problems.addError(value.place, fmt::format("a scene builds on {} others at most, one upon another: {}",
+                                                       mostBases, text(chain, file)));
+            return {};
         } else if (isFile(file) && !confinement.allows(file)) {
             problems.addError(value.place, outsideMessage(file));
             return {};

@@ -7,7 +7,9 @@
 #include <string_view>
 
 #include "taut/core/error.h"
+#include "taut/core/glob.h"
 #include "taut/scene/private/document.h"
+#include "taut/scene/private/inheritance.h"
 
 namespace taut::scene {
 
@@ -64,16 +66,104 @@ std::vector<std::string> keysOf(const Node& table) {
     return keys;
 }
 
-// The element of a list that a part of a key names.
-Node* itemOf(Node& list, const std::string& part, const std::string& path, Place place, Problems& problems) {
-    const bool isIndex = !part.empty() && part.size() < 9 && part.find_first_not_of("0123456789") == std::string::npos;
-    const std::size_t index = isIndex ? static_cast<std::size_t>(std::stoul(part)) : list.items.size();
-    if (index < list.items.size()) return &list.items[index];
-    const std::string remedy =
-        list.items.empty() ? "the list is empty" : fmt::format("write {}.0 … {}.{}", path, path, list.items.size() - 1);
-    problems.addError(place, fmt::format("{} has no element \"{}\"", path, part), remedy);
-    return nullptr;
-}
+// Puts one value where a key leads.
+class Override {
+  public:
+    Override(std::vector<std::string> parts, const Node& value, Place place, const std::vector<SceneSection>& sections,
+             Node& root, Problems& problems)
+        : parts_(std::move(parts)),
+          value_(value),
+          place_(place),
+          sections_(sections),
+          root_(root),
+          problems_(problems) {
+        const auto section = std::find_if(sections.begin(), sections.end(), [&](const Section& s) {
+            return !s.name.empty() && s.name == parts_.front();
+        });
+        if (section != sections.end()) section_ = &*section;
+    }
+
+    void apply() { setIn(root_, 0, ""); }
+
+  private:
+    // Below a node that the first `depth` parts of the key lead to, `path`.
+    void setIn(Node& node, std::size_t depth, const std::string& path) {
+        if (depth == parts_.size()) {
+            node = value_;
+        } else if (node.kind == NodeKind::list) {
+            setInList(node, depth, path);
+        } else if (node.kind == NodeKind::table) {
+            setInTable(node, depth, path);
+        } else {
+            report(fmt::format("{} is {}: it has no \"{}\"", path, description(node), parts_[depth]));
+        }
+    }
+
+    void setInList(Node& list, std::size_t depth, const std::string& path) {
+        const std::string& part = parts_[depth];
+        bool isThere = false;
+        for (std::size_t i = 0; i < list.items.size(); ++i) {
+            const std::string number = std::to_string(i);
+            if (!core::matches(part, number)) continue;
+            isThere = true;
+            setIn(list.items[i], depth + 1, path + "." + number);
+        }
+        if (isThere) return;
+        report(fmt::format("{} has no element \"{}\"", path, part),
+               list.items.empty() ? "the list is empty"
+                                  : fmt::format("write {}.0 … {}.{}", path, path, list.items.size() - 1));
+    }
+
+    void setInTable(Node& table, std::size_t depth, const std::string& path) {
+        const std::string& part = parts_[depth];
+        const bool isNameOfElement = depth == 1 && section_ != nullptr && section_->layout == Layout::named;
+        bool isThere = false;
+        for (Member& member : table.members) {
+            if (isNameOfElement ? !core::matches(part, member.key) : part != member.key) continue;
+            isThere = true;
+            setMember(member, depth, path);
+        }
+        if (isThere) return;
+        if (depth == 0 && section_ != nullptr && section_->layout == Layout::list)
+            return report(fmt::format("the scene has no [[{}]]", part));
+        // A new body, collider, … cannot be made of one value: this is a slip.
+        if (isNameOfElement)
+            return report(fmt::format("there is no {} \"{}\"", section_->name, part), suggestion(part, keysOf(table)));
+        Member fresh{part, place_, Node{}};
+        fresh.value.place = place_;
+        if (depth == 2 && depth + 1 < parts_.size()) takeList(path, fresh);
+        table.members.push_back(std::move(fresh));
+        setMember(table.members.back(), depth, path);
+    }
+
+    void setMember(Member& member, std::size_t depth, const std::string& path) {
+        if (depth + 1 == parts_.size()) member.place = place_;
+        setIn(member.value, depth + 1, path + (path.empty() ? "" : ".") + member.key);
+    }
+
+    // A list that an element has from others, so that one of its own elements can be set.
+    void takeList(const std::string& path, Member& fresh) const {
+        if (section_ == nullptr || section_->layout != Layout::named) return;
+        Node whole = root_;
+        Problems unheard("", "", {});
+        inherit(sections_, whole, unheard);
+        const Member* element = whole.find(section_->name)->value.find(path.substr(section_->name.size() + 1));
+        const Member* taken = element->value.find(fresh.key);
+        if (taken != nullptr && taken->value.kind == NodeKind::list) fresh.value = taken->value;
+    }
+
+    void report(const std::string& message, const std::string& remedy = "") {
+        problems_.addError(place_, message, remedy);
+    }
+
+    const std::vector<std::string> parts_;
+    const Node& value_;
+    const Place place_;
+    const std::vector<SceneSection>& sections_;
+    Node& root_;
+    Problems& problems_;
+    const SceneSection* section_ = nullptr;  // null: the key leads into none
+};
 
 }  // namespace
 
@@ -98,41 +188,7 @@ void applyOverride(const std::string& text, int origin, const std::vector<SceneS
     if (!value) return;
     if (parts.size() > maxParts) return problems.addError(place, "this key has too many parts");
 
-    const auto section = std::find_if(sections.begin(), sections.end(),
-                                      [&](const Section& s) { return !s.name.empty() && s.name == parts.front(); });
-    Node* node = &root;
-    std::string path;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::string& part = parts[i];
-        const bool isLast = i + 1 == parts.size();
-        if (node->kind == NodeKind::list) {
-            node = itemOf(*node, part, path, place, problems);
-            if (node == nullptr) return;
-            if (isLast) *node = *value;
-        } else if (node->kind == NodeKind::table) {
-            Member* member = node->find(part);
-            if (member == nullptr && i == 0 && section != sections.end() && section->layout == Layout::list)
-                return problems.addError(place, fmt::format("the scene has no [[{}]]", part));
-            // A new body, collider, … cannot be made of one value: this is a slip.
-            if (member == nullptr && i == 1 && section != sections.end() && section->layout == Layout::named) {
-                const std::string remedy = suggestion(part, keysOf(*node));
-                return problems.addError(place, fmt::format("there is no {} \"{}\"", section->name, part), remedy);
-            }
-            if (member == nullptr) {
-                node->members.push_back({part, place, Node{}});
-                member = &node->members.back();
-                member->value.place = place;
-            }
-            node = &member->value;
-            if (isLast) {
-                member->place = place;
-                *node = *value;
-            }
-        } else {
-            return problems.addError(place, fmt::format("{} is {}: it has no \"{}\"", path, description(*node), part));
-        }
-        path += (path.empty() ? "" : ".") + part;
-    }
+    Override(parts, *value, place, sections, root, problems).apply();
 }
 
 }  // namespace taut::scene

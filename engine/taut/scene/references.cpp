@@ -57,11 +57,16 @@ const char* difference(const world::SolverOverride& a, const world::SolverOverri
 
 // A joint makes one island of its bodies, and an island has one method and one step.
 void checkJoint(const world::JointSpec& joint, Place place, const BodyIndex& bodies, Problems& problems) {
-    std::vector<const BodyEntry*> tied = bodies.matches(joint.a);
-    for (const BodyEntry* body : bodies.matches(joint.b)) tied.push_back(body);
+    std::vector<const BodyEntry*> tied;
+    for (const world::JointSide& side : {joint.a, joint.b})
+        for (const std::string& target : side.targets)
+            for (const BodyEntry* body : bodies.matches(target)) tied.push_back(body);
     if (world::isCollider(joint.a) && world::isCollider(joint.b))
         problems.addError(place, "both sides of this joint are colliders",
                           "one of them has to be points of a body: KIND.NAME@SELECTOR");
+    for (const world::JointSide& side : {joint.a, joint.b})
+        if (world::isCollider(side) && side.targets.size() > 1)
+            problems.addError(place, "a collider is a side of a joint by itself", "write a [[joint]] for each");
     if (world::isTie(joint)) return;  // each body stays an island of its own
     for (const BodyEntry* body : tied) {
         const char* what = difference(tied.front()->solver, body->solver);
@@ -83,6 +88,7 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
     for (const auto& collider : scene.spec.colliders) colliders.push_back("collider." + collider.name);
 
     for (const NameReference& reference : scene.references) {
+        problems.about(reference.owner);
         switch (reference.role) {
             case Role::material: checkName(reference, "material", materials, problems); break;
             case Role::camera: checkName(reference, "camera", cameras, problems); break;
@@ -105,8 +111,20 @@ void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& 
             default: break;
         }
     }
+    problems.about("");
     for (std::size_t i = 0; i < scene.spec.joints.size(); ++i)
         checkJoint(scene.spec.joints[i], scene.owners.at(fmt::format("joint[{}]", i)), bodies, problems);
+}
+
+std::optional<TargetFault> nameFault(const world::SceneSpec& scene, const std::string& name) {
+    std::vector<std::string> names;
+    for (const world::JointSpec& joint : scene.joints) {
+        if (joint.name == name) return std::nullopt;
+        if (!joint.name.empty()) names.push_back(joint.name);
+    }
+    std::string remedy = suggestion(name, names);
+    if (remedy.empty()) remedy = fmt::format("give a [[joint]] name = \"{}\"", name);
+    return TargetFault{fmt::format("there is no joint \"{}\"", name), remedy};
 }
 
 }  // namespace taut::scene

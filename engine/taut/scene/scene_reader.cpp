@@ -31,11 +31,17 @@ class SceneReader {
             else
                 reportUnknownSection(file, member);
         }
-        owner_.clear();
+        enter("");
         readTable(file, settings, settings.place, "the scene", file.enter(out_.spec, "", {}));
     }
 
   private:
+    // What is read now belongs to "cloth.flag", "solver", "joint", or to the file.
+    void enter(const std::string& owner) {
+        owner_ = owner;
+        problems_.about(owner);
+    }
+
     world::Source sourceOf(Place place) const {
         if (place.origin > 0) return {problems_.fileOf(place), 0, 0};
         return {problems_.fileOf(place), place.line, place.column};
@@ -58,7 +64,7 @@ class SceneReader {
                                fmt::format("{} must be a table, not {}", section.name, description(member.value)),
                                fmt::format("write [{}{}]", section.name, name));
         } else if (section.layout == Layout::table) {
-            owner_.clear();
+            enter(section.name);
             readTable(section, member.value, member.place, fmt::format("[{}]", section.name),
                       section.enter(out_.spec, "", sourceOf(member.place)));
         } else {
@@ -82,7 +88,7 @@ class SceneReader {
                                "a name has letters, digits, - and _");
             return;
         }
-        owner_ = fmt::format("{}.{}", section.name, name);
+        enter(fmt::format("{}.{}", section.name, name));
         out_.owners.emplace(owner_, element.place);
         const int before = problems_.errorCount();
         readTable(section, element.value, element.place, fmt::format("[{}]", owner_),
@@ -98,7 +104,7 @@ class SceneReader {
                 fmt::format("write [[{}]]", section.name));
             return;
         }
-        owner_.clear();
+        enter(section.name);
         for (std::size_t i = 0; i < member.value.items.size(); ++i) {
             const Node& item = member.value.items[i];
             const std::string name = fmt::format("{}[{}]", section.name, i);
@@ -223,8 +229,9 @@ class SceneReader {
                                    fmt::format("write {} = {{ … }}", field.key));
                 return;
             }
-            readTable(inside, node, member.place, fmt::format("{} of {}", field.key, where),
-                      field.enter(target, sourceOf(node.place)));
+            const std::string title = where == "[defaults]" ? fmt::format("[defaults.{}]", field.key)
+                                                            : fmt::format("{} of {}", field.key, where);
+            readTable(inside, node, member.place, title, field.enter(target, sourceOf(node.place)));
         } else if (field.kind == FieldKind::tables) {
             if (node.kind != NodeKind::list) {
                 problems_.addError(node.place,
@@ -247,7 +254,9 @@ class SceneReader {
         if (field.role == Role::none) return;
         if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
             for (std::size_t i = 0; i < texts->size(); ++i)
-                out_.references.push_back({field.role, node.items[i].place, (*texts)[i], 0.0, owner_});
+                out_.references.push_back({field.role,
+                                           node.kind == NodeKind::text ? node.place : node.items[i].place, (*texts)[i],
+                                           0.0, owner_});
         else if (const auto* text = std::get_if<std::string>(&value))
             out_.references.push_back({field.role, node.place, *text, 0.0, owner_});
         else if (const auto* number = std::get_if<double>(&value))

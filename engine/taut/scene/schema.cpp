@@ -58,6 +58,9 @@ Json valueSchema(const Field& field) {
                  {listSchema(numberSchema(field, false), 3), {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}}}};
         case FieldKind::segment: return listSchema(listSchema(numberSchema(field, false), field.components), 2);
         case FieldKind::texts: return {{"type", "array"}, {"items", {{"type", "string"}}}};
+        case FieldKind::oneOrMoreTexts:
+            return {{"anyOf",
+                     {{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}}};
         case FieldKind::wholes: return {{"type", "array"}, {"items", numberSchema(field, true)}};
         case FieldKind::numbers:
             return {{"anyOf",

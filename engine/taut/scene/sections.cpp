@@ -1,5 +1,9 @@
 #include "taut/scene/private/sections.h"
 
+#include <fmt/format.h>
+
+#include <memory>
+
 namespace taut::scene {
 
 namespace {
@@ -20,6 +24,54 @@ SceneSection kindSection(const world::Kind<Base>& kind, world::Specs<Base> world
         return dynamic_cast<void*>((scene.*list).find(kind, name));
     };
     return section;
+}
+
+// Takes keys over before anything is read: scene::inherit() has done so.
+Field likeRow(const std::string& section) {
+    Field row;
+    row.key = "like";
+    row.kind = FieldKind::text;
+    row.help = fmt::format("Another {} of this scene, whose keys it has but for those that it says itself.", section);
+    row.write = [](void*, const Value&) {};
+    row.read = [](const void*) { return Value(); };
+    return row;
+}
+
+// Without what a table must say to be whole: what it leaves out, others say.
+Section partly(Section section) {
+    section.variant = nullptr;
+    section.variantKey.clear();
+    section.check = nullptr;
+    for (Field& field : section.fields) {
+        field.required = false;
+        if (field.kind == FieldKind::table) field.inside = {partly(field.inside.front())};
+    }
+    return section;
+}
+
+// [defaults.rope] and so on, each read into a scene of its own that nobody looks at.
+SceneSection defaultsSection(const std::vector<SceneSection>& sections) {
+    SceneSection all;
+    all.name = "defaults";
+    all.help =
+        "What the tables of a section have in common: [defaults.SECTION] has the keys of [SECTION.NAME], and each of "
+        "them has what it says there unless it says otherwise itself, or is like another that does. Tables such as "
+        "finish are laid over each other key by key.";
+    all.enter = [scratch = std::make_shared<world::SceneSpec>()](
+                    world::SceneSpec&, const std::string&, const core::Source&) -> void* { return scratch.get(); };
+    for (const SceneSection& section : sections) {
+        if (section.layout != Layout::named) continue;
+        Field row;
+        row.key = section.name;
+        row.kind = FieldKind::table;
+        row.help = fmt::format("Of every [{}.NAME].", section.name);
+        row.inside = {partly(section)};
+        row.enter = [enter = section.enter](void* scratch, const core::Source& source) {
+            return enter(*static_cast<world::SceneSpec*>(scratch), "defaults", source);
+        };
+        all.fields.push_back(std::move(row));
+    }
+    return all;
 }
 
 // Fields that name a method get the methods that there are.
@@ -45,6 +97,9 @@ std::vector<SceneSection> sceneSections(const world::Kinds& kinds) {
     std::vector<std::string> methods;
     for (const ode::MethodInfo& method : kinds.methods.all()) methods.emplace_back(method.name);
     for (SceneSection& section : all) nameMethods(section, methods);
+    all.push_back(defaultsSection(all));
+    for (SceneSection& section : all)
+        if (section.layout == Layout::named) section.fields.push_back(likeRow(section.name));
     return all;
 }
 

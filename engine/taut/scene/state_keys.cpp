@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view picturesOnly[] = {"picture", "camera", "light", "lamp", "environment", "background", "label"};
 constexpr std::string_view finishOnly[] = {"finish", "visible", "edge", "ball"};
 // What changes nothing before its time, or nothing at all. Of the files that are named the content counts.
-constexpr std::string_view neither[] = {"schema", "title", "scene", "need", "check", "golden", "at"};
+constexpr std::string_view neither[] = {"schema", "title", "scene", "defaults", "need", "check", "golden", "at"};
 
 template <std::size_t n>
 bool isOneOf(std::string_view key, const std::string_view (&keys)[n]) {

@@ -90,7 +90,9 @@ class Timeline {
         }
         for (const JointSpec& joint : scene_.spec.joints) {
             if (isTie(joint)) continue;
-            for (const std::string& end : {joint.a, joint.b}) {
+            std::vector<std::string> ends = joint.a.targets;
+            ends.insert(ends.end(), joint.b.targets.begin(), joint.b.targets.end());
+            for (const std::string& end : ends) {
                 for (const BodyEntry* body : bodies_.matches(end)) {
                     const auto tied = bodies_.matches(target);
                     if (std::find(tied.begin(), tied.end(), body) == tied.end()) continue;
@@ -112,8 +114,7 @@ class Timeline {
         if (const auto* grab = event.as<GrabAction>()) checkGrab(event, grab->id);
         if (const auto* move = event.as<MoveAction>())
             move->id.empty() ? checkColliderMove(event, *move) : checkHandMove(event, *move);
-        if (const auto* release = event.as<ReleaseAction>(); release != nullptr && checkHeld(event, release->id))
-            grabbed_.erase(release->id);
+        if (const auto* release = event.as<ReleaseAction>()) checkRelease(event, release->id);
         if (auto* ramp = event.as<RampAction>()) checkRamp(event, *ramp);
         if (const auto* cut = event.as<CutAction>()) checkCut(event, *cut);
     }
@@ -136,6 +137,9 @@ class Timeline {
 
     void checkGrab(const Event& event, const std::string& id) {
         if (id.empty()) return error(event, "id", "a hand needs a name");
+        if (isJoint(id))
+            return error(event, "id", fmt::format("\"{}\" is the name of a joint", id),
+                         "give the hand another id, for both are released by it");
         if (const auto held = grabbed_.find(id); held != grabbed_.end())
             return error(event, "id",
                          fmt::format("\"{}\" is holding something since {} s", id, held->second->action->t),
@@ -145,14 +149,34 @@ class Timeline {
         spans_.erase("hand " + id);
     }
 
-    // Whether the hand holds something; reports it if not.
-    bool checkHeld(const Event& event, const std::string& id) {
+    bool isJoint(const std::string& id) const {
+        return std::any_of(scene_.spec.joints.begin(), scene_.spec.joints.end(),
+                           [&](const JointSpec& joint) { return joint.name == id; });
+    }
+
+    void checkRelease(const Event& event, const std::string& id) {
+        if (!id.empty() && isJoint(id)) {
+            const auto [before, isFirst] = letGo_.emplace(id, &event);
+            if (!isFirst)
+                error(event, "id",
+                      fmt::format("the joints \"{}\" are released already at {} s", id, before->second->action->t));
+            return;
+        }
+        std::vector<std::string> joints;
+        for (const JointSpec& joint : scene_.spec.joints)
+            if (!joint.name.empty()) joints.push_back(joint.name);
+        if (checkHeld(event, id, joints)) grabbed_.erase(id);
+    }
+
+    // Whether the hand holds something; reports it if not. What else could be meant is suggested.
+    bool checkHeld(const Event& event, const std::string& id, std::vector<std::string> others = {}) {
         if (grabbed_.contains(id)) return true;
+        others.insert(others.begin(), known_.begin(), known_.end());
         const bool wasReleased = std::find(known_.begin(), known_.end(), id) != known_.end();
         error(event, "id",
               wasReleased ? fmt::format("\"{}\" has let go before {} s", id, event.action->t)
                           : fmt::format("\"{}\" has grabbed nothing before {} s", id, event.action->t),
-              wasReleased ? "" : suggestion(id, known_));
+              wasReleased ? "" : suggestion(id, others));
         return false;
     }
 
@@ -249,6 +273,7 @@ class Timeline {
     std::vector<Event> events_;
     std::map<std::string, std::size_t> spawns_;    // body: order of its spawn
     std::map<std::string, const Event*> grabbed_;  // hand: its grab
+    std::map<std::string, const Event*> letGo_;    // name of joints: their release
     std::vector<std::string> known_;               // hands that grabbed something so far
     std::map<std::string, Span> spans_;
 };

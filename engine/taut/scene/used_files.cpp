@@ -41,7 +41,7 @@ class Files {
 std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
     Files files;
     files.add(scene.file);
-    files.add(scene.base);
+    for (const std::string& base : scene.bases) files.add(base);
     files.add(scene.environment.image);
     for (const world::BodySpec& body : scene.bodies) {
         if (const world::MeshSource* mesh = body.meshSource()) files.add(mesh->mesh);
@@ -50,7 +50,10 @@ std::vector<UsedFile> usedFiles(const world::SceneSpec& scene) {
     for (const world::ColliderSpec& collider : scene.colliders) {
         files.add(collider.mesh);
         files.add(collider.finish.texture);
-        for (const world::ColliderSpec& part : collider.parts) files.add(part.mesh);
+        for (const world::ColliderSpec& part : collider.parts) {
+            files.add(part.mesh);
+            if (part.ownFinish) files.add(part.ownFinish->texture);
+        }
     }
     return files.take();
 }
@@ -59,7 +62,11 @@ std::vector<UsedFile> pictureFiles(const world::SceneSpec& scene) {
     Files files;
     files.add(scene.environment.image);
     for (const world::BodySpec& body : scene.bodies) files.add(body.finish.texture);
-    for (const world::ColliderSpec& collider : scene.colliders) files.add(collider.finish.texture);
+    for (const world::ColliderSpec& collider : scene.colliders) {
+        files.add(collider.finish.texture);
+        for (const world::ColliderSpec& part : collider.parts)
+            if (part.ownFinish) files.add(part.ownFinish->texture);
+    }
     return files.take();
 }
 

@@ -34,7 +34,7 @@ struct GrabAction final : SpecOf<GrabAction, PointsAction> {
     bool rigid = false;         // led exactly; else drawn by springs
     double strength = 200.0;    // [N/m] of the whole hand, shared by mass
     double dampingRatio = 0.3;  // of the grabbed mass on the hand's spring [-]
-    double maxForce = 0.0;      // [N] of the whole hand at most, shared by mass; 0: any
+    std::optional<double> maxForce;  // [N] of the whole hand at most, shared by mass; none: any
 };
 
 // A hand, or a collider, goes from where it is to somewhere.
@@ -55,7 +55,7 @@ struct ReleaseAction final : SpecOf<ReleaseAction, ActionSpec> {
     static constexpr std::string_view kindName = "release";
     void perform(World& world) const override;
 
-    std::string id;  // of the hand
+    std::string id;  // of the hand, or name of joints
 };
 
 struct PushAction final : SpecOf<PushAction, PointsAction> {
@@ -77,7 +77,7 @@ struct FreeAction final : SpecOf<FreeAction, PointsAction> {
     void perform(World& world) const override;
 };
 
-// Cuts the springs of bodies that cross …
+// Cuts the springs of bodies, all of them or those that cross …
 struct CutAction final : SpecOf<CutAction, ActionSpec> {
     static constexpr std::string_view kindName = "cut";
     void perform(World& world) const override;

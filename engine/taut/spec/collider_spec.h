@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh
     bool visible = true;
     double edge = 0.01;  // [m] rounding of a drawn box's edges
     FinishSpec finish;
+    std::optional<FinishSpec> ownFinish;  // of a part; none: that of the compound
 };
 
 }  // namespace taut::world

@@ -4,6 +4,7 @@
 
 #include "taut/fields/private/problems.h"
 #include "taut/ode/method_table.h"
+#include "taut/spec/actions.h"
 
 namespace taut::world {
 
@@ -18,6 +19,21 @@ constexpr Range copies{1.0, 100000.0};
 constexpr double maxCopies = 100000;
 
 }  // namespace
+
+void checkJoint(const fields::CheckInput& input, const JointSpec& joint) {
+    if (input.table.find("name") != nullptr && !fields::isName(joint.name))
+        input.problems.addError(input.at("name"), fmt::format("\"{}\" cannot be the name of a joint", joint.name),
+                                "a name has letters, digits, - and _");
+    else if (joint.name.starts_with(liveHand))
+        input.problems.addError(input.at("name"),
+                                fmt::format("names that begin with \"{}\" are those of a player's hands", liveHand),
+                                "give the joint another name");
+    if (joint.isDrawn()) return;
+    for (const char* key : {"radius", "turns", "coil_radius"})
+        if (input.table.find(key) != nullptr)
+            input.problems.addError(input.at(key), fmt::format("{} is of a joint that is drawn", key),
+                                    "give it a finish, e.g. finish = { colour = \"#b08040\" }");
+}
 
 Section arraySection() {
     Section section;

@@ -110,6 +110,26 @@ Kind<ForceSpec> forceKind() {
     return kindOf<Own, ForceSpec>();
 }
 
+// What every joint has besides its sides.
+template <class Own>
+std::vector<fields::Field> everyJointsRows() {
+    return fields::FieldList<Own>()
+        .text("name", &JointSpec::name, fields::Role::none,
+              "By which an action releases it, and others of that name with it.")
+        .number("break_N", &JointSpec::breakForce, "N", fields::positive,
+                "Force through a tie, as the mean of a tick, above which that tie lets go; never if not given.")
+        .number("radius", &JointSpec::look, &JointLook::radius, "m", lengthRange, "Of the cord or wire that is drawn.")
+        .whole("turns", &JointSpec::look, &JointLook::turns, "", fields::Range{0.0, 1000.0},
+               "Of the coil that is drawn; 0: a straight cord.")
+        .number("coil_radius", &JointSpec::look, &JointLook::coil, "m", lengthRange, "Of the coil that is drawn.")
+        .tableOr("finish", &JointSpec::look, &JointLook::finish, finishSection(),
+                 "How it looks; not drawn if not given.")
+        .take();
+}
+
+// Reports what is wrong with what every joint has.
+void checkJoint(const fields::CheckInput& input, const JointSpec& joint);
+
 // A kind of joint, from the rows of the struct's own fields; those of both sides come before them. A field is `only`
 // for joints between bodies, by the title ("a weld"), or for those with colliders ("a weld to a collider"), or for both.
 // A key that another kind has too should mean the same. Expects no tables inside.
@@ -119,15 +139,21 @@ Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
     kind.section.help = std::move(help);
     kind.section.fields =
         fields::FieldList<Own>()
-            .text("a", &JointSpec::a, fields::Role::tieable, "Points of one body: KIND.NAME@SELECTOR.")
+            .targets("a", &JointSpec::a, &JointSide::targets, fields::Role::tieable,
+                     "Points: KIND.NAME@SELECTOR, or a list of such.")
             .required()
-            .text("b", &JointSpec::b, fields::Role::tieable, "Points of the other; or collider.NAME, on either side.")
+            .targets("b", &JointSpec::b, &JointSide::targets, fields::Role::tieable,
+                     "The others, of the same body or of others; or collider.NAME, on either side.")
             .required()
             .take();
     for (fields::Field& row : own.take()) {
         TAUT_EXPECTS(row.inside.empty());
         kind.section.fields.push_back(std::move(row));
     }
+    for (fields::Field& row : everyJointsRows<Own>()) kind.section.fields.push_back(std::move(row));
+    kind.section.check = [](const fields::CheckInput& input, void* joint) {
+        checkJoint(input, *static_cast<const Own*>(joint));
+    };
     return kind;
 }
 

@@ -7,9 +7,12 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "taut/spec/finish_spec.h"
 #include "taut/spec/source.h"
 
 namespace taut::world {
@@ -17,13 +20,41 @@ namespace taut::world {
 struct Grip;
 struct IslandPlan;
 
+// One side of a joint: one target, or several.
+class JointSide {
+  public:
+    JointSide() = default;
+    JointSide(std::string target) : targets{std::move(target)} {}
+    JointSide(const char* target) : targets{target} {}
+    JointSide(std::vector<std::string> all) : targets(std::move(all)) {}
+    // As messages have it: "cloth.flag@left, cloth.flag@top".
+    std::string text() const {
+        std::string all;
+        for (const std::string& target : targets) all += (all.empty() ? "" : ", ") + target;
+        return all;
+    }
+
+    std::vector<std::string> targets;
+};
+
+// How each tie of a joint is drawn: a cord, or with turns a coil, from end to end; a ball where the ends are one.
+struct JointLook {
+    std::optional<FinishSpec> finish;  // none: not at all
+    double radius = 0.01;              // [m] of the cord or wire
+    int turns = 0;
+    double coil = 0.04;  // [m] radius of the turns
+};
+
 // Targets are written KIND.NAME@SELECTOR, e.g. "cloth.flag@left"; NAME may have the wildcard *.
 struct JointSpec {
-    std::string a, b;
+    JointSide a, b;
+    std::string name;                  // several may have one; empty: none
+    std::optional<double> breakForce;  // [N] at which a tie of it lets go
+    JointLook look;
     Source source;
 
     JointSpec() = default;
-    JointSpec(std::string first, std::string second, Source where = {})
+    JointSpec(JointSide first, JointSide second, Source where = {})
         : a(std::move(first)), b(std::move(second)), source(std::move(where)) {}
     JointSpec(const JointSpec&) = default;
     JointSpec& operator=(const JointSpec&) = default;
@@ -36,12 +67,19 @@ struct JointSpec {
     virtual double reach() const { return HUGE_VAL; }
     // Whether two points of one body may be tied.
     virtual bool tiesWithin() const { return false; }
-    // Whether two points become one, and points tied to a collider move with it. Then tie() and carry() are not called.
+    // Whether points come to one place. If they need never come apart they become one, or go with the collider that
+    // they are tied to, and tie() and carry() are not called.
     virtual bool isWeld() const { return false; }
     // Adds to the plan what ties two of its points, `distance` [m] apart: springs, constraints.
     virtual void tie(IslandPlan& plan, int a, int b, double distance) const = 0;
-    // The same between points and a collider. The rigid grip has those points and the present pose of the collider.
+    // The same between a point and a collider. The rigid grip has that point and the present pose of the collider.
     virtual void carry(IslandPlan& plan, Grip grip) const = 0;
+
+    // What is the same for every kind.
+    bool mayLetGo() const { return !name.empty() || breakForce; }
+    bool isDrawn() const { return look.finish.has_value(); }
+    // Whether each of its ties is known by itself.
+    bool hasOwnTies() const { return mayLetGo() || isDrawn(); }
 };
 
 }  // namespace taut::world

@@ -57,7 +57,7 @@ struct MassSpec {  // mass added to points
 
 struct SceneSpec {
     std::string file;
-    std::string base;  // the file that it builds on; empty: none
+    std::vector<std::string> bases;  // the files that it builds on, the nearest first
     std::string title;
     WorldSpec world;
     ContactSpec contact;

@@ -39,8 +39,8 @@ void tieBodies(const SceneSpec& spec, std::map<std::string, std::string>& fixed)
         for (const world::Body* body : world::matchBodies(all, target)) fixed.emplace(body->spec->fullName(), why);
     };
     for (const world::JointSpec& joint : spec.joints) {
-        tie(joint.a, "a joint ties its points to others");
-        tie(joint.b, "a joint ties its points to others");
+        for (const world::JointSide& side : {joint.a, joint.b})
+            for (const std::string& target : side.targets) tie(target, "a joint ties its points to others");
     }
     for (const world::ForceSpec& force : spec.forces)
         if (!force.pulledPoints().empty())

@@ -23,7 +23,7 @@ double ropeFrequency(const world::RopeSpec& rope) {
     const bool isHeld = holds("ends") || (holds("start") && holds("end"));
     const double distance = glm::length(rope.end - rope.start);
     const bool isStraight = rope.through.empty() && (rope.length == 0.0 || rope.length <= distance);
-    if (!isHeld || !isStraight || rope.bend != 0.0 || rope.segments < 2) return unknown;
+    if (!isHeld || !isStraight || rope.bend != 0.0 || rope.rigidity || rope.segments < 2) return unknown;
     const double natural = rope.length == 0.0 ? distance : rope.length;
     const double k = rope.stretch * rope.segments / natural;
     const double m = rope.mass / (rope.lumping == mechanics::Lumping::uniform ? rope.segments + 1 : rope.segments);
@@ -87,7 +87,7 @@ world::SceneSpec referenceNetwork(const std::string& name) {
         return scene;
     }
     TAUT_EXPECTS(name == "cloth");
-    scene.materials["plain"] = {0.2, 600.0, 300.0, 2.0, 0.0, 0.0, mechanics::Lumping::weighted, {}};
+    scene.materials["plain"] = {0.2, 600.0, 300.0, 2.0, 0.0, 0.0, mechanics::Lumping::weighted, {}, {}};
     world::ClothSpec cloth;
     cloth.name = "sheet";
     cloth.size = {1.0, 1.0};

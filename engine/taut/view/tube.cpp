@@ -26,15 +26,20 @@ float capAngle(int ring, int sides) {
     return 0.5F * std::numbers::pi_v<float> * static_cast<float>(rings - ring) / static_cast<float>(rings + 1);
 }
 
-// Uniform Catmull-Rom; beyond the ends the line goes on straight.
+// Of a ring, which ends where it begins.
+bool isRing(std::span<const glm::vec3> line) {
+    return line.size() > 3 && line.front() == line.back();
+}
+
+// Uniform Catmull-Rom; beyond the ends the line goes on straight, or round.
 std::vector<glm::vec3> smoothLine(std::span<const glm::vec3> line, int subdivisions) {
     std::vector<glm::vec3> smooth;
     smooth.reserve(static_cast<std::size_t>(lineRings(static_cast<int>(line.size()), subdivisions)));
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const glm::vec3 b = line[i];
         const glm::vec3 c = line[i + 1];
-        const glm::vec3 a = i > 0 ? line[i - 1] : 2.0F * b - c;
-        const glm::vec3 d = i + 2 < line.size() ? line[i + 2] : 2.0F * c - b;
+        const glm::vec3 a = i > 0 ? line[i - 1] : isRing(line) ? line[line.size() - 2] : 2.0F * b - c;
+        const glm::vec3 d = i + 2 < line.size() ? line[i + 2] : isRing(line) ? line[1] : 2.0F * c - b;
         for (int k = 0; k < subdivisions; ++k) {
             const float t = static_cast<float>(k) / static_cast<float>(subdivisions);
             smooth.push_back(
@@ -49,8 +54,9 @@ std::vector<glm::vec3> smoothLine(std::span<const glm::vec3> line, int subdivisi
 std::vector<glm::vec3> tangentsOf(const std::vector<glm::vec3>& line) {
     std::vector<glm::vec3> tangents(line.size(), glm::vec3(0.0F));
     glm::vec3 last(0.0F);
+    const std::size_t end = line.size() - 1, before = isRing(line) ? end - 1 : 0, after = isRing(line) ? 1 : end;
     for (std::size_t i = 0; i < line.size(); ++i) {
-        const glm::vec3 across = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+        const glm::vec3 across = line[i < end ? i + 1 : after] - line[i > 0 ? i - 1 : before];
         const float length = glm::length(across);
         if (length > 1e-9F) last = across / length;
         tangents[i] = last;

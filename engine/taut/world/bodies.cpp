@@ -16,13 +16,12 @@ namespace {
 
 // A body that comes later cannot be tied to others: islands are made once.
 void checkUntied(const WorldImpl& w, Body& body) {
-    const std::vector<Body*> one{&body};
     for (const JointSpec& joint : w.spec.joints) {
         if (isTie(joint)) continue;
-        for (const std::string& side : {joint.a, joint.b})
-            if (!matchBodies(one, side).empty())
+        for (const JointSide& side : {joint.a, joint.b})
+            if (names(side, body))
                 throw core::Error(core::ErrorKind::badContent,
-                                  at(joint.source) + "\"" + side + "\" ties " + body.fullName() +
+                                  at(joint.source) + "\"" + side.text() + "\" ties " + body.fullName() +
                                       ", which is spawned later; a spawned body cannot be tied to another");
     }
 }

@@ -78,7 +78,8 @@ void carryTied(WorldImpl& w) {
 }
 
 void letGo(WorldImpl& w, const std::string& collider) {
-    for (const auto& island : w.islands) island->release(w.now(), collider);
+    for (const auto& island : w.islands)
+        island->release(w.now(), [&](const JointTie& tie) { return tie.collider == collider; });
     loosen(w, collider, true);
 }
 

@@ -19,8 +19,19 @@ std::string metres(double length) {
     return text;
 }
 
-JointInfo infoOf(const JointReport& report) {
-    JointInfo info{report.spec->a, report.spec->b, std::string(report.spec->kind()), {}, report.jump, {}};
+JointInfo infoOf(const JointSpec& joint, int number) {
+    JointInfo info;
+    info.a = joint.a.text();
+    info.b = joint.b.text();
+    info.name = joint.name;
+    info.kind = joint.kind();
+    info.number = number;
+    return info;
+}
+
+JointInfo infoOf(const JointReport& report, int number) {
+    JointInfo info = infoOf(*report.spec, number);
+    info.jump = report.jump;
     for (const auto& [a, b, points] : report.pairs) info.pairs.push_back({a->fullName(), b->fullName(), points});
     for (const auto& [body, distance] : report.loose) info.loose.push_back(body->fullName());
     return info;
@@ -34,7 +45,8 @@ std::string warningOf(const JointReport& report) {
         names += (i > 0 ? ", " : "") + body->fullName() + (joint.isWeld() ? " (" + metres(distance) + " off)" : "");
     }
     if (report.loose.size() > mostNamed) names += " and " + std::to_string(report.loose.size() - mostNamed) + " more";
-    return asWarning(at(joint.source)) + "the joint \"" + joint.a + "\" – \"" + joint.b + "\" does not tie " + names +
+    return asWarning(at(joint.source)) + "the joint \"" + joint.a.text() + "\" – \"" + joint.b.text() +
+           "\" does not tie " + names +
            (joint.isWeld() ? "; it reaches " + metres(joint.reach()) +
                          ": move them together, raise reach_m, or use kind = \"spring\""
                    : ": other bodies are nearer");
@@ -46,7 +58,7 @@ std::string jumpWarning(const JointReport& report) {
     for (const auto& [a, b, points] : report.pairs) cell = std::min({cell, shortestEdge(*a), shortestEdge(*b)});
     if (!(report.jump > cell)) return "";
     const JointSpec& joint = *report.spec;
-    return asWarning(at(joint.source)) + "the weld \"" + joint.a + "\" – \"" + joint.b +
+    return asWarning(at(joint.source)) + "the weld \"" + joint.a.text() + "\" – \"" + joint.b.text() +
            "\" jerks points together by " + metres(report.jump) + ", more than a cell (" + metres(cell) +
            "): move the bodies together, lower reach_m, or use kind = \"spring\"";
 }
@@ -54,20 +66,60 @@ std::string jumpWarning(const JointReport& report) {
 }  // namespace
 
 void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports) {
-    for (const JointReport& report : reports) {
-        w.joints.push_back(infoOf(report));
-        if (!report.loose.empty()) w.jointWarnings.push_back(warningOf(report));
-        if (std::string jerk = jumpWarning(report); !jerk.empty()) w.jointWarnings.push_back(std::move(jerk));
-    }
+    std::size_t next = 0;
+    std::vector<JointInfo> tied;
+    int number = 0;
     for (const JointSpec& joint : w.spec.joints) {
-        if (!isTie(joint)) continue;
-        JointInfo info{joint.a, joint.b, std::string(joint.kind()), {}, 0, {}};
-        const std::string selector = parseTarget(pointsOf(joint)).selector;
-        for (const Body* body : matchBodies(bodiesOf(w), pointsOf(joint)))
-            info.pairs.push_back(
-                {body->fullName(), colliderOf(joint), static_cast<int>(selectPoints(body->model, selector).size())});
-        w.joints.push_back(std::move(info));
+        if (!isTie(joint)) {
+            const JointReport& report = reports[next++];
+            w.joints.push_back(infoOf(report, number));
+            if (!report.loose.empty()) w.jointWarnings.push_back(warningOf(report));
+            if (std::string jerk = jumpWarning(report); !jerk.empty()) w.jointWarnings.push_back(std::move(jerk));
+        } else {
+            JointInfo& info = tied.emplace_back(infoOf(joint, number));
+            for (const Body* body : bodiesOf(w))
+                if (names(pointsOf(joint), *body))
+                    info.pairs.push_back({body->fullName(), colliderOf(joint), countNamed(pointsOf(joint), *body)});
+        }
+        w.drawings.push_back(joint.isDrawn() ? std::make_shared<const TieDrawing>(joint, number) : nullptr);
+        ++number;
     }
+    w.joints.insert(w.joints.end(), tied.begin(), tied.end());
+}
+
+bool isJoint(const WorldImpl& w, const std::string& name) {
+    return !name.empty() &&
+           std::any_of(w.spec.joints.begin(), w.spec.joints.end(),
+                       [&](const JointSpec& joint) { return joint.name == name; });
+}
+
+void releaseJoints(WorldImpl& w, const std::string& name) {
+    for (const auto& island : w.islands)
+        island->release(w.now(), [&](const JointTie& tie) {
+            return w.spec.joints[static_cast<std::size_t>(tie.joint)].name == name;
+        });
+}
+
+void breakJoints(WorldImpl& w) {
+    for (const auto& island : w.islands) {
+        const std::vector<bool> isOver = island->overloaded();
+        if (std::find(isOver.begin(), isOver.end(), true) == isOver.end()) continue;
+        std::size_t next = 0;
+        island->release(w.now(), [&](const JointTie&) { return isOver[next++]; });
+    }
+}
+
+int jointsLeft(const WorldImpl& w, const JointInfo& info) {
+    int ties = 0, left = 0;
+    for (const auto& island : w.islands)
+        for (const JointTie& tie : island->plan().ties) {
+            if (tie.joint != info.number) continue;
+            ++ties;
+            left += holds(island->plan(), tie) ? 1 : 0;
+        }
+    if (ties > 0) return left;
+    for (const auto& pair : info.pairs) left += pair.points;
+    return left;
 }
 
 }  // namespace taut::world

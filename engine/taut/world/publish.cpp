@@ -86,9 +86,36 @@ collision::Pose poseAhead(const Placement& placement, double ticks) {
 std::vector<dvec3> placesAhead(const Island& island, double ahead) {
     std::vector<dvec3> x(island.plan().points.size()), v(x.size());
     island.read(x, v);
+    if (ahead == 0.0) return x;
     for (std::size_t i = 0; i < x.size(); ++i)
         if (std::isfinite(glm::dot(v[i], v[i]))) x[i] += ahead * v[i];  // not of what is held, whose mass is infinite
     return x;
+}
+
+// What joints look like. What is between bodies is as far as they are.
+void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
+    const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
+    if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
+    std::map<std::string, glm::mat4> poses;  // of the colliders
+    std::map<std::string, int> count;        // of ties so far, by the name of what is drawn
+    w.registry.each<Identity, Placement>([&](ecs::Entity, const Identity& identity, const Placement& placement) {
+        poses.emplace(identity.fullName(), matrixOf(poseAhead(placement, ahead * w.ticksPerSecond)));
+    });
+    for (const auto& island : w.islands) {
+        const IslandPlan& plan = island->plan();
+        const std::vector<dvec3> x = placesAhead(*island, ahead);
+        for (const JointTie& tie : plan.ties) {
+            const auto& drawing = w.drawings[static_cast<std::size_t>(tie.joint)];
+            if (!drawing) continue;
+            const int number = count[drawing->name()]++;
+            if (!holds(plan, tie)) continue;
+            const glm::vec3 a(x[static_cast<std::size_t>(tie.a)]);
+            const glm::vec3 b = tie.b >= 0 ? glm::vec3(x[static_cast<std::size_t>(tie.b)])
+                                           : glm::vec3(poses.at(tie.collider) * glm::vec4(glm::vec3(tie.offset), 1.0F));
+            view.surfaces.push_back(drawing->surface(a, b, number));
+            if (island->frozen() != nullptr) view.surfaces.back().dulled = frozenDullness;
+        }
+    }
 }
 
 // What a picture is made of but labels and marks. Bodies go into `drawn`, in order.
@@ -141,6 +168,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
         if (island.frozen() == nullptr) continue;
         for (std::size_t i = first; i < view.surfaces.size(); ++i) view.surfaces[i].dulled = frozenDullness;
     }
+    addTies(w, ahead, view);
     return view;
 }
 

@@ -7,6 +7,7 @@
 #include "taut/island/private/island_report.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/joints.h"
 #include "taut/world/private/publish.h"
 #include "taut/world/private/tick.h"
 #include "taut/world/world.h"
@@ -175,7 +176,9 @@ std::vector<std::uint64_t> World::pointHashes(ecs::Entity entity) const {
 }
 
 std::vector<JointInfo> World::joints() const {
-    return impl_->joints;
+    std::vector<JointInfo> all = impl_->joints;
+    for (JointInfo& info : all) info.left = jointsLeft(*impl_, info);
+    return all;
 }
 
 std::optional<glm::dvec3> World::handPlace(const std::string& id) const {

@@ -7,6 +7,7 @@
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/colliders.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/joints.h"
 #include "taut/world/private/saving.h"
 #include "taut/world/private/tick.h"
 #include "taut/world/private/timeline.h"
@@ -70,6 +71,7 @@ std::optional<Divergence> World::advance() {
     closeIslands(w);
     if (auto divergence = tickIslands(w, movingColliders(w))) return divergence;
     ++w.tick;
+    breakJoints(w);
     if (std::any_of(w.islands.begin(), w.islands.end(), [](const auto& island) { return island->hasTorn(); }))
         redrawDamage(w);
     changePicture(w);

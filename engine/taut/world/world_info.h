@@ -36,12 +36,15 @@ struct BodyHash {
 // What a joint of the scene ties together.
 struct JointInfo {
     std::string a, b;  // as the scene names the points
+    std::string name;  // empty: none
     std::string kind;  // "weld"
+    int number = 0;    // in the scene
     struct Pair {
         std::string a, b;  // "block.plank0"; b may be a collider
         int points = 0;    // of the first that are tied to the second
     };
     std::vector<Pair> pairs;
+    int left = 0;                    // of all points, how many it ties still
     double jump = 0;                 // [m] of a weld: the furthest that it moves a point when it is made
     std::vector<std::string> loose;  // bodies that it names but does not tie
 };

@@ -50,6 +50,14 @@ class _Island(TypedDict):
     step_limit: float
     substeps: int
 
+class _Joint(TypedDict):
+    name: str
+    kind: str
+    a: str
+    b: str
+    points: int
+    left: int
+
 class Surface:
     @property
     def name(self) -> str: ...
@@ -79,6 +87,8 @@ class World:
     def equal_bits(self) -> bool: ...
     @property
     def islands(self) -> list[_Island]: ...
+    @property
+    def joints(self) -> list[_Joint]: ...
     @property
     def methods(self) -> dict[str, str]: ...
     def positions(self, target: str) -> _Floats: ...

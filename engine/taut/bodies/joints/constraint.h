@@ -6,7 +6,7 @@
 // tests/unit/world_own_joint_test.cpp does.
 #pragma once
 
-#include <functional>
+#include <algorithm>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -33,6 +33,9 @@ class Constraint {
         std::span<const dvec3> from;          // [m] when the step began: gradients there keep momentum
         std::span<dvec3> x;                   // [m]
         std::span<dvec3> v;                   // [m/s] at the time of x
+        // (ties) What each pulls its first end with is to be added: mass times change of x [kg m] or of v [kg m/s]. Of
+        // one tie alone that is seen from its points.
+        std::span<dvec3> pull;
     };
 
     virtual ~Constraint() = default;
@@ -45,21 +48,51 @@ class Constraint {
     // The same for v: afterwards its component along the gradients at x is zero.
     virtual bool projectVelocities(const Moment& moment) = 0;
 
-    // How many ties it has, and the largest |l - L|/L of those whose ends all count; both arrays as in Moment.
-    virtual int count() const { return 1; }
+    // Ties that were put into it, those that have let go among them: they are numbered from 0.
+    virtual int size() const { return 1; }
+    // The largest |l - L|/L of ties whose ends all count; both arrays as in Moment.
     virtual double strain(std::span<const dvec3> /*x*/, const std::vector<bool>& /*counts*/) const { return 0.0; }
+    // What forces along ties add to ω² of points that they turn about: (ties) [N] and both arrays as in Moment.
+    virtual double turning(std::span<const dvec3> /*x*/, std::span<const double> /*inverseMass*/,
+                           std::span<const dvec3> /*forces*/) const {
+        return 0.0;
+    }
+    // Whether a collider carries this point of the plan by it, wherever others are.
+    virtual bool carries(int /*point*/) const { return false; }
     // Throws core::Error(badContent) where it can never hold.
     virtual void check() const {}
 
-    // Removes what a cut goes through (isCut is asked for pairs of points of the plan), or what is tied to a collider
-    // that is gone. Both return whether anything changed.
-    using IsCut = std::function<bool(int a, int b)>;
-    virtual bool sever(const IsCut&) { return false; }
-    virtual bool release(const std::string& /*collider*/) { return false; }
-    // All that those two change, and the constraint itself between ticks, read or written.
-    virtual void visit(StateBytes&) {}
+    // Ties that let go do so for good.
+    bool holds(int tie = 0) const { return gone_.empty() || !gone_[static_cast<std::size_t>(tie)]; }
+    void letGo(int tie);
+    int count() const { return size() - static_cast<int>(std::count(gone_.begin(), gone_.end(), true)); }  // that hold
+
+    // The constraint between ticks, read or written.
+    void visit(StateBytes& bytes);
     virtual std::shared_ptr<Constraint> copy() const = 0;
+
+  protected:
+    virtual void visitOwn(StateBytes&) {}  // besides what has let go
+    virtual void tiesChanged() {}          // some have let go
+
+  private:
+    std::vector<bool> gone_;  // (ties) empty: none has
 };
+
+inline void Constraint::letGo(int tie) {
+    gone_.resize(static_cast<std::size_t>(size()), false);
+    gone_[static_cast<std::size_t>(tie)] = true;
+    tiesChanged();
+}
+
+inline void Constraint::visit(StateBytes& bytes) {
+    for (int tie = 0; tie < size(); ++tie) {
+        bool isGone = !holds(tie);
+        bytes(isGone);
+        if (isGone) letGo(tie);
+    }
+    visitOwn(bytes);
+}
 
 // Implements what is the same for every constraint.
 template <class Own>

@@ -9,7 +9,7 @@
 
 namespace taut::world {
 
-// Points made one.
+// Points made one, or kept in one place.
 struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
     static constexpr std::string_view kindName = "weld";
     double furthest = 0.02;  // [m] apart that points may be
@@ -17,15 +17,16 @@ struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
     std::string_view title() const override { return "a weld"; }
     double reach() const override { return furthest; }
     bool isWeld() const override { return true; }
-    void tie(IslandPlan&, int, int, double) const override {}
-    void carry(IslandPlan&, Grip) const override;
+    void tie(IslandPlan& plan, int a, int b, double distance) const override;
+    void carry(IslandPlan& plan, Grip grip) const override;
 };
 
-// Springs as long as points are apart.
+// Springs, as long as points are apart if not said.
 struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
     static constexpr std::string_view kindName = "spring";
     double stiffness = 1e4;     // [N/m] of each spring
     double dampingTime = 1e-4;  // [s]
+    std::optional<double> restLength;  // [m]; none: the distance as the scene starts
 
     std::string_view title() const override { return "a spring joint"; }
     void tie(IslandPlan& plan, int a, int b, double distance) const override;

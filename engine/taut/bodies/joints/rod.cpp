@@ -5,6 +5,7 @@
 #include "taut/spec/common_rows.h"
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/joints.h"
+#include "taut/bodies/private/joints/only_constraint.h"
 #include "taut/bodies/private/joints/rods.h"
 
 namespace taut::world {
@@ -15,36 +16,20 @@ double distance(const dvec3& a, const dvec3& b) {
     return std::sqrt(glm::dot(d, d));
 }
 
-// All rods of a plan are one constraint, which solves for them together.
-template <class Change>
-void changeRods(IslandPlan& plan, const Change& change) {
-    for (auto& constraint : plan.constraints)
-        if (const auto* rods = dynamic_cast<const Rods*>(constraint.get())) {
-            if (constraint.use_count() == 1) return change(const_cast<Rods&>(*rods));  // while the plan is made
-            auto changed = std::make_shared<Rods>(*rods);
-            change(*changed);
-            constraint = std::move(changed);
-            return;
-        }
-    auto rods = std::make_shared<Rods>();
-    change(*rods);
-    plan.constraints.push_back(std::move(rods));
-}
-
 }  // namespace
 
 // Points that were welded may be elsewhere than where their bodies have them.
 void RodJoint::tie(IslandPlan& plan, int first, int second, double) const {
     const double length =
         distance(plan.positions[static_cast<std::size_t>(first)], plan.positions[static_cast<std::size_t>(second)]);
-    changeRods(plan, [&](Rods& rods) { rods.tie(first, second, length, source); });
+    changeOnly<Rods>(plan, [&](Rods& rods) { rods.tie(first, second, length, source); });
 }
 
 void RodJoint::carry(IslandPlan& plan, Grip grip) const {
     const mechanics::PosePath::Frame frame = grip.path.at(0.0);
     const dvec3 end = place.value_or(frame.place);
     const dvec3 offset = mechanics::PosePath::rotated(glm::conjugate(frame.rotation), end - frame.place);
-    changeRods(plan, [&](Rods& rods) {
+    changeOnly<Rods>(plan, [&](Rods& rods) {
         for (const int point : grip.points)
             rods.tie(point, Constraint::Place{grip.holder, offset},
                      distance(plan.positions[static_cast<std::size_t>(point)], end), source);

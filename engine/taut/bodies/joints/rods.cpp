@@ -41,17 +41,29 @@ void Rods::tie(int a, const Place& b, double length, const Source& source) {
     rods_.push_back({numberOf(a), -static_cast<int>(places_.size()), length, source});
 }
 
-int Rods::count() const {
-    return static_cast<int>(std::count_if(
-        rods_.begin(), rods_.end(), [](const Rod& rod) { return !rod.isBroken; }));
-}
-
 double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) const {
     double most = 0;
-    for (const Rod& rod : rods_)
-        if (!rod.isBroken && counts[static_cast<std::size_t>(end(rod.a))] &&
-            counts[static_cast<std::size_t>(end(rod.b))])
+    for (int r = 0; r < size(); ++r) {
+        const Rod& rod = rods_[static_cast<std::size_t>(r)];
+        if (holds(r) && counts[static_cast<std::size_t>(end(rod.a))] && counts[static_cast<std::size_t>(end(rod.b))])
             most = std::max(most, std::abs(norm(between(rod, x)) - rod.length) / rod.length);
+    }
+    return most;
+}
+
+// Across a rod under a tension T its ends are drawn back as by a spring of T/L; by Gershgorin.
+double Rods::turning(std::span<const dvec3> x, std::span<const double> inverseMass,
+                     std::span<const dvec3> forces) const {
+    std::vector<double> sum(inverseMass.size(), 0.0);
+    for (int r = 0; r < size(); ++r) {
+        const Rod& rod = rods_[static_cast<std::size_t>(r)];
+        const double length = norm(between(rod, x));
+        if (!holds(r) || !(length > 0)) continue;
+        const double stiffness = norm(forces[static_cast<std::size_t>(r)]) / length;
+        for (const int number : {rod.a, rod.b}) sum[static_cast<std::size_t>(end(number))] += stiffness;
+    }
+    double most = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i) most = std::max(most, 2.0 * sum[i] * inverseMass[i]);
     return most;
 }
 
@@ -62,30 +74,6 @@ void Rods::check() const {
                               world::at(rod.source) +
                                   "a rod has both ends in one place; move them apart, or use kind = "
                                   "\"weld\"");
-}
-
-bool Rods::sever(const IsCut& isCut) {
-    bool any = false;
-    for (Rod& rod : rods_) {
-        if (rod.isBroken || rod.b < 0) continue;
-        rod.isBroken = isCut(points_[static_cast<std::size_t>(rod.a)], points_[static_cast<std::size_t>(rod.b)]);
-        any = any || rod.isBroken;
-    }
-    return any;
-}
-
-bool Rods::release(const std::string& collider) {
-    bool any = false;
-    for (Rod& rod : rods_) {
-        if (rod.isBroken || rod.b >= 0) continue;
-        rod.isBroken = places_[static_cast<std::size_t>(-1 - rod.b)].collider == collider;
-        any = any || rod.isBroken;
-    }
-    return any;
-}
-
-void Rods::visit(StateBytes& bytes) {
-    for (Rod& rod : rods_) bytes(rod.isBroken);
 }
 
 // Breadth first from rods with few neighbours, so that neighbours stand near the diagonal.
@@ -160,7 +148,8 @@ void Rods::factor(std::span<const dvec3> x, std::span<const double> inverseMass)
         const Rod& rod = rods_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
         const dvec3 d = between(rod, x);
         const double length = norm(d);
-        direction_[static_cast<std::size_t>(i)] = rod.isBroken || !(length > 0) ? dvec3(0.0) : d / length;
+        const bool pulls = holds(order_[static_cast<std::size_t>(i)]) && length > 0;
+        direction_[static_cast<std::size_t>(i)] = pulls ? d / length : dvec3(0.0);
     }
     std::fill(lower_.begin(), lower_.end(), 0.0);
     for (const Coupling& c : couplings_)
@@ -197,33 +186,35 @@ void Rods::solve() {
             impulse_[static_cast<std::size_t>(j)] -= at(i, j) * impulse_[static_cast<std::size_t>(i)];
 }
 
-void Rods::pull(std::span<dvec3> to, std::span<const double> inverseMass) const {
+// A rod turns during a tick, so that its pull is counted along it.
+void Rods::pull(std::span<dvec3> to, const Moment& moment) const {
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
         const auto a = static_cast<std::size_t>(end(rod.a)), b = static_cast<std::size_t>(end(rod.b));
         const dvec3 impulse = impulse_[i] * direction_[i];
-        to[a] += inverseMass[a] * impulse;
-        to[b] -= inverseMass[b] * impulse;
+        to[a] += moment.inverseMass[a] * impulse;
+        to[b] -= moment.inverseMass[b] * impulse;
+        moment.pull[static_cast<std::size_t>(order_[i])].x += impulse_[i];
     }
 }
 
 bool Rods::projectPositions(const Moment& moment) {
     layOut();
     for (int pass = 0; pass < mostPasses; ++pass) {
-        bool holds = true;
+        bool isMet = true;
         for (std::size_t i = 0; i < order_.size(); ++i) {
             const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
             const dvec3 d = between(rod, moment.x);
-            const double g = rod.isBroken ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
+            const double g = !holds(order_[i]) ? 0.0 : (glm::dot(d, d) - rod.length * rod.length) / (2.0 * rod.length);
             const double size = norm(moment.x[static_cast<std::size_t>(end(rod.a))]) +
                                 norm(moment.x[static_cast<std::size_t>(end(rod.b))]);
-            holds = holds && std::abs(g) <= relativeTolerance * rod.length + roundingShare * size;
+            isMet = isMet && std::abs(g) <= relativeTolerance * rod.length + roundingShare * size;
             impulse_[i] = g;
         }
-        if (holds) return pass > 0;
+        if (isMet) return pass > 0;
         if (pass == 0 || pass >= oldPasses) factor(pass == 0 ? moment.from : moment.x, moment.inverseMass);
         solve();
-        pull(moment.x, moment.inverseMass);
+        pull(moment.x, moment);
     }
     return true;
 }
@@ -231,17 +222,17 @@ bool Rods::projectPositions(const Moment& moment) {
 bool Rods::projectVelocities(const Moment& moment) {
     layOut();
     factor(moment.x, moment.inverseMass);
-    bool holds = true;
+    bool isMet = true;
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];
         impulse_[i] = glm::dot(direction_[i], between(rod, moment.v));
         const double size =
             norm(moment.v[static_cast<std::size_t>(end(rod.a))]) + norm(moment.v[static_cast<std::size_t>(end(rod.b))]);
-        holds = holds && std::abs(impulse_[i]) <= roundingShare * size;
+        isMet = isMet && std::abs(impulse_[i]) <= roundingShare * size;
     }
-    if (holds) return false;
+    if (isMet) return false;
     solve();
-    pull(moment.v, moment.inverseMass);
+    pull(moment.v, moment);
     return true;
 }
 

@@ -5,7 +5,8 @@
 namespace taut::world {
 
 void SpringJoint::tie(IslandPlan& plan, int first, int second, double distance) const {
-    plan.springs.push_back({first, second, stiffness, distance, dampingTime, mechanics::SpringKind::joint});
+    plan.springs.push_back(
+        {first, second, stiffness, restLength.value_or(distance), dampingTime, mechanics::SpringKind::joint});
 }
 
 // Each point is drawn to its place on it.
@@ -21,7 +22,10 @@ Kind<JointSpec> springKind() {
         "Springs draw points together, and each point of a collider's to its place on it.",
         fields::FieldList<SpringJoint>()
             .number("stiffness_N_per_m", &SpringJoint::stiffness, "N/m", fields::positive, "Of each spring.")
-            .number("damping_time_s", &SpringJoint::dampingTime, "s", dampingTimeRange, "Of each spring."));
+            .number("damping_time_s", &SpringJoint::dampingTime, "s", dampingTimeRange, "Of each spring.")
+            .number("rest_length_m", &SpringJoint::restLength, "m", fields::notNegative,
+                    "At which a spring pulls no more; the distance as the scene starts if not given.")
+            .only({"a spring joint"}));
 }
 
 }  // namespace taut::world

@@ -1,15 +1,39 @@
+#include "taut/mechanics/pose_path.h"
 #include "taut/spec/common_rows.h"
 #include "taut/bodies/island_plan.h"
 #include "taut/bodies/joints/joints.h"
+#include "taut/bodies/private/joints/only_constraint.h"
+#include "taut/bodies/private/joints/pins.h"
 
 namespace taut::world {
 
-void WeldJoint::carry(IslandPlan&, Grip) const {}
+// All that is pinned together begins where that of it which is held is, or else the first.
+void WeldJoint::tie(IslandPlan& plan, int first, int second, double) const {
+    if (first == second) return;
+    std::vector<int> cluster;
+    changeOnly<Pins>(plan, [&](Pins& pins) {
+        pins.tie(first, second, source);
+        cluster = pins.clusterOf(first);
+    });
+    const auto held = std::find_if(cluster.begin(), cluster.end(),
+                                   [&](int i) { return plan.points[static_cast<std::size_t>(i)].held; });
+    const int place = held != cluster.end() ? *held : cluster.front();
+    for (const int i : cluster)
+        plan.positions[static_cast<std::size_t>(i)] = plan.positions[static_cast<std::size_t>(place)];
+}
+
+void WeldJoint::carry(IslandPlan& plan, Grip grip) const {
+    changeOnly<Pins>(plan, [&](Pins& pins) {
+        for (std::size_t i = 0; i < grip.points.size(); ++i)
+            pins.tie(grip.points[i], Constraint::Place{grip.holder, grip.offsets[i]}, source);
+    });
+    carryBy(plan, grip.holder, grip.path);
+}
 
 Kind<JointSpec> weldKind() {
     return jointKind<WeldJoint>(
         "A weld makes points one; a collider carries all points that are welded to it as they lie when the scene "
-        "starts.",
+        "starts. Of one body, or with a name, break_N or a finish, it keeps points in one place, and they stay two.",
         fields::FieldList<WeldJoint>()
             .number("reach_m", &WeldJoint::furthest, "m", fields::Range{0.0, 1e3},
                     "Largest distance of two points that a weld makes one.")

@@ -17,6 +17,7 @@ enum class Takes {
     place,   // points, which stand for their centre of mass, or [x, y, z]
     number,
     vector,
+    joint,   // the name of joints
 };
 
 struct Function {
@@ -41,6 +42,7 @@ const std::vector<Function>& functionTable();
 std::vector<Function> pointFunctions();
 std::vector<Function> bodyFunctions();
 std::vector<Function> gapFunctions();
+std::vector<Function> jointFunctions();
 std::vector<Function> numberFunctions();
 
 }  // namespace taut::check

@@ -1,8 +1,10 @@
 // Collects what is wrong with a text and prints it in the order of the file, each with its line and a caret.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "taut/fields/node.h"
@@ -14,8 +16,12 @@ class Problems {
     // The text is kept by reference. labels[k - 1] names override k, e.g. "--set cloth.flag.cells".
     Problems(std::string_view text, std::string fileName, std::vector<std::string> labels);
 
-    // The file that the first one builds on, for places of origin -1.
-    void setBase(std::string text, std::string fileName);
+    // A file that the one before builds on. Returns the origin of its places: -1, then -2, and so on.
+    int addBase(std::string text, std::string fileName);
+
+    // Whom the next problems are of: "rope.line", or nobody in particular. What is wrong at a place that several things
+    // share is said of the first of them alone.
+    void about(std::string subject) { subject_ = std::move(subject); }
 
     // The file, or what the override is called.
     const std::string& fileOf(Place place) const;
@@ -29,7 +35,7 @@ class Problems {
 
     int errorCount() const { return static_cast<int>(errors_.size()); }
 
-    // Sorted: the file from top to bottom, then the one that it builds on, then the overrides in their order. At most
+    // Sorted: the file from top to bottom, then those that it builds on, then the overrides in their order. At most
     // 200.
     std::string errors() const;  // joined by newlines
     std::vector<std::string> warnings() const;
@@ -37,17 +43,23 @@ class Problems {
   private:
     struct Problem {
         Place place;
-        std::string message, remedy;
+        std::string message, remedy, subject;
     };
-    static std::vector<Problem> sorted(std::vector<Problem> problems);
+    struct File {
+        std::string name;
+        std::string_view text;
+        std::vector<std::size_t> lines;  // where each begins
+    };
+    std::vector<Problem> sorted(const std::vector<Problem>& problems) const;
     std::string print(const Problem& problem, std::string_view severity) const;
 
+    const File& writtenIn(Place place) const { return files_[static_cast<std::size_t>(-place.origin)]; }
     std::string_view lineOf(Place place) const;
 
-    std::string_view text_;
-    std::string fileName_, baseText_, baseName_;
+    std::deque<std::string> baseTexts_;
+    std::vector<File> files_;  // the first one, then what it builds on
     std::vector<std::string> labels_;
-    std::vector<std::size_t> lines_, baseLines_;  // where each begins in its text
+    std::string subject_;
     std::vector<Problem> errors_, warnings_;
 };
 

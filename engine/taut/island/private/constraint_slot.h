@@ -37,6 +37,7 @@ class ConstraintSlot {
         ties_.clear();
         points_.clear();
         places_.clear();
+        pull_.clear();
         for (const auto& constraint : plan_.constraints) {
             const std::span<const int> own = constraint->points();
             points_.insert(points_.end(), own.begin(), own.end());
@@ -53,11 +54,34 @@ class ConstraintSlot {
                 tie.numbers.push_back(points_.size() + places_.size());
                 places_.push_back(place);
             }
+            tie.first = static_cast<int>(pull_.size());
+            pull_.resize(pull_.size() + static_cast<std::size_t>(tie.constraint->size()));
             tie.w.resize(tie.numbers.size());
             tie.from = tie.x = tie.v = std::vector<dvec3>(tie.numbers.size());
         }
         inverseMass_.assign(points_.size() + places_.size(), 0.0);
         from_ = x_ = v_ = reached_ = placed_ = stored_ = std::vector<dvec3>(inverseMass_.size());
+        impulse_.assign(pull_.size(), dvec3(0.0));
+    }
+
+    // [N s] that a tie of a constraint has pulled its first end with since then; of some in axes of its own.
+    void forgetImpulses() { std::fill(impulse_.begin(), impulse_.end(), dvec3(0.0)); }
+    const dvec3& impulse(std::size_t constraint, int tie) const {
+        return impulse_[static_cast<std::size_t>(ties_[constraint].first + tie)];
+    }
+    // What that adds to ω² [1/s²] where it was pulled for so long [s], at t [s].
+    double turning(double t, double seconds) {
+        load(t, state_.v);
+        double most = 0;
+        std::vector<dvec3> forces;
+        for (Tie& tie : ties_) {
+            gather(tie);
+            forces.clear();
+            for (int own = 0; own < tie.constraint->size(); ++own)
+                forces.push_back(impulse_[static_cast<std::size_t>(tie.first + own)] / seconds);
+            most = std::max(most, tie.constraint->turning(tie.x, tie.w, forces));
+        }
+        return most;
     }
 
     // Before a method starts from x and v, both at t [s].
@@ -79,6 +103,7 @@ class ConstraintSlot {
         load(t, state_.v);
         reached_ = x_;
         takeTurns(&Constraint::projectPositions);
+        addImpulses(1.0 / h);
         Real* predicted = method.predicted(state_);
         const bool isHalfStep = predicted != state_.v.data();
         for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -88,6 +113,7 @@ class ConstraintSlot {
             v_[i] = isHalfStep ? at(predicted, points_[i]) + 1.5 * change : stored_[i];
         }
         takeTurns(&Constraint::projectVelocities);
+        if (!isHalfStep) addImpulses(1.0);
         store(state_.x, x_);
         store(state_.v, isHalfStep ? stored_ : v_);
         if (isHalfStep)
@@ -113,6 +139,7 @@ class ConstraintSlot {
             reached_[i] = v_[i];
         }
         takeTurns(&Constraint::projectVelocities);
+        addImpulses(1.0);
         store(state_.x, x_);
         Real* predicted = method.predicted(state_);
         const bool isHalfStep = predicted != state_.v.data();
@@ -147,6 +174,7 @@ class ConstraintSlot {
         std::vector<std::size_t> numbers;  // of points_, then of places_ after them
         std::vector<double> w;             // [1/kg]
         std::vector<dvec3> from, x, v;
+        int first = 0;  // of pull_ and impulse_
     };
 
     dvec3 at(const Real* planes, int point) const {
@@ -198,14 +226,34 @@ class ConstraintSlot {
             tie.v[k] = v_[n];
         }
     }
+    // What the last turns have pulled with, times a factor.
+    void addImpulses(double factor) {
+        for (std::size_t i = 0; i < pull_.size(); ++i) impulse_[i] += factor * pull_[i];
+    }
+    // Of one tie alone: by what its first point that moves has moved, or its second is moved the other way.
+    void seePull(const Tie& tie, const std::vector<dvec3>& now, const std::vector<dvec3>& before) {
+        for (std::size_t k = 0; k < tie.numbers.size(); ++k) {
+            if (!(tie.w[k] > 0)) continue;
+            pull_[static_cast<std::size_t>(tie.first)] += (now[k] - before[tie.numbers[k]]) / tie.w[k];
+            return;
+        }
+    }
     void takeTurns(bool (Constraint::*projection)(const Constraint::Moment&)) {
         constexpr int mostRounds = 50;
+        std::fill(pull_.begin(), pull_.end(), dvec3(0.0));
+        std::vector<dvec3> ignored(1);
+        const bool isOfPlaces = projection == &Constraint::projectPositions;
         for (int round = 0; round < mostRounds; ++round) {
             bool moves = false;
             for (Tie& tie : ties_) {
                 gather(tie);
-                if (!((*tie.constraint).*projection)({tie.w, tie.from, tie.x, tie.v})) continue;
+                const auto size = static_cast<std::size_t>(tie.constraint->size());
+                const bool isOne = size == 1;
+                const std::span<dvec3> pull =
+                    isOne ? std::span(ignored) : std::span(pull_).subspan(static_cast<std::size_t>(tie.first), size);
+                if (!((*tie.constraint).*projection)({tie.w, tie.from, tie.x, tie.v, pull})) continue;
                 moves = true;
+                if (isOne) isOfPlaces ? seePull(tie, tie.x, x_) : seePull(tie, tie.v, v_);
                 for (std::size_t k = 0; k < tie.constraint->points().size(); ++k) {
                     x_[tie.numbers[k]] = tie.x[k];
                     v_[tie.numbers[k]] = tie.v[k];
@@ -227,6 +275,7 @@ class ConstraintSlot {
     std::vector<dvec3> from_, x_, v_;
     std::vector<dvec3> reached_;  // x before it is projected; then velocities at its time, as they were left
     std::vector<dvec3> placed_, stored_;
+    std::vector<dvec3> pull_, impulse_;  // (ties of all constraints)
 };
 
 }  // namespace taut::world

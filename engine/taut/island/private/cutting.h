@@ -16,17 +16,17 @@ struct CutEdges {
         int a, b;      // points of its model
         double share;  // of the way from a to b
     };
-    std::vector<Edge> edges;                                     // of springs, triangles and tetrahedra
-    std::vector<int> joints;                                     // springs of the plan
-    std::vector<std::shared_ptr<const Constraint>> constraints;  // the plan's after it; empty where none is cut
-    bool isEmpty() const { return edges.empty() && joints.empty() && constraints.empty(); }
+    std::vector<Edge> edges;        // of springs, triangles and tetrahedra
+    std::vector<std::size_t> ties;  // of the plan
+    bool isEmpty() const { return edges.empty() && ties.empty(); }
 };
 
-// What of the bodies lies across the plane or the segment of the action and is not severed yet. A point on the plane
-// counts as in front of it, so that every edge is either crossed or not. A segment only cuts cloth on a grid.
+// What of the bodies lies across the plane or the segment of the action and is not severed yet; all of it where the
+// action has neither. A point on the plane counts as in front of it, so that every edge is either crossed or not. A
+// segment only cuts cloth on a grid.
 CutEdges edgesCutBy(const CutAction& action, const Island& island, std::span<Body* const> bodies);
 
-// Severs the edges, with the springs along them, and the joints.
+// Severs the edges, with the springs along them, and the ties.
 void sever(const CutEdges& crossing, IslandPlan& plan);
 
 // Breaks the springs of the plan whose edges are severed in the damage of their bodies, which has been assessed.

@@ -98,6 +98,11 @@ class Dynamics {
     virtual bool settle() = 0;
     // The largest |l - L|/L of what constraints tie, of points that count, at t [s].
     virtual double strain(double t, const std::vector<bool>& only) = 0;
+    // [N s] by which ties of constraints have pulled since those were forgotten; and what that, in so many seconds up
+    // to t [s], adds to ω² [1/s²].
+    virtual void forgetImpulses() = 0;
+    virtual dvec3 impulse(const JointTie::Part& part) const = 0;
+    virtual double turning(double t, double seconds) = 0;
     // Whether collide() sums up what it does to the energy, and that sum since it was last taken.
     virtual void watchContacts(bool isOn) = 0;
     virtual ContactWork takeContactWork() = 0;

@@ -21,6 +21,7 @@
 #include "taut/island/report.h"
 #include "taut/island/private/step_choice.h"
 #include "taut/island/private/step_following.h"
+#include "taut/island/private/tie_load.h"
 #include "taut/island/private/yielding.h"
 
 namespace taut::world {
@@ -106,6 +107,9 @@ class Island {
     // Whether any spring tore in the last tick.
     bool hasTorn() const { return yielding_.hasTorn(); }
 
+    // (ties of joints) whether the mean of the force through it over the last tick was above what it bears.
+    std::vector<bool> overloaded() const;
+
     // Puts back what the last tick began with.
     void undoTick();
 
@@ -130,8 +134,8 @@ class Island {
     void lead(const TickTime& time, const std::string& hand, const mechanics::PosePath& path, bool bends);
     // The same of a collider, "collider.pole"; opens where the way does not go on from the one before.
     void carry(const TickTime& time, const std::string& collider, const mechanics::PosePath& path);
-    // Opens where constraints are fixed to that collider: it is gone.
-    void release(const TickTime& time, const std::string& collider);
+    // Opens where ties of joints that are wanted hold; they let go.
+    void release(const TickTime& time, const std::function<bool(const JointTie&)>& wanted);
     // Opens where a force jumps; not if flows and gravity only go on changing.
     void setForces(const TickTime& time, const ForceList& forces);
 
@@ -226,6 +230,7 @@ class Island {
     std::string stretchWarning_, collapseWarning_, limitWarning_;
     PrecisionWatch precision_;
     Yielding yielding_;
+    TieLoad tieLoad_;
     std::optional<FrozenIsland> frozen_;
 };
 

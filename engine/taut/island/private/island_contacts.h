@@ -9,6 +9,7 @@
 #include "taut/collision/colliders.h"
 #include "taut/mechanics/mass_spring_system.h"
 #include "taut/ode/method.h"
+#include "taut/bodies/joints/constraint.h"
 #include "taut/island/private/contact_watch.h"
 #include "taut/island/private/planar.h"
 
@@ -157,8 +158,22 @@ class IslandContacts {
   private:
     void watchAnew() { watch_.start(plan_, cellsOf(plan_), system_.layout().stride); }
 
+    // None stops what a collider carries by a constraint.
+    const Real* inverseMasses() {
+        const Real* all = system_.inverseMasses();
+        carried_.clear();
+        for (const auto& constraint : plan_.constraints)
+            for (const int i : constraint->points())
+                if (constraint->carries(i)) carried_.push_back(i);
+        if (carried_.empty()) return all;
+        masses_.assign(all, all + planar_.stride);
+        for (const int i : carried_) masses_[static_cast<std::size_t>(i)] = Real(0);
+        return masses_.data();
+    }
+
     void findColliding(double gravity) {
         colliding_.clear();
+        const Real* inverseMass = inverseMasses();
         for (const Body* body : plan_.bodies) {
             if (!body->spec->collide || body->lastPoint == body->firstPoint) continue;
             collision::MovingPoints<Real>& points = colliding_.emplace_back();
@@ -168,7 +183,7 @@ class IslandContacts {
             points.xBefore = before_.data();
             points.x = state_.x.data();
             points.v = state_.v.data();
-            points.inverseMass = system_.inverseMasses();
+            points.inverseMass = inverseMass;
             points.thickness = body->spec->thickness;
             points.friction = body->spec->friction;
             points.gravity = gravity;
@@ -346,6 +361,8 @@ class IslandContacts {
     ContactWatch<Real> watch_;
     Planes placed_, placedFrom_, placedSpeeds_;  // scratch, of points that are placed
     std::vector<Real> placedMasses_;             // likewise
+    std::vector<int> carried_;                   // likewise, points
+    std::vector<Real> masses_;                   // (points) [1/kg], where some are carried
 };
 
 }  // namespace taut::world

@@ -10,9 +10,9 @@
 namespace taut::mechanics {
 
 // On a point: F = -k (x - p) - c (v - ṗ), p the place at the time plus the point's own offset from it, which turns with
-// the place if that turns. Where a largest force is said, what is longer is cut to that length. That projects onto a ball,
-// which is monotone: the slopes of F are no steeper than without, and with U = ∫ min(k d, most) dd, d = |x - p|, the
-// dashpot still takes energy and never adds any.
+// the place if that turns. Where a largest force is said, what is longer is cut to that length. That projects onto a
+// ball, which is monotone: the slopes of F are no steeper than without, and with U = ∫ min(k d, most) dd, d = |x - p|,
+// the dashpot still takes energy and never adds any.
 template <class Real>
 class Anchor final : public ForceGenerator<Real> {
   public:

@@ -1,9 +1,6 @@
 // Finds the model and texture files that a scene names, and reads the models.
 #pragma once
 
-#include <filesystem>
-#include <vector>
-
 #include "taut/scene/load.h"
 #include "taut/scene/private/scene_reader.h"
 #include "taut/scene/private/text_file.h"
@@ -11,9 +8,8 @@
 namespace taut::scene {
 
 // Replaces paths in the spec by those found and fills in the meshes. A relative path is looked for in the folder of
-// the file that names it, then in that of the other one (see Place),  then in each asset folder, its `models` and its
-// `textures`. Reports what is missing, not allowed or unusable.
-void loadAssets(const std::filesystem::path& sceneFolder, const std::filesystem::path& baseFolder,
-                const LoadOptions& options, const Confinement& confinement, ReadScene& scene, Problems& problems);
+// the file that names it, then in those of the scene and of the files that it builds on, then in each asset folder, its
+// `models` and its `textures`. Reports what is missing, not allowed or unusable.
+void loadAssets(const LoadOptions& options, const Confinement& confinement, ReadScene& scene, Problems& problems);
 
 }  // namespace taut::scene

@@ -1,4 +1,5 @@
-// Lays what a scenario says over the scene that it names. It knows trees of keys, not what they mean.
+// Lays what a scenario says over the scene that it names, and that over the one that it names. It knows trees of keys,
+// not what they mean.
 #pragma once
 
 #include <filesystem>
@@ -32,10 +33,15 @@ struct BaseFile {
 };
 
 // The file that `scene = "…"` in a document names: beside the scene, or a shipped one in the `scenes` of an asset
-// folder, of these alone with "shipped:" before it, with or without ".toml"; never the scene file itself. Reports what
-// is wrong with the name or the file.
-BaseFile baseFileOf(const Node& root, const std::filesystem::path& sceneFile,
+// folder, of these alone with "shipped:" before it, with or without ".toml"; never the scene file itself. "shipped:"
+// also takes a way from the asset folder, such as "shipped:scenarios/net". `chain` has the files so far, each of which
+// builds on the next; the document is the last. Reports what is wrong with the name or the file, and a chain that is
+// too long or goes in a circle.
+BaseFile baseFileOf(const Node& root, const std::vector<std::filesystem::path>& chain,
                     const std::vector<std::filesystem::path>& assetFolders, const Confinement& confinement,
                     std::uint64_t maxBytes, Problems& problems);
+
+// How many files a scene may build on, one upon another.
+inline constexpr std::size_t mostBases = 8;
 
 }  // namespace taut::scene

@@ -13,9 +13,10 @@ namespace taut::scene {
 // a key and a value.
 std::string overrideLabel(const std::string& text);
 
-// Changes the document. `origin` is the override's number from 1. A body, a collider, … that the file lacks, and an
-// element that a list lacks, are errors; everything else is left to the reader. A value that is not TOML but a
-// plain word is taken as a text.
+// Changes the document. `origin` is the override's number from 1. In the place of a name, or of the number of an
+// element, * stands for any letters: "block.*.touch" is that of every block. A body, a collider, … that the file lacks,
+// an element that a list lacks, and a * that fits nothing, are errors; everything else is left to the reader. A value
+// that is not TOML but a plain word is taken as a text.
 void applyOverride(const std::string& text, int origin, const std::vector<SceneSection>& sections, Node& root,
                    Problems& problems);
 

@@ -10,4 +10,7 @@ namespace taut::scene {
 // bodies whose [solver] overrides disagree. Expects the meshes to be loaded.
 void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& problems);
 
+// Why no joint of the scene has the name.
+std::optional<TargetFault> nameFault(const world::SceneSpec& scene, const std::string& name);
+
 }  // namespace taut::scene

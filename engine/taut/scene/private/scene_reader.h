@@ -18,7 +18,7 @@ struct NameReference {
     Place place;
     std::string text;   // of a mesh, a texture: the path as written
     double time = 0;    // [s]
-    std::string owner;  // "cloth.flag": the section it stands in; empty for a setting
+    std::string owner;  // "cloth.flag": the section it stands in; "environment" for a setting
 };
 
 struct ReadScene {

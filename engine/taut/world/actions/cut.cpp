@@ -12,9 +12,9 @@ Kind<ActionSpec> cutKind() {
     const auto check = [](const fields::CheckInput& input, const CutAction& cut) {
         needsTarget(input, cut);
         if (!input.isClean) return;
-        if (cut.planePoint.has_value() == cut.from.has_value())
-            reportLack(input, "either plane or segment",
-                       "write plane = [[point], [normal]] in metres or segment = [[u, v], [u, v]] on a cloth grid");
+        if (cut.planePoint && cut.from)
+            input.problems.addError(input.at("segment"), "a cut has a plane or a segment, not both",
+                                    "leave one out; without either all of the body comes apart");
         if (cut.from && *cut.from == *cut.upTo)
             input.problems.addError(input.at("segment"), "the two ends of the cut are the same point");
         if (cut.planeNormal && glm::dot(*cut.planeNormal, *cut.planeNormal) < fields::smallest * fields::smallest)
@@ -23,7 +23,7 @@ Kind<ActionSpec> cutKind() {
     return actionKind<CutAction>(
         withTarget<CutAction>()
             .segment("plane", &CutAction::planePoint, &CutAction::planeNormal, "m", placeRange,
-                     "A point and a normal: springs that cross the plane are cut.")
+                     "A point and a normal: springs that cross the plane are cut. Without it and a segment all are.")
             .segment("segment", &CutAction::from, &CutAction::upTo, "", fields::share,
                      "From where to where a cloth grid is cut, as shares of its width and height from the top left."),
         check);

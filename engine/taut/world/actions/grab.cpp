@@ -4,6 +4,7 @@
 #include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
+#include "taut/world/private/joints.h"
 #include "taut/world/private/timeline.h"
 
 namespace taut::world {
@@ -24,7 +25,7 @@ Kind<ActionSpec> grabKind() {
         [](const fields::CheckInput& input, const GrabAction& grab) {
             needsTarget(input, grab);
             needsId(input, grab);
-            if (grab.rigid && grab.maxForce > 0)
+            if (grab.rigid && grab.maxForce)
                 input.problems.addError(input.at("max_force_N"), "a rigid hand leads its points whatever it takes",
                                         "leave max_force_N or rigid out");
         });
@@ -36,6 +37,7 @@ void GrabAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     if (std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& h) { return h.id == id; }))
         failAction(*this, "there is a hand \"" + id + "\" already; release it first");
+    if (isJoint(w, id)) failAction(*this, "\"" + id + "\" is the name of a joint; give the hand another id");
     std::vector<Picked> points = pick(w, *this);
     Hand hand;
     hand.id = id;
@@ -77,7 +79,7 @@ void GrabAction::perform(World& world) const {
             if (rigid) continue;
             grip.stiffness.push_back(share * rates.omega2);
             grip.damping.push_back(share * rates.damping);
-            if (maxForce > 0) grip.mostForce.push_back(share / mass * maxForce);
+            if (maxForce) grip.mostForce.push_back(share / mass * *maxForce);
         }
         plan.grips.push_back(std::move(grip));
         if (rigid) island->stop(w.now(), numbers);

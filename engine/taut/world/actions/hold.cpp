@@ -37,6 +37,10 @@ IslandPlan& untied(Island& island, const TickTime& time, std::span<const int> po
 void pin(const PointsAction& action, WorldImpl& w, bool isHeld) {
     for (const auto& [island, numbers] : byIsland(pick(w, action))) {
         IslandPlan& plan = untied(*island, w.now(), numbers);
+        if (!isHeld)
+            island->release(w.now(), [&own = numbers](const JointTie& tie) {
+                return tie.b < 0 && std::binary_search(own.begin(), own.end(), tie.a);
+            });
         for (int i : numbers) plan.points[static_cast<std::size_t>(i)].held = isHeld;
         if (isHeld) island->stop(w.now(), numbers);
     }

@@ -6,7 +6,7 @@
 //   timeline      actions when they are due, and the points that they name; actions/ what each kind does
 //   hands         hands, and where they lead
 //   ramps         fields of the scene that change while it runs
-//   joints        what the joints of the scene tie
+//   joints        what the joints of the scene tie, and what lets go
 //   tick          islands go through a tick, and back
 //   publish       the view for a picture
 //   saving        all of it as bytes
@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "taut/bodies/private/joints/tie_drawing.h"
 #include "taut/core/private/parallel.h"
 #include "taut/island/private/island.h"
 #include "taut/spec/spec.h"
@@ -71,6 +72,7 @@ struct WorldImpl {
     std::vector<Ramp> ramps;        // one for each key, in the order in which they began
     std::vector<JointInfo> joints;  // of the scene, as they tied bodies at the start
     std::vector<std::string> jointWarnings;
+    std::vector<std::shared_ptr<const TieDrawing>> drawings;  // (joints of the scene) null: not drawn
 
     WorldImpl(const SceneSpec& scene, const Options& options);
 

@@ -26,19 +26,17 @@ class Rods final : public ConstraintOf<Rods> {
     std::span<const Place> places() const override { return places_; }
     bool projectPositions(const Moment& moment) override;
     bool projectVelocities(const Moment& moment) override;
-    int count() const override;
+    int size() const override { return static_cast<int>(rods_.size()); }
     double strain(std::span<const dvec3> x, const std::vector<bool>& counts) const override;
+    double turning(std::span<const dvec3> x, std::span<const double> inverseMass,
+                   std::span<const dvec3> forces) const override;
     void check() const override;
-    bool sever(const IsCut& isCut) override;
-    bool release(const std::string& collider) override;
-    void visit(StateBytes& bytes) override;
 
   private:
     struct Rod {
         int a, b;       // of points_; below 0, -1 - place
         double length;  // [m]
         Source source;
-        bool isBroken = false;
     };
     // Two rods that share an end: the matrix has sign · w n_i·n_j in row i and column j < i.
     struct Coupling {
@@ -54,7 +52,7 @@ class Rods final : public ConstraintOf<Rods> {
     void layOut();
     void factor(std::span<const dvec3> x, std::span<const double> inverseMass);
     void solve();
-    void pull(std::span<dvec3> to, std::span<const double> inverseMass) const;
+    void pull(std::span<dvec3> to, const Moment& moment) const;
     double& at(int row, int column) {
         return lower_[start_[static_cast<std::size_t>(row)] +
                       static_cast<std::size_t>(column - first_[static_cast<std::size_t>(row)])];

@@ -1,0 +1,145 @@
+#include "taut/bodies/private/joints/pins.h"
+
+#include <cmath>
+
+#include "taut/core/error.h"
+
+namespace taut::world {
+namespace {
+
+constexpr double roundingOfPins = 1e-15;  // of a coordinate or velocity
+
+}  // namespace
+
+int Pins::numberOf(int point) {
+    const auto found = std::find(points_.begin(), points_.end(), point);
+    if (found != points_.end()) return static_cast<int>(found - points_.begin());
+    points_.push_back(point);
+    return static_cast<int>(points_.size()) - 1;
+}
+
+void Pins::tie(int a, int b, const Source& source) {
+    const int first = numberOf(a), second = numberOf(b);
+    pins_.push_back({first, second, source});
+    layOut();
+}
+
+void Pins::tie(int a, const Place& b, const Source& source) {
+    places_.push_back(b);
+    pins_.push_back({numberOf(a), -static_cast<int>(places_.size()), source});
+    layOut();
+}
+
+// Walks from each place, then from each point, along the pins that hold.
+void Pins::layOut() {
+    const std::size_t count = points_.size() + places_.size();
+    std::vector<std::vector<int>> at(count);  // pins
+    for (int p = 0; p < size(); ++p)
+        if (holds(p))
+            for (const int number : {pins_[static_cast<std::size_t>(p)].a, pins_[static_cast<std::size_t>(p)].b})
+                at[static_cast<std::size_t>(end(number))].push_back(p);
+    nodes_.clear();
+    clusters_.clear();
+    std::vector<bool> isMet(count, false);
+    const auto take = [&](int number, int parent, int pin) {
+        if (isMet[static_cast<std::size_t>(number)]) return;
+        isMet[static_cast<std::size_t>(number)] = true;
+        nodes_.push_back({number, parent, pin});
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t root = (i + points_.size()) % count;  // places first
+        if (isMet[root] || at[root].empty()) continue;
+        Cluster cluster{static_cast<int>(nodes_.size()), 0};
+        take(static_cast<int>(root), -1, -1);
+        for (std::size_t next = static_cast<std::size_t>(cluster.first); next < nodes_.size(); ++next)
+            for (const int p : at[static_cast<std::size_t>(nodes_[next].number)])
+                for (const int number : {pins_[static_cast<std::size_t>(p)].a, pins_[static_cast<std::size_t>(p)].b})
+                    take(end(number), static_cast<int>(next), p);
+        cluster.last = static_cast<int>(nodes_.size());
+        clusters_.push_back(cluster);
+    }
+    sum_.resize(nodes_.size());
+}
+
+std::vector<int> Pins::clusterOf(int point) const {
+    std::vector<int> all;
+    for (const Cluster& cluster : clusters_) {
+        std::vector<int> own;
+        for (int n = cluster.first; n < cluster.last; ++n)
+            if (const int number = nodes_[static_cast<std::size_t>(n)].number; !isPlace(number))
+                own.push_back(points_[static_cast<std::size_t>(number)]);
+        if (std::find(own.begin(), own.end(), point) != own.end()) all = own;
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+bool Pins::carries(int point) const {
+    for (const Cluster& cluster : clusters_) {
+        if (!isPlace(nodes_[static_cast<std::size_t>(cluster.first)].number)) continue;
+        for (int n = cluster.first; n < cluster.last; ++n)
+            if (const int number = nodes_[static_cast<std::size_t>(n)].number;
+                !isPlace(number) && points_[static_cast<std::size_t>(number)] == point)
+                return true;
+    }
+    return false;
+}
+
+void Pins::check() const {
+    for (const Cluster& cluster : clusters_) {
+        const int root = nodes_[static_cast<std::size_t>(cluster.first)].number;
+        for (int n = cluster.first + 1; n < cluster.last; ++n) {
+            const Node& node = nodes_[static_cast<std::size_t>(n)];
+            if (!isPlace(node.number)) continue;
+            const auto placeOf = [&](int number) { return places_[static_cast<std::size_t>(number) - points_.size()]; };
+            const std::string first = placeOf(root).collider, second = placeOf(node.number).collider;
+            if (first != second)
+                throw core::Error(core::ErrorKind::badContent,
+                                  at(pins_[static_cast<std::size_t>(node.pin)].source) +
+                                      "a point is tied to " + first + " already and cannot go with " + second +
+                                      " too; take different points");
+        }
+    }
+}
+
+// A point without inverse mass, which is the collider's or held, draws all others to it and bears what they are moved
+// by.
+bool Pins::project(std::span<dvec3> values, const Moment& moment) {
+    bool any = false;
+    for (const Cluster& cluster : clusters_) {
+        const auto nodes = std::span(nodes_).subspan(static_cast<std::size_t>(cluster.first),
+                                                     static_cast<std::size_t>(cluster.last - cluster.first));
+        const auto value = [&](const Node& node) -> dvec3& { return values[static_cast<std::size_t>(node.number)]; };
+        const auto weight = [&](const Node& node) {
+            return moment.inverseMass[static_cast<std::size_t>(node.number)];
+        };
+        const auto fixed = std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return !(weight(n) > 0); });
+        dvec3 target = value(fixed != nodes.end() ? *fixed : nodes.front());
+        if (fixed == nodes.end()) {
+            dvec3 moved(0.0);
+            double mass = 0;
+            for (const Node& node : nodes) {
+                moved += (value(node) - target) / weight(node);
+                mass += 1.0 / weight(node);
+            }
+            target += moved / mass;
+        }
+        const std::span<dvec3> sum = std::span(sum_).subspan(static_cast<std::size_t>(cluster.first));
+        dvec3 all(0.0);
+        for (std::size_t n = 0; n < nodes.size(); ++n) {
+            const dvec3 way = target - value(nodes[n]);
+            any = any || std::sqrt(glm::dot(way, way)) > roundingOfPins * std::sqrt(glm::dot(target, target));
+            sum[n] = weight(nodes[n]) > 0 ? way / weight(nodes[n]) : dvec3(0.0);
+            all += sum[n];
+            if (weight(nodes[n]) > 0) value(nodes[n]) = target;
+        }
+        if (fixed != nodes.end()) sum[static_cast<std::size_t>(fixed - nodes.begin())] = -all;
+        for (std::size_t n = nodes.size(); n-- > 1;) {
+            moment.pull[static_cast<std::size_t>(nodes[n].pin)] += sum[n];
+            sum[static_cast<std::size_t>(nodes[n].parent - cluster.first)] += sum[n];
+        }
+    }
+    return any;
+}
+
+}  // namespace taut::world

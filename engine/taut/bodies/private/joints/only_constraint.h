@@ -1,0 +1,27 @@
+// The constraint of a plan that has all joints of its sort, such as rods, which it solves for together.
+#pragma once
+
+#include <memory>
+
+#include "taut/bodies/island_plan.h"
+#include "taut/bodies/joints/constraint.h"
+
+namespace taut::world {
+
+// Calls change(own) with it, made if there is none; another takes its place where others have it too.
+template <class Own, class Change>
+void changeOnly(IslandPlan& plan, const Change& change) {
+    for (auto& constraint : plan.constraints)
+        if (const auto* own = dynamic_cast<const Own*>(constraint.get())) {
+            if (constraint.use_count() == 1) return change(const_cast<Own&>(*own));  // while the plan is made
+            auto changed = std::make_shared<Own>(*own);
+            change(*changed);
+            constraint = std::move(changed);
+            return;
+        }
+    auto made = std::make_shared<Own>();
+    change(*made);
+    plan.constraints.push_back(std::move(made));
+}
+
+}  // namespace taut::world

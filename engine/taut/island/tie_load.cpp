@@ -1,0 +1,56 @@
+#include "taut/island/private/tie_load.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut::world {
+namespace {
+
+// [N] of a spring at its first end, along it, which turns.
+double pullOf(const mechanics::Spring& spring, const Dynamics& dynamics) {
+    const dvec3 d = dynamics.position(spring.b) - dynamics.position(spring.a);
+    return spring.stiffness * (std::sqrt(glm::dot(d, d)) - spring.restLength);
+}
+
+// [N] of what draws a point to its place on a collider at t [s].
+dvec3 pullOf(const Grip& grip, const Dynamics& dynamics, double t) {
+    const mechanics::PosePath::Frame frame = grip.path.at(t);
+    dvec3 sum(0.0);
+    for (std::size_t i = 0; i < grip.points.size(); ++i)
+        sum += grip.stiffness[i] * (frame.place + frame.arm(grip.offsets[i]) - dynamics.position(grip.points[i]));
+    return sum;
+}
+
+}  // namespace
+
+void TieLoad::begin(const IslandPlan& plan) {
+    watched_.clear();
+    steps_ = 0;
+    for (std::size_t t = 0; t < plan.ties.size(); ++t)
+        if (plan.ties[t].breakForce < HUGE_VAL && holds(plan, plan.ties[t])) watched_.push_back(t);
+    sum_.assign(watched_.size(), dvec3(0.0));
+}
+
+void TieLoad::add(const IslandPlan& plan, const Dynamics& dynamics, double t) {
+    ++steps_;
+    for (std::size_t w = 0; w < watched_.size(); ++w) {
+        const JointTie& tie = plan.ties[watched_[w]];
+        for (const int s : tie.springs) sum_[w].x += pullOf(plan.springs[static_cast<std::size_t>(s)], dynamics);
+        if (!tie.isGrip) continue;
+        for (const Grip& grip : plan.grips)
+            if (grip.tie == static_cast<int>(watched_[w])) sum_[w] += pullOf(grip, dynamics, t);
+    }
+}
+
+std::vector<bool> TieLoad::overloaded(const IslandPlan& plan, const Dynamics& dynamics, double seconds) const {
+    std::vector<bool> isOver(plan.ties.size(), false);
+    for (std::size_t w = 0; w < watched_.size(); ++w) {
+        const JointTie& tie = plan.ties[watched_[w]];
+        dvec3 force = sum_[w] / static_cast<double>(std::max(steps_, 1));
+        for (const JointTie::Part& part : tie.parts) force += dynamics.impulse(part) / seconds;
+        isOver[watched_[w]] = std::sqrt(glm::dot(force, force)) > tie.breakForce;
+    }
+    return isOver;
+}
+
+}  // namespace taut::world

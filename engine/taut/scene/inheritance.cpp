@@ -1,0 +1,145 @@
+#include "taut/scene/private/inheritance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "taut/scene/private/merge.h"
+
+namespace taut::scene {
+
+namespace {
+
+constexpr std::size_t longestChain = 16;       // of elements that are like another
+constexpr std::size_t mostValues = 1'000'000;  // that are taken over in all: a slip or an attack takes more
+
+std::size_t valuesIn(const Node& node) {
+    std::size_t count = 1;
+    for (const Node& item : node.items) count += valuesIn(item);
+    for (const Member& member : node.members) count += valuesIn(member.value);
+    return count;
+}
+
+// Leaves out what only `below` has said and what does not go with the form that the table has.
+void eraseUnfit(const Section& section, const Node& own, Node& table) {
+    const std::string variant = section.variant ? section.variant(table) : "";
+    std::erase_if(table.members, [&](Member& member) {
+        const Field* field = section.find(member.key);
+        if (field == nullptr) return false;
+        const Member* said = own.find(member.key);
+        if (field->kind == FieldKind::table && member.value.kind == NodeKind::table)
+            eraseUnfit(field->inside.front(), said != nullptr ? said->value : Node{}, member.value);
+        return said == nullptr && !variant.empty() && !field->only.empty() &&
+               std::find(field->only.begin(), field->only.end(), variant) == field->only.end();
+    });
+}
+
+// The named elements of one section.
+class Elements {
+  public:
+    Elements(const SceneSection& section, const Node* defaults, Node& table, std::size_t& taken, Problems& problems)
+        : section_(section), defaults_(defaults), table_(table), taken_(taken), problems_(problems) {}
+
+    void inherit() {
+        std::vector<Node> whole;
+        for (const Member& element : table_.members)
+            whole.push_back(element.value.kind == NodeKind::table ? wholeOf(element) : element.value);
+        for (std::size_t i = 0; i < whole.size(); ++i) table_.members[i].value = std::move(whole[i]);
+    }
+
+  private:
+    std::string titleOf(const Member& element) const { return section_.name + "." + element.key; }
+
+    Node wholeOf(const Member& element) {
+        Node whole = element.value;
+        for (const Node* below : belowOf(element)) {
+            if (taken_ > mostValues) return whole;
+            taken_ += valuesIn(*below);
+            if (taken_ > mostValues)
+                problems_.addError(element.place, "this scene takes too many values over by defaults and like");
+            Node sum = merged(*below, whole);
+            eraseUnfit(section_, whole, sum);
+            sum.place = element.value.place;
+            sum.end = element.value.end;
+            whole = std::move(sum);
+        }
+        const Member* like = whole.find("like");
+        if (like != nullptr && like->value.kind == NodeKind::text)
+            std::erase_if(whole.members, [](const Member& member) { return member.key == "like"; });
+        return whole;
+    }
+
+    // What lies below an element, the uppermost first.
+    std::vector<const Node*> belowOf(const Member& element) {
+        std::vector<const Member*> chain{&element};
+        while (const Member* next = likeOf(*chain.back())) {
+            const bool isNew = std::find(chain.begin(), chain.end(), next) == chain.end();
+            chain.push_back(next);
+            if (isNew && chain.size() <= longestChain) continue;
+            // Of a circle each of its elements says so; one that leads into it says nothing.
+            if (next == chain.front())
+                reportChain(chain, "is like itself");
+            else if (isNew)
+                reportChain(chain, fmt::format("is the first of more than {} that are like one another", longestChain));
+            chain.resize(1);
+            break;
+        }
+        std::vector<const Node*> below;
+        for (std::size_t i = 1; i < chain.size(); ++i) below.push_back(&chain[i]->value);
+        if (defaults_ != nullptr) below.push_back(defaults_);
+        return below;
+    }
+
+    void reportChain(const std::vector<const Member*>& chain, const std::string& what) {
+        std::vector<std::string> titles;
+        for (const Member* element : chain) titles.push_back(titleOf(*element));
+        problems_.addError(chain.front()->value.find("like")->value.place,
+                           fmt::format("{} {}: {}", titles.front(), what, joined(titles, " -> ")));
+    }
+
+    // The element that another says it is like; null where it says nothing, or nothing that is there.
+    const Member* likeOf(const Member& element) {
+        const Member* like = element.value.kind == NodeKind::table ? element.value.find("like") : nullptr;
+        if (like == nullptr || like->value.kind != NodeKind::text) return nullptr;  // reported by the reader
+        std::string name = like->value.text;
+        if (name.starts_with(section_.name + ".")) name.erase(0, section_.name.size() + 1);
+        const Member* other = table_.find(name);
+        if (other != nullptr) return other;
+        std::vector<std::string> names;
+        for (const Member& candidate : table_.members)
+            if (&candidate != &element) names.push_back(candidate.key);
+        const bool isOfAnother = name.find('.') != std::string::npos;
+        problems_.addError(like->value.place,
+                           isOfAnother ? fmt::format("a {} cannot be like {}", section_.name, name)
+                                       : fmt::format("there is no {} \"{}\"", section_.name, name),
+                           isOfAnother ? fmt::format("name a {} of this scene", section_.name)
+                                       : suggestion(name, names));
+        return nullptr;
+    }
+
+    const SceneSection& section_;
+    const Node* defaults_;
+    Node& table_;
+    std::size_t& taken_;
+    Problems& problems_;
+};
+
+}  // namespace
+
+void inherit(const std::vector<SceneSection>& sections, Node& root, Problems& problems) {
+    const auto stands = std::find_if(root.members.begin(), root.members.end(),
+                                     [](const Member& member) { return member.key == "defaults"; });
+    if (stands != root.members.end()) std::rotate(root.members.begin(), stands, stands + 1);
+    const Member* defaults = root.find("defaults");
+    std::size_t taken = 0;
+    for (const SceneSection& section : sections) {
+        Member* elements = root.find(section.name);
+        if (section.layout != Layout::named || elements == nullptr || elements->value.kind != NodeKind::table) continue;
+        const Member* own = defaults != nullptr ? defaults->value.find(section.name) : nullptr;
+        const bool isTable = own != nullptr && own->value.kind == NodeKind::table;
+        Elements(section, isTable ? &own->value : nullptr, elements->value, taken, problems).inherit();
+    }
+}
+
+}  // namespace taut::scene

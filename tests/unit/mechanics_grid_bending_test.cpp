@@ -14,38 +14,38 @@ namespace {
 using glm::dvec3;
 using test::PlanarState;
 
-constexpr int columns = 7, rows = 5;
-constexpr double a = 0.02, b = 0.03, density = 0.2;  // [m], [kg/m²]
+constexpr int gridColumns = 7, gridRows = 5;
+constexpr double cellAcross = 0.02, cellDown = 0.03, density = 0.2;  // [m], [kg/m²]
 
 // A sheet whose threads across bend ten times as hard as those down, and hardly at 45°.
-Bending sheet() {
-    return gridBending(columns, rows, *orthotropicRigidity(1e-4, 1e-5, 1.5e-5), a, b);
+Bending sheetOf10To1() {
+    return gridBending(gridColumns, gridRows, *orthotropicRigidity(1e-4, 1e-5, 1.5e-5), cellAcross, cellDown);
 }
 
-std::vector<int> numbers(int count, int first, int step) {
+std::vector<int> gridNumbers(int count, int first, int step) {
     std::vector<int> points(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) points[static_cast<std::size_t>(i)] = first + step * i;
     return points;
 }
 
 // Of the sheet flat in the x-y plane, with points between its own where step is 2.
-PlanarState<double> flat(int step = 1) {
-    std::vector<dvec3> x(static_cast<std::size_t>(columns * rows * step), dvec3(7, 8, 9));
-    for (int i = 0; i < columns * rows; ++i)
-        x[static_cast<std::size_t>(i * step)] = {a * (i % columns), -b * (i / columns), 0};
-    return {x, std::vector<double>(x.size(), density * a * b)};
+PlanarState<double> flatSheet(int step = 1) {
+    std::vector<dvec3> x(static_cast<std::size_t>(gridColumns * gridRows * step), dvec3(7, 8, 9));
+    for (int i = 0; i < gridColumns * gridRows; ++i)
+        x[static_cast<std::size_t>(i * step)] = {cellAcross * (i % gridColumns), -cellDown * (i / gridColumns), 0};
+    return {x, std::vector<double>(x.size(), density * cellAcross * cellDown)};
 }
 
 TEST(GridBending, ForcesAreTheSlopeOfTheEnergyAndKeepMomentumAndAngularMomentum) {
-    Bending bending = sheet();
-    ASSERT_LT(bending.both[columns + 1], 0) << "the bias is so soft that both directions have to be coupled";
-    const GridBending<double> generator(bending, numbers(columns * rows, 0, 1));
-    PlanarState<double> state = flat();
+    Bending bending = sheetOf10To1();
+    ASSERT_LT(bending.both[gridColumns + 1], 0) << "the bias is so soft that both directions have to be coupled";
+    const GridBending<double> generator(bending, gridNumbers(gridColumns * gridRows, 0, 1));
+    PlanarState<double> state = flatSheet();
     state.shake(0.01, 0.0);
     const std::vector<dvec3> forces = state.forces(generator);
     dvec3 sum(0.0), torque(0.0);
     double size = 0;
-    for (int i = 0; i < columns * rows; ++i) {
+    for (int i = 0; i < gridColumns * gridRows; ++i) {
         const dvec3 f = forces[static_cast<std::size_t>(i)];
         sum += f;
         torque += glm::cross(state.get(state.x, i), f);
@@ -67,18 +67,18 @@ TEST(GridBending, ForcesAreTheSlopeOfTheEnergyAndKeepMomentumAndAngularMomentum)
 }
 
 TEST(GridBending, IsTheSameWhereverThePointsAreAndForEveryInstructionSet) {
-    Bending bending = sheet();
+    Bending bending = sheetOf10To1();
     bending.dampingTime = 1e-3;
-    PlanarState<double> state = flat(), apart = flat(2);
+    PlanarState<double> state = flatSheet(), apart = flatSheet(2);
     state.shake(0.01, 1.0);
-    for (int i = 0; i < columns * rows; ++i) {
+    for (int i = 0; i < gridColumns * gridRows; ++i) {
         apart.set(apart.x, 2 * i, state.get(state.x, i));
         apart.set(apart.v, 2 * i, state.get(state.v, i));
     }
     std::vector<dvec3> expected;
     test::forEachInstructionSet([&] {
-        const GridBending<double> near(bending, numbers(columns * rows, 0, 1));
-        const GridBending<double> far(bending, numbers(columns * rows, 0, 2));
+        const GridBending<double> near(bending, gridNumbers(gridColumns * gridRows, 0, 1));
+        const GridBending<double> far(bending, gridNumbers(gridColumns * gridRows, 0, 2));
         const std::vector<dvec3> forces = state.forces(near), others = apart.forces(far);
         if (expected.empty()) expected = forces;
         EXPECT_EQ(forces, expected);
@@ -94,7 +94,7 @@ TEST(GridBending, ASheetBentToACylinderHasTheRigidityThatWasMeasured) {
     constexpr double inside = 1 - 1.0 / (n - 1);  // no fold stands at an edge
     for (const double bias : {1.5e-5, 6e-5}) {
         const BendingRigidity of = *orthotropicRigidity(1e-4, 1e-5, bias);
-        const GridBending<double> generator(gridBending(n, n, of, cell, cell), numbers(n * n, 0, 1));
+        const GridBending<double> generator(gridBending(n, n, of, cell, cell), gridNumbers(n * n, 0, 1));
         for (const auto& [degrees, rigidity] : {std::pair(0.0, 1e-4), std::pair(90.0, 1e-5), std::pair(45.0, bias)}) {
             const double c = std::cos(degrees * M_PI / 180), s = std::sin(degrees * M_PI / 180);
             std::vector<dvec3> x;
@@ -119,7 +119,7 @@ TEST(GridBending, SharesItsExactTopFrequency) {
     constexpr int n = 24;
     constexpr double cell = 0.01, rigidity = 1e-5, mass = density * cell * cell;
     const GridBending<double> generator(gridBending(n, n, *orthotropicRigidity(rigidity, rigidity, {}), cell, cell),
-                                        numbers(n * n, 0, 1));
+                                        gridNumbers(n * n, 0, 1));
     std::vector<dvec3> x;
     for (int i = 0; i < n * n; ++i) x.emplace_back(cell * (i % n), cell * (i / n), 0);
     PlanarState<double> state(x, std::vector<double>(x.size(), mass));
@@ -135,18 +135,18 @@ TEST(GridBending, SharesItsExactTopFrequency) {
 }
 
 TEST(GridBending, ProductsForImplicitMethodsAreThoseOfStiffnessAndDamping) {
-    Bending bending = sheet();
+    Bending bending = sheetOf10To1();
     bending.dampingTime = 0.25;
-    bending.clamps = {{3, 3 + columns, {0, -b, 0}, 2.0}};
-    GridBending<double> generator(bending, numbers(columns * rows, 0, 1));
-    PlanarState<double> state = flat();
+    bending.clamps = {{3, 3 + gridColumns, {0, -cellDown, 0}, 2.0}};
+    GridBending<double> generator(bending, gridNumbers(gridColumns * gridRows, 0, 1));
+    PlanarState<double> state = flatSheet();
     state.shake(0.01, 0.0);
     core::AlignedArray<double> product(state.planes()), stiffness(state.planes()), diagonal(state.planes());
     generator.linearise(state.motion(), 3.0, 8.0);  // 3 + 0.25 · 8 times the stiffness
     generator.addProduct(state.stride, state.x.data(), product.data());
     generator.addStiffnessProduct(state.motion(), state.x.data(), stiffness.data());
     generator.addDiagonal(state.stride, diagonal.data());
-    for (int i = 0; i < columns * rows; ++i) {
+    for (int i = 0; i < gridColumns * gridRows; ++i) {
         const std::size_t at = state.index(i, 1);
         EXPECT_NEAR(product[at], 5.0 * stiffness[at], 1e-12);  // numbers near 1
         core::AlignedArray<double> unit(state.planes()), column(state.planes());

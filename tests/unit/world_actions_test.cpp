@@ -358,8 +358,6 @@ TEST(ActionErrors, NameTheActionsPlaceInItsFile) {
     EXPECT_NE(errorOf(scene).find("no collider \"collider.nothing\""), std::string::npos);
     scene.actions = {action<SpawnAction>(0.0, "net.pair"), action<SpawnAction>(0.0, "net.pair")};
     EXPECT_NE(errorOf(scene).find("no body \"net.pair\" waits"), std::string::npos);
-    scene.actions = {support::cutPlane(0.0, "net.pair", {5, 0, 0}, {1, 0, 0})};
-    EXPECT_NE(errorOf(scene).find("nothing of \"net.pair\" where this cuts"), std::string::npos);
     auto lighter = action<AddMassAction>(1e3, "net.pair");
     lighter.mass = -2.5;
     scene.actions = {lighter};

@@ -23,6 +23,7 @@ struct Refusal {
     std::int64_t tick = 0;
     std::string message;
     bool isCertain = false;  // wherever bodies will be
+    bool isWarning = false;  // the run goes on
 };
 
 // Whether what the action finds does not depend on where bodies are.
@@ -48,12 +49,15 @@ std::vector<Refusal> refusals(World& world, Pins& pins) {
         w.tick = ticks.at(action.t);
         if (w.tick >= ticks.last()) break;
         try {
+            const std::size_t warned = w.actionWarnings.size();
             action.perform(world);
             pins.look(world);
+            if (w.actionWarnings.size() > warned)
+                all.push_back({w.tick, w.actionWarnings.back(), w.tick == 0 || isPlaceless(action), true});
         } catch (const core::Error& error) {
             if (error.kind() != core::ErrorKind::badContent) throw;
             if (!followsFromAnother(action, all))
-                all.push_back({w.tick, error.what(), w.tick == 0 || isPlaceless(action)});
+                all.push_back({w.tick, error.what(), w.tick == 0 || isPlaceless(action), false});
         }
     }
     return all;
@@ -76,8 +80,8 @@ void warnOfEncounters(const SceneSpec& scene, Rehearsal& rehearsal) {
         rehearsal.advice.push_back(fmt::format("bodies were followed up to {:.2g} s to see which meet", seen));
 }
 
-// Plays up to the end of that tick; why it was refused into `why`.
-Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why) {
+// Plays up to the end of that tick; why it was refused into `why`, what actions warned of into `warnings`.
+Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why, std::vector<std::string>& warnings) {
     World world(scene);
     double pointSteps = 0;
     for (const auto& island : WorldAccess::of(world).islands)
@@ -91,6 +95,8 @@ Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why) {
         why = error.what();
         return Outcome::refused;
     }
+    const std::vector<std::string>& found = WorldAccess::of(world).actionWarnings;
+    warnings.insert(warnings.end(), found.begin(), found.end());
     return Outcome::fine;
 }
 
@@ -110,26 +116,27 @@ Rehearsal rehearse(const SceneSpec& scene) {
                          [&](const std::string& fault) { return fault.find(warning) != std::string::npos; }))
             rehearsal.warnings.push_back(warning);
     std::optional<std::int64_t> lastDoubtful;
-    std::vector<std::string> doubts;
+    std::vector<std::string> certain, doubts;  // warnings
     Pins pins;
     pins.look(world);
     const std::vector<Refusal> refused = refusals(world, pins);
     rehearsal.warnings.insert(rehearsal.warnings.end(), pins.warnings().begin(), pins.warnings().end());
     for (const Refusal& refusal : refused) {
         if (refusal.isCertain) {
-            rehearsal.faults.push_back(refusal.message);
+            (refusal.isWarning ? certain : rehearsal.faults).push_back(refusal.message);
             continue;
         }
         lastDoubtful = refusal.tick;
-        doubts.push_back(asWarning(refusal.message) + " (where it is as the scene starts)");
+        doubts.push_back((refusal.isWarning ? refusal.message : asWarning(refusal.message)) + " (where it is as the scene starts)");
     }
-    if (!lastDoubtful || !rehearsal.faults.empty()) return rehearsal;
+    std::vector<std::string>& warnings = rehearsal.warnings;
     std::string why;
-    switch (play(scene, *lastDoubtful, why)) {
-        case Outcome::refused: rehearsal.faults.push_back(why); break;
-        case Outcome::unknown: rehearsal.warnings.insert(rehearsal.warnings.end(), doubts.begin(), doubts.end()); break;
-        case Outcome::fine: break;
-    }
+    const bool isPlayed = lastDoubtful && rehearsal.faults.empty();
+    const Outcome outcome = isPlayed ? play(scene, *lastDoubtful, why, warnings) : Outcome::refused;
+    if (outcome == Outcome::fine) return rehearsal;
+    warnings.insert(warnings.end(), certain.begin(), certain.end());
+    if (outcome == Outcome::unknown) warnings.insert(warnings.end(), doubts.begin(), doubts.end());
+    if (!why.empty()) rehearsal.faults.push_back(why);
     return rehearsal;
 }
 

@@ -114,6 +114,7 @@ bool World::hasTouched() const {
 
 std::vector<std::string> World::warnings() const {
     std::vector<std::string> all = impl_->jointWarnings;
+    all.insert(all.end(), impl_->actionWarnings.begin(), impl_->actionWarnings.end());
     for (const auto& island : impl_->islands)
         for (const std::string& warning : warningsOf(*island)) all.push_back(warning);
     for (const std::string& warning : impl_->contactReport.warnings()) all.push_back(warning);

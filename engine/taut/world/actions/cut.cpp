@@ -40,7 +40,9 @@ void CutAction::perform(World& world) const {
         any = true;
         if (island->frozen() == nullptr) sever(crossing, island->change(w.now(), Change::shape));
     }
-    if (!any) failAction(*this, "there is nothing of \"" + target + "\" where this cuts; put it where the body is");
+    if (!any)
+        w.actionWarnings.push_back(asWarning(at(source)) + "there is nothing of \"" + target +
+                                   "\" where this cuts; put it where the body is");
     redrawDamage(w);
 }
 

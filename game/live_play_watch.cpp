@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "game/live_play.h"
 #include "game/messages.h"
 #include "game/scene_file.h"
 #include "taut/core/error.h"
-#include "taut/core/whole_file.h"
-#include "taut/live/recording.h"
 #include "taut/scene/private/used_files.h"
 #include "taut/world/world.h"
 
@@ -68,20 +68,18 @@ std::string LivePlay::follow(scene::Loaded scene) {
                        isThere ? "" : ", as far as 2 s let it", isRecording_ ? "; the recording starts anew" : "");
 }
 
-// Of a scene that cannot be read the files that were its own, the one that it says it builds on, and the folder, in
-// which what is missing may come.
+// Of a scene that cannot be read the files that were its own, the scenes beside it, on which it may build now, and their
+// folder, in which what is missing may come.
 void LivePlay::watchFiles(bool isBroken) {
     std::vector<std::string> files;
     for (const scene::UsedFile& file : scene::usedFiles(session_->spec())) files.push_back(file.path);
     if (isBroken) {
-        const std::filesystem::path file = session_->spec().file, folder = file.parent_path();
-        files.push_back(folder.empty() ? "." : folder.string());
-        try {
-            if (const std::string base = live::partsOf(core::fileContent(file)).scene; !base.empty())
-                files.push_back(baseOf(file, base).string());
-        } catch (const core::Error&) {
-            // The file itself has to change.
-        }
+        std::filesystem::path folder = std::filesystem::path(session_->spec().file).parent_path();
+        if (folder.empty()) folder = ".";
+        files.push_back(folder.string());
+        std::error_code ignored;
+        for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+            if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
     }
     files_.watch(std::move(files));
 }

@@ -41,17 +41,6 @@ std::filesystem::path sceneFile(const std::string& argument) {
                                       : fmt::format("; the shipped ones are {}", fmt::join(scenes, ", "))));
 }
 
-std::filesystem::path baseOf(const std::filesystem::path& scene, const std::string& base) {
-    if (base.empty()) return scene;
-    const auto [plain, isShipped] = scene::nameOfBase(base);
-    const std::string name = plain.ends_with(".toml") ? plain : plain + ".toml";
-    const std::filesystem::path beside = scene.parent_path() / name;
-    std::error_code ignored;
-    const bool isBeside = !isShipped && std::filesystem::is_regular_file(beside, ignored) &&
-                          !std::filesystem::equivalent(beside, scene, ignored);
-    return isBeside ? beside : assetFolder() / "scenes" / name;
-}
-
 namespace {
 
 std::string pictureFault(const std::filesystem::path& picture, bool isAround) {

@@ -15,9 +15,6 @@ namespace taut::game {
 // core::Error(inputOutput), with the nearest shipped scene when it was a bare name.
 std::filesystem::path sceneFile(const std::string& argument);
 
-// The scene that a scenario builds on, found as the loader finds it; the file itself when `base` is empty.
-std::filesystem::path baseOf(const std::filesystem::path& scene, const std::string& base);
-
 // With the asset folder. A confined scene reads files below its own folder and the shipped assets only.
 scene::LoadOptions loadOptions(const std::vector<std::string>& overrides = {}, bool isConfined = false);
 void addConfinedFlag(Options& options, bool& isConfined);

@@ -30,7 +30,7 @@ integrator = "implicit-euler"
 precision = "double"
 [material.m]
 density_kg_per_m2 = 0.2
-stretch_N_per_m = 2e5
+stretch_N_per_m = 5e3
 drag_per_s = 4.0
 bending_rigidity_N_m = )" +
            number(weight * length * length * length / gamma) + "\n[cloth.strip]\nmaterial = \"m\"\nsize = [0.1, 0.01]\n" +
@@ -84,7 +84,9 @@ TEST(StandingStrip, FallsWhereTheoryHasIt) {
     EXPECT_GT(leaned(8.1), 0.1);
 }
 
-// f₁ = 1.875104²/(2π) √(B/(ρ L⁴)), without gravity and drag, by leap-frog; of a rope likewise with EI and mass a metre.
+// f₁ = 1.875104²/(2π) √(B/(ρ L⁴)), by leap-frog; of a rope likewise with EI and its mass a metre. Gravity is so weak
+// that it only sets the strip swinging about a sag of w L⁴/(8 B), a thousandth of its length: 1.4 % of that are of the
+// second mode.
 TEST(Cantilever, SwingsAtItsFrequency) {
     const double rigidity = 1e-3, omega = 1.875104 * 1.875104 * std::sqrt(rigidity / 0.2) / (length * length);
     const std::string head = R"(
@@ -92,10 +94,11 @@ schema = 1
 [run]
 fps = 240
 [world]
-gravity = [0, 0, 0]
+gravity = [0, -0.04, 0]
 [solver]
 precision = "double"
 )";
+    const double sag = 0.2 * 0.04 * length * length * length * length / (8 * rigidity);
     const std::string sheet = R"(
 [material.m]
 density_kg_per_m2 = 0.2
@@ -124,14 +127,12 @@ clamp = ["start"]
 )";
     for (const auto& [body, end] :
          {std::pair(sheet, "cloth.strip@right"), std::pair(rope, "rope.strip@end")}) {
-        // Pushed at its end only a little, so that higher modes take 3 % of the motion and the first rules the mean.
-        world::World world = worldOf(head + body + "[[at]]\nt = 0\ndo = \"push\"\ntarget = \"" + end +
-                                     "\"\nimpulse_Ns = [0, 1e-8, 0]\n");
+        world::World world = worldOf(head + body);
         const world::Selection tip = world.select(end);
         double crossed = 0, first = 0, last = 0, before = 0;
         for (int tick = 0; tick < 1200; ++tick) {
             ASSERT_FALSE(world.advance());
-            const double y = world.positions(tip).front().y - 1;
+            const double y = world.positions(tip).front().y - 1 + sag;
             if (before < 0 && y >= 0) {
                 const double t = world.time() - world.tickSeconds() * y / (y - before);
                 if (crossed++ == 0) first = t;

@@ -42,8 +42,8 @@ std::string Progress::line(const pipeline::FrameRecord& record, double elapsed, 
                     100.0 * done / static_cast<double>(facts_.frames), clockText(left), 1e3 * record.simulating);
     if (record.pictured)
         text += fmt::format(" picture {:.0f} file {:.0f}", 1e3 * record.drawing, 1e3 * record.encoding);
-    text += fmt::format(" ms  {:.2f} x real time  h {:.3g} of {:.3g} ms", done / facts_.fps / std::max(elapsed, 1e-9),
-                        1e3 * facts_.step, 1e3 * facts_.stepLimit);
+    text += fmt::format(" ms  {:.2f} x real time  h {}", done / facts_.fps / std::max(elapsed, 1e-9),
+                        pipeline::stepText(facts_.step));
     if (record.metrics) {
         const world::Metrics& m = *record.metrics;
         const double energy = m.energy();

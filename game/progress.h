@@ -7,6 +7,7 @@
 #include <string>
 
 #include "game/live_line.h"
+#include "taut/pipeline/overlay.h"
 #include "taut/pipeline/run.h"
 
 namespace taut::game {
@@ -18,8 +19,7 @@ std::string clockText(double seconds);
 struct ProgressFacts {
     std::int64_t frames = 1;              // to simulate
     double fps = 60.0;                    // pictures a second of scene time
-    double step = 0.0;                    // h of the island with the smallest [s]
-    double stepLimit = 0.0;               // its largest stable step [s]
+    pipeline::SmallestStep step{};
     std::optional<double> firstEnergy{};  // [J] at the start of the run; none: of the first record that has metrics
 };
 

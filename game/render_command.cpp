@@ -126,12 +126,7 @@ std::optional<PartPlace> placeOf(const RenderFlags& flags, std::uint64_t key) {
 
 ProgressFacts progressFacts(const world::World& world, const pipeline::RunOptions& options, double fps,
                             const pipeline::RecordLog& records) {
-    ProgressFacts facts{options.lastFrame + 1, fps, world.tickSeconds(), world.tickSeconds()};
-    for (const world::IslandInfo& island : world.islands()) {
-        if (island.step > facts.step) continue;
-        facts.step = island.step;
-        facts.stepLimit = island.stepLimit;
-    }
+    ProgressFacts facts{options.lastFrame + 1, fps, pipeline::smallestStep(world)};
     if (!records.empty())
         if (const pipeline::FrameRecord first = records[0]; first.metrics) facts.firstEnergy = first.metrics->energy();
     return facts;

@@ -77,8 +77,7 @@ class Walk {
 
   private:
     ProgressFacts factsOf(const world::SceneSpec& spec, std::int64_t last) const {
-        const pipeline::SmallestStep step = pipeline::smallestStep(world);
-        return {last / world.ticksPerFrame() + 1, spec.run.fps, step.step, step.limit};
+        return {last / world.ticksPerFrame() + 1, spec.run.fps, pipeline::smallestStep(world)};
     }
 
     void hear() {

@@ -59,12 +59,13 @@ std::string milliseconds(double seconds) {
     return fmt::format("{:.3g} ms", 1e3 * seconds);
 }
 
+}  // namespace
+
 std::string stepText(const SmallestStep& step) {
+    if (step.followsState) return milliseconds(step.step);
     if (!(step.limit < 1e6)) return milliseconds(step.step) + ", no limit";
     return fmt::format("{:.3g}, limit {:.3g} ms", 1e3 * step.step, 1e3 * step.limit);
 }
-
-}  // namespace
 
 SmallestStep smallestStep(const world::World& world) {
     SmallestStep facts{world.tickSeconds(), std::numeric_limits<double>::infinity(), !world.contact().bodies.empty()};
@@ -72,6 +73,7 @@ SmallestStep smallestStep(const world::World& world) {
         if (island.step > facts.step) continue;
         facts.step = island.step;
         if (island.stepLimit > 0.0) facts.limit = island.stepLimit;
+        facts.followsState = island.followsState;
     }
     return facts;
 }

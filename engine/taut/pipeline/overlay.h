@@ -24,9 +24,12 @@ namespace taut::pipeline {
 // The smallest step of all islands, and what else is known from the start.
 struct SmallestStep {
     double step = 0.0;         // [s]
-    double limit = 0.0;        // [s] largest stable; infinite: none
-    bool bodiesTouch = false;  // each other, or themselves
+    double limit = 0.0;         // [s] largest stable; infinite: none
+    bool bodiesTouch = false;   // each other, or themselves
+    bool followsState = false;  // the step is chosen anew as the state changes, below the limit of each state
 };
+// "0.196, limit 0.217 ms"; without a limit where the step follows the state.
+std::string stepText(const SmallestStep& step);
 SmallestStep smallestStep(const world::World& world);
 
 struct Moment : world::Metrics {

@@ -145,5 +145,54 @@ clamp = ["start"]
     }
 }
 
+const std::string weightless = "[world]\ngravity = [0, 0, 0]\n";
+
+// Held on a collider that turns by a quarter, a strip points where that points; a hinge would leave it behind.
+TEST(Clamp, TurnsWithTheColliderThatHoldsIt) {
+    world::World world = worldOf(strip(16, 10, "clamp = [\"left\"]\nhold_on = \"collider.jaw\"\n") + weightless +
+                                 R"([collider.jaw]
+shape = "sphere"
+radius = 0.001
+keys = [{ t = 0, position = [0, 1, 0] }, { t = 1, position = [0.5, 1, 0], rotation_deg = [0, 0, 90] }]
+)");
+    for (int tick = 0; tick < 60; ++tick) ASSERT_FALSE(world.advance());
+    settle(world);
+    const glm::dvec3 end = world.positions(world.select("cloth.strip@right")).front();
+    // What is left of the motion after settling, a hundred thousandth of the length.
+    EXPECT_NEAR(end.x, 0.5, 1e-6);
+    EXPECT_NEAR(end.y, 1.0 + length, 1e-6);
+}
+
+// No fold and no twist is left across a cut: what is off falls as anything does.
+TEST(Bending, ActsNotAcrossACut) {
+    world::World world = worldOf(R"(
+schema = 1
+[run]
+fps = 60
+[solver]
+precision = "double"
+[material.m]
+density_kg_per_m2 = 0.2
+stretch_N_per_m = 2e3
+drag_per_s = 0
+bending_rigidity_N_m = 1e-3
+[cloth.strip]
+material = "m"
+size = [0.1, 0.02]
+cells = [10, 2]
+origin = [0, 1, 0]
+down = [0, 0, 1]
+clamp = ["left"]
+[[at]]
+t = 0
+do = "cut"
+target = "cloth.strip"
+plane = [[0.055, 1, 0], [1, 0, 0]]
+)");
+    while (world.time() < 0.2 - 1e-9) ASSERT_FALSE(world.advance());
+    for (const glm::dvec3& x : world.positions(world.select("cloth.strip@right")))
+        EXPECT_NEAR(x.y, 1.0 - 0.5 * 9.81 * 0.04, 1e-9);  // rounding: all of the piece falls alike
+}
+
 }  // namespace
 }  // namespace taut::test::bending

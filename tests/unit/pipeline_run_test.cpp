@@ -200,12 +200,12 @@ TEST(RunRecord, MetricsHaveALineAFrameWithTheColumnsOfTheHeading) {
     std::getline(lines, heading);
     EXPECT_TRUE(heading.starts_with("frame,time_s,kinetic_J,elastic_J,gravitational_J,total_J,"));
     EXPECT_TRUE(heading.ends_with(
-        ",unconverged_solves,torn_springs,volume_ratio,penetration_m,body_contacts,crossings,face_penetration_m"));
+        ",torn_springs,volume_ratio,penetration_m,body_contacts,crossings,face_penetration_m,max_speed_m_per_s"));
     int count = 0;
     while (std::getline(lines, line)) {
         EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(heading.begin(), heading.end(), ','));
         EXPECT_TRUE(line.starts_with(std::to_string(count) + ","));
-        EXPECT_TRUE(line.ends_with(",,,")) << "contact of bodies, of which none touches: " << line;
+        EXPECT_NE(line.find(",,,,"), std::string::npos) << "contact of bodies, of which none touches: " << line;
         ++count;
     }
     EXPECT_EQ(count, 7);

@@ -27,6 +27,20 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "s.toml:5:1: error: position does not go with a cloth grid\n"
          "  position = [0, 0, 0]\n"
          "  ^ it belongs to a cloth from a mesh"},
+        {"a sheet that no energy has",
+         "[material.m]\n"
+         "bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 1e-5 }\n",
+         "s.toml:3:58: error: no sheet is so soft at 45° with this warp and weft\n"
+         "  bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 1e-5 }\n"
+         "                                                            ^ it must be above (√warp - √weft)²/4 = 1e-05 N m"},
+        {"a ring that is straight at rest",
+         "[rope.r]\n"
+         "ends = [[0, 0, 0], [1, 0, 0]]\n"
+         "closed = true\n"
+         "bending_rigidity_N_m2 = 1e-5\n",
+         "s.toml:5:25: error: a closed rope has no bending rigidity\n"
+         "  bending_rigidity_N_m2 = 1e-5\n"
+         "                          ^ use bend_N"},
         {"a plane with a radius",
          "[collider.s]\n"
          "shape = \"plane\"\n"

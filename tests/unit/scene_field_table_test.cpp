@@ -53,8 +53,8 @@ std::string standIn(const std::string& path) {
     if (path.starts_with(part)) return "cloth.finish" + path.substr(part.size());
     const std::string rest = path.substr(path.find('.') + 1);
     const std::string key = rest.substr(0, rest.find('.'));
-    for (const char* common : {"hold", "hold_on", "velocity", "spin_rad_per_s", "jitter_m", "seed", "friction", "thickness",
-                               "collide", "touch", "finish", "solver", "array"})
+    for (const char* common : {"hold", "clamp", "hold_on", "velocity", "spin_rad_per_s", "jitter_m", "seed", "friction",
+                               "thickness", "collide", "touch", "finish", "solver", "array"})
         if (key == common && !path.starts_with("wind.")) return "cloth." + rest;
     return path;
 }
@@ -164,6 +164,7 @@ const nlohmann::json* schemaOf(const nlohmann::json& root, const std::string& pa
         rest = rest.find('.') == std::string::npos ? "" : rest.substr(rest.find('.') + 1);
         if (node->contains("patternProperties")) node = &node->at("patternProperties").begin().value();
         if (node->contains("items")) node = &node->at("items");
+        if (node->contains("anyOf")) node = &node->at("anyOf").back();  // a number or a table
         if (!node->contains("properties") || !node->at("properties").contains(key)) return nullptr;
         node = &node->at("properties").at(key);
     }

@@ -98,9 +98,21 @@ TEST(SceneFields, MaterialLandsInItsMembers) {
     EXPECT_EQ(silk.stretch, 300.0);
     EXPECT_EQ(silk.shear, 120.0);
     EXPECT_EQ(silk.bend, 0.2);
+    EXPECT_EQ(silk.rigidity.warp, 3e-6);
+    EXPECT_EQ(silk.rigidity.weft, 2e-6);
+    EXPECT_EQ(silk.rigidity.bias, 1e-6);
     EXPECT_EQ(silk.dampingTime, 2e-4);
     EXPECT_EQ(silk.drag, 0.4);
     EXPECT_EQ(silk.lumping, mechanics::Lumping::uniform);
+}
+
+TEST(SceneFields, ANumberInPlaceOfATableIsItsMainField) {
+    const AssetFolder folder;
+    const world::MaterialSpec felt =
+        folder.load("schema = 1\n[material.felt]\nbending_rigidity_N_m = 2e-5\n").spec.materials.at("felt");
+    EXPECT_EQ(felt.rigidity.warp, 2e-5);
+    EXPECT_EQ(felt.rigidity.weft, std::nullopt);
+    EXPECT_EQ(felt.bend, 0.0) << "the springs of textbooks give way to it";
 }
 
 void expectCommonMembers(const world::BodySpec& body, const AssetFolder& folder) {
@@ -191,6 +203,7 @@ TEST(SceneFields, RopeAndBlockLandInTheirMembers) {
     EXPECT_EQ(rail.mass, 2.5);
     EXPECT_EQ(rail.stretch, 4e4);
     EXPECT_EQ(rail.bend, 6.0);
+    EXPECT_EQ(rail.rigidity, 7e-6);
     EXPECT_EQ(rail.dampingTime, 3e-4);
     EXPECT_EQ(rail.drag, 0.6);
     EXPECT_EQ(rail.radius, 0.03);

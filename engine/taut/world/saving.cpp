@@ -153,7 +153,7 @@ void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied)
     bytes.each(targets, [&](std::string& target) { bytes(target); });
     if (bytes.isReading())
         for (const std::string& target : targets)
-            if (!spawnWaiting(w, target)) misfit("no body \"" + target + "\" waits to be w.spawned");
+            if (!spawnWaiting(w, target)) misfit("no body \"" + target + "\" waits to be spawned");
     bytes.each(
         w.hands, [&](Hand& hand) { visitPart(bytes, hand); });
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, ColliderPart& part, Placement& placement) {

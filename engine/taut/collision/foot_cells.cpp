@@ -66,7 +66,7 @@ void FootFinder::makePrisms() {
 // corner, the direction from the foot to the place lies between the normals of the triangles that meet there. (Take the
 // surface near the foot as a function over one of these triangles, and a plane through the foot that touches it. The
 // plane's slope is a mean of the facets' slopes.) So at height h the place is beyond the prism's sides by no more than
-// h times the tangent of the largest angle between those normals and the triangle's own. At a border is no such limit.
+// h times the tangent of the largest angle between those normals and the triangle's own. At a border there is none.
 void FootFinder::widenPrisms() {
     const std::vector<Facet>& triangles = facets_.triangles;
     const std::vector<std::uint32_t>& corners = facets_.corners;

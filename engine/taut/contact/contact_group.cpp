@@ -310,7 +310,7 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
             }
         }
     };
-    // Points of the one leaf against triangles of the other.
+    // Points of one leaf against triangles of the other.
     const auto measurePoints = [&](const BvhLeaf& of, const BvhLeaf& triangles) {
         for (int i : of.points)
             for (int t : triangles.triangles) {

@@ -250,6 +250,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
             if (box.overlaps(triangleBox, 0.0)) edges.push_back({e, box});
         }
         if (edges.empty()) return;
+        // Each triangle against the edges whose boxes it overlaps and with which it shares no point.
         for (int t : ofTriangles.triangles) {
             const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
             if (triangle.isGone) continue;
@@ -275,6 +276,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
             }
         }
     };
+    // All pairs of leaves, then sorted so that the order does not depend on the tree.
     for (LeafPair pair : overlapping(leaves, x)) {
         const int a = lowOf(pair), b = highOf(pair);
         const core::Aabb &boxA = leaves.motion(a).box, &boxB = leaves.motion(b).box;

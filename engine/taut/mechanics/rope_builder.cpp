@@ -240,6 +240,7 @@ Model buildRope(const RopeShape& shape) {
     double link = length / n;
 
     Model model;
+    // Points along a line, a catenary or an arc, or along the way through the given places.
     detail::addRestingPoints(model, n + 1, shape.dragRate);
     if (shape.through.empty())
         placePoints(shape, distance, length, model.positions);
@@ -254,6 +255,7 @@ Model buildRope(const RopeShape& shape) {
         model.uv[at] = {link * i, 0.0};
     }
 
+    // Links, then bending by springs over two links or by a rigidity.
     for (int i = 0; i < n; ++i)
         model.springs.push_back({i, i + 1, shape.stretch / link, link, shape.dampingTime, SpringKind::structural});
     if (shape.bend > 0.0)

@@ -250,6 +250,7 @@ inline void packedList(const PackedSpringArgs<Real>& s) {
     for (int first = 0; first < s.n; first += batch) {
         const int n = s.n - first < batch ? s.n - first : batch;
         const int *a = s.a + first, *b = s.b + first;
+        // Gather: differences of places and velocities.
         for (int i = 0; i < n; ++i) {
             const Real *from = state + static_cast<long>(a[i]) * packedState,
                        *to = state + static_cast<long>(b[i]) * packedState;
@@ -269,6 +270,7 @@ inline void packedList(const PackedSpringArgs<Real>& s) {
             const Real uc = u[i][0] * c[i][0] + u[i][1] * c[i][1] + u[i][2] * c[i][2];
             pull[i] = factor<Real, true>(c[i][0], c[i][1], c[i][2], uc, k[i], rest[i], tau[i]);
         }
+        // Scatter in order, because springs share points.
         for (int i = 0; i < n; ++i) {
             Real *atA = f + static_cast<long>(a[i]) * packedForce, *atB = f + static_cast<long>(b[i]) * packedForce;
             Four d, fa, fb;

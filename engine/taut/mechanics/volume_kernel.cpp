@@ -101,6 +101,7 @@ void addLoose(const VolumeBatch<Real>& batch) {
         const int count = lanes.looseCount - start < kernelBlock ? lanes.looseCount - start : kernelBlock;
         const int *p0 = lanes.loose[0] + start, *p1 = lanes.loose[1] + start, *p2 = lanes.loose[2] + start,
                   *p3 = lanes.loose[3] + start;
+        // Gather the edges, four tetrahedra at a time.
         for (int l = 0; l < count; l += 4) {
             Four<Real> e1[4], e2[4], e3[4];
             for (int i = 0; i < 4; ++i) {

@@ -47,6 +47,7 @@ class Sdirk2 final : public Method<Real> {
         std::copy(state.v.begin(), state.v.end(), u_.begin());
         for (std::size_t i = 0; i < u_.size(); ++i)
             seen_[i] = state.v[i] + static_cast<Real>(gamma * h) * state.memory[0][i];
+        // The first stage, then the second from the first one's change.
         stage(system, t + gamma * h, gamma * h, state.x, state.v);
         const Real ahead = static_cast<Real>(1 / gamma - 1);
         for (std::size_t i = 0; i < u_.size(); ++i) {
@@ -84,6 +85,7 @@ class Sdirk2 final : public Method<Real> {
 
     // Solves a stage at t, from the guess u_ -> u_ and place_ = x + s u_.
     void stage(SecondOrderSystem<Real>& system, double t, double s, const Planes& x, const Planes& v) {
+        // The forces at X = place_ and w = seen_.
         const Real step = static_cast<Real>(s);
         const Layout layout = system.layout();
         for (std::size_t i = 0; i < u_.size(); ++i) place_[i] = x[i] + step * u_[i];
@@ -93,6 +95,7 @@ class Sdirk2 final : public Method<Real> {
         system.accelerate(t, place_.data(), seen_.data(), store);
         ++this->work_.evaluations;
 
+        // The right-hand side, then the Newton step.
         ImplicitSystem<Real>& implicit = *system.implicitPart();
         const Real *mass = implicit.masses(), *inverseMass = implicit.inverseMasses(), *drag = system.dragRates();
         for (std::size_t i = 0; i < u_.size(); ++i) change_[i] = u_[i] - seen_[i];

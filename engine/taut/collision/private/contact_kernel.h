@@ -8,7 +8,7 @@ namespace taut::collision {
 
 inline constexpr int contactBatch = 64;  // points at most, so that their data stays in the first-level cache
 
-// Length of a row: a batch and one cache line more. Rows a whole page apart would evict each other from the cache.
+// Length of a row: a batch and one cache line more. Rows that are a page apart would slow each other down.
 inline constexpr int contactRow = contactBatch + 8;
 
 struct KernelFrame {

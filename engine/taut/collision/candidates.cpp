@@ -6,7 +6,7 @@
 namespace taut::collision {
 namespace {
 
-// Steps' worth of the way just gone, for which a new room is to last; a block that rests gets a share of its size.
+// A new room should last for so many steps like the last one. A block that rests gets a share of its size.
 constexpr double stepsAhead = 16.0;
 constexpr double shareOfSize = 0.02;
 
@@ -100,11 +100,12 @@ void CandidateRooms::look(std::span<const Solid> solids, std::size_t block, cons
     if (isKnown && !room.isNear && staysIn(rows, room.box)) return;
     box = boundsOf(rows);
     isKnown = isKnown && holds(room.box, box);
+    // The block has left its room: it gets a new one, grown by its way, and is compared with all solids.
     if (!isKnown) {
         BlockRows<Real> ends = rows;
         for (int k = 0; k < 3; ++k) ends.before[k] = ends.after[k];
         const core::Aabb end = boundsOf(ends);
-        const dvec3 way = glm::max(end.low - box.low, box.high - end.high);  // of the box, the longer one
+        const dvec3 way = glm::max(end.low - box.low, box.high - end.high);  // of the box, the longer of two sides'
         room.box = box;
         room.box.grow(std::max(stepsAhead * largest(way), shareOfSize * largest(box.high - box.low)));
         room.reach = reachOf<Real>(thickness, room.box);

@@ -1,8 +1,8 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 //
-// What resolve.cpp and response.h do to one point, in their order of operations, in loops over a batch: where the path
-// ends, its distance there, then the response. Whether a path may have come through the solid is found here, where it
-// did is not: such points are left.
+// The kernel does what resolve.cpp and response.h do to one point, with the same order of operations, in loops over a
+// batch: where the path ends, its distance there, then the response. It finds out whether a path may have come through
+// the solid, but not where. It leaves such points to resolve.cpp.
 #include "taut/collision/private/contact_kernel.h"
 
 #include "taut/collision/private/contact_response.h"
@@ -66,7 +66,7 @@ inline void toLocal(const KernelFrame& frame, const Rows& in, Rows& out, int n) 
     }
 }
 
-// Of a turned frame; `in` and `out` may be the same.
+// Turns local directions into the world by a turned frame. `in` and `out` may be the same.
 inline void turn(const KernelFrame& frame, const Rows& in, Rows& out, int n) {
     const double(&r)[3][3] = frame.rotation;
     const double xx = r[0][0], xy = r[0][1], xz = r[0][2];
@@ -91,7 +91,7 @@ inline void shift(const double (&by)[3], Rows& rows, int n) {
     }
 }
 
-// `rows`, local, become places in the world.
+// Turns local places into places in the world.
 inline void toWorld(const KernelFrame& frame, Rows& rows, int n) {
     if (frame.turned) turn(frame, rows, rows, n);
     shift(frame.position, rows, n);
@@ -122,7 +122,7 @@ inline void measureAny(const ClosedShape& shape, const Rows& places, Row& distan
     }
 }
 
-// sweepConvex, up to where it would search along the path.
+// sweepConvex(), up to the point where it would search along the path.
 inline void classify(double thickness, ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -141,7 +141,7 @@ inline void classify(double thickness, ContactLanes& lanes, int n) {
     }
 }
 
-// Leaves the points that start on another side than they end.
+// Leaves the points that do not start on the side where they end.
 inline void compareSides(ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -153,7 +153,7 @@ inline void compareSides(ContactLanes& lanes, int n) {
     }
 }
 
-// The half-space in which paths have to end, into `normal` and `depth`, how far they end outside of it.
+// Finds the half-space in which paths have to end -> `normal` (in the world) and `distance` (its offset).
 inline void placeTouch(double thickness, const KernelFrame& to, ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -170,7 +170,7 @@ inline void placeTouch(double thickness, const KernelFrame& to, ContactLanes& la
     }
 }
 
-// All of that in one loop, for a solid that is not turned: its frame differs by a shift.
+// Does all of this in two loops for a solid that is not turned: its frame differs from the world only by a shift.
 template <ClosedKind kind>
 inline void meetLevel(const ClosedShape& shape, double thickness, const double (&fromPlace)[3],
                       const double (&toPlace)[3], ContactLanes& lanes, int n) {
@@ -219,6 +219,7 @@ inline void meetLevelAny(const ClosedShape& shape, double thickness, const doubl
     }
 }
 
+// The touch of a half-space.
 inline void flatTouch(const double (&normal)[3], double offset, ContactLanes& lanes, int n) {
     const double nx = normal[0], ny = normal[1], nz = normal[2];
     TAUT_INDEPENDENT
@@ -234,7 +235,7 @@ inline void flatTouch(const double (&normal)[3], double offset, ContactLanes& la
     }
 }
 
-// The place on the surface.
+// Finds the touched place on the surface -> position.
 inline void findPlaces(double thickness, ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -248,7 +249,7 @@ inline void findPlaces(double thickness, ContactLanes& lanes, int n) {
     }
 }
 
-// The velocity of the surface there. Leaves points of a surface that may be too fast.
+// Finds the velocity of the surface at `position`. Leaves points where the surface may be too fast.
 template <class Real>
 inline void findSpeeds(const ContactArgs<Real>& s, ContactLanes& lanes, Rows& velocity) {
     toLocal(s.to, lanes.position, velocity, s.n);
@@ -268,7 +269,7 @@ inline void findSpeeds(const ContactArgs<Real>& s, ContactLanes& lanes, Rows& ve
     }
 }
 
-// Points that are not touched get what they had.
+// Stores all points. Those that were not touched get their old values.
 template <class Real>
 inline void store(const ContactArgs<Real>& s, const ContactLanes& lanes) {
     for (int k = 0; k < 3; ++k) {
@@ -288,6 +289,7 @@ long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
         load<Real, true>(s, lanes);
     else
         load<Real, false>(s, lanes);
+    // The touch: where each path ends, and whether it may have come through.
     if (s.shape.kind == ClosedKind::halfSpace) {
         flatTouch(s.normal, s.offset + s.thickness, lanes, n);
         if (anyOf(lanes.outcome, n) == 0) return 0;
@@ -311,6 +313,7 @@ long contact(const ContactArgs<Real>& s, ContactLanes& lanes) {
         }
         if (!isLevel) placeTouch(s.thickness, s.to, lanes, n);
     }
+    // The response, on a still or a moving surface.
     if (s.still) {
         if (s.records) findPlaces(s.thickness, lanes, n);
         respond<Real, true>(s, lanes, lanes.start, lanes.carried);

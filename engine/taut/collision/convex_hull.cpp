@@ -35,13 +35,13 @@ class Builder {
     struct Face {
         std::array<std::uint32_t, 3> corners;
         std::array<std::size_t, 3> beyond{};  // the face on the other side of the edge from corner k to the next
-        std::vector<std::uint32_t> above{};   // points outside that no other face has
+        std::vector<std::uint32_t> above{};   // points outside this face that no other face lists
         bool exists = true;
     };
 
-    // Six times the volume of the tetrahedron, above zero where d is on the side from which a, b, c turn
-    // counter-clockwise. Its sign is exact: what rounding leaves open is computed again in whole numbers of 128 bits,
-    // which three differences of 41 bits fill at most.
+    // Six times the volume of the tetrahedron, above zero if d is on the side from which a, b, c turn
+    // counter-clockwise. Its sign is exact: if rounding leaves it open, it is computed again in whole numbers of 128
+    // bits. They are wide enough for products of three differences of 41 bits.
     double heightOver(const std::array<std::uint32_t, 3>& corners, std::uint32_t d) const {
         const dvec3& a = points_[corners[0]];
         const dvec3 u = points_[corners[1]] - a;
@@ -57,7 +57,7 @@ class Builder {
         return static_cast<double>(x * whole(w.x) + y * whole(w.y) + z * whole(w.z));
     }
 
-    // A tetrahedron of points far from each other.
+    // Starts with a tetrahedron of points far from each other. False if all points lie in one plane.
     bool start() {
         const auto count = static_cast<std::uint32_t>(points_.size());
         const auto farthest = [&](const auto& measure) {
@@ -97,8 +97,8 @@ class Builder {
         }
     }
 
-    // The faces that the highest point over a face sees go; from the border of what it saw, new ones lead to it. Faces
-    // in the plane of the point are not seen: so no new one is without area.
+    // Removes all faces that the highest point over a face sees. New faces lead from the border of the hole to this
+    // point. The point does not see faces in whose plane it lies, so every new face has an area.
     void grow(std::size_t from) {
         std::uint32_t apex = faces_[from].above[0];
         double highest = 0.0;
@@ -109,6 +109,7 @@ class Builder {
             apex = point;
         }
 
+        // The faces that the apex sees, from neighbour to neighbour, and the border of the hole.
         struct Edge {
             std::uint32_t from, to;
             std::size_t beyond;
@@ -133,6 +134,7 @@ class Builder {
             faces_[f].above = {};
         }
 
+        // A new face for each border edge. It gets its neighbours, and the points above the removed faces.
         const std::size_t first = faces_.size();
         for (const Edge& edge : border) {
             faceFrom_[edge.from] = faces_.size();

@@ -6,8 +6,7 @@ namespace taut::collision {
 
 namespace {
 
-// Sixteen bytes of numbers, which is what every x86-64 processor takes at once; compilers split or emulate it
-// elsewhere.
+// Sixteen bytes of numbers. Every x86-64 processor handles them at once; elsewhere compilers split or emulate them.
 template <class Real>
 struct Pack;
 template <>
@@ -82,7 +81,7 @@ void markNearBox(const BlockRows<Real>& rows, const core::Aabb& box, std::uint32
         const Real* const b = rows.after[k];
         const Real low = static_cast<Real>(box.low[k]);
         const Real high = static_cast<Real>(box.high[k]);
-        // One axis after the other; the bit is set by the first and taken away by the others.
+        // One axis after the other: the first sets the bit, the others take it away.
         if (k == 0) {
             for (int i = 0; i < rows.count; ++i) {
                 const bool near = ((a[i] <= high) | (b[i] <= high)) & ((a[i] >= low) | (b[i] >= low));

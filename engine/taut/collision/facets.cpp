@@ -35,7 +35,7 @@ Facets takeTriangles(std::span<const dvec3> vertices, std::span<const std::uint3
         const dvec3 across = glm::cross(ab, ac);
         const double twiceArea = std::sqrt(glm::dot(across, across));
         const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-        if (!(twiceArea > 1e-12 * longest)) continue;  // a line or a point: its neighbours cover it
+        if (!(twiceArea > 1e-12 * longest)) continue;  // a line or a point, which its neighbours cover
         facets.triangles.push_back({a, ab, ac, across / twiceArea});
         for (std::size_t k = 0; k < 3; ++k) facets.corners.push_back(triangles[i + k]);
     }
@@ -43,7 +43,7 @@ Facets takeTriangles(std::span<const dvec3> vertices, std::span<const std::uint3
     return facets;
 }
 
-// Files repeat a vertex where its texture or normal differs: vertices at one place count as one.
+// Gives vertices at one place the same number. Files repeat a vertex where its texture or normal differs.
 void joinCorners(std::span<const dvec3> vertices, Facets& facets) {
     std::vector<std::uint32_t> order(vertices.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -57,7 +57,8 @@ void joinCorners(std::span<const dvec3> vertices, Facets& facets) {
     facets.isBorder.resize(vertices.size());
 }
 
-// An edge that is not the border belongs to two triangles, which run through it in opposite directions.
+// Finds the border. An inner edge belongs to two triangles, which run through it in opposite directions. All other
+// edges are the border.
 void findBorder(Facets& facets) {
     using Edge = std::uint64_t;
     const auto edge = [](std::uint32_t a, std::uint32_t b) { return Edge{a} << 32 | b; };
@@ -81,7 +82,7 @@ void findBorder(Facets& facets) {
     }
 }
 
-// So that the triangles of a closed surface show their front to the outside.
+// Turns the triangles of a closed surface so that their fronts face outwards.
 void turnOutside(Facets& facets) {
     const dvec3 origin = facets.triangles[0].corner;
     double sixVolumes = 0.0;

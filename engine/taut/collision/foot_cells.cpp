@@ -1,4 +1,5 @@
-// The cells of a foot finder: how far the surface is from their middles, and near it which triangles can be nearest.
+// The cells of a foot finder: how far the surface is from their middles, and which triangles can be nearest if the
+// cell is near the surface.
 #include <algorithm>
 
 #include "taut/collision/private/foot_finder.h"
@@ -11,7 +12,7 @@ namespace {
 constexpr int deepest = 5;                // how often a cell may be halved
 constexpr std::size_t fewTriangles = 12;  // a list that is no longer is not divided
 
-// The distance from the middle, rounded so that the cell promises no more than is true.
+// The distance from the middle, rounded to the safe side.
 float roundedDown(double a) {
     return static_cast<float>(a * (1.0 - 1e-6));
 }
@@ -21,7 +22,7 @@ float roundedUp(double a) {
 
 }  // namespace
 
-// First the cells of the layer, row by row, then parts.
+// The cells of the layer come first, row by row, then parts.
 struct FootFinder::Slab {
     std::vector<Cell> cells;
     std::vector<int> lists;
@@ -61,11 +62,11 @@ void FootFinder::makePrisms() {
     }
 }
 
-// Where a place's foot lies within a triangle, the place is in the prism over it. Where it lies on an edge or at a
-// corner, the direction from the foot to the place lies between the normals of the triangles that meet there (of the
-// planes through a point that touch a surface of facets round it, as a function over one of them, the slope is a mean
-// of the slopes of the facets): over height h the place is beyond the prism's sides by no more than h times the
-// tangent of the largest angle between those normals and the triangle's own. At a border there is no such limit.
+// If the foot of a place lies within a triangle, the place is in the prism over it. If the foot lies on an edge or at a
+// corner, the direction from the foot to the place lies between the normals of the triangles that meet there. (Take the
+// surface near the foot as a function over one of these triangles, and a plane through the foot that touches it. The
+// plane's slope is a mean of the facets' slopes.) So at height h the place is beyond the prism's sides by no more than
+// h times the tangent of the largest angle between those normals and the triangle's own. At a border there is none.
 void FootFinder::widenPrisms() {
     const std::vector<Facet>& triangles = facets_.triangles;
     const std::vector<std::uint32_t>& corners = facets_.corners;
@@ -111,14 +112,16 @@ void FootFinder::measureCells() {
         std::clamp(static_cast<int>(std::sqrt(static_cast<double>(facets_.triangles.size())) / 12.0), 16, 96);
     cellSize_ = longest / along;
     cellsPerMetre_ = 1.0 / cellSize_;
-    for (int k = 0; k < 3; ++k)  // one more on either side
+    for (int k = 0; k < 3; ++k)  // one more on each side
         cellCount_[k] = std::clamp(static_cast<int>(size[k] / cellSize_) + 1, 1, along) + 2;
     cellsFrom_ = bounds_.centre() - 0.5 * cellSize_ * dvec3(cellCount_);
     rounding_ = 2e-6 * (0.5 * std::sqrt(glm::dot(size, size)) + 2.0 * cellSize_);
 
+    // Measure the layers in parallel.
     std::vector<Slab> slabs(static_cast<std::size_t>(cellCount_.z));
     core::parallelFor(cellCount_.z, [&](int z) { measureSlab(z, slabs[static_cast<std::size_t>(z)]); });
 
+    // Join them in order: all layers first, then all parts. The starts of lists and parts move accordingly.
     const auto layer = static_cast<std::size_t>(cellCount_.x * cellCount_.y);
     cells_.resize(layer * slabs.size());
     for (std::size_t z = 0; z < slabs.size(); ++z) {
@@ -137,7 +140,7 @@ void FootFinder::measureCells() {
 }
 
 void FootFinder::measureSlab(int z, Slab& slab) const {
-    // Far away a tenth more than the distance is near enough.
+    // Far away, a triangle that is up to a tenth further than the nearest is good enough.
     constexpr double loose = 1.1;
     const double halfDiagonal = 0.5 * std::sqrt(3.0) * cellSize_;
 
@@ -146,7 +149,7 @@ void FootFinder::measureSlab(int z, Slab& slab) const {
         int triangle;
         bool inside;
     };
-    std::vector<Known> known;  // of the row before, up to here of this one
+    std::vector<Known> known;  // of this row up to here, then of the row before
     std::vector<int> among;
     slab.cells.resize(static_cast<std::size_t>(cellCount_.x * cellCount_.y));
     for (int y = 0; y < cellCount_.y; ++y) {
@@ -154,7 +157,7 @@ void FootFinder::measureSlab(int z, Slab& slab) const {
             const dvec3 middle = cellsFrom_ + (dvec3(x, y, z) + 0.5) * cellSize_;
             const auto index = static_cast<std::size_t>(y * cellCount_.x + x);
             Cell& cell = slab.cells[index];
-            // From what is nearest to a neighbour on.
+            // Start the search from the nearest triangle of a neighbour.
             const Known* const neighbour =
                 x > 0 ? &known[static_cast<std::size_t>(x - 1)] : (y > 0 ? &known[0] : nullptr);
             Foot foot;
@@ -178,6 +181,7 @@ void FootFinder::measureSlab(int z, Slab& slab) const {
             else
                 known[static_cast<std::size_t>(x)] = here;
 
+            // Near the surface: list the triangles that can be nearest.
             if (least > 2.0 * halfDiagonal) continue;
             const double reach = least + 2.0 * halfDiagonal + rounding_;
             core::Aabb box{middle, middle};
@@ -199,8 +203,8 @@ void FootFinder::fillCell(std::size_t index, const dvec3& middle, double half, i
     cell.least = roundedDown(distance);
     cell.most = isInside(middle, foot) ? -roundedUp(distance) : roundedUp(distance);
 
-    // From the middle to another place of the cell the distances to the nearest triangle and to any other change by
-    // half the diagonal at most.
+    // From the middle to any other place of the cell, the distance to a triangle changes by half the diagonal at most.
+    // This holds for the nearest triangle and for all others.
     const double halfDiagonal = std::sqrt(3.0) * half;
     const double reach = (distance + 2.0 * halfDiagonal) * (1.0 + 1e-6) + rounding_;
     const auto limit = static_cast<float>(reach * reach);

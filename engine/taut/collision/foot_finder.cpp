@@ -7,8 +7,8 @@ namespace taut::collision {
 
 namespace {
 
-// The nearest point of a triangle: by the sign of the barycentric coordinates the regions of its corners and edges
-// are told apart (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+// The nearest point of a triangle. The signs of the barycentric coordinates tell apart the regions of its corners and
+// edges (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
 dvec3 nearestOnTriangle(const dvec3& p, const dvec3& a, const dvec3& ab, const dvec3& ac) {
     const dvec3 ap = p - a;
     const double d1 = glm::dot(ab, ap);
@@ -48,9 +48,9 @@ void FootFinder::update(const dvec3& p, int triangle, Foot& foot) const {
         foot = {square, facing, q, triangle};
 }
 
-// The height over the plane and the way beyond the farthest edge are at right angles: together no more than the
-// distance, and the distance itself but in front of a corner. Four triangles at a time; `lowest` (list, rounded up to
-// four) becomes the square of what each is away at least.
+// The height over the plane and the way beyond the farthest edge are at right angles. Together they are no more than
+// the distance, and equal to it except in front of a corner. It measures four triangles at a time. `lowest` (list,
+// rounded up to four) gets the square of the least distance of each.
 void FootFinder::lowestSquares(const dvec3& fromCentre, std::span<const int> list, float* lowest) const {
     const auto x = static_cast<float>(fromCentre.x);
     const auto y = static_cast<float>(fromCentre.y);
@@ -144,7 +144,7 @@ FootFinder::Place FootFinder::place(const dvec3& p) const {
         }
         cell = &cells_[cell->first + part];
     }
-    // A distance changes by no more than the way that is walked.
+    // A distance changes by no more than the way from the middle to p.
     const dvec3 off = p - middle;
     const double away = std::sqrt(glm::dot(off, off));
     Place place{cell->least - away, std::abs(cell->most) + away, cell->most < 0.0F, {}};

@@ -4,8 +4,8 @@ namespace taut::collision {
 
 namespace {
 
-// A path as it is walked: no step is longer than the way to the surface, so none leads through, but for what is
-// thinner than a 64th of the path.
+// A walk along a path. No step is longer than the distance to the surface, so none leads through it. Only parts thinner
+// than a 64th of the path may be missed.
 class Walk {
   public:
     Walk(const Form& form, const Path& path, double length, const Nearest& start)
@@ -31,7 +31,7 @@ class Walk {
     double gone_ = 0.0;  // [m]
 };
 
-// Where the path first comes as near as `gap` [m]; while it leads away from the surface it may come nearer than that.
+// Where the path first comes as near as `gap` [m]. While it leads away from the surface it may be nearer than that.
 bool reach(Walk walk, const Path& path, double gap, HalfSpace& touch) {
     constexpr int mostSteps = 256;
     const double close = nearEnough(path);
@@ -45,7 +45,7 @@ bool reach(Walk walk, const Path& path, double gap, HalfSpace& touch) {
     return true;
 }
 
-// Whether the path goes in and comes out again.
+// Whether the path goes into the shape and comes out again.
 bool goesThrough(Walk walk, double close) {
     bool isIn = false;
     do {
@@ -64,11 +64,12 @@ bool Form::sweep(const Path& path, HalfSpace& touch, bool&) const {
     const double length = std::sqrt(glm::dot(way, way));
     const bool startsOutside = start.distance > -path.skin;
     const double gap = sweepGap(start.distance, path.thickness);
-    // A distance changes by no more than the way that is gone.
+    // A distance changes by no more than the length of the way. So this is the least distance on the path.
     const double least = 0.5 * (start.distance + end.distance - length);
     if (end.distance >= path.thickness + path.skin)
         return startsOutside && least < path.thickness && reach({*this, path, length, start}, path, gap, touch);
 
+    // The path ends too near. If it came through the shape, the touch is where it went in.
     touch = {end.normal, glm::dot(end.normal, path.to) - end.distance + path.thickness};
     if (!startsOutside || least > 0.0) return true;
     if (glm::dot(start.normal, end.normal) <= 0.0 || goesThrough({*this, path, length, start}, nearEnough(path)))

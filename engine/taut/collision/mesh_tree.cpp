@@ -10,6 +10,7 @@
 namespace taut::collision {
 
 MeshTree::MeshTree(std::span<const dvec3> corners) {
+    // Bullet builds the tree.
     std::vector<double> places;
     places.reserve(3 * corners.size());
     for (const dvec3& corner : corners) places.insert(places.end(), {corner.x, corner.y, corner.z});
@@ -22,7 +23,7 @@ MeshTree::MeshTree(std::span<const dvec3> corners) {
     btBvhTriangleMeshShape shape(&arrays, true);
     const auto& built = shape.getOptimizedBvh()->getQuantizedNodeArray();
 
-    // Bullet's boxes are rounded to a grid; the tree keeps its order and takes exact ones, from the leaves up.
+    // Bullet rounds its boxes to a grid. This tree keeps Bullet's order but makes exact boxes, from the leaves up.
     const int size = count == 1 ? 1 : 2 * count - 1;
     nodes_.resize(static_cast<std::size_t>(size));
     for (int i = size - 1; i >= 0; --i) {

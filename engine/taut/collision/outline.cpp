@@ -10,7 +10,7 @@
 namespace taut::collision {
 namespace {
 
-// The way from an edge to a place beside it, straight off the edge; unit, or zero.
+// The direction from an edge to a place beside it, at right angles to the edge; unit, or zero.
 dvec3 across(const dvec3& from, const dvec3& to, const dvec3& beside) {
     const dvec3 along = to - from, way = beside - from;
     const dvec3 off = way - (glm::dot(way, along) / glm::dot(along, along)) * along;
@@ -41,6 +41,7 @@ Outline outlineOf(const Facets& facets) {
         std::uint32_t triangle;  //
         std::uint32_t apex;      // of its corners, 0 … 2
     };
+    // The sides of all triangles, sorted so that those of one edge follow each other.
     std::vector<Side> sides;
     for (std::size_t i = 0; i < facets.corners.size(); i += 3)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -62,6 +63,7 @@ Outline outlineOf(const Facets& facets) {
         }
         return number;
     };
+    // Edge by edge: leaves out edges that are not sharp and, in a closed surface, edges that do not stand out.
     const double least = core::cosine(leastSharpness);
     for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
         while (last < sides.size() && sides[last].a == sides[first].a && sides[last].b == sides[first].b) ++last;
@@ -80,6 +82,7 @@ Outline outlineOf(const Facets& facets) {
         if (areTwo) edge.wingB = take(sides[first + 1], sides[first + 1].apex);
         outline.edges.push_back(edge);
     }
+    // Corners are the ends of these edges, each once.
     for (const Outline::Edge& edge : outline.edges) outline.corners.insert(outline.corners.end(), {edge.a, edge.b});
     std::sort(outline.corners.begin(), outline.corners.end());
     outline.corners.erase(std::unique(outline.corners.begin(), outline.corners.end()), outline.corners.end());
@@ -99,7 +102,7 @@ Outline outlineOfCylinder(double radius, double halfHeight) {
     return outline;
 }
 
-// Eight lines down its side keep what meets the tip off it.
+// Eight lines down its side keep edges that meet the tip out of the cone.
 Outline outlineOfCone(double radius, double halfHeight) {
     Outline outline;
     addRim(radius, -halfHeight, outline);

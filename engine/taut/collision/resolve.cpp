@@ -12,7 +12,7 @@ namespace taut::collision {
 namespace {
 
 constexpr int mostAtOnce = 32;  // solids that a block of points is tried against: the bits of a mask
-constexpr int smallBlock = 16;  // points that may be near to several solids and are not cut further
+constexpr int smallBlock = 16;  // points; a block that is near to several solids is not halved below this size
 constexpr int mostPasses = 4;   // over the solids that one point touches
 
 template <class Real>
@@ -61,12 +61,12 @@ class Resolver {
             if (!mayTouch(*solid, box, reach)) continue;
             if (count == mostAtOnce) {
                 if (last - first > 1) return halve(first, last);
-                resolveAgainst(first, rows, near, count, reach);  // one point within reach of more: group after group
+                resolveAgainst(first, rows, near, count, reach);  // one point near more solids takes group after group
                 count = 0;
             }
             near[static_cast<std::size_t>(count++)] = solid;
         }
-        // Of the parts of a block most are near to one solid, and those cost least.
+        // Most parts of a block are near to only one solid, and those cost least.
         if (count > 1 && last - first > smallBlock) return halve(first, last);
         if (count > 0) resolveAgainst(first, rows, near, count, reach);
     }
@@ -112,8 +112,10 @@ class Resolver {
                (!solid.bounded || hasJumped(solid) || solid.turn.empty());
     }
 
-    // Points that may touch one solid only, of a shape that the kernel knows, by the kernel, all others one by one.
+    // The kernel resolves points that may touch only one solid, if it knows the solid's shape. All other points are
+    // resolved one by one.
     void resolveBatch(int first, int n, const Near& near, const std::uint32_t* mask) {
+        // Which solids have points that may touch no other.
         std::uint32_t some = 0;
         std::uint32_t singles = 0;
         for (int i = 0; i < n; ++i) {
@@ -124,7 +126,7 @@ class Resolver {
         if (some == 0) return;
         std::array<PointOutcome, contactBatch> outcome{};
         std::array<Contact, contactBatch> records;
-        std::uint32_t taken = 0;  // solids that the kernel has seen to
+        std::uint32_t taken = 0;  // solids that the kernel has handled
         for (std::uint32_t rest = singles; rest != 0; rest &= rest - 1) {
             const auto c = static_cast<unsigned>(__builtin_ctz(rest));
             const Solid& solid = *near[c];
@@ -141,6 +143,7 @@ class Resolver {
                 if (records_) records[k] = recordOf(first + i, solid, i);
             }
         }
+        // The rest one by one. Touched points and contacts keep the order of the points.
         for (int i = 0; i < n; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (outcome[k] == PointOutcome::touched) {
@@ -154,7 +157,7 @@ class Resolver {
         }
     }
 
-    // All points against one solid of a shape that the kernel knows.
+    // All points against one solid whose shape the kernel knows.
     void resolveBatch(int first, int n, const Near& near) {
         const long found = kernel_(argsFor(*near[0], first, n), lanes_);
         if (found == anyTouched && !records_) {
@@ -234,11 +237,12 @@ class Resolver {
         Real* const v = points_.v + i;
         MovingPoint point{{before[0], before[s], before[2 * s]}, {x[0], x[s], x[2 * s]}, {v[0], v[s], v[2 * s]}};
         const dvec3 sum = point.before + point.x + point.v;
-        if (!isFinite(sum.x + sum.y + sum.z)) return;  // for the caller to find
+        if (!isFinite(sum.x + sum.y + sum.z)) return;  // the caller will find it
         const double skin = skinPerMetre<Real> * (std::abs(point.before.x) + std::abs(point.before.y) +
                                                   std::abs(point.before.z) + points_.thickness);
 
-        // A point moved out of one solid may stand in another: a few passes in the same order, then it is left.
+        // A point that was moved out of one solid may stand in another. So there are a few passes in the same order.
+        // Then the point stays where it is.
         const Solid& first = *near[static_cast<std::size_t>(__builtin_ctz(bits))];
         const bool single = (bits & (bits - 1)) == 0 && first.convex;
         const int passes = single ? 1 : mostPasses;
@@ -291,7 +295,7 @@ class Resolver {
             touch.offset += glm::dot(touch.normal, solid.to.position);
         }
         if (!respond(surface, world, touch, point, impact)) return false;
-        if (isLast && crossed) {  // wedged in a fold of the mesh: it goes where the mesh goes
+        if (isLast && crossed) {  // it is wedged in a fold of the mesh, so it goes where the mesh goes
             point.x = world.from;
             point.v = surfaceVelocity(surface, world.from);
             point.rests = surface.still;
@@ -330,14 +334,14 @@ class Resolver {
     const std::vector<Solid>& solids_;
     const MovingPoints<Real>& points_;
     const double h_;
-    // What free fall adds to a speed in two steps: a resting point arrives with about one step's worth each time, and a
-    // bounce from less would end within the step that follows.
+    // The speed that free fall adds in two steps. A resting point arrives with about the speed of one step each time. A
+    // bounce from less than this would end within the next step.
     const double restSpeed_;
     CandidateRooms& candidates_;
     std::size_t& block_;
     std::vector<int>& touched_;
     std::vector<Contact>& contacts_;
-    const bool records_;  // else contacts are forgotten
+    const bool records_;  // whether the caller wants contacts
     const ContactKernel<Real> kernel_ = contactKernel<Real>();
     ContactLanes lanes_;
 };
@@ -345,7 +349,7 @@ class Resolver {
 }  // namespace
 
 dvec3 velocityInContact(std::span<const Contact> contacts, dvec3 v) {
-    // Between several surfaces one pushes a point against another.
+    // One of several surfaces may push the point against another.
     const int passes = contacts.size() > 1 ? mostPasses : 1;
     for (int pass = 0; pass < passes; ++pass)
         for (const Contact& contact : contacts) {

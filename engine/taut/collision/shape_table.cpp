@@ -2,7 +2,8 @@
 
 #include "taut/core/error.h"
 
-// A line a shape, in the order in which texts name them: the function that returns its row, in a file of its own.
+// One line for each shape, in the order in which texts name them. It is the function that returns the shape's row; each
+// has its own file.
 #define TAUT_SHAPES(SHAPE) \
     SHAPE(planeKind)       \
     SHAPE(boxKind)         \

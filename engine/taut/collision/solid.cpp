@@ -69,8 +69,8 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
     solid.still = from.position == to.position && from.rotation == to.rotation;
     if (solid.still) solid.to = solid.from;
 
-    // A quaternion and its opposite are the same rotation: the nearer one turns the short way. What is between is a
-    // normalised mix, in pieces of less than about 25 degrees, in each of which a path is nearly straight.
+    // A quaternion and its opposite are the same rotation; the nearer one turns the short way. The rotations in between
+    // are normalised mixes, in pieces of less than about 25 degrees. In each piece a path is nearly straight.
     const glm::dquat a = unit(from.rotation);
     glm::dquat b = unit(to.rotation);
     double match = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
@@ -89,6 +89,7 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
         solid.turn[static_cast<std::size_t>(i - 1)] = frameOf({position, mix}).of(solid.inCollider);
     }
 
+    // The half-space of a plane, or the box of the whole step.
     if (!solid.bounded) {
         solid.above.normal = solid.to.directionToWorld(solid.form->nearest(dvec3(0.0)).normal);
         solid.above.offset = glm::dot(solid.above.normal, solid.to.position);
@@ -102,7 +103,8 @@ void place(Solid& solid, const Pose& from, const Pose& to) {
     };
     for (const Frame& frame : solid.turn) include(frame);
     include(solid.to);
-    // A corner's arc leaves the boxes at the ends of its chord by chord / 2 · tan(angle / 4), here under a tenth.
+    // A corner's arc leaves the boxes at the ends of its chord by chord / 2 · tan(angle / 4). This is less than a tenth
+    // of the chord.
     if (halfSine > 0.0) solid.bounds.grow(0.1 * travelOf(solid));
 }
 

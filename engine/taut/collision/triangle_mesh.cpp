@@ -9,12 +9,12 @@ bool TriangleMesh::findWayOut(const Path& path, const Foot& end, HalfSpace& touc
     return true;
 }
 
-// The side from which a path comes. In the plane itself it is the front.
+// Whether the path comes from the triangle's front. A start in the plane itself counts as front.
 bool TriangleMesh::isInFront(const Path& path, const Facet& t) {
     return glm::dot(path.from - t.corner, t.normal) > -path.skin;
 }
 
-// The triangle that the path crosses first, -1: none.
+// The triangle that the path crosses first; -1: none.
 int TriangleMesh::firstCrossing(const Path& path) const {
     const dvec3 whole = path.to - path.from;
     core::Aabb box;
@@ -48,11 +48,11 @@ int TriangleMesh::firstCrossing(const Path& path) const {
     return crossing;
 }
 
-// At the end of a path that crosses nothing.
+// The touch at the end of a path that crosses nothing. False if the end is far enough.
 bool TriangleMesh::touchNear(const Path& path, const Foot& end, HalfSpace& touch) const {
     const double reach = path.thickness + path.skin;
     if (!(end.square < reach * reach)) return false;
-    // Off the middle of a triangle the direction is its normal, which is exact however near the point is.
+    // Over the middle of a triangle the direction is its normal, which is exact no matter how near the point is.
     const double distance = std::sqrt(end.square);
     const Facet& t = finder_.triangle(end.triangle);
     const dvec3 apart = path.to - end.point;
@@ -77,7 +77,7 @@ bool TriangleMesh::sweep(const Path& path, HalfSpace& touch, bool& crossed) cons
 
     const Foot end = finder_.foot(path.to, near);
     if (end.triangle < 0) return false;
-    // Shorter than the way to the surface: it crosses nothing and starts on the side where it ends.
+    // A path shorter than the way to the surface crosses nothing, and starts on the side where it ends.
     const double clear = length + path.skin + 1e-8 * (length + std::abs(near.most));
     if (end.square > clear * clear)
         return finder_.isInside(path.to, end) ? findWayOut(path, end, touch) : touchNear(path, end, touch);

@@ -10,16 +10,16 @@
 namespace taut::contact {
 namespace {
 
-constexpr int atOnce = 8;  // lists a task
-// Of the largest thickness.
+constexpr int atOnce = 8;  // lists per task
+// Shares of the largest thickness.
 constexpr double referenceShare = 0.4;  // a leaf that has deformed further takes a new reference shape
 constexpr double boxMarginShare = 0.5;  // margin of fat boxes
-constexpr double flatShare = 0.1;       // of the thickness: what is flat with less to spare keeps its list
+constexpr double flatShare = 0.1;       // of the thickness: leaves that are flat with less to spare keep their list
 // Fat boxes reach ahead along the motion of their leaf.
-constexpr double searchAhead = 8;    // instants, if
-constexpr double mostBoxMargin = 4;  // that adds no more than so many margins
+constexpr double searchAhead = 8;    // instants, at most
+constexpr double mostBoxMargin = 4;  // box margins, at most
 
-// [m] Lower bound of the distance between what is in two boxes.
+// [m] Lower bound of the distance between the contents of two boxes.
 double gapOf(const core::Aabb& a, const core::Aabb& b) {
     return length(glm::max(dvec3(0.0), glm::max(a.low - b.high, b.low - a.high)));
 }
@@ -80,14 +80,14 @@ void BroadPhase::measureMotion(CandidateList& list) const {
     const double ownDeviationB = deviation_[static_cast<std::size_t>(list.b)] - list.deviationB;
     const bool isOne = list.a == list.b;
     list.relativeMotion = relativeMotionOf(list);
-    // How the offset of the centres has changed, at x0 and at x1.
+    // How far the offset of the centres has changed since the list was made, at x0 and at x1.
     double ofCentres = 0;
     if (!isOne) {
         const dvec3 before = a.centre - b.centre - list.offset, after = before + a.way - b.way;
         ofCentres = std::sqrt(std::max(glm::dot(before, before), glm::dot(after, after)));
     }
-    // How points have moved about their centre. With the reference shape that the list was made with: there and back
-    // again by the two deformations.
+    // How far points have moved about their centre. If the reference shape is still that of the list, a point went to
+    // it and back at most: the sum of the two deformations is a bound.
     const double sumA = ownDeviationA + a.deviation, sumB = ownDeviationB + b.deviation;
     const double netA = a.reference == list.referenceA ? a.deformation + list.deformationA : sumA;
     const double netB = b.reference == list.referenceB ? b.deformation + list.deformationB : sumB;
@@ -95,8 +95,8 @@ void BroadPhase::measureMotion(CandidateList& list) const {
     list.travelled = list.travelledBefore + list.relativeMotion;
 }
 
-// Whether an axis keeps all of leaf a above all of leaf b, by more than near, at x0 and at x1: on straight ways in
-// between too (certificate.h). The axis is the line between the centres, halfway.
+// Whether an axis keeps all of leaf a above all of leaf b, by more than near, at x0 and at x1. On straight ways this
+// holds in between too (certificate.h). The axis is the line between the centres halfway from x0 to x1.
 bool BroadPhase::isSeparatedOnTheWay(const CandidateList& list, std::span<const dvec3> x0,
                                      std::span<const dvec3> x1) const {
     const LeafMotion &a = bvh_.motion(list.a), &b = bvh_.motion(list.b);
@@ -133,7 +133,7 @@ bool BroadPhase::areInFatBoxes(std::span<const dvec3> x0, std::span<const dvec3>
 
 // Makes the fat boxes, and tracks the pairs whose boxes overlap. Pairs that were tracked before keep their lists.
 void BroadPhase::searchTree(double boxMargin) {
-    // Boxes reach ahead for so many instants like this one; none where points go too far even in one.
+    // Boxes reach ahead for this many instants like the present one. If points go too far even in one, they do not.
     double most = 0;
     for (int p = 0; p < bvh_.count(); ++p) most = std::max(most, bvh_.travel(p));
     const double instants =
@@ -174,10 +174,10 @@ double BroadPhase::travelOf(LeafPair pair) const {
     return travel_[static_cast<std::size_t>(lowOf(pair))] + travel_[static_cast<std::size_t>(highOf(pair))];
 }
 
-// Brings the motion of a pair's list up to date, and says whether it has expired.
+// Brings the motion of a pair's list up to date, and finds out whether the list has expired.
 void BroadPhase::check(TrackedPair& tracked, std::span<const dvec3> x0, std::span<const dvec3> x1) const {
     CandidateList& list = *tracked.list;
-    // Instants since the last check count with the travel of the leaves, which is no less than their relative motion.
+    // Instants since the last check count with the travel of the leaves. It is no less than their relative motion.
     const double travel = travelOf(tracked.pair);
     list.travelledBefore += travel - tracked.countedTravel;
     tracked.countedTravel = travel;
@@ -186,7 +186,7 @@ void BroadPhase::check(TrackedPair& tracked, std::span<const dvec3> x0, std::spa
     list.isFlat = list.isSeparated = false;
     list.isExpired = list.approached > list.margin;
     if (!list.isExpired) return;
-    // No new list is needed where the boxes are too far apart, or an axis separates the leaves in this instant.
+    // No new list is needed if the boxes are too far apart, or an axis separates the leaves in this instant.
     const double gap = gapOf(bvh_.motion(list.a).before, bvh_.motion(list.b).before);
     const double spare = gap - nearShare * list.thickness;
     if (spare > list.relativeMotion) {
@@ -206,14 +206,14 @@ void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
         if (!surface.isRigid) thickest = std::max(thickest, surface.thickness);
     const double boxMargin = boxMarginShare * thickest, mostDeformed = referenceShare * thickest;
 
-    // Pairs of leaves.
+    // Pairs of leaves to track.
     bvh_.start(x0, x1);
     if (!areInFatBoxes(x0, x1, mostDeformed)) {
         bvh_.followAll(x0, x1, mostDeformed);
         searchTree(boxMargin);
     }
 
-    // Those that may have used up a budget.
+    // Check the pairs that may have used up a budget.
     selectForCheck(boxMargin);
     bvh_.follow(leafList_, x0, x1, mostDeformed);
     const int count = static_cast<int>(checked_.size());
@@ -222,15 +222,15 @@ void BroadPhase::find(std::span<const dvec3> x0, std::span<const dvec3> x1) {
             check(*checked_[static_cast<std::size_t>(k)], x0, x1);
     });
 
-    // Those that have.
+    // The lists of pairs that have used it up are due.
     selectDue();
     bvh_.measureFlatness(between_, x0, x1);
     refreshDue(x0);
     limitSlack(boxMargin);
 }
 
-// The tracked pairs whose leaves may have used up the motion budget -> checked_, and their leaves -> leafList_. The
-// slack of the others -> slacks_.
+// Selects the tracked pairs whose leaves may have used up the motion budget -> checked_, and their leaves -> leafList_.
+// The slack of the other pairs -> slacks_.
 void BroadPhase::selectForCheck(double boxMargin) {
     const int count = static_cast<int>(tracked_.size()), tasks = (count + atOnce - 1) / atOnce;
     needsCheck_.resize(tracked_.size());
@@ -256,7 +256,8 @@ void BroadPhase::selectForCheck(double boxMargin) {
     }
 }
 
-// The checked lists that have expired, or have a pair that may be near -> due_; the leaves between theirs -> between_.
+// Selects the checked lists that have expired or have a pair that may be near -> due_. The leaves between the two
+// leaves of these lists -> between_.
 void BroadPhase::selectDue() {
     due_.clear();
     between_.clear();
@@ -280,7 +281,7 @@ void BroadPhase::refreshDue(std::span<const dvec3> x0) {
         for (int k = task * atOnce; k < std::min((task + 1) * atOnce, count); ++k) {
             CandidateList& list = *due_[static_cast<std::size_t>(k)];
             const int surface = bvh_[list.a].surface;
-            // Flat with so much to spare: no two parts are in contact until they have approached by that much.
+            // How much flatness is left: no two parts are in contact until they have approached by `spare`.
             const double spareShare = bvh_.flatness(list.between) - bvh_.requiredFlatness(surface);
             const double spare = spareShare * bvh_.leastAltitude(surface);
             list.isFlat = spareShare >= 0;
@@ -296,8 +297,9 @@ void BroadPhase::refreshDue(std::span<const dvec3> x0) {
     listsMade_ += made;
 }
 
-// What points may go further than was told: see holdWithin(). Pairs that are in no list have the rest of its margin,
-// and what is left between them then; pairs in a list that need no certificate have watchShare of their thickness.
+// Finds how much further points may go than find() was told, see holdWithin(). A pair that is in no list has the rest
+// of the margin, and then the distance that is left. A pair in a list that needs no certificate has watchShare of its
+// thickness.
 void BroadPhase::limitSlack(double boxMargin) {
     slack_ = boxMargin;
     for (double slack : slacks_) slack_ = std::min(slack_, slack);
@@ -319,10 +321,10 @@ void BroadPhase::finish(std::span<const int> moved, std::span<const dvec3> x0, s
     accumulateTravel();
 }
 
-// The instant ends. Checked pairs count their relative motion, the others the travel of their leaves; check() adds
-// that.
+// The instant ends. Checked pairs count their relative motion. The others count the travel of their leaves, which
+// check() adds later.
 void BroadPhase::accumulateTravel() {
-    // What is left of the budgets of checked pairs. Leaves that travel less do not use it up.
+    // What is left of the budgets of checked pairs. Leaves that travel less than that do not use it up.
     for (TrackedPair* tracked : checked_) {
         const CandidateList& list = *tracked->list;
         tracked->budgetStart = travelOf(tracked->pair);
@@ -331,7 +333,7 @@ void BroadPhase::accumulateTravel() {
         tracked->unlistedDistance = list.unlistedDistance;
         tracked->leastThickness = list.leastThickness;
     }
-    // Leaves that were not followed deviate by no more than two ways: a point's, and the mean's.
+    // A leaf that was not followed deviates by no more than two ways: a point's and the mean.
     for (int p = 0; p < bvh_.count(); ++p) {
         const auto k = static_cast<std::size_t>(p);
         deviation_[k] += bvh_.isFollowed(p) ? bvh_.motion(p).deviation : 2 * bvh_.travel(p);

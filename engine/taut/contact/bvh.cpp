@@ -10,9 +10,9 @@
 namespace taut::contact {
 namespace {
 
-constexpr int atOnce = 16;  // leaves a task
+constexpr int atOnce = 16;  // leaves per task
 
-constexpr double alike = 1e-6;       // sizes that differ by this share are equal but for rounding
+constexpr double alike = 1e-6;       // sizes that differ by less than this share count as equal
 constexpr double middleShare = 0.2;  // of the items: a node may be split this far from the middle
 constexpr double wideShare = 0.6;    // of the widest gap there: the least gap to split at
 
@@ -34,9 +34,9 @@ dvec3 unitAcross(const dvec3& along) {
     return across / length(across);
 }
 
-// Axes that turn with a surface, so that the tree does too: the shortest edge of its first triangle, the direction
-// beside it in the triangle's plane, and the normal. Without triangles its first edge, and the point furthest from
-// that.
+// Axes that turn with a surface, so that the tree turns with it too. They are the shortest edge of its first triangle,
+// the direction beside this edge in the triangle's plane, and the normal. A surface without triangles takes its first
+// edge, and the direction to the point furthest from this edge.
 Axes axesOf(const Elements& elements, int surface) {
     const auto at = [&](int i) { return elements.rest()[static_cast<std::size_t>(i)]; };
     dvec3 along(1.0, 0.0, 0.0), beside(0.0);
@@ -70,8 +70,8 @@ Axes axesOf(const Elements& elements, int surface) {
     return {along, beside, glm::cross(along, beside)};
 }
 
-// Where to split sorted places: at the gap closest to the middle that is about as wide as any near it. So the rows of a
-// grid stay whole.
+// Where to split sorted places: at the gap closest to the middle that is about as wide as the widest gap near there.
+// So the rows of a grid stay whole.
 std::size_t halfOf(const std::vector<double>& places) {
     const std::size_t n = places.size(), middle = n / 2;
     const auto off = std::max<std::size_t>(1, static_cast<std::size_t>(middleShare * static_cast<double>(n)));
@@ -91,7 +91,7 @@ Bvh::Bvh(const Elements& elements)
     : elements_(elements),
       leafOfPoint_(static_cast<std::size_t>(elements.pointCount()), -1),
       leafOfEdge_(static_cast<std::size_t>(elements.edgesWithoutBalls()), -1) {
-    // Over 60 lines: the parts of the tree one after the other, then the arrays that have their size.
+    // Over 60 lines: it builds the parts of the tree one after the other, then the arrays that have their size.
     std::vector<int> roots;
     const std::vector<dvec3>& rest = elements.rest();
     const auto at = [&](int i) { return rest[static_cast<std::size_t>(i)]; };
@@ -102,6 +102,7 @@ Bvh::Bvh(const Elements& elements)
         const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
         edgeCentres.push_back(0.5 * (at(edge.a) + at(edge.b)));
     }
+    // For each surface one tree of triangles, one of lines, and one leaf for other points.
     for (int s = 0; s < static_cast<int>(elements.surfaces().size()); ++s) {
         const Axes axes = axesOf(elements, s);
         findPlane(s, axes[0]);
@@ -111,7 +112,7 @@ Bvh::Bvh(const Elements& elements)
             if (elements.edges()[static_cast<std::size_t>(e)].isLine) lines.push_back(e);
         if (!triangles.empty()) roots.push_back(addTree(std::move(triangles), triangleCentres, s, axes, true));
         if (!lines.empty()) roots.push_back(addTree(std::move(lines), edgeCentres, s, axes, false));
-        // Points of neither, which damage has made balls, or may.
+        // Points of no triangle and no line. Damage has made them balls, or may do so later.
         std::vector<int> others;
         for (int i : elements.surface(s).points)
             if (elements.surfaceOf(i) == s && leafOfPoint_[static_cast<std::size_t>(i)] < 0) others.push_back(i);
@@ -157,7 +158,7 @@ Bvh::Bvh(const Elements& elements)
 int Bvh::addTree(std::vector<int> items, const std::vector<dvec3>& centres, int surface, const Axes& axes,
                  bool areTriangles) {
     if (items.size() <= leafSize) return addLeaf(items, surface, areTriangles);
-    // Split along the axis on which the items extend furthest.
+    // Choose the axis on which the items extend furthest.
     std::size_t longest = 0;
     double size = -1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -171,6 +172,7 @@ int Bvh::addTree(std::vector<int> items, const std::vector<dvec3>& centres, int 
         size = high - low;
         longest = k;
     }
+    // Split there, and sort both halves by number.
     std::vector<std::pair<double, int>> inOrder;
     for (int i : items) inOrder.emplace_back(glm::dot(axes[longest], centres[static_cast<std::size_t>(i)]), i);
     std::sort(inOrder.begin(), inOrder.end());
@@ -263,7 +265,7 @@ void Bvh::findWay(std::size_t number, std::span<const dvec3> x0, std::span<const
         ways += to - from;
     }
     motion.box.add(motion.before);
-    // The mean, then how far points are from it, and from the reference shape.
+    // The mean way, then how far points deviate from it and from the reference shape.
     const double share = 1.0 / static_cast<double>(leaf.corners.size());
     motion.centre = share * sum;
     motion.way = share * ways;

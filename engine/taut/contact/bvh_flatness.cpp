@@ -1,12 +1,12 @@
-// The flatness certificate (bvh.h): leaves of a flat surface that are moved nearly as a rigid body, so that no two of
+// The flatness certificate (bvh.h): proves that leaves of a flat surface move so nearly as a rigid body that no two of
 // their parts touch.
 //
-// Bounds are taken from cheap to dear. Each leaf has its own R and `least`. For several leaves one R is needed: turning
-// R by an angle φ takes a unit vector t to another direction, and t·RᵀF t loses at most
+// Cheap bounds come first. Each leaf has its own R and `least`. Several leaves need one common R. Turning R by an angle
+// φ takes a unit vector t to another direction, and t·RᵀF t loses at most
 //
 //     least (1 - cos φ) + sqrt(most² - least²) sin φ
 //
-// Where this bound is too weak, the gradients of the leaf are tested against the common R one by one.
+// If this bound is too weak, the gradients of the leaf are tested against the common R one by one.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,18 +18,18 @@
 namespace taut::contact {
 namespace {
 
-constexpr double bumps = 0.05;           // of an edge: a surface that rises less is flat
-constexpr double gaps = 2e-3;            // of the area: a surface that fills its hull but for this is convex
-constexpr double plenty = 1.15;          // of what is required: a bound above it needs no closer look
+constexpr double bumps = 0.05;           // of an edge: a surface whose points rise less is flat
+constexpr double gaps = 2e-3;            // of the hull's area: a surface that leaves no more of it empty is convex
+constexpr double plenty = 1.15;          // of the required flatness: a bound above it needs no closer look
 constexpr double reachIn = 1e-3;         // of an edge
 constexpr std::size_t mostBetween = 48;  // leaves
-constexpr int measuredAtOnce = 16;       // leaves a task
+constexpr int measuredAtOnce = 16;       // leaves per task
 
 double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Of the convex hull, by Andrew's monotone chain.
+// The area of the convex hull, by Andrew's monotone chain.
 double hullArea(std::vector<glm::dvec2> points) {
     std::sort(points.begin(), points.end(),
               [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
@@ -48,7 +48,8 @@ double hullArea(std::vector<glm::dvec2> points) {
     return area;
 }
 
-// The least of t·RᵀF t for all unit t, by the symmetric part of RᵀF: R has columns right and up, F those two.
+// The least of t·RᵀF t over all unit t, from the symmetric part of RᵀF. R has the columns right and up, F has the
+// columns fRight and fUp.
 double leastAlong(const dvec3& right, const dvec3& up, const dvec3& fRight, const dvec3& fUp) {
     const double a = glm::dot(right, fRight), d = glm::dot(up, fUp);
     const double b = 0.5 * (glm::dot(right, fUp) + glm::dot(up, fRight)), half = 0.5 * (a - d);
@@ -57,13 +58,14 @@ double leastAlong(const dvec3& right, const dvec3& up, const dvec3& fRight, cons
 
 }  // namespace
 
-// A surface is flat if all points lie in one plane, and convex if its triangles fill their convex hull. Both but for
-// small bumps and gaps: bodies are built with some, to break symmetry.
+// A surface is flat if all its points lie in one plane, and convex if its triangles fill their convex hull. Small bumps
+// and gaps are allowed, because builders make some to break symmetry.
 void Bvh::findPlane(int number, const dvec3& along) {
     planes_.emplace_back();
     const ContactSurface& surface = elements_.surface(number);
     if (surface.triangles.empty() || !surface.meetsItself) return;
     const auto at = [&](int i) { return elements_.rest()[static_cast<std::size_t>(i)]; };
+    // The plane through the first corner with the mean normal.
     dvec3 normal(0.0);
     double area = 0;
     for (const std::array<int, 3>& t : surface.triangles) {
@@ -78,6 +80,7 @@ void Bvh::findPlane(int number, const dvec3& along) {
     dvec3 right = along - glm::dot(along, normal) * normal;
     right /= length(right);
     const dvec3 up = glm::cross(normal, right);
+    // Points in coordinates of the plane: too high ones mean not flat, too large a hull means not convex.
     std::vector<glm::dvec2> flat;
     for (int i : surface.points) {
         const dvec3 d = at(i) - origin;
@@ -101,10 +104,12 @@ void Bvh::prepareFlatness() {
             const dvec3& x = elements_.rest()[static_cast<std::size_t>(i)];
             return Rest2(glm::dot(x, plane->right), glm::dot(x, plane->up));
         };
+        // The leaf's box in the plane at rest.
         for (int i : leaves_[p].corners) {
             restBoxes_[p].low = glm::min(restBoxes_[p].low, flat(i));
             restBoxes_[p].high = glm::max(restBoxes_[p].high, flat(i));
         }
+        // The inverse edge matrix of each triangle, and the smallest altitude of the surface's triangles.
         for (int t : leaves_[p].triangles) {
             const std::array<int, 3>& corners = elements_.triangles()[static_cast<std::size_t>(t)].points;
             const Rest2 u = flat(corners[1]) - flat(corners[0]), v = flat(corners[2]) - flat(corners[0]);
@@ -117,7 +122,7 @@ void Bvh::prepareFlatness() {
         }
     }
     gradients_.resize(firstGradient_.back());
-    constexpr double hair = 1.02;  // for the bumps and gaps
+    constexpr double hair = 1.02;  // reserve for the bumps and gaps
     for (std::size_t k = 0; k < elements_.surfaces().size(); ++k)
         requiredFlatness_.push_back(hair * nearShare *
                                     std::min(restShare, 2 * elements_.surfaces()[k].thickness / altitudes_[k]));
@@ -143,6 +148,7 @@ void Bvh::measureOne(std::size_t number, std::span<const dvec3> x0, std::span<co
     Flatness flatness;
     Gradient* gradients = gradients_.data() + firstGradient_[number];
     std::size_t count = 0;
+    // F of each triangle at x0 and x1, and their sum. A leaf that lost a triangle gets no bound.
     for (int t : leaf.triangles) {
         const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(t)];
         if (triangle.isGone) {
@@ -188,7 +194,7 @@ std::vector<int> Bvh::leavesBetween(int a, int b) const {
     if (surface != leaves_[static_cast<std::size_t>(b)].surface || !planes_[static_cast<std::size_t>(surface)])
         return found;
     const RestBox &boxA = restBoxes_[static_cast<std::size_t>(a)], &boxB = restBoxes_[static_cast<std::size_t>(b)];
-    // A straight line between both stays in this box. Leaves that reach into it by a hair are left out.
+    // A straight line between the two leaves stays in this box. Leaves that reach into it by a hair are left out.
     const double in = reachIn * elements_.shortestEdge(surface);
     const RestBox box{glm::min(boxA.low, boxB.low) + in, glm::max(boxA.high, boxB.high) - in};
     for (std::size_t p = 0; p < leaves_.size(); ++p) {
@@ -224,7 +230,7 @@ double Bvh::flatness(std::span<const int> leaves) const {
     double flattest = 1e300;
     for (int p : leaves) {
         const Flatness& own = flatness_[static_cast<std::size_t>(p)];
-        // The angle from R of the leaf to the common R, by its trace.
+        // The angle between the leaf's R and the common R, from the trace. Then the bound above.
         const double trace = glm::dot(right, own.right) + glm::dot(up, own.up) + glm::dot(normal, own.normal);
         const double cosine = std::min(1.0, 0.5 * (trace - 1.0));
         if (!(cosine > 0)) return -1.0;
@@ -234,6 +240,7 @@ double Bvh::flatness(std::span<const int> leaves) const {
             flattest = std::min(flattest, bound);
             continue;
         }
+        // The bound is too weak: test each gradient.
         const std::size_t last = firstGradient_[static_cast<std::size_t>(p) + 1];
         for (std::size_t g = firstGradient_[static_cast<std::size_t>(p)]; g < last; ++g)
             flattest = std::min(flattest, leastAlong(right, up, gradients_[g].right, gradients_[g].up));

@@ -1,8 +1,8 @@
-// Makes the list of two leaves: boxes of elements first, many at once; then the distances of what overlaps, many at
-// once.
+// Makes the candidate list of two leaves. First it tests the boxes of elements, many at once. Then it measures the
+// distances of those that overlap, many at once.
 //
-// Two surfaces of one body keep less than their thickness where they are closer at rest: at most restShare of the
-// distance at rest. So pairs of one body are measured twice, at x0 and at rest.
+// Elements of one body may be closer at rest than their thickness. They keep at most restShare of their distance at
+// rest. So pairs of one body are measured twice, at x0 and at rest.
 #include <algorithm>
 #include <array>
 
@@ -13,9 +13,9 @@ namespace taut::contact {
 namespace {
 
 constexpr double leastMargin = 0.4;    // of the thickness
-constexpr double instantsAhead = 4.0;  // like this one, that a list is to last
+constexpr double instantsAhead = 4.0;  // a list should last for so many instants like this one
 
-// Boxes of elements, one coordinate a row, for the kernel that tests many at once.
+// Boxes of elements, one row for each coordinate, for the kernel that tests many at once.
 struct BoxRows {
     std::vector<int> item;
     std::vector<double> low[3], high[3];
@@ -48,16 +48,16 @@ struct Scratch {
     std::vector<MeasuredPair> inReach;
 };
 
-// What is looked for.
+// What to look for between two leaves.
 struct Query {
     const Elements& elements;
     std::span<const dvec3> x0;  // (points) [m]
     ClosestKernels kernels;
-    double thickness;  // [m] sum of both
+    double thickness;  // [m] sum of both surfaces' thicknesses
     double margin;     // [m] of the list
-    double reach;      // [m] largest distance of a pair in it
-    bool isBond;       // both surfaces are of one body
-    bool isOne;        // both leaves are one
+    double reach;      // [m] largest distance of a pair in the list
+    bool isBond;       // both surfaces belong to one body
+    bool isOne;        // both leaves are the same leaf
 
     const dvec3& at(int i) const { return x0[static_cast<std::size_t>(i)]; }
     const Triangle& triangle(int t) const { return elements.triangles()[static_cast<std::size_t>(t)]; }
@@ -90,7 +90,7 @@ core::Aabb grown(core::Aabb box, double by) {
     return box;
 }
 
-// Points of the one leaf and triangles of the other whose boxes are within reach -> scratch.overlapping.
+// Finds points of one leaf and triangles of the other whose boxes are within reach -> scratch.overlapping.
 void overlapPoints(const Query& query, const BvhLeaf& ofPoints, const BvhLeaf& ofTriangles, const core::Aabb& pointBox,
                    const core::Aabb& triangleBox, Scratch& scratch) {
     scratch.first.clear();
@@ -113,7 +113,7 @@ void overlapPoints(const Query& query, const BvhLeaf& ofPoints, const BvhLeaf& o
     }
 }
 
-// Edges of both leaves whose boxes are within reach -> scratch.overlapping.
+// Finds edges of both leaves whose boxes are within reach -> scratch.overlapping.
 void overlapEdges(const Query& query, const BvhLeaf& a, const BvhLeaf& b, const core::Aabb& boxA,
                   const core::Aabb& boxB, Scratch& scratch) {
     const auto gather = [&](const BvhLeaf& leaf, const core::Aabb& other, BoxRows& rows) {
@@ -139,8 +139,8 @@ void overlapEdges(const Query& query, const BvhLeaf& a, const BvhLeaf& b, const 
     }
 }
 
-// Measures scratch.overlapping, and appends what is within the margin to the list, sorted by isBefore. pointsOf(pair):
-// the four points that the kernel gets.
+// Measures scratch.overlapping, and appends the pairs within the margin to the list, sorted by isBefore.
+// pointsOf(pair): the four points that the kernel gets.
 template <class PointsOf, class IsBefore>
 void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), PointsOf&& pointsOf, IsBefore&& isBefore,
                    Scratch& scratch, BroadPhase::CandidateList& list) {
@@ -154,7 +154,7 @@ void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), Point
         scratch.batch.solve(kernel);
     };
 
-    // Now.
+    // The distances at x0. Only pairs within reach go on.
     measure(query.x0);
     scratch.inReach.clear();
     std::size_t within = 0;
@@ -166,7 +166,7 @@ void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), Point
     }
     scratch.overlapping.resize(within);
 
-    // At rest.
+    // The distances at rest limit the thickness of pairs of one body.
     if (query.isBond) {
         measure(query.elements.rest());
         for (std::size_t k = 0; k < within; ++k) {
@@ -176,7 +176,7 @@ void appendInReach(const Query& query, void (*kernel)(ClosestLanes&, int), Point
     }
     scratch.overlapping.clear();
 
-    // What is left before the pair is near is its first budget.
+    // The first budget of a pair is its distance, less what counts as near.
     std::sort(scratch.inReach.begin(), scratch.inReach.end(),
               [&](const MeasuredPair& p, const MeasuredPair& q) { return isBefore(p.pair, q.pair); });
     for (const MeasuredPair& measured : scratch.inReach) {
@@ -196,8 +196,8 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     const double thickness = list.thickness;
     const bool isBond = elements_.shareBond(a.surface, b.surface);
 
-    // The margin: a share of the thickness, more if the leaves move fast. Within one body, not so much that each
-    // element lists its neighbours.
+    // The margin is a share of the thickness, and more if the leaves move fast. Within one body it stays so small that
+    // an element does not list its neighbours.
     const double cell = std::min(elements_.shortestEdge(a.surface), elements_.shortestEdge(b.surface));
     const double slow = isBond ? std::min(thickness, restShare * cell - thickness) : thickness;
     const double fast = std::min(instantsAhead * list.relativeMotion, std::max(2 * thickness, list.relativeMotion));
@@ -211,6 +211,7 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
     thread_local Scratch scratch;
     scratch.overlapping.clear();
 
+    // Pairs of points and triangles first.
     overlapPoints(query, a, b, boxA, boxB, scratch);
     if (!query.isOne) overlapPoints(query, b, a, boxB, boxA, scratch);
     appendInReach(
@@ -223,6 +224,7 @@ void BroadPhase::makeList(CandidateList& list, std::span<const dvec3> x0) const 
         list);
     list.pointPairs = list.pairs.size();
 
+    // Then pairs of edges.
     overlapEdges(query, a, b, boxA, boxB, scratch);
     appendInReach(
         query, kernels.onSegments,

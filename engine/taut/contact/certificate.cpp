@@ -11,9 +11,9 @@ namespace taut::contact {
 namespace {
 
 constexpr double aslant = 0.98;      // cosine of the least angle between the normal and the axis of sides that pass by
-constexpr double leftApart = 0.2;    // of the distance at x0, after sliding apart
-constexpr double leastApart = 0.02;  // of the thickness, likewise
-constexpr double into = -0.5;        // cosine of a way with a collider's normal: below it the way leads in
+constexpr double leftApart = 0.2;    // sliding apart leaves this share of the distance at x0
+constexpr double leastApart = 0.02;  // sliding apart leaves at least this share of the thickness
+constexpr double into = -0.5;        // cosine of a way with a collider's normal: below it the way leads into it
 
 using Corners = std::array<dvec3, 4>;
 
@@ -23,7 +23,7 @@ Corners cornersOf(const ContactConstraint& pair, std::span<const dvec3> x) {
     return corners;
 }
 
-// How far all of the first side is above all of the second along an axis; negative: it is not.
+// How far all of the first side is above all of the second along an axis. Negative: it is not above.
 double height(const Corners& corners, int firstSide, const dvec3& axis) {
     double low = 1e300, high = -1e300;
     for (int k = 0; k < 4; ++k) {
@@ -36,13 +36,13 @@ double height(const Corners& corners, int firstSide, const dvec3& axis) {
     return low - high;
 }
 
-// Along the axis or against it.
+// Whether the axis, or the axis reversed, keeps the first side above the second before and after.
 bool separates(const Corners& before, const Corners& after, int firstSide, const dvec3& axis) {
     if (height(before, firstSide, axis) > 0) return height(after, firstSide, axis) > 0;
     return height(before, firstSide, -axis) > 0 && height(after, firstSide, -axis) > 0;
 }
 
-// Of the triangle, or of both edges.
+// The normal of the triangle, or the common normal of both edges. Not unit.
 dvec3 normalOf(const Corners& c, bool isPoint) {
     return isPoint ? glm::cross(c[2] - c[1], c[3] - c[1]) : glm::cross(c[1] - c[0], c[3] - c[2]);
 }
@@ -76,10 +76,10 @@ Closest closestPoints(const Corners& c, bool isPoint) {
     return found;
 }
 
-// Bisects the time of closest approach, and tries the direction between the closest points at each time as an axis. The
-// axis has to separate by more than `enough` [m] at both ends, and have a cosine with the normal below mostAlike. Where
-// the sides do not turn, their Minkowski difference is a rigid body on a straight way, and the direction at the closest
-// time is the best axis there is.
+// Finds the time of closest approach by bisection. At each time it tries the direction between the closest points as an
+// axis. The axis has to separate by more than `enough` [m] at both ends, and its cosine with the normal has to be below
+// mostAlike. If the sides do not turn, their Minkowski difference is a rigid body on a straight way. Then the direction
+// at the closest time is the best axis there is.
 bool separatesOnTheWay(const ContactConstraint& pair, const Corners& before, const Corners& after, double enough,
                        double mostAlike) {
     constexpr int halvings = 12;
@@ -95,7 +95,7 @@ bool separatesOnTheWay(const ContactConstraint& pair, const Corners& before, con
         if (glm::dot(axis, pair.normal) < mostAlike && height(before, side, axis) > enough &&
             height(after, side, axis) > enough)
             return true;
-        // Before the closest time they close, after it they part.
+        // The sides close before the closest time, and part after it.
         double parting = 0;
         for (std::size_t i = 0; i < 4; ++i) parting += on.weights[i] * glm::dot(axis, after[i] - before[i]);
         if (k == 0 && parting <= 0) return false;
@@ -111,7 +111,7 @@ bool isCertified(const ContactConstraint& pair, std::span<const dvec3> x0, std::
     const Corners before = cornersOf(pair, x0), after = cornersOf(pair, x1);
     const int side = pair.firstSide();
 
-    // The ways relative to the first point are shorter than the distance: no axis is needed.
+    // If the ways relative to the first point are shorter than the distance, no axis is needed.
     const dvec3 reference = after[0] - before[0];
     double first = 0, second = 0;
     for (int k = 1; k < 4; ++k) {
@@ -122,7 +122,8 @@ bool isCertified(const ContactConstraint& pair, std::span<const dvec3> x0, std::
     }
     if (std::sqrt(first) + std::sqrt(second) < pair.distance) return true;
 
-    // Axes that cost little: the normal at x0, that of the elements at either end, the separation at x1, and the mean.
+    // Cheap axes first: the normal at x0, the elements' normals at x0 and x1, the separation at x1, and the mean of
+    // the first and the last.
     if (separates(before, after, side, pair.normal)) return true;
     if (separates(before, after, side, normalOf(before, pair.isPoint))) return true;
     if (separates(before, after, side, normalOf(after, pair.isPoint))) return true;
@@ -131,7 +132,7 @@ bool isCertified(const ContactConstraint& pair, std::span<const dvec3> x0, std::
     const double size = length(last);
     if (size > 0 && separates(before, after, side, pair.normal + last / size)) return true;
 
-    // Then a search.
+    // Then a search over time.
     return separatesOnTheWay(pair, before, after, 0.0, 2.0);
 }
 
@@ -142,7 +143,7 @@ bool misses(const ContactConstraint& pair, std::span<const dvec3> x0, std::span<
 bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMass,
                 std::span<const KinematicContact> kinematic, std::span<dvec3> x1, std::span<dvec3> v,
                 std::vector<int>& moved) {
-    // The two points that went deepest.
+    // The point of each side that went deepest.
     int lowest = -1, highest = -1;
     double low = 1e300, high = -1e300;
     for (int k = 0; k < 4; ++k) {
@@ -157,7 +158,7 @@ bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMa
         }
     }
     const auto a = static_cast<std::size_t>(lowest), b = static_cast<std::size_t>(highest);
-    // A collider in the way makes a point immovable.
+    // A point that would move into a collider counts as immovable.
     const auto inverseMassOf = [&](int point, const dvec3& way) {
         auto own = std::lower_bound(kinematic.begin(), kinematic.end(), point,
                                     [](const KinematicContact& contact, int i) { return contact.point < i; });
@@ -167,7 +168,7 @@ bool slideApart(const ContactConstraint& pair, std::span<const double> inverseMa
     };
     const double inverseA = inverseMassOf(lowest, pair.normal), inverseB = inverseMassOf(highest, -pair.normal);
     const double inverse = inverseA + inverseB;
-    // Places, then velocities.
+    // Move the points apart, then stop their approach.
     const double wanted = std::max(leftApart * pair.distance, leastApart * pair.thickness);
     const double missing = wanted - (low - high);
     if (!(inverse > 0) || !(missing > 0)) return false;
@@ -202,9 +203,9 @@ void moveAsImpactZones(std::span<const ContactConstraint* const> pairs, std::spa
     // Sums over the points of a zone.
     struct Zone {
         dvec3 way{0.0};       // [kg m] mass × way
-        dvec3 fixedWay{0.0};  // [m] of points that nothing moves
+        dvec3 fixedWay{0.0};  // [m] sum of the ways of points that nothing moves
         double mass = 0;      // [kg]
-        int fixed = 0;        // points that nothing moves
+        int fixed = 0;        // number of points that nothing moves
     };
     std::map<int, Zone> zones;
     for (const auto& entry : parent) {
@@ -220,7 +221,7 @@ void moveAsImpactZones(std::span<const ContactConstraint* const> pairs, std::spa
             ++zone.fixed;
         }
     }
-    // Each point goes the mean way; its velocity changes by what that takes.
+    // Each movable point goes the zone's mean way, and its velocity changes accordingly.
     for (const auto& entry : parent) {
         const auto k = static_cast<std::size_t>(entry.first);
         if (!(inverseMass[k] > 0)) continue;

@@ -1,7 +1,7 @@
 // Compiled once for each instruction set; see taut_kernel in engine/taut.cmake.
 //
-// The same operations in the same order as closest_points.h. Where that branches, all cases are computed and one is
-// chosen.
+// It does the same operations in the same order as closest_points.h. Where that file branches, the kernel computes all
+// cases and chooses one.
 #include "taut/contact/closest_kernel.h"
 
 #include "taut/core/private/vectorise.h"
@@ -10,7 +10,7 @@
 namespace taut::contact::TAUT_ISA {
 namespace {
 
-// Numbers of Feature.
+// The numbers of the enum Feature.
 constexpr long face = 0, edge0 = 1, edge1 = 2, edge2 = 3, corner0 = 4, corner1 = 5, corner2 = 6;
 
 constexpr int room = 64;  // boxes or pairs at a time
@@ -45,6 +45,7 @@ void onTriangles(ClosestLanes& lanes, int n) {
         const double ax = lanes.at[1][0][i], ay = lanes.at[1][1][i], az = lanes.at[1][2][i];
         const double bx = lanes.at[2][0][i], by = lanes.at[2][1][i], bz = lanes.at[2][2][i];
         const double cx = lanes.at[3][0][i], cy = lanes.at[3][1][i], cz = lanes.at[3][2][i];
+        // Edges, the vectors from the corners to the point, and their products.
         const double abx = bx - ax, aby = by - ay, abz = bz - az, acx = cx - ax, acy = cy - ay, acz = cz - az;
         const double apx = px - ax, apy = py - ay, apz = pz - az, bpx = px - bx, bpy = py - by, bpz = pz - bz;
         const double cpx = px - cx, cpy = py - cy, cpz = pz - cz;
@@ -53,12 +54,13 @@ void onTriangles(ClosestLanes& lanes, int n) {
         const double abCp = abx * cpx + aby * cpy + abz * cpz, acCp = acx * cpx + acy * cpy + acz * cpz;
         const double areaC = abAp * acBp - abBp * acAp, areaB = abCp * acAp - abAp * acCp;
         const double areaA = abBp * acCp - abCp * acBp, alongB = acBp - abBp, alongC = abCp - acCp;
+        // Which feature is closest: a corner, an edge, or else the face.
         const bool atA = (abAp <= 0) & (acAp <= 0), atB = (abBp >= 0) & (acBp <= abBp);
         const bool atC = (acCp >= 0) & (abCp <= acCp);
         const bool onAb = (areaC <= 0) & (abAp >= 0) & (abBp <= 0) & (abAp > abBp);
         const bool onAc = (areaB <= 0) & (acAp >= 0) & (acCp <= 0);
         const bool onBc = (areaA <= 0) & (alongB >= 0) & (alongC >= 0);
-        // Weights of b and c over a common denominator: from the last case to the first, so that the first wins.
+        // The weights of b and c over a common denominator. The last case comes first, so that the first case wins.
         double below = (areaA + areaB) + areaC, shareB = areaB, shareC = areaC;
         long where = face;
         const double bc = alongB + alongC, ac = acAp - acCp;
@@ -96,6 +98,7 @@ void onTriangles(ClosestLanes& lanes, int n) {
     sumUp(lanes, n);
 }
 
+// closestOnSegments() of closest_points.h.
 void onSegments(ClosestLanes& lanes, int n) {
     TAUT_INDEPENDENT
     for (int i = 0; i < n; ++i) {
@@ -109,6 +112,7 @@ void onSegments(ClosestLanes& lanes, int n) {
         const double ar = ax * rx + ay * ry + az * rz, br = bx * rx + by * ry + bz * rz;
         const bool hasA = aa > 0, hasB = bb > 0, hasBoth = hasA & hasB;
         const double det = aa * bb - ab * ab;
+        // s of the lines where they are not parallel, then t, then s again if t was clamped.
         const bool isRegular = det > 1e-12 * aa * bb;
         const double overA = hasA ? aa : 1.0, overB = hasB ? bb : 1.0, over = isRegular ? det : 1.0;
         const double free = isRegular ? clampShare((ab * br - ar * bb) / over) : 0.5;
@@ -117,6 +121,7 @@ void onSegments(ClosestLanes& lanes, int n) {
         const double t = clampShare(beside);
         const double again = clampShare((ab * t - ar) / overA);
         const double s = isOut ? again : (isRegular ? free : again);
+        // A segment without length is a point.
         const double onlyS = hasA ? clampShare(-ar / overA) : 0.0, onlyT = hasB ? clampShare(br / overB) : 0.0;
         const double first = hasBoth ? s : onlyS, second = hasBoth ? t : (hasA ? 0.0 : onlyT);
         lanes.weights[0][i] = 1.0 - first;
@@ -151,7 +156,7 @@ int findOverlapping(const BoxLanes& boxes, const double* low, const double* high
     return count;
 }
 
-// Minima are taken as maxima of negative numbers, for the wide vectors have those.
+// Minima are computed as maxima of negative numbers, because the wide vectors only have maxima.
 int findDue(CandidateRows& rows) {
     using core::TAUT_ISA::larger, core::TAUT_ISA::load;
     using V = core::TAUT_ISA::WideVector<double>;
@@ -163,6 +168,7 @@ int findDue(CandidateRows& rows) {
         const int n = rows.n - from < room ? rows.n - from : room;
         const double *travel = rows.travelBudget + from, *approach = rows.approachBudget + from;
         const double travelled = rows.travelled, approached = rows.approached;
+        // Which pairs are due. A pair that is not due counts its larger budget.
         TAUT_INDEPENDENT
         for (int i = 0; i < n; ++i) {
             const double left = travel[i] - travelled, leftApproach = approach[i] - approached;
@@ -171,6 +177,7 @@ int findDue(CandidateRows& rows) {
             byTravelled[i] = (hasBudget & isFurther) ? -travel[i] : -1e300;
             byApproached[i] = (hasBudget & !isFurther) ? -approach[i] : -1e300;
         }
+        // The least budgets: first in whole vectors, then the rest.
         int full = 0;
         if (n >= width) {
             V most = load<V>(byTravelled), mostApproach = load<V>(byApproached);
@@ -187,6 +194,7 @@ int findDue(CandidateRows& rows) {
             rows.leastTravelBudget = -larger(-rows.leastTravelBudget, byTravelled[i]);
             rows.leastApproachBudget = -larger(-rows.leastApproachBudget, byApproached[i]);
         }
+        // The numbers of the due pairs, without a branch.
         for (int i = 0; i < n; ++i) {
             rows.due[count] = from + i;
             count += static_cast<int>(isDue[i]);

@@ -13,7 +13,7 @@ namespace {
 constexpr int mostSlides = 8, mostZones = 12;
 constexpr double apartSpeed = 0.3;  // [m/s] at which crossings come apart
 
-// Sorts, and removes duplicates. Mostly there is nothing to do.
+// Sorts, and removes duplicates. Usually there is nothing to do.
 void makeAscending(std::vector<int>& points) {
     if (std::adjacent_find(points.begin(), points.end(), std::greater_equal<>()) == points.end()) return;
     std::sort(points.begin(), points.end());
@@ -72,7 +72,7 @@ Forecast ContactGroup::forecast(std::span<const dvec3> x, std::span<const dvec3>
     detect(x, xTested_);
     Forecast forecast;
 
-    // How fast leaves deform.
+    // How fast the leaves of soft surfaces deform.
     Bvh& leaves = broadPhase_.bvh();
     leaves.followAll(x, xTested_);
     int soft = 0;
@@ -126,7 +126,7 @@ const InstantResult& ContactGroup::resolve(const Instant& instant) {
         handOver(instant, moved);
     }
 
-    // The lists live on: what the points went in this instant counts against their budgets.
+    // The lists live on: the motion of the points in this instant counts against their budgets.
     makeAscending(moved_);
     broadPhase_.finish(moved_, instant.x0, instant.x1);
     result_.moved = moved_;
@@ -139,7 +139,7 @@ void ContactGroup::detect(std::span<const dvec3> x0, std::span<const dvec3> x1) 
     if (x1.data() != xTested_.data()) std::copy(x1.begin(), x1.end(), xTested_.begin());
 }
 
-// The active pairs that contact can move, and how deep they would go without it.
+// Selects the active pairs that contact can move. Records how deep they would go without contact.
 void ContactGroup::selectActive(const Instant& instant) {
     active_.clear();
     for (const ContactConstraint& pair : tested_) {
@@ -156,7 +156,7 @@ void ContactGroup::selectActive(const Instant& instant) {
 }
 
 void ContactGroup::solveActive(const Instant& instant) {
-    // Only points of active pairs and crossings are read.
+    // Load the points of active pairs and crossings. No others are read.
     const auto load = [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         u0_[k] = u_[k] = (instant.x1[k] - instant.x0[k]) / instant.h;
@@ -197,17 +197,17 @@ std::vector<int> ContactGroup::applyVelocities(const Instant& instant) const {
     return moved;
 }
 
-// Their islands place these points (ascending), and may change x1 and v once more.
+// Hands these points (ascending) to their islands. The islands place them, and may change x1 and v once more.
 void ContactGroup::handOver(const Instant& instant, std::span<const int> points) {
     if (points.empty()) return;
     moved_.insert(moved_.end(), points.begin(), points.end());
     if (instant.place) instant.place(points);
 }
 
-// An impulse for each edge that pierces a triangle, one after the other, along the way out (crossings.h).
+// Gives each edge that pierces a triangle an impulse along the way out (crossings.h), one edge after the other.
 void ContactGroup::untangle(const Instant& instant) {
     for (const Crossing& crossing : crossings_) {
-        // Effective inverse mass along the way out, speeds along it, and the largest gain of a point.
+        // Effective inverse mass along the way out, the speeds u and v along it, and the largest gain of a point.
         double inverse = 0, speed = 0, speedV = 0, most = 0;
         for (std::size_t k = 0; k < 5; ++k) {
             const auto i = static_cast<std::size_t>(crossing.points[k]);
@@ -218,8 +218,9 @@ void ContactGroup::untangle(const Instant& instant) {
         }
         if (!(inverse > 0) || crossing.separatingDirection == dvec3(0.0)) continue;
         if (!mayYield(crossing, instant.inverseMass)) continue;
-        // Up to apartSpeed. Limited twice: to the impulse that is needed from rest, whatever pushes against it; and so
-        // that no point gains more than apartSpeed, however small its weight. A pinch then stays until it opens.
+        // The impulse brings the speed up to apartSpeed. It has two limits. It is never more than a crossing at rest
+        // needs, no matter what pushes against it. And no point gains more than apartSpeed, no matter how small its
+        // weight. A pinch then stays until it opens.
         const auto impulseAgainst = [&](double before) {
             return std::min(std::clamp(apartSpeed - before, 0.0, apartSpeed) / inverse, apartSpeed / most);
         };
@@ -240,7 +241,7 @@ std::vector<const ContactConstraint*> ContactGroup::uncertified(const Instant& i
     return bad;
 }
 
-// Points were moved after the detection. It is repeated only where that may have brought new pairs into reach.
+// Points were moved after the detection. It is repeated only if that may have brought new pairs into reach.
 void ContactGroup::detectAgain(const Instant& instant) {
     double furthest = 0;  // [m²]
     for (int i : moved_) {
@@ -309,7 +310,7 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
             }
         }
     };
-    // Points of the one leaf against triangles of the other.
+    // Points of one leaf against triangles of the other.
     const auto measurePoints = [&](const BvhLeaf& of, const BvhLeaf& triangles) {
         for (int i : of.points)
             for (int t : triangles.triangles) {
@@ -322,7 +323,7 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
                 least = std::min(least, glm::dot(d, d));
             }
     };
-    // All of two leaves.
+    // All pairs of elements of two leaves.
     const auto measure = [&](int first, int second) {
         const BvhLeaf &a = leaves[first], &b = leaves[second];
         measurePoints(a, b);
@@ -338,7 +339,7 @@ double distanceBetween(const Elements& elements, Bvh& leaves, std::span<const dv
                 least = std::min(least, glm::dot(d, d));
             }
     };
-    // First the leaves whose boxes are closest, for a good bound. Then all that may still be closer.
+    // First the two leaves whose boxes are closest, for a good bound. Then all pairs that may still be closer.
     int first = -1, second = -1;
     double nearest = 1e300;
     forEachNear([&](int a, int b, double bound) {

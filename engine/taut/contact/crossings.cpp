@@ -10,7 +10,7 @@
 namespace taut::contact {
 namespace {
 
-constexpr double leastSlope = 0.05;  // sine of the angle of edge and triangle; flatter ones have no direction
+constexpr double leastSlope = 0.05;  // sine of the angle of edge and triangle; a flatter edge has no direction
 
 dvec3 unit(const dvec3& v) {
     const double size = length(v);
@@ -46,23 +46,24 @@ dvec3 shortening(const Elements& elements, const Edge& edge, const Triangle& tri
     return sum;
 }
 
-// One of the two curves of a contour: each sheet has one.
+// A contour has two curves, one for each sheet. This is one of them.
 struct Curve {
-    int contour;  // its lowest crossing
+    int contour;  // number of the contour's lowest crossing
     bool isOther;
     bool operator==(const Curve&) const = default;
     auto operator<=>(const Curve&) const = default;
 };
 
-// The curve of each crossing. Two triangles cut each other along a line, from one crossing to the next. So the two
-// crossings are of one contour: on the same curve if both edges are of the same triangle, else on different ones.
-// Union-find, with the curve relative to the parent.
+// Finds the curve of each crossing. Two triangles cut each other along a line from one crossing to the next, so these
+// two crossings belong to one contour. They are on the same curve if both edges are of the same triangle, else on
+// different curves. Union-find: each crossing stores its curve relative to its parent.
 std::vector<Curve> findCurves(const Elements& elements, std::span<const Crossing> crossings) {
     struct Link {
         int low, high;  // triangles
         int crossing;
-        bool isLow;  // the edge is of the lower
+        bool isLow;  // the edge belongs to the lower triangle
     };
+    // Each crossing links the triangles of its edge with the triangle that the edge pierces.
     std::vector<Link> links;
     for (std::size_t c = 0; c < crossings.size(); ++c)
         for (int t : elements.edges()[static_cast<std::size_t>(crossings[c].edge)].triangles)
@@ -82,6 +83,7 @@ std::vector<Curve> findCurves(const Elements& elements, std::span<const Crossing
             curve = {up.contour, curve.isOther != up.isOther};
         }
     };
+    // Two links with the same two triangles join their crossings.
     for (std::size_t k = 1; k < links.size(); ++k) {
         if (links[k].low != links[k - 1].low || links[k].high != links[k - 1].high) continue;
         const Curve a = find(links[k - 1].crossing), b = find(links[k].crossing);
@@ -94,12 +96,12 @@ std::vector<Curve> findCurves(const Elements& elements, std::span<const Crossing
     return curves;
 }
 
-// Edges by their points, the lower first.
+// An edge by its two points, the lower first.
 using Cut = std::pair<int, int>;
 
-// The points on the smaller side of cuts (ascending) through a surface, ascending; none where they do not part it. Two
-// flood fills start at both ends of the first cut. The one with less area at rest goes on, so the cost is that of the
-// smaller side.
+// The points (ascending) on the smaller side of the cuts (ascending) through a surface; none if the cuts do not part
+// it. One flood fill starts at each end of the first cut. The fill with less area at rest goes on, so the cost is that
+// of the smaller side.
 std::vector<int> smallerSide(const Elements& elements, std::span<const Cut> cuts, std::vector<char>& sideOf) {
     std::array<std::vector<int>, 2> sides{std::vector{cuts[0].first}, std::vector{cuts[0].second}};
     std::array<std::size_t, 2> done{0, 0};
@@ -131,14 +133,15 @@ std::vector<int> smallerSide(const Elements& elements, std::span<const Cut> cuts
     return sides[own];
 }
 
-// The points of the part that went through, of the sheet whose edges the curve (crossings) cuts: see smallerSide().
+// The curve (crossings) cuts edges of one sheet. Returns the points of the part of that sheet that went through, see
+// smallerSide().
 std::vector<int> partThrough(const Elements& elements, std::span<const int> curve, std::span<const Crossing> crossings,
                              std::vector<char>& sideOf) {
     std::vector<Cut> cuts;
     for (int c : curve) {
         const Edge& edge = elements.edges()[static_cast<std::size_t>(crossings[static_cast<std::size_t>(c)].edge)];
         if (elements.isRigid(edge.surface)) return {};
-        // An edge that is crossed there and back is not cut.
+        // An edge that the curve crosses there and back is not cut.
         if (const Cut cut(edge.a, edge.b); !cuts.empty() && cuts.back() == cut)
             cuts.pop_back();
         else
@@ -148,7 +151,8 @@ std::vector<int> partThrough(const Elements& elements, std::span<const int> curv
     return cuts.empty() ? std::vector<int>{} : smallerSide(elements, cuts, sideOf);
 }
 
-// The normal of the triangle, turned so that the end that went through comes back; zero if both ends did, or none.
+// The normal of the triangle, turned so that the end that went through comes back. Zero if both ends went through, or
+// neither.
 dvec3 wayBack(const Crossing& crossing, const Triangle& triangle, std::span<const dvec3> x) {
     if (crossing.areThrough[0] == crossing.areThrough[1]) return dvec3(0.0);
     const dvec3 normal = normalOf(triangle, x);
@@ -157,7 +161,7 @@ dvec3 wayBack(const Crossing& crossing, const Triangle& triangle, std::span<cons
     return (glm::dot(ahead, normal) > 0) == crossing.areThrough[0] ? normal : -normal;
 }
 
-// Contour by contour: which part went through, and one direction for all of it.
+// Finds for each contour which part went through, and one direction for all its crossings.
 void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vector<Crossing>& crossings) {
     const std::vector<Curve> curves = findCurves(elements, crossings);
     std::vector<int> order(crossings.size());
@@ -166,15 +170,17 @@ void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vect
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return curveOf(a) < curveOf(b); });
     std::vector<char> sideOf(x.size(), 0);
     for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+        // A contour is order[first, last). Its two curves meet at middle.
         std::size_t middle = first;
         while (middle < order.size() && curveOf(order[middle]) == curveOf(order[first])) ++middle;
         last = middle;
         while (last < order.size() && curveOf(order[last]).contour == curveOf(order[first]).contour) ++last;
         const std::span all(order);
-        // Of the sheet whose edges are on this curve, and on the other.
+        // The part that went through, of the sheet whose edges are on the first curve, and of the other sheet.
         std::array parts{partThrough(elements, all.subspan(first, middle - first), crossings, sideOf),
                          partThrough(elements, all.subspan(middle, last - middle), crossings, sideOf)};
         const bool isParted = !parts[0].empty() || !parts[1].empty();
+        // The direction of each crossing, and their sum as seen from the first curve.
         dvec3 sum(0.0);
         for (std::size_t k = first; k < last; ++k) {
             Crossing& crossing = crossings[static_cast<std::size_t>(order[k])];
@@ -188,13 +194,14 @@ void findWaysApart(const Elements& elements, std::span<const dvec3> x, std::vect
                 isParted ? wayBack(crossing, triangle, x) : shortening(elements, edge, triangle, x);
             sum += curveOf(order[k]).isOther ? -crossing.separatingDirection : crossing.separatingDirection;
         }
+        // All crossings get the mean direction, reversed on the other curve.
         const dvec3 way = unit(sum);
         for (std::size_t k = first; k < last; ++k)
             crossings[static_cast<std::size_t>(order[k])].separatingDirection = curveOf(order[k]).isOther ? -way : way;
     }
 }
 
-// Leaves, brought to these places, whose boxes overlap.
+// Refits the leaves to these places. Returns the pairs whose boxes overlap.
 std::vector<LeafPair> overlapping(Bvh& leaves, std::span<const dvec3> x) {
     leaves.start(x, x);
     leaves.followAll(x, x);
@@ -223,7 +230,7 @@ dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec
 std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };
-    // Edges of the one leaf against triangles of the other, by boxes first.
+    // Tests edges of one leaf against triangles of the other, by boxes first.
     struct Boxed {
         int item;
         core::Aabb box;
@@ -235,7 +242,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
         for (int e : ofEdges.edges) {
             const Edge& edge = elements.edges()[static_cast<std::size_t>(e)];
             if (edge.isGone || edge.a == edge.b) continue;
-            // A rigid edge with fewer than two faces has no side that is out.
+            // A rigid edge with fewer than two faces has no outer side.
             if (elements.isRigid(edge.surface) && (edge.wings[0] < 0 || edge.wings[1] < 0)) continue;
             core::Aabb box;
             box.add(at(edge.a));
@@ -243,6 +250,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
             if (box.overlaps(triangleBox, 0.0)) edges.push_back({e, box});
         }
         if (edges.empty()) return;
+        // Each triangle against the edges whose boxes it overlaps and with which it shares no point.
         for (int t : ofTriangles.triangles) {
             const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(t)];
             if (triangle.isGone) continue;
@@ -268,6 +276,7 @@ std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::
             }
         }
     };
+    // All pairs of leaves, then sorted so that the order does not depend on the tree.
     for (LeafPair pair : overlapping(leaves, x)) {
         const int a = lowOf(pair), b = highOf(pair);
         const core::Aabb &boxA = leaves.motion(a).box, &boxB = leaves.motion(b).box;

@@ -63,6 +63,7 @@ void Elements::setGone(int number, const std::function<bool(std::size_t triangle
 }
 
 void Elements::refresh() {
+    // The first triangle at each point, and the triangles beside each edge. A crowded edge has more than two.
     edges_.resize(static_cast<std::size_t>(firstBall_));
     firstTriangle_.assign(rest_.size(), -1);
     for (std::size_t e = 0; e < edges_.size(); ++e) edges_[e].triangles = {-1, -1};
@@ -83,6 +84,7 @@ void Elements::refresh() {
                 isCrowded[static_cast<std::size_t>(e)] = true;
         }
     }
+    // Which edges are gone, and how many edges each point has left.
     std::vector<int> degree(rest_.size() + 1, 0);
     for (std::size_t e = 0; e < edges_.size(); ++e) {
         Edge& edge = edges_[e];
@@ -92,6 +94,7 @@ void Elements::refresh() {
         ++degree[static_cast<std::size_t>(edge.a)];
         ++degree[static_cast<std::size_t>(edge.b)];
     }
+    // The neighbours of each point.
     ringStart_.assign(rest_.size() + 1, 0);
     for (std::size_t i = 0; i < rest_.size(); ++i)
         ringStart_[i + 1] = ringStart_[i] + static_cast<std::size_t>(degree[i]);
@@ -102,6 +105,7 @@ void Elements::refresh() {
         ring_[next[static_cast<std::size_t>(edge.a)]++] = edge.b;
         ring_[next[static_cast<std::size_t>(edge.b)]++] = edge.a;
     }
+    // A point without edges becomes a ball: an edge with both ends at the point.
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
         for (int i : surfaces_[s].points)
             if (degree[static_cast<std::size_t>(i)] == 0 && surfaceOf(i) == static_cast<int>(s))

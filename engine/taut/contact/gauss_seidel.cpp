@@ -25,7 +25,7 @@ dvec3 total(const Impulse& impulse, const dvec3& normal) {
     return impulse.normal * normal + impulse.friction;
 }
 
-// Solves one row for the velocities as they are, normal first. Returns by how much its impulse changed.
+// Solves one row for the current velocities: first the normal impulse, then friction. Returns how its impulse changed.
 Impulse visit(const ContactConstraint& pair, Row& row, std::span<dvec3> u) {
     dvec3 velocity(0.0);  // of the first side against the second
     for (std::size_t i = 0; i < 4; ++i) velocity += pair.weights[i] * u[static_cast<std::size_t>(pair.points[i])];
@@ -65,6 +65,7 @@ int projectedGaussSeidel(std::span<const ContactConstraint> pairs, std::span<Row
     const auto pairOf = [&](const Row& row) -> const ContactConstraint& {
         return pairs[static_cast<std::size_t>(row.pair)];
     };
+    // The impulses that the rows already have.
     for (const Row& row : rows) apply(pairOf(row), row, total(row.impulse, pairOf(row).normal), u);
     for (const KinematicRow& row : kinematicRows) apply(row, total(row.impulse, row.contact.normal), u);
 
@@ -74,7 +75,8 @@ int projectedGaussSeidel(std::span<const ContactConstraint> pairs, std::span<Row
     direction.assign(changes.size(), {});
     double squareBefore = 0;
     for (int sweep = 1;; ++sweep) {
-        // A sweep. Largest squared change of a velocity [(m/s)²], sum of the squared changes of impulses [(N s)²].
+        // A sweep. It records the largest squared change of a velocity [(m/s)²], and the sum of the squared changes of
+        // impulses [(N s)²].
         double largest = 0, square = 0;
         const auto record = [&](std::size_t k, const Impulse& change, double gain) {
             changes[k] = change;
@@ -88,7 +90,7 @@ int projectedGaussSeidel(std::span<const ContactConstraint> pairs, std::span<Row
             record(rows.size() + s, visit(kinematicRows[s], u), 1.0 / kinematicRows[s].mass);
         if (sweep == sweeps || largest < tolerance * tolerance) return sweep;
 
-        // How far to go on, after Fletcher and Reeves. Where changes grow, the direction starts anew.
+        // How far to extrapolate, after Fletcher and Reeves. If the changes grow, the direction starts anew.
         const double share = squareBefore > 0 ? square / squareBefore : 0.0;
         squareBefore = square;
         if (share > 1.0) {
@@ -96,7 +98,7 @@ int projectedGaussSeidel(std::span<const ContactConstraint> pairs, std::span<Row
             continue;
         }
 
-        // The extrapolation. The next sweep clamps what it does too much.
+        // The extrapolation. If it goes too far, the next sweep clamps it.
         const auto extrapolate = [&](std::size_t k, Impulse& impulse) {
             const Impulse step{share * direction[k].normal, share * direction[k].friction};
             direction[k] = {step.normal + changes[k].normal, step.friction + changes[k].friction};

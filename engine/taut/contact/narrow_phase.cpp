@@ -1,9 +1,9 @@
-// Narrow phase: the distance of each candidate pair that is due, and which pairs become constraints.
+// Narrow phase: measures the distance of each candidate pair that is due, and decides which pairs become constraints.
 //
-// Per task of some lists: gather the pairs that are due, measure all of them at once (closest_kernel.h), classify each.
-// A pair is active where its gap would close in this instant along its normal, or is closed. It must also be the pair
-// whose contact this is: in a sheet one point is close to several triangles and edges, and only the feature that is
-// closest of all pushes.
+// Each task has some lists. It gathers their pairs that are due, measures them all at once (closest_kernel.h), and
+// classifies each. A pair is active if its gap is closed, or would close along its normal in this instant. Its feature
+// must also be the closest: in a sheet one point is close to several triangles and edges, and only the closest feature
+// of all pushes.
 #include <algorithm>
 #include <cmath>
 
@@ -19,10 +19,10 @@ namespace {
 
 constexpr int listsAtOnce = 16;
 constexpr double activeShare = 0.05;  // of the thickness: a gap below it is a contact
-constexpr double noDistance = 1e-9;   // [m] two places closer than that have no direction
-constexpr double rounding = 1e-9;     // relative, of the list's sums of motion
+constexpr double noDistance = 1e-9;   // [m] two places closer than this have no direction
+constexpr double rounding = 1e-9;     // relative error of the list's sums of motion
 
-// The list is due when the first of its pairs is. Of a pair's two budgets the one with more left counts.
+// The list is due when the first of its pairs is due. The larger of a pair's two budgets counts.
 void limitListTo(BroadPhase::CandidateList& list, double travelBudget, double approachBudget) {
     if (travelBudget - list.travelled > approachBudget - list.approached)
         list.leastTravelBudget = std::min(list.leastTravelBudget, travelBudget);
@@ -32,8 +32,8 @@ void limitListTo(BroadPhase::CandidateList& list, double travelBudget, double ap
 
 }  // namespace
 
-// Whether a constraint would keep crossed surfaces crossed: a side is on the wrong side of a contour, and the other is
-// at a contour too. Pairs of the parts that did not cross stay constraints.
+// Whether a constraint would keep crossed surfaces crossed: one side has a point on the wrong side of a contour, and
+// the other side has a point at a contour too. Pairs of parts that did not cross stay constraints.
 bool ContactGroup::isTangled(const ContactConstraint& pair) const {
     char first = unmarked, second = unmarked;
     for (int k = 0; k < 4; ++k) {
@@ -43,8 +43,8 @@ bool ContactGroup::isTangled(const ContactConstraint& pair) const {
     return std::min(first, second) != unmarked && std::max(first, second) == wrongSide;
 }
 
-// For a point whose closest place on the triangle is on an edge or at a corner: whether that place is closest on all
-// triangles there. Only the first of these triangles says yes, so that the point is pushed once.
+// For a point whose closest place on the triangle is on an edge or at a corner: whether no triangle there is closer.
+// Only the first of these triangles says yes, so that the point is pushed once.
 bool ContactGroup::isFeatureNearest(const ContactConstraint& pair, int feature, std::span<const dvec3> x) const {
     const Triangle& triangle = elements_.triangles()[static_cast<std::size_t>(pair.b)];
     if (feature < 3) {
@@ -80,11 +80,11 @@ struct ContactGroup::NarrowPhaseScratch {
     std::vector<int> due;
 };
 
-// Adds the pairs of a list that are due to the batches.
+// Adds the due pairs of a list to the batches.
 void ContactGroup::gather(BroadPhase::CandidateList& list, std::span<const dvec3> x0, const ClosestKernels& kernels,
                           NarrowPhaseScratch& scratch) const {
     const auto at = [&](int i) -> const dvec3& { return x0[static_cast<std::size_t>(i)]; };
-    // Which pairs have used up both budgets. The list gets the least budget of the others.
+    // Find the pairs that have used up both budgets. The list gets the least budget of the others.
     scratch.due.resize(list.pairs.size());
     CandidateRows rows{static_cast<int>(list.pairs.size()),
                        list.travelBudget.data(),
@@ -95,6 +95,7 @@ void ContactGroup::gather(BroadPhase::CandidateList& list, std::span<const dvec3
     const int dueCount = kernels.findDue(rows);
     list.leastTravelBudget = rows.leastTravelBudget;
     list.leastApproachBudget = rows.leastApproachBudget;
+    // Pairs of points and triangles go to one batch, pairs of edges to the other.
     for (int n = 0; n < dueCount; ++n) {
         const auto k = static_cast<std::size_t>(scratch.due[static_cast<std::size_t>(n)]);
         const CandidatePair& candidate = list.pairs[k];
@@ -111,7 +112,7 @@ void ContactGroup::gather(BroadPhase::CandidateList& list, std::span<const dvec3
     }
 }
 
-// The constraint of a pair that was measured: points, weights, normal, distance. Whether it is active is not said yet.
+// The constraint of a measured pair: points, weights, normal, distance. classify() decides whether it is active.
 ContactConstraint ContactGroup::constraintOf(const Measured& measured, const NarrowPhaseScratch& scratch,
                                              std::span<const dvec3> x0) const {
     const CandidatePair& candidate = measured.list->pairs[measured.pair];
@@ -134,7 +135,7 @@ ContactConstraint ContactGroup::constraintOf(const Measured& measured, const Nar
     if (pair.distance > noDistance) {
         pair.normal = batch.separation(measured.slot) / pair.distance;
     } else {
-        // The two touch or cross: the distance has no direction. The normal of the triangle, or of both edges, has.
+        // The two touch or cross, so the distance has no direction. Take the normal of the triangle, or of both edges.
         const auto at = [&](std::size_t k) -> const dvec3& { return x0[static_cast<std::size_t>(pair.points[k])]; };
         const dvec3 p = at(1) - at(pair.isPoint ? 3 : 0), q = at(pair.isPoint ? 2 : 3) - at(pair.isPoint ? 3 : 2);
         const dvec3 across = glm::cross(p, q);
@@ -144,8 +145,8 @@ ContactConstraint ContactGroup::constraintOf(const Measured& measured, const Nar
     return pair;
 }
 
-// Not below 0 if the pair is the one that pushes here: no other feature of the two surfaces is closer. Then 1, or less
-// for edges that are hardly convex. `where` as the kernel says it.
+// Below 0 if another feature of the two surfaces is closer, so that this pair does not push here. Otherwise 1, or less
+// for edges that are hardly convex. `where` is the kernel's.
 double ContactGroup::convexity(const ContactConstraint& pair, long where, std::span<const dvec3> x) const {
     if (pair.isPoint) {
         const int feature = static_cast<int>(where) - static_cast<int>(Feature::edge0);  // below 0: the face
@@ -165,15 +166,15 @@ double ContactGroup::convexity(const ContactConstraint& pair, long where, std::s
                     convexityOf(elements_, second, onSecond, pair.normal, x));
 }
 
-// Whether two edges are closest where neither is at an end. Ends of a triangle's edges are left to pairs of points and
-// triangles. Ends of lines push here too: two ropes have no triangles.
+// Whether the closest places of two edges are inside both edges. Pairs of points and triangles handle the ends of a
+// triangle's edges. The ends of lines push here too, because two ropes have no triangles.
 bool ContactGroup::meetInside(const ContactConstraint& pair, long where) const {
     if (pair.isPoint || where != 0) return true;
     const Edge &first = elements_.edges()[static_cast<std::size_t>(pair.a)],
                &second = elements_.edges()[static_cast<std::size_t>(pair.b)];
     const bool isRigidFirst = elements_.isRigid(first.surface), isRigidSecond = elements_.isRigid(second.surface);
     if (!isRigidFirst && !isRigidSecond) return first.isLine || second.isLine;
-    // Ends of a rigid edge meet triangles as corners. Ends of a soft line meet the collider's faces elsewhere.
+    // The ends of a rigid edge meet triangles as corners. The ends of a soft line meet the collider's faces elsewhere.
     const Edge& soft = isRigidFirst ? second : first;
     const double share = isRigidFirst ? -pair.weights[3] : pair.weights[1];
     return soft.isLine && share > 0 && share < 1;
@@ -188,15 +189,16 @@ void ContactGroup::classify(const Measured& measured, std::span<const dvec3> x0,
     const ClosestBatch& batch = isPoint ? scratch.points : scratch.edges;
     const double distance = batch.distance(measured.slot), gap = distance - candidate.thickness;
 
-    // The distance is the new budget: no matter how the two sides move, they are not in reach before they have gone so
-    // far in sum.
+    // The distance is the new budget: no matter how the two sides move, they are not in reach before the sum of their
+    // motions is this large.
     double& travelBudget = list.travelBudget[measured.pair];
     travelBudget = std::max(travelBudget, distance + list.travelledBefore - nearShare * candidate.thickness);
     limitListTo(list, travelBudget, list.approachBudget[measured.pair]);
     // The leaves do not move enough in this instant to close the gap.
     if (list.isFlat || gap > std::max(activeShare * candidate.thickness, (1 + rounding) * list.relativeMotion)) return;
 
-    // Active: closed, or closing along the normal, on a feature of its own, and not passing by. From cheap to dear.
+    // Active pairs are closed or closing along the normal, on a feature of their own, and do not pass by. Cheap tests
+    // come first.
     ContactConstraint pair = constraintOf(measured, scratch, x0);
     const long where = batch.where(measured.slot);
     dvec3 way(0.0);
@@ -230,14 +232,14 @@ void ContactGroup::runNarrowPhase(std::span<const dvec3> x0, std::span<const dve
         scratch.points.clear();
         scratch.edges.clear();
         scratch.measured.clear();
-        // Gather, measure together, classify in order.
+        // Gather, measure all together, classify in order.
         for (int k = task * listsAtOnce; k < std::min((task + 1) * listsAtOnce, count); ++k)
             gather(broadPhase_.due(static_cast<std::size_t>(k)), x0, kernels, scratch);
         scratch.points.solve(kernels.onTriangles);
         scratch.edges.solve(kernels.onSegments);
         for (const Measured& measured : scratch.measured) classify(measured, x0, x1, scratch, own);
     });
-    // Task by task: the order does not depend on threads.
+    // Collect task by task, so that the order does not depend on threads.
     tested_.clear();
     for (int task = 0; task < tasks; ++task) {
         const std::vector<ContactConstraint>& own = perTask_[static_cast<std::size_t>(task)];

@@ -17,7 +17,7 @@ struct Passage {
     dvec3 place;
 };
 
-// [m] Of a piece with one triangle, by its end.
+// [m] The height of a piece with one triangle, from the piece's end.
 double heightOf(const Passage& passage, const dvec3& end) {
     return std::abs(glm::dot(passage.normal, end - passage.place));
 }
@@ -34,6 +34,7 @@ double penetrationOf(const Elements& elements, std::span<const Crossing> crossin
         if (!elements.isRigid(edge.surface)) continue;
         const dvec3 &a = x[static_cast<std::size_t>(edge.a)], &b = x[static_cast<std::size_t>(edge.b)];
         const double size = length(b - a);
+        // Where this edge pierces wanted triangles, sorted by surface and then along the edge.
         passages.clear();
         for (std::size_t c = first; c < last; ++c) {
             const Triangle& triangle = elements.triangles()[static_cast<std::size_t>(crossings[c].triangle)];
@@ -45,6 +46,7 @@ double penetrationOf(const Elements& elements, std::span<const Crossing> crossin
         std::sort(passages.begin(), passages.end(), [](const Passage& p, const Passage& q) {
             return p.surface < q.surface || (p.surface == q.surface && p.share < q.share);
         });
+        // A piece has two triangles, or starts at one and ends in the open, or the other way round (penetration.h).
         for (std::size_t k = 0; k < passages.size(); ++k) {
             const Passage& here = passages[k];
             const bool isLast = k + 1 == passages.size() || passages[k + 1].surface != here.surface;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double leastFree = 0.02;  // of the sum of the squares of the weights
 
-// One side.
+// Whether movable points have a share in the closest point of one side.
 bool mayYield(std::span<const int> points, std::span<const double> weights, std::span<const double> inverseMass) {
     double all = 0, free = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {

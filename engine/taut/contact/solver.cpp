@@ -10,10 +10,10 @@ namespace taut::contact {
 namespace {
 
 constexpr double fastestOut = 1.0;        // [m/s] limit of the position correction
-constexpr std::size_t parallelRows = 64;  // fewer are solved sooner than they are handed to threads
-constexpr double settled = 1e-6;          // of the thickness, an instant: smaller changes end the sweeps
+constexpr std::size_t parallelRows = 64;  // fewer rows are solved on one thread, which is faster
+constexpr double settled = 1e-6;          // sweeps end when changes are below this share of the thickness per instant
 
-// Velocity, or way, of the first side against the second.
+// Velocity, or way, of the first side relative to the second.
 dvec3 relative(const ContactConstraint& pair, std::span<const dvec3> u) {
     dvec3 sum(0.0);
     for (int k = 0; k < 4; ++k) {
@@ -28,7 +28,7 @@ void apply(const ContactConstraint& pair, const std::array<double, 4>& gains, co
     for (std::size_t i = 0; i < 4; ++i) u[static_cast<std::size_t>(pair.points[i])] += gains[i] * impulse;
 }
 
-// The shift of a point does not lead into its collider. sum [m]: what has been added along the normal so far.
+// Keeps the shift of a point from leading into its collider. sum [m]: what this has added along the normal so far.
 void keepOut(const KinematicContact& contact, std::span<dvec3> shift, double& sum) {
     dvec3& own = shift[static_cast<std::size_t>(contact.point)];
     const double wanted = std::max(0.0, sum - glm::dot(own, contact.normal));
@@ -36,13 +36,13 @@ void keepOut(const KinematicContact& contact, std::span<dvec3> shift, double& su
     sum = wanted;
 }
 
-// [m/s] at which a pair has to part; 0: it may come to rest.
+// [m/s] The speed at which a pair has to part. 0: the pair may come to rest.
 double reboundOf(const ContactConstraint& pair, const SolverOptions& options, std::span<const dvec3> u) {
     const double closing = -glm::dot(pair.normal, relative(pair, u));
     return closing > options.restSpeed ? options.restitution * closing : 0.0;
 }
 
-// Points that nothing moves pass no impulse on, and join no cluster.
+// Whether nothing moves the point. Such a point passes no impulse on, and does not join its pairs to one cluster.
 bool isFixed(int point, std::span<const double> inverseMass) {
     return !(inverseMass[static_cast<std::size_t>(point)] > 0);
 }
@@ -85,11 +85,12 @@ void ContactSolver::joinPoints(std::span<const ContactConstraint> pairs, std::si
         if (parent_[i] >= 0) touched_.push_back(static_cast<int>(i));
 }
 
-// Sorts pairs and contacts with colliders by cluster -> rows_, kinematicRows_, and where each cluster starts.
+// Sorts the pairs and the contacts with colliders by cluster -> rows_, kinematicRows_, clusterStart_, kinematicStart_.
 void ContactSolver::findClusters(std::span<const ContactConstraint> pairs, std::span<const KinematicContact> kinematic,
                                  std::size_t pointCount, std::span<const double> inverseMass) {
     joinPoints(pairs, pointCount, inverseMass);
 
+    // The cluster of each pair and of each contact with a collider. Sorting keeps their order within a cluster.
     std::vector<std::pair<int, int>> order;  // cluster, pair
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         int cluster = -1;
@@ -105,6 +106,7 @@ void ContactSolver::findClusters(std::span<const ContactConstraint> pairs, std::
     }
     std::sort(supports.begin(), supports.end());
 
+    // One row for each. A cluster starts where the number changes, and takes the contacts with the same number.
     rows_.clear();
     clusterStart_.clear();
     kinematicRows_.clear();
@@ -126,7 +128,7 @@ void ContactSolver::findClusters(std::span<const ContactConstraint> pairs, std::
     kinematicStart_.push_back(kinematicRows_.size());
 }
 
-// Effective mass, gains, gap and rebound of each row.
+// Sets the effective mass, gains, gap speed and rebound of each row.
 void ContactSolver::prepareRows(std::span<const ContactConstraint> pairs, std::span<const double> inverseMass, double h,
                                 const SolverOptions& options, std::span<const dvec3> u) {
     for (Row& row : rows_) {
@@ -154,8 +156,8 @@ ContactSolver::Cluster ContactSolver::clusterAt(std::size_t k, std::span<const C
     return {rows, kinematicRows, settled * thickness / h};
 }
 
-// 0 <= multiplier  ⊥  n·shift - target >= 0, by Gauss-Seidel, of the pairs that overlap or have an impulse. The latter
-// have the target 0: a correction does not press them together.
+// Solves 0 <= multiplier  ⊥  n·shift - target >= 0 by Gauss-Seidel, for the pairs that overlap or have an impulse.
+// Pairs that do not overlap have the target 0, so that a correction does not press them together.
 void ContactSolver::correctPositions(const Cluster& cluster, std::span<const ContactConstraint> pairs, double h,
                                      const SolverOptions& options, std::span<dvec3> shift) const {
     std::vector<PositionRow> rows;
@@ -185,8 +187,8 @@ void ContactSolver::correctPositions(const Cluster& cluster, std::span<const Con
     }
 }
 
-// u, then v and the position correction, which both need the impulses of u but not each other. Returns the sweeps for
-// u.
+// Solves u, then v and the position correction. Both need the impulses of u, but not each other. Returns the number of
+// sweeps for u.
 int ContactSolver::solveCluster(const Cluster& cluster, std::span<const ContactConstraint> pairs, double h,
                                 const SolverOptions& options, std::span<dvec3> u, std::span<dvec3> v,
                                 std::span<dvec3> shift) {
@@ -222,7 +224,7 @@ void ContactSolver::solve(std::span<const ContactConstraint> pairs, std::span<co
     findClusters(pairs, kinematic, u.size(), inverseMass);
     prepareRows(pairs, inverseMass, h, options, u);
 
-    // No two clusters share a point that moves.
+    // No two clusters share a movable point, so they can be solved in parallel.
     const int count = clusters();
     std::vector<int> sweeps(static_cast<std::size_t>(count), 0);
     const auto solveOne = [&](int c) {

@@ -57,7 +57,7 @@ typename Anchor<Real>::Slope Anchor<Real>::slope(const glm::dvec3& pull, std::si
     return {most_[p] / length, pull / length};
 }
 
-// Quadratic as far as the spring's force is the largest, linear from there on.
+// The energy is quadratic up to the distance where the force reaches its largest, and linear from there on.
 template <class Real>
 double Anchor<Real>::energy(std::size_t p, double distance) const {
     const double force = std::min(stiffness_[p] * distance, most_[p]);

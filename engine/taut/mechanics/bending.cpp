@@ -23,7 +23,7 @@ std::optional<BendingRigidity> orthotropicRigidity(double warp, double weft, std
     return BendingRigidity{warp, weft, 0.5 * twice, rest - twice};
 }
 
-// An area of a cell has x_uu = d/a² and so on: half shares of width for folds along an edge.
+// The area of a cell has x_uu = d/a² and so on. Folds along an edge of the grid have half the width.
 Bending gridBending(int columns, int rows, const BendingRigidity& rigidity, double a, double b) {
     Bending bending;
     bending.columns = columns;
@@ -59,8 +59,8 @@ Bending clamped(Bending bending, const std::vector<bool>& isHeld, const std::vec
     const int n = bending.columns;
     const std::vector<double> alongs = bending.along, acrosses = bending.across;
     const auto at = [](int i) { return static_cast<std::size_t>(i); };
-    // Folds of one direction: neighbours `step` apart, where `has` says that there is one, and the stiffness of a whole
-    // fold in such a line.
+    // Changes the fold of one direction at point i. Its neighbours are `step` apart; hasBefore and hasAfter say whether
+    // they exist. `whole` is the stiffness of a whole fold in this line.
     const auto visit = [&](std::vector<double>& folds, int i, int step, bool hasBefore, bool hasAfter, double whole) {
         double& fold = folds[at(i)];
         if (isClamped[at(i)]) {
@@ -76,7 +76,7 @@ Bending clamped(Bending bending, const std::vector<bool>& isHeld, const std::vec
     for (int i = 0; i < n * bending.rows; ++i) {
         if (!isHeld[at(i)]) continue;
         const int column = i % n, row = i / n;
-        // The stiffness of a line stands at any of its inner points.
+        // Every inner point of a line has the line's stiffness.
         const double along = n > 2 ? alongs[at(row * n + 1)] : 0;
         const double across = bending.rows > 2 ? acrosses[at(n + column)] : 0;
         visit(bending.along, i, 1, column > 0, column < n - 1, along);

@@ -1,14 +1,15 @@
-// Compiled once per instruction set (engine/taut.cmake). Only + - *, no sum across lanes: the same bits for every width.
+// Compiled once for each instruction set (engine/taut.cmake). It uses only + - *, and no sum across lanes, so every
+// width gives the same bits.
 //
-// The energy is ½ xᵀ Dᵀ C D x with second differences D, so the force is -Dᵀ (C D x): moments C D x at the centres of
-// folds and cells first, then their second differences. Moments of three rows are kept, so that each place is read and
-// each force written once:
+// The energy is ½ xᵀ Dᵀ C D x with second differences D, so the force is -Dᵀ (C D x). First come the moments C D x at
+// the centres of folds and cells, then their second differences. It keeps the moments of three rows, so that each place
+// is read once and each force is written once:
 //
 //   row j - 1   across, twist                    f_j = -( second difference of `along` in row j
 //   row j       along, across, twist     ->              + second difference of `across` over j - 1, j, j + 1
 //   row j + 1   across                                   + mixed difference of `twist` in j - 1, j )
 //
-// Differences are of edges, not of places, so that single precision loses as little as it can.
+// It takes differences of edges, not of places, so that single precision loses as little as possible.
 #include "taut/mechanics/private/bending_kernel.h"
 
 #include "taut/core/private/vectorise.h"
@@ -16,7 +17,7 @@
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-// Moments of one row; numbers -1 and `columns` of each are 0.
+// Moments of one row. Entries -1 and `columns` are 0.
 template <class Real>
 struct Moments {
     Real *along, *across, *twist;
@@ -59,7 +60,7 @@ void addRow(const BendingBatch<Real>& batch, int row, const Moments<Real>& above
 template <class Real>
 void addAll(const BendingBatch<Real>& batch) {
     const int pitch = bendingPitch(batch.columns);
-    Moments<Real> of[3];  // of row j at j % 3
+    Moments<Real> of[3];  // row j is at j % 3
     for (int slot = 0; slot < 3; ++slot) {
         Real* at = batch.room + 3L * slot * pitch + 16;
         of[slot] = {at, at + pitch, at + 2L * pitch};

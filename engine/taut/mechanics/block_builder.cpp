@@ -11,18 +11,18 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 
-// Stiffness of a cell of sides s by its edges and face diagonals.
+// Stiffness of a cell of sides s, from its edges and face diagonals.
 //
-// Shares. A cell owns a quarter of each of its 12 edges and half of the two diagonals of each of its 6 faces, with k
-// for the whole: three edges and six diagonals a cell. Cells that meet add their shares, so an inner edge has k, an
-// edge in a face k/2, an edge of the block k/4, an inner diagonal k, one in a face k/2. Then a uniform strain costs
-// every cell the same, at the surface as in the bulk, and the energy per volume is that of the infinite lattice.
+// Shares. A cell owns a quarter of each of its 12 edges and half of the two diagonals of each of its 6 faces. A whole
+// spring has k, so a cell has three edges and six diagonals. Cells that meet add their shares: an inner edge has k, an
+// edge in a face k/2, an edge of the block k/4, an inner diagonal k, a diagonal in a face k/2. So a uniform strain
+// costs every cell the same energy, at the surface and inside. The energy per volume is that of the infinite lattice.
 //
 // Cells a x b x c. The two diagonals of the a-b faces, d² = a² + b², give C12 = C66 = 2 k ab/(d² c) and
 // C11 = (that) · a²/b². Wanted is C12 = C44 = 0.4 E and C11 = 1.2 E (E with ν = 1/4):
 //   diagonal  k = 0.4 E c (a² + b²)/(2ab),     edge along a  k = 0.4 E (bc/a) (3 - a²/b² - a²/c²).
-// A cube has 0.4 E ℓ for both. The edge's bracket falls to zero for a/b = a/c = 1.22; below 0.1 it stays 0.1, and
-// a cell so long is stiffer than E along its longest side: choose cells near cubes.
+// A cube has 0.4 E ℓ for both. The edge's bracket falls to zero for a/b = a/c = 1.22. It is kept at 0.1 or more. So a
+// very long cell is stiffer than E along its longest side: choose cells that are nearly cubes.
 struct LatticeStiffness {
     dvec3 edge;      // along x, y, z [N/m]
     dvec3 diagonal;  // in the faces across x, y, z [N/m]
@@ -116,8 +116,8 @@ class LatticeBuilder {
         }
     }
 
-    // Kuhn's split: each of the six orders of the axes is a path of three edges from the cell's lowest to its highest
-    // corner, and a tetrahedron. An odd order is left-handed: its middle points change places.
+    // Kuhn's split: each of the six orders of the axes gives a path of three edges from the cell's lowest to its
+    // highest corner. Its points make a tetrahedron. An odd order is left-handed, so its middle points are swapped.
     void addTetrahedra() {
         if (shape_.bulk == 0.0) return;
         static constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};

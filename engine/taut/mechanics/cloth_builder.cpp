@@ -15,8 +15,8 @@ using glm::dvec3;
 //  two diagonals of length d, d² = a² + b²:       C12 = C66 = 2 k ab/d²         = k_d        ->  k = k_d d²/(2ab)
 //  span 2, one starts at every point:             force per metre  2·k (2 ε a)/b = 4 k_b ε    ->  k = k_b b/a
 //
-// So shear and cross contraction are k_d for every cell, and C11 = k_s + k_d a²/b² + 4 k_b: the diagonals of a cell
-// that is longer than wide carry more along its length. Square cells have C11 = k_s + k_d + 4 k_b.
+// So shear and cross contraction are k_d for every cell. C11 = k_s + k_d a²/b² + 4 k_b: the diagonals of a cell that is
+// longer than wide carry more along its length. Square cells have C11 = k_s + k_d + 4 k_b.
 struct CellStiffness {
     double across, down, diagonal, bendAcross, bendDown;  // [N/m]
 };
@@ -44,7 +44,7 @@ class GridBuilder {
 
   private:
     int at(int i, int j) const { return j * (nu_ + 1) + i; }
-    // A boundary row stands for half a cell's width of material, every other row for a whole one.
+    // A boundary row stands for half a cell's width of material, every other row for a whole width.
     double share(int line, int lines) const {
         const bool isBoundary = line == 0 || line == lines;
         return isBoundary && shape_.material.lumping == Lumping::weighted ? 0.5 : 1.0;

@@ -6,12 +6,12 @@
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-// Dashpots at once: what lies between the loops stays in the first-level cache.
+// Dashpots at once, so that data between the loops stays in the first-level cache.
 constexpr int slice = 256;
 
 template <class Real>
 struct Slice {
-    // Impulses over lengths, with room for neighbours that are not there, of none.
+    // Impulses over lengths. There is room on both sides for missing neighbours, whose impulse is 0.
     alignas(64) Real p[3 * slice], again[3 * slice];
     alignas(64) Real dx[slice], dy[slice], dz[slice], half[slice], up[slice], down[slice];
 };
@@ -46,8 +46,8 @@ inline void dampApart(const DashpotRun<Real>& s, int first, int n) {
     }
 }
 
-// Impulses of n dashpots from `first` on as if they shared no point, and half of what makes them of approach times
-// length.
+// Computes the impulses of n dashpots from `first` on as if they shared no point. `half` is half the factor from
+// approach times length to impulse.
 template <class Real>
 inline void impulses(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b) {
     const Ends<const Real> x(s.x + first, s.stride, s.offset), u(s.v + first, s.stride, s.offset);
@@ -65,7 +65,7 @@ inline void impulses(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b
     }
 }
 
-// Dashpots i and i + offset share a point, over which the one's impulse changes the other's velocity:
+// Dashpots i and i + offset share a point. Through it the impulse of one changes the velocity of the other:
 //   p_i = p_i alone + up_i p_{i+offset} + down_i p_{i-offset}.
 template <class Real>
 inline void couplings(const DashpotRun<Real>& s, int first, int n, Slice<Real>& b) {
@@ -80,7 +80,7 @@ inline void couplings(const DashpotRun<Real>& s, int first, int n, Slice<Real>& 
     }
 }
 
-// By repeated substitution: the error shrinks by y/(1 + y) each time.
+// Solves the couplings by repeated substitution. The error shrinks by y/(1 + y) each time.
 template <class Real>
 inline void coupleLoosely(int offset, int n, Slice<Real>& b) {
     constexpr int times = 4;
@@ -97,7 +97,7 @@ inline void coupleLoosely(int offset, int n, Slice<Real>& b) {
     }
 }
 
-// By elimination along each chain of springs.
+// Solves the couplings by elimination along each chain of springs.
 template <class Real>
 inline void coupleStiffly(int offset, int n, Slice<Real>& b) {
     Real *p = b.p + slice, *pivot = b.again + slice;
@@ -146,7 +146,8 @@ inline void run(const DashpotRun<Real>& s) {
     }
 }
 
-// What the places of a batch say is computed side by side, what the velocities say one dashpot after the other.
+// The part from the places is computed for a whole batch at once, the part from the velocities one dashpot after the
+// other.
 template <class Real>
 inline void list(const DashpotList<Real>& s) {
     constexpr int batch = 64;

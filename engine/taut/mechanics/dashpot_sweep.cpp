@@ -11,7 +11,7 @@
 namespace taut::mechanics {
 namespace {
 
-constexpr int chainOffset = 1;  // of dashpots of a run that are joined each to the next: a rope, a row of a sheet
+constexpr int chainOffset = 1;  // offset of a run whose dashpots form a chain: a rope, a row of a sheet
 
 // ½ c (w_a + w_b) [1/s]
 template <class Real>
@@ -58,6 +58,7 @@ void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real*
     isStiff_.clear();
     isBetween_.clear();
     hasBetween_ = false;
+    // The runs: g of half a step for each dashpot, and whether the run is stiff.
     const double step = 0.5 * h;
     const auto add = [&](Real k, Real tau, Real wa, Real wb) {
         g_.push_back(static_cast<Real>(step * static_cast<double>(k) * static_cast<double>(tau) /
@@ -76,6 +77,7 @@ void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real*
         firstOf_.push_back(static_cast<int>(g_.size()));
         forEachOf(network, run, w, add);
     }
+    // The chains with a stiff run: g of a whole step for each dashpot. between() damps them, so the sweeps do not.
     chainG_.clear();
     for (Chain& chain : chains_) {
         chain.isBetween = chain.isAlone &&
@@ -89,7 +91,7 @@ void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real*
             const SpringRun<Real>& run = network.runs[r];
             int at = run.a - chain.a;
             forEachOf(network, run, w, [&](Real k, Real tau, Real wa, Real wb) {
-                // Of what fills a run up some may lie before or after the chain.
+                // A run's padding may lie before or after the chain.
                 if (at >= 0 && at < chain.count && k > Real(0))
                     chainG_[chain.firstG + static_cast<std::size_t>(at)] = static_cast<Real>(
                         h * static_cast<double>(k) * static_cast<double>(tau) / (1.0 + h * pairRate(k, tau, wa, wb)));
@@ -97,6 +99,7 @@ void DashpotSweep<Real>::prepare(const SpringNetwork<Real>& network, const Real*
             });
         }
     }
+    // The single dashpots.
     firstSingle_ = g_.size();
     const SpringSingles<Real>& s = network.singles;
     for (std::size_t i = 0; i < s.a.size(); ++i) add(s.k[i], s.tau[i], w[s.a[i]], w[s.b[i]]);
@@ -138,7 +141,7 @@ void DashpotSweep<Real>::between(const Points& points) {
         if (chain.isBetween) dampChain(chain, points);
 }
 
-// Runs of neighbours, less what fills them up, put end to end.
+// Finds the chains: runs of neighbours without their padding, joined end to end.
 template <class Real>
 void DashpotSweep<Real>::findChains(const SpringNetwork<Real>& network) {
     std::vector<Chain> found;
@@ -168,7 +171,7 @@ void DashpotSweep<Real>::findChains(const SpringNetwork<Real>& network) {
     }
 }
 
-// All impulses p of the chain at once, by elimination:
+// Solves for all impulses p of the chain at once, by elimination:
 //   p_i = g_i (m_b - m_a)·n + ½ g_i [w_a (n_{i-1}·n_i) p_{i-1} + w_b (n_i·n_{i+1}) p_{i+1}],
 // m the mean of the velocities before the kick and after it.
 template <class Real>
@@ -185,6 +188,7 @@ void DashpotSweep<Real>::dampChain(const Chain& chain, const Points& points) {
         const double square = glm::dot(d, d);
         return square > 0 ? d / std::sqrt(square) : glm::dvec3(0.0);
     };
+    // The equations: right-hand sides p_, couplings down_ and up_.
     const Real* w = points.w + chain.a;
     const Real* g = chainG_.data() + chain.firstG;
     glm::dvec3 before(0.0), n = way(0);
@@ -197,6 +201,7 @@ void DashpotSweep<Real>::dampChain(const Chain& chain, const Points& points) {
         before = n;
         n = next;
     }
+    // Elimination of the tridiagonal system.
     pivot_[0] = 1.0;
     for (std::size_t i = 1; i < count; ++i) {
         const double factor = down_[i] / pivot_[i - 1];
@@ -205,6 +210,7 @@ void DashpotSweep<Real>::dampChain(const Chain& chain, const Points& points) {
     }
     p_[count - 1] /= pivot_[count - 1];
     for (std::size_t i = count - 1; i-- > 0;) p_[i] = (p_[i] + up_[i] * p_[i + 1]) / pivot_[i];
+    // The impulses change the velocities.
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec3 impulse = p_[i] * way(i);
         for (int axis = 0; axis < 3; ++axis) {
@@ -220,7 +226,7 @@ void DashpotSweep<Real>::after(const SpringNetwork<Real>& network, const Points&
     damp(network, points, Part::after);
 }
 
-// Chunks touch points of the next one, so that every other chunk runs side by side.
+// A chunk touches points of the next one. So every other chunk runs in parallel, then the rest.
 template <class Real>
 void DashpotSweep<Real>::damp(const SpringNetwork<Real>& network, const Points& points, Part part) {
     const int stride = points.stride;

@@ -71,7 +71,7 @@ typename GridBending<Real>::Coefficients GridBending<Real>::scaled(double factor
     return {list(bending_.along), list(bending_.across), list(bending_.both), list(bending_.twist)};
 }
 
-// x + τ v of the grid's points, or x itself where that is what is wanted.
+// x + τ v of the grid's points. Without v or τ it is x, without a copy if the points are in order.
 template <class Real>
 typename GridBending<Real>::Planes GridBending<Real>::gathered(const Real* x, const Real* v, double dampingTime,
                                                                int stride) const {
@@ -202,7 +202,7 @@ void GridBending<Real>::addDiagonal(int stride, Real* out) const {
     for (const Bending::Clamp& clamp : bending_.clamps) add(clamp.next, clamp.stiffness);
 }
 
-// The row of a point sums to |w| Σ|weights| times the coefficient for each term that has the point with the weight w.
+// Each term that has a point with the weight w adds |w| Σ|weights| times its coefficient to the row sum of the point.
 template <class Real>
 void GridBending<Real>::addStability(const Motion<Real>& motion, StabilityShare& share) const {
     const auto add = [&](int point, double row) {

@@ -28,7 +28,7 @@ MassSpringSystem<Real>::MassSpringSystem(std::span<const PointMass> points, std:
     : network_(static_cast<int>(points.size()), bodies, springs), kernels_(springKernels<Real>()) {
     const int count = static_cast<int>(points.size());
     constexpr int lanes = static_cast<int>(core::cacheLine / sizeof(Real));
-    // One line more than needed keeps the planes off the same cache sets.
+    // One more cache line than needed keeps the planes out of the same cache sets.
     layout_ = {count, (count + lanes - 1) / lanes * lanes + lanes, 3};
     const auto stride = static_cast<std::size_t>(layout_.stride);
     mass_ = core::AlignedArray<Real>(stride);
@@ -51,8 +51,8 @@ void MassSpringSystem<Real>::setPoints(std::span<const PointMass> points) {
     }
 }
 
-// A window holds what a block and the reach of its springs need, and some more so that it need not slide each time, but
-// no more than all that the chunk touches.
+// Makes a window for each chunk. It holds the points of a block and those that the block's springs reach. Some slack
+// keeps it from sliding for each block. It never holds more than the points that the chunk touches.
 template <class Real>
 void MassSpringSystem<Real>::layOutLanes() {
     constexpr int slack = 2048;  // points
@@ -70,6 +70,7 @@ void MassSpringSystem<Real>::layOutLanes() {
             need = std::max(need, reach - block.firstPoint);
             if (block.firstPoint < chunk.firstPoint + incoming) ++blocksWaiting;
         }
+        // Blocks whose points the chunk before spills onto wait until the end.
         const SpringBlock& lastWaiting =
             network_.blocks[static_cast<std::size_t>(chunk.firstBlock + std::max(0, blocksWaiting - 1))];
         const int waiting = blocksWaiting > 0 ? lastWaiting.lastPoint - chunk.firstPoint : 0;
@@ -127,8 +128,8 @@ Motion<Real> MassSpringSystem<Real>::motion(double t, const Real* x, const Real*
     return {layout_.count, layout_.stride, t, x, v, mass_.data(), inverseMass_.data()};
 }
 
-// Forces that need the whole island come first; then each chunk sweeps its blocks and hands them over row by row;
-// last the blocks that had to wait for the spill of the chunk before.
+// Forces that need the whole island come first. Then each chunk sweeps its blocks and hands them over block by block.
+// Last come the blocks that had to wait for the spill of the chunk before.
 template <class Real>
 void MassSpringSystem<Real>::accelerate(double t, const Real* x, const Real* v, ode::AccelerationSink<Real>& sink) {
     const Motion<Real> now = motion(t, x, v);
@@ -171,7 +172,7 @@ void MassSpringSystem<Real>::sweep(std::size_t c, const Motion<Real>& now, ode::
     if (lane.isPacked()) unpack(lane, chunk.lastPoint, chunk.lastPoint + chunk.spill);
 }
 
-// Lets the window reach as far as the block's springs do; no force is there yet.
+// Extends the window as far as the block's springs reach. The forces there start at zero.
 template <class Real>
 void MassSpringSystem<Real>::moveOn(Lane& lane, const SpringBlock& block, const Motion<Real>& now, int& reach) {
     if (block.reach <= reach) return;
@@ -229,7 +230,7 @@ void MassSpringSystem<Real>::takeSpill(std::size_t c, const Motion<Real>& now, o
         finish(network_.blocks[static_cast<std::size_t>(chunk.firstBlock + i)], now, waiting, sink);
 }
 
-// From forces to accelerations, and away with them.
+// Adds the local forces, turns forces into accelerations, and hands them to the sink.
 template <class Real>
 void MassSpringSystem<Real>::finish(const SpringBlock& block, const Motion<Real>& now, Window& window,
                                     ode::AccelerationSink<Real>& sink) {

@@ -17,7 +17,7 @@ struct EdgeUse {
     int uses = 0;       // triangles at the edge
     int forward = 0;    // how many of them run from the lower to the higher index
     int opposite[2]{};  // the third corners
-    double area = 0.0;  // [m²] of both triangles
+    double area = 0.0;  // [m²] sum of both triangles
 };
 
 [[noreturn]] void reject(const std::string& what, std::size_t triangle) {
@@ -59,7 +59,7 @@ void checkIndices(const MeshClothShape& shape) {
         reject("vertex " + numberOf(shape, static_cast<int>(unused - isUsed.begin())) + " belongs to no face");
 }
 
-// Areas [m²]. Zero counts relative to the longest side: height below a millionth of it.
+// Areas [m²]. An area counts as zero if the triangle's height is below a millionth of its longest side.
 std::vector<double> areasOf(const MeshClothShape& shape) {
     std::vector<double> areas;
     for (const auto& [a, b, c] : shape.triangles) {
@@ -98,7 +98,7 @@ std::map<Edge, EdgeUse> edgesOf(const MeshClothShape& shape, const std::vector<d
     return edges;
 }
 
-// Flat coordinates from the two longest extents [m]; of equal extents the earlier axis.
+// [m] Flat coordinates along the two longest extents. Of equal extents it takes the earlier axis.
 std::vector<dvec2> projectedUv(const MeshClothShape& shape, const dvec3& low, const dvec3& high) {
     const dvec3 size = high - low;
     int order[3] = {0, 1, 2};
@@ -115,6 +115,7 @@ void addGroups(Model& model, const std::map<Edge, EdgeUse>& edges, const dvec3& 
     std::sort(boundary.begin(), boundary.end());
     boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
     model.groups["boundary"] = boundary;
+    // Sides: points within a hundredth of the extent.
     const dvec3 near = 0.01 * (high - low);
     for (int i = 0; i < model.pointCount(); ++i) {
         const dvec3& p = model.positions[static_cast<std::size_t>(i)];
@@ -123,6 +124,7 @@ void addGroups(Model& model, const std::map<Edge, EdgeUse>& edges, const dvec3& 
         if (p.y <= low.y + near.y) model.groups["bottom"].push_back(i);
         if (p.y >= high.y - near.y) model.groups["top"].push_back(i);
     }
+    // Corners: the furthest point in each diagonal direction.
     const auto corner = [&](const char* name, double x, double y) {
         const auto reach = [&](int i) {
             const dvec3& p = model.positions[static_cast<std::size_t>(i)];
@@ -151,7 +153,7 @@ void addSprings(Model& model, const std::map<Edge, EdgeUse>& edges, const ClothM
             {edge.first, edge.second, young * use.area / (c * c), c, material.dampingTime, SpringKind::structural});
     }
     if (material.bend == 0.0) return;
-    // Across each inner edge, unless the mesh closes so tightly that the corners are one or share an edge.
+    // A bend spring across each inner edge, unless the mesh is so tight that both corners are one or share an edge.
     for (const auto& [edge, use] : edges) {
         if (use.uses != 2 || use.opposite[0] == use.opposite[1]) continue;
         const Edge across = std::minmax(use.opposite[0], use.opposite[1]);
@@ -180,7 +182,7 @@ Model buildMeshCloth(const MeshClothShape& shape) {
     }
     model.uv = shape.uv.empty() ? projectedUv(shape, low, high) : shape.uv;
 
-    // Each corner carries a third of its triangles.
+    // Each corner carries a third of the mass of its triangles.
     double total = 0.0;
     for (std::size_t t = 0; t < areas.size(); ++t) {
         total += areas[t];

@@ -8,7 +8,7 @@
 namespace taut::mechanics {
 namespace {
 
-// Uniform in 0 … 1, one value for each seed, wave, quantity and step.
+// A hashed value in 0 … 1, uniformly distributed, for each seed, wave, quantity and step.
 double uniform(std::int64_t seed, int wave, int quantity, std::int64_t step) {
     std::uint64_t z = core::mixed(static_cast<std::uint64_t>(seed));
     z = core::mixed(z ^ static_cast<std::uint64_t>(wave * 16 + quantity));
@@ -16,7 +16,8 @@ double uniform(std::int64_t seed, int wave, int quantity, std::int64_t step) {
     return static_cast<double>(z >> 11) * 0x1p-53;
 }
 
-// -1 … 1, hashed at whole s, between them 6f⁵ - 15f⁴ + 10f³: slope and curvature are zero at whole s.
+// A value in -1 … 1: hashed at whole s, blended in between by 6f⁵ - 15f⁴ + 10f³, so that slope and curvature are zero
+// at whole s.
 double wander(std::int64_t seed, int wave, int quantity, double s) {
     const double whole = std::floor(s), f = s - whole;
     const auto step = static_cast<std::int64_t>(whole);
@@ -25,7 +26,7 @@ double wander(std::int64_t seed, int wave, int quantity, double s) {
     return 2.0 * (a + (b - a) * blend) - 1.0;
 }
 
-// With six waves of rms 0.7 and strengths of rms 0.5 the sum's components have an rms of 0.8 · gain · amplitude.
+// With six waves of rms 0.7 and strengths of rms 0.5, the sum's components have an rms of 0.8 · gain · amplitude.
 constexpr double gain = 0.8;
 
 }  // namespace
@@ -40,7 +41,7 @@ GustWaves<Real> gustWaves(const GustField& field, double t) {
         const double height = 2.0 * uniform(seed, w, 0, 0) - 1.0;
         const double around = 2.0 * core::pi * uniform(seed, w, 1, 0);
         const double flat = std::sqrt(1.0 - height * height);
-        // From a third below to a third above the wave number of two lengths a wave, spread evenly.
+        // Wave numbers are spread evenly, from a third below to a third above that of a wave two lengths long.
         const double perLength = (2.0 / 3.0 + (w + uniform(seed, w, 2, 0)) * (2.0 / 3.0) / gustWaveCount) * 0.5;
         const double number = perLength / field.length;
         waves.wavenumber[0][w] = static_cast<Real>(number * flat * core::cosine(around));
@@ -50,7 +51,7 @@ GustWaves<Real> gustWaves(const GustField& field, double t) {
         const double turns = uniform(seed, w, 3, 0) - perLength * (t / field.period);
         waves.phase[w] = static_cast<Real>(turns - std::floor(turns + 0.5));
         for (int axis = 0; axis < 3; ++axis) {
-            // Each strength turns at its own time of the period.
+            // Each component of the strength turns at its own time of the period.
             const double s = t / field.period + uniform(seed, w, 4 + axis, 0);
             waves.strength[axis][w] = static_cast<Real>(gain * field.amplitude * wander(seed, w, 8 + axis, s));
         }

@@ -6,7 +6,7 @@
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-constexpr int slice = 128;  // springs at once: between their ends nothing overlaps, unless these are close
+constexpr int slice = 128;  // springs at once; their ends a and b do not overlap, unless the offset is shorter
 
 template <class Real, bool apart>
 inline void addSlice(const ProductRun<Real>& s, int first, int n) {

@@ -18,8 +18,8 @@ dvec3 perpendicularTo(dvec3 v) {
     return glm::normalize(glm::cross(v, axis));
 }
 
-// Slack hangs in the catenary of a chain: link i runs along e + t_i g, g the sag, e at a right angle to it, and
-// t_i = a + κ ((n - 1)/2 - i), because each mass turns the rope by the same weight over the same level tension.
+// A slack rope hangs in the catenary of a chain. Link i runs along e + t_i g, with g the sag and e at a right angle to
+// it. t_i = a + κ ((n - 1)/2 - i), because each mass turns the rope by the same weight over the same level tension.
 // `level` and `drop` are the way from start to end along e and g, both in links.
 struct Catenary {
     int links;
@@ -52,8 +52,8 @@ struct Catenary {
     }
 };
 
-// The links of a slack rope along the catenary. False if there is none: so steep, or so few links, that it would
-// have to fold.
+// Lays the links of a slack rope along the catenary. False if there is none, because the rope is so steep or has so few
+// links that it would have to fold.
 bool hangCatenary(const RopeShape& shape, double link, std::vector<dvec3>& positions) {
     const dvec3 chord = shape.end - shape.start;
     const double drop = glm::dot(chord, shape.sag);
@@ -71,8 +71,8 @@ bool hangCatenary(const RopeShape& shape, double link, std::vector<dvec3>& posit
     return true;
 }
 
-// Links that each turn by the same angle: from a straight line to a closed ring, whatever the distance of the ends.
-// Bulges along the sag, or sideways if the ends lie along it.
+// Lays links that each turn by the same angle, from a straight line to a closed ring, for any distance of the ends. The
+// arc bulges along the sag, or sideways if the ends lie along the sag.
 void bendArc(const RopeShape& shape, double distance, double link, std::vector<dvec3>& positions) {
     const int n = shape.segments;
     const bool isRing = distance < 1e-9 * link;
@@ -93,8 +93,8 @@ void bendArc(const RopeShape& shape, double distance, double link, std::vector<d
     }
 }
 
-// The way through given places, finely divided: Catmull and Rom's cubics, which leave each place in the direction from
-// the one before to the one behind it. A ring goes on from its end to its start.
+// The way through given places, finely divided. It consists of Catmull and Rom's cubics, which leave each place in the
+// direction from the place before to the place after it. A ring goes on from its end to its start.
 std::vector<dvec3> smoothWay(const RopeShape& shape) {
     constexpr int parts = 64;
     std::vector<dvec3> places{shape.start};
@@ -119,8 +119,8 @@ std::vector<dvec3> smoothWay(const RopeShape& shape) {
     return way;
 }
 
-// Points a link apart from each other along a way, from its start; what reaches beyond the end goes on straight.
-// Returns how far along the way the last one lies [m].
+// Places points one link apart along a way, from its start. Points beyond the end go on straight. Returns how far along
+// the way the last point lies [m].
 double layLinks(const std::vector<dvec3>& way, double link, std::vector<dvec3>& positions) {
     std::size_t piece = 0;
     double before = 0.0, share = 0.0;
@@ -143,7 +143,7 @@ double layLinks(const std::vector<dvec3>& way, double link, std::vector<dvec3>& 
     return before + share * glm::length(step(piece));
 }
 
-// Lays all points along a way, as many links of one length as they make. Returns that length.
+// Lays all points along a whole way, with links of one length. Returns that length.
 double layAlong(const std::vector<dvec3>& way, std::vector<dvec3>& positions) {
     double length = 0.0;
     for (std::size_t i = 0; i + 1 < way.size(); ++i) length += glm::length(way[i + 1] - way[i]);
@@ -169,8 +169,8 @@ void placePoints(const RopeShape& shape, double distance, double length, std::ve
     }
 }
 
-// A level ring around the middle between start and end, upright if they lie one above the other. Returns the length of
-// a link.
+// Lays a level ring around the middle between start and end, or an upright ring if one lies above the other. Returns
+// the length of a link.
 double layRing(const RopeShape& shape, std::vector<dvec3>& positions) {
     const dvec3 arm = 0.5 * (shape.end - shape.start), centre = shape.start + arm;
     const double radius = glm::length(arm);
@@ -184,7 +184,7 @@ double layRing(const RopeShape& shape, std::vector<dvec3>& positions) {
     return 2.0 * radius * core::sine(core::pi / count);
 }
 
-// Laid through its places, all the way round.
+// Lays a ring through its places. Returns the length of a link.
 double layLoop(const RopeShape& shape, std::vector<dvec3>& positions) {
     std::vector<dvec3> round(positions.size() + 1);
     const double link = layAlong(smoothWay(shape), round);
@@ -192,7 +192,7 @@ double layLoop(const RopeShape& shape, std::vector<dvec3>& positions) {
     return link;
 }
 
-// As of a rope with ends, but that every point has two neighbours.
+// As a rope with ends, except that every point has two neighbours.
 Model buildRing(const RopeShape& shape) {
     TAUT_EXPECTS(shape.segments >= 3 && shape.mass > 0.0);
     const int n = shape.segments;
@@ -212,6 +212,7 @@ Model buildRing(const RopeShape& shape) {
         };
         if (distance(i) < distance(far)) far = i;
     }
+    // Springs to the next point and to the one after it.
     for (int i = 0; i < n; ++i)
         model.springs.push_back(
             {i, (i + 1) % n, shape.stretch / link, link, shape.dampingTime, SpringKind::structural});
@@ -239,6 +240,7 @@ Model buildRope(const RopeShape& shape) {
     double link = length / n;
 
     Model model;
+    // Points along a line, a catenary or an arc, or along the way through the given places.
     detail::addRestingPoints(model, n + 1, shape.dragRate);
     if (shape.through.empty())
         placePoints(shape, distance, length, model.positions);
@@ -253,6 +255,7 @@ Model buildRope(const RopeShape& shape) {
         model.uv[at] = {link * i, 0.0};
     }
 
+    // Links, then bending by springs over two links or by a rigidity.
     for (int i = 0; i < n; ++i)
         model.springs.push_back({i, i + 1, shape.stretch / link, link, shape.dampingTime, SpringKind::structural});
     if (shape.bend > 0.0)

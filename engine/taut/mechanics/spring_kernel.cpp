@@ -2,7 +2,7 @@
 //
 // Hooke's law with a dashpot along the spring, d = x_b - x_a, l = |d|, n = d/l:
 //   F_a = k [l - L + τ u·n] n = k [1 - (L - τ u·d/l)/l] d,   u = v_b - v_a,   F_b = -F_a
-// Each spring is evaluated once. At l = 0 the direction is undefined and the force zero; with L = 0 the force is
+// Each spring is evaluated once. At l = 0 the direction is undefined, and the force is zero. With L = 0 the force is
 // k d, linear through l = 0.
 #include "taut/core/private/vectorise.h"
 #include "taut/core/private/vectors.h"
@@ -18,8 +18,8 @@ using core::TAUT_ISA::root;
 using core::TAUT_ISA::store;
 using core::TAUT_ISA::WideVector;
 
-// Below this l² counts as this: so that 1/l is finite at l = 0, where d makes the force zero. The smallest normal
-// numbers, of which 1/l² is finite too. [m²]
+// [m²] A smaller l² counts as this, so that 1/l is finite at l = 0, where d makes the force zero. These are the
+// smallest normal numbers; 1/l² is finite too.
 inline float least(float) {
     return 0x1p-126F;
 }
@@ -27,8 +27,8 @@ inline double least(double) {
     return 0x1p-1022;
 }
 
-// What c = x_a - x_b times it is F_a: (L - τ u·d/l)/l - 1 times k, finite however small l is. u = v_a - v_b: the signs
-// are those that spare instructions.
+// The factor of F_a = factor · c, with c = x_a - x_b: k [(L - τ u·d/l)/l - 1]. It is finite no matter how small l is.
+// Here u = v_a - v_b; these signs save instructions.
 template <class Real, bool damped, class V>
 inline V factor(V cx, V cy, V cz, V uc, V k, V rest, V tau) {
     const V squared = cx * cx + cy * cy + cz * cz;
@@ -37,27 +37,27 @@ inline V factor(V cx, V cy, V cz, V uc, V k, V rest, V tau) {
     return (rest * inverse - Real(1)) * k;
 }
 
-// Springs of each run at once: how they pull at points waits until all are done, for ends a of one may be ends b of
-// another, and stays in the first-level cache meanwhile.
+// Springs of each run that are computed at once. Their pulls wait until all are done, because end a of one spring may
+// be end b of another. Meanwhile the pulls stay in the first-level cache.
 template <class Real>
 constexpr int slice = 1024 / static_cast<int>(sizeof(Real));
 
-// Runs whose offsets differ by no more are taken off the forces together: each force is loaded and stored once for all
-// of them, and not while its last store is still on its way to the cache.
+// Runs whose offsets differ by no more than this are taken off the forces together. So each force is loaded and stored
+// once for all of them, and is not loaded while its last store is still on its way to the cache.
 constexpr int margin = 4;
 
-// What is to be taken off the forces. Of each run it stands at the point a of the spring, for its point b; the sum
-// over the runs, turned round, for the points a themselves is a run of offset 0. Around each there are zeros.
+// The pulls to take off the forces. The pull on point b of a spring is stored at the spring's point a, run by run. The
+// pulls on the points a are summed over the runs with the opposite sign, as a run of offset 0. Zeros surround each run.
 template <class Real>
 struct Pulls {
     static constexpr int line = 64 / static_cast<int>(sizeof(Real));
     static constexpr int plane = line + slice<Real> + line;
     alignas(64) Real of[1 + mostTogether][3][plane];
-    // Of each run, once a lane.
+    // The values of each run, repeated for every lane.
     alignas(64) Real rest[mostTogether][line], tau[mostTogether][line];
 };
 
-// The springs i … of all runs, as many as V has lanes, of the slice that begins with spring `first`.
+// Computes the springs i … of all runs, as many as V has lanes, in the slice that begins with spring `first`.
 template <class V, class Real, bool damped, bool mixed>
 inline void pull(const SpringBundleArgs<Real>& s, int first, int i, Pulls<Real>& pulls) {
     const long stride = s.stride;
@@ -101,7 +101,7 @@ inline void pull(const SpringBundleArgs<Real>& s, int first, int i, Pulls<Real>&
     store(to + 2 * plane, sz);
 }
 
-// The last vector of a slice may reach back over the one before: the same is computed again.
+// The last vector of a slice may overlap the one before. Then it computes some springs again, with the same result.
 template <class V, class Real, bool damped, bool mixed>
 inline void pullAll(const SpringBundleArgs<Real>& s, int first, int n, Pulls<Real>& pulls) {
     constexpr int lanes = sizeof(V) / sizeof(Real);
@@ -110,7 +110,7 @@ inline void pullAll(const SpringBundleArgs<Real>& s, int first, int n, Pulls<Rea
     if (i < n) pull<V, Real, damped, mixed>(s, first, n - lanes, pulls);
 }
 
-// n forces, less the pulls of `count` runs.
+// Takes the pulls of `count` runs off n forces.
 template <class Real, int count>
 inline void takeOff(Real* f, long stride, const Real* const* pulls, int n) {
     constexpr int plane = Pulls<Real>::plane;
@@ -140,7 +140,7 @@ inline void takeOff(Real* f, long stride, const Real* const* pulls, int n) {
     }
 }
 
-// f at the first point a of a slice of n.
+// Takes all pulls of a slice of n off the forces. f: at the first point a of the slice.
 template <class Real>
 inline void takeOff(const SpringBundleArgs<Real>& s, Real* f, int n, Pulls<Real>& pulls) {
     constexpr int line = Pulls<Real>::line, most = 4;
@@ -205,7 +205,7 @@ inline void bundleAny(const SpringBundleArgs<Real>& s) {
         bundle<Real, false, false>(s);
 }
 
-// Gathers a batch into planar buffers, computes it side by side, scatters it spring by spring in order.
+// Gathers a batch into planar buffers, computes it all at once, and scatters it spring by spring in order.
 template <class Real>
 inline void list(const SpringListArgs<Real>& s) {
     constexpr int batch = 64;
@@ -239,7 +239,7 @@ inline void list(const SpringListArgs<Real>& s) {
     }
 }
 
-// Likewise, but a point is a vector or two.
+// The same for packed points: a point's state is two vectors, its force is one.
 template <class Real>
 inline void packedList(const PackedSpringArgs<Real>& s) {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
@@ -250,6 +250,7 @@ inline void packedList(const PackedSpringArgs<Real>& s) {
     for (int first = 0; first < s.n; first += batch) {
         const int n = s.n - first < batch ? s.n - first : batch;
         const int *a = s.a + first, *b = s.b + first;
+        // Gather: differences of places and velocities.
         for (int i = 0; i < n; ++i) {
             const Real *from = state + static_cast<long>(a[i]) * packedState,
                        *to = state + static_cast<long>(b[i]) * packedState;
@@ -269,6 +270,7 @@ inline void packedList(const PackedSpringArgs<Real>& s) {
             const Real uc = u[i][0] * c[i][0] + u[i][1] * c[i][1] + u[i][2] * c[i][2];
             pull[i] = factor<Real, true>(c[i][0], c[i][1], c[i][2], uc, k[i], rest[i], tau[i]);
         }
+        // Scatter in order, because springs share points.
         for (int i = 0; i < n; ++i) {
             Real *atA = f + static_cast<long>(a[i]) * packedForce, *atB = f + static_cast<long>(b[i]) * packedForce;
             Four d, fa, fb;

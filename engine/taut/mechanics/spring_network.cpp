@@ -12,13 +12,13 @@
 namespace taut::mechanics {
 namespace {
 
-constexpr int blockPoints = 256;   // a block's springs and points fit the first-level cache
-constexpr int chunkPoints = 8192;  // at least: enough work for a thread
-constexpr int mostChunks = 8;      // each has a window of its own, which costs memory traffic
-constexpr int shortestRun = 8;     // below that, single springs are as fast
-constexpr int longestBridge = 3;   // missing springs that a run steps over, or is filled up with, at stiffness zero
+constexpr int blockPoints = 256;   // so that a block's springs and points fit the first-level cache
+constexpr int chunkPoints = 8192;  // at least, so that a thread has enough work
+constexpr int mostChunks = 8;      // each has its own window, which costs memory traffic
+constexpr int shortestRun = 8;     // for fewer springs, single springs are as fast
+constexpr int longestBridge = 3;   // missing springs that a run steps over or is padded with, at stiffness zero
 
-// The springs of one block that look alike, by point a.
+// Springs of one block with the same key can make a run.
 using Key = std::tuple<int, double, double>;  // offset, rest length, damping time
 
 struct Sorted {
@@ -78,7 +78,7 @@ class Builder {
         network_.springCount = static_cast<int>(springs.size());
     }
 
-    // A chunk takes blocks until it is large enough and holds all that the chunk before spills.
+    // A chunk takes blocks until it is large enough and holds all points that the chunk before spills onto.
     void cutChunks() {
         const int enough = std::max(chunkPoints, points_ / mostChunks);
         int incoming = 0;  // one past the last point that an earlier chunk touches
@@ -102,7 +102,7 @@ class Builder {
         }
     }
 
-    // Springs from … to - 1 of a block's list, which make a run over the points a = first … last - 1.
+    // Springs from … to - 1 of a block's list. They make a run over the points a = first … last - 1.
     struct Stretch {
         std::size_t from, to;
         int offset, first, last;
@@ -133,8 +133,8 @@ class Builder {
         return {from, to, std::get<0>(list[from].key), list[from].a, list[to - 1].a + 1};
     }
 
-    // Takes the first stretch out, and of the others those that begin and end near it; fills all up to the same points,
-    // as far as their springs would not reach beyond the block's.
+    // Takes out the first stretch, and the others that begin and end near it. Pads all of them to the same points. It
+    // leaves out stretches whose padding would reach beyond the block's springs.
     static std::vector<Stretch> takeBundle(std::vector<Stretch>& stretches, int reach) {
         std::vector<Stretch> bundle, others;
         Stretch all = stretches.front();
@@ -182,7 +182,7 @@ class Builder {
     SpringNetwork<Real>& network_;
     int points_;
     std::vector<std::vector<Sorted>> sorted_;  // (blocks)
-    std::vector<int> singles_;                 // which springs they are
+    std::vector<int> singles_;                 // numbers of the single springs
 };
 
 }  // namespace
@@ -207,6 +207,7 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
         largestTau = std::max(largestTau, static_cast<Real>(s.dampingTime));
         isTauUniform = isTauUniform && s.dampingTime == springs.front().dampingTime;
     }
+    // The runs. Runs with the same stiffnesses share a table. Mixed runs store a length and a damping time each spring.
     stiffness.clear();
     mixed.clear();
     isOwn.assign(runs.size(), false);
@@ -239,6 +240,7 @@ void SpringNetwork<Real>::setSprings(std::span<const Spring> springs) {
         mixed.insert(mixed.end(), lengths.begin(), lengths.end());
         mixed.insert(mixed.end(), taus.begin(), taus.end());
     }
+    // The single springs.
     for (std::vector<Real>* table : {&singles.k, &singles.restLength, &singles.tau}) table->resize(singles.a.size());
     for (std::size_t i = 0; i < singles.a.size(); ++i, ++next) {
         const Spring& s = springs[static_cast<std::size_t>(*next)];

@@ -96,6 +96,7 @@ bool SpringWatch<Real>::isAnyBeyond(const SpringNetwork<Real>& network, const Pa
 template <class Real>
 void SpringWatch<Real>::find(const SpringNetwork<Real>& network, int stride, const Real* x,
                              std::vector<int>& beyond) const {
+    // Which parts have a spring beyond its limits: the cheap test, in parallel.
     isHit_.assign(parts_.size(), 0);
     const auto look = [&](int c) {
         const auto k = static_cast<std::size_t>(c);
@@ -105,6 +106,7 @@ void SpringWatch<Real>::find(const SpringNetwork<Real>& network, int stride, con
         look(0);
     else
         core::parallelFor(static_cast<int>(parts_.size()), look);
+    // Only those parts are searched spring by spring.
     const std::size_t before = beyond.size();
     const auto lookAt = [&](int place, int a, int b) {
         const auto p = static_cast<std::size_t>(place);

@@ -18,7 +18,7 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 // Largest eigenvalue of a symmetric 3×3 matrix by cyclic Jacobi rotations, which need no trigonometry.
 double largestEigenvalue(Matrix m) {
     for (int sweep = 0; sweep < 12; ++sweep) {
-        // Off by no more than the square of that by the size of the largest.
+        // The error is no more than `off` over the largest entry.
         const double off = m[0][1] * m[0][1] + m[0][2] * m[0][2] + m[1][2] * m[1][2];
         if (off <= 1e-32 * (m[0][0] * m[0][0] + m[1][1] * m[1][1] + m[2][2] * m[2][2])) break;
         for (int p = 0; p < 2; ++p)
@@ -49,7 +49,7 @@ double largestExtra(const NetworkView& network, std::span<const double> extra) {
     return largest;
 }
 
-// atPoint (points) a_i [1/s²]; more: what is added to the largest sum of them [1/s²].
+// atPoint (points) a_i [1/s²]; more [1/s²] is added to their largest sum over an element.
 FrequencyBound overElements(const NetworkView& network, std::span<const double> atPoint, double more) {
     FrequencyBound bound;
     double largest = 0;
@@ -82,7 +82,7 @@ void addToAll(Matrix& sum, double factor) {
     for (std::size_t i = 0; i < 3; ++i) sum[i][i] += factor;
 }
 
-// factor: of the spring's stiffness.
+// Adds `factor` times the spring's stiffness at both its points.
 void addSpring(std::vector<Matrix>& sum, const Spring& spring, double factor, std::span<const glm::dvec3> positions) {
     const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
     const glm::dvec3 d = positions[b] - positions[a];
@@ -95,7 +95,7 @@ void addSpring(std::vector<Matrix>& sum, const Spring& spring, double factor, st
     }
 }
 
-// Edges of cells, the lower point first, with what the pressures of their cells make them: h [N/m].
+// Edges of cells, the lower point first, each with the h [N/m] that the pressures of its cells cause.
 using ContactAcceleration = std::map<std::pair<int, int>, glm::dvec3>;
 
 CellCorners cornersOf(const VolumeCell& cell, std::span<const glm::dvec3> positions) {
@@ -104,7 +104,7 @@ CellCorners cornersOf(const VolumeCell& cell, std::span<const glm::dvec3> positi
     return p;
 }
 
-// factor: of the cell's stiffness.
+// Adds `factor` times the cell's stiffness at its corners.
 void addCell(std::vector<Matrix>& sum, const VolumeCell& cell, double factor, const CellCorners& p) {
     const CellCorners g = gradientsOf(p);
     for (std::size_t c = 0; c < 4; ++c)
@@ -131,8 +131,8 @@ double largestRow(const NetworkView& network, const ContactAcceleration& pressed
     return rows.empty() ? 0.0 : *std::max_element(rows.begin(), rows.end());
 }
 
-// Σ_e T_e K_e at the points, T (elements: springs, then cells) a factor of their stiffness; `loose` (springs; may be
-// empty) are those that count with all their stiffness in every direction.
+// Σ_e T_e K_e at the points. T (elements: springs, then cells) are factors of their stiffness. `loose` (springs; may be
+// empty): springs that count with all their stiffness in every direction.
 std::vector<Matrix> stiffnessAtPoints(const NetworkView& network, std::span<const glm::dvec3> positions,
                                       const std::vector<bool>& loose, const std::vector<double>& factors) {
     std::vector<Matrix> sum(network.inverseMasses.size(), Matrix{});
@@ -152,7 +152,7 @@ std::vector<Matrix> stiffnessAtPoints(const NetworkView& network, std::span<cons
     return sum;
 }
 
-// The first sweep gives every point a_i; the second weighs each element with the sum of its a_i.
+// The first sweep computes a_i of every point. The second sweep weighs each element with the sum of its a_i.
 FrequencyBound secondBound(const NetworkView& network, std::span<const double> extra,
                            std::span<const glm::dvec3> positions, const std::vector<bool>& loose) {
     const auto rates = [&](const std::vector<Matrix>& sum) {
@@ -183,8 +183,8 @@ FrequencyBound secondBound(const NetworkView& network, std::span<const double> e
 }
 
 // The last component of the normalised eigenvector s of a symmetric tridiagonal matrix (diagonal alpha, beside it beta)
-// for its eigenvalue theta. A recurrence from one end drowns in rounding where s decays; two pivot sequences of T - θI,
-// from both ends to where s is largest, do not (twisted factorisation, Dhillon and Parlett 2004).
+// for its eigenvalue theta. A recurrence from one end drowns in rounding where s decays. So it uses two pivot sequences
+// of T - θI, from both ends to where s is largest (twisted factorisation, Dhillon and Parlett 2004).
 double lastComponent(const std::vector<double>& alpha, const std::vector<double>& beta, double theta) {
     const std::size_t n = alpha.size();
     const auto safe = [](double pivot) { return pivot == 0.0 ? 1e-300 : pivot; };
@@ -282,12 +282,12 @@ struct Ritz {
     double value = 0, residual = 0;
 };
 
-// The tridiagonal matrix of m Lanczos steps; its largest eigenvalue by bisection on Sturm sequences.
+// Makes Lanczos steps, then finds the largest eigenvalue of their tridiagonal matrix by bisection on Sturm sequences.
 Ritz largestRitz(std::span<const double> inverseMasses, const StiffnessProduct& multiply, int products) {
     const std::size_t n = inverseMasses.size();
     std::vector<glm::dvec3> q(n), before(n, glm::dvec3(0.0)), scaled(n), r(n);
     double norm = 0;
-    // A start without symmetry, the same everywhere: the fractional parts of multiples of the golden ratio.
+    // A start without symmetry, the same on every machine: the fractional parts of multiples of the golden ratio.
     for (std::size_t i = 0; i < n; ++i)
         for (int p = 0; p < 3; ++p) {
             const double phase = static_cast<double>(3 * i + static_cast<std::size_t>(p) + 1) * 0.6180339887498949;
@@ -296,6 +296,7 @@ Ritz largestRitz(std::span<const double> inverseMasses, const StiffnessProduct& 
         }
     if (norm == 0) return {};
     for (auto& x : q) x /= std::sqrt(norm);
+    // The steps: diagonal alpha, beside it beta.
     std::vector<double> alpha, beta;
     double scale = 0;
     for (int k = 0; k < products; ++k) {
@@ -323,6 +324,7 @@ Ritz largestRitz(std::span<const double> inverseMasses, const StiffnessProduct& 
             q[i] = r[i] / b;
         }
     }
+    // Bisection from Gershgorin's bound.
     double high = 0;
     for (std::size_t i = 0; i < alpha.size(); ++i)
         high = std::max(high, alpha[i] + beta[i] + (i > 0 ? beta[i - 1] : 0.0));

@@ -13,7 +13,7 @@
 namespace taut::mechanics {
 namespace {
 
-constexpr int slice = 128;  // springs at once, so that what lies between two loops stays in the first-level cache
+constexpr int slice = 128;  // springs at once, so that data between two loops stays in the first-level cache
 constexpr int lanes = 16;   // partial maxima
 
 template <class Real>
@@ -21,7 +21,7 @@ struct Entries {
     alignas(64) Real of[6][slice];
 };
 
-// Entries of k [(1 - t) nnᵀ + t I] for n springs, t = max(0, 1 - L/l).
+// The entries of k [(1 - t) nnᵀ + t I] for n springs, t = max(0, 1 - L/l).
 template <class Real>
 inline void springEntries(int n, const Real* const from[3], const Real* const to[3], const Real* k, const Real* rest,
                           Entries<Real>& g) {
@@ -43,8 +43,9 @@ inline void springEntries(int n, const Real* const from[3], const Real* const to
     }
 }
 
-// The largest root x of x³ - 3x - 2r, 2 cos(acos(r)/3), by a polynomial in √((1 + r)/2) that is nowhere below it, exact
-// at both ends and at most 1.3e-4 above (from its values and slopes at the ends and its curvature at 0).
+// The largest root x of x³ - 3x - 2r, 2 cos(acos(r)/3), by a polynomial in √((1 + r)/2). The polynomial is nowhere
+// below the root, exact at both ends, and at most 1.3e-4 above. It comes from the root's values and slopes at the ends
+// and its curvature at 0.
 template <class Real>
 inline Real largestRoot(Real r) {
     const Real half = Real(0.5) * (Real(1) + r);
@@ -53,12 +54,12 @@ inline Real largestRoot(Real r) {
            (Real(1) + y * (Real(1.15470054) + y * (Real(-0.22222222) + y * (Real(0.09145394) - y * Real(0.02393226)))));
 }
 
-// λ_max of a symmetric 3×3 matrix: its mean plus the spread p of its eigenvalues times the root for its skewness
+// λ_max of a symmetric 3×3 matrix: the mean of its eigenvalues, plus their spread p times the root for their skewness
 // (Smith 1961).
 template <class Real>
 inline Real largestEigenvalue(Real xx, Real xy, Real xz, Real yy, Real yz, Real zz) {
     const Real mean = (xx + yy + zz) * Real(1.0 / 3.0), scale = mean > Real(0) ? Real(1) / mean : Real(0);
-    xx = xx * scale - Real(1);  // of its size, so that no power is too large for single precision
+    xx = xx * scale - Real(1);  // relative to the mean, so that no power is too large for single precision
     yy = yy * scale - Real(1);
     zz = zz * scale - Real(1);
     xy *= scale;
@@ -252,7 +253,7 @@ void StateBound<Real>::findWeights(const SpringNetwork<Real>& network, const Rea
     areWeightsKnown_ = true;
 }
 
-// The largest of what the points have in the weighted sums, by their weights.
+// The largest rate of a point in the weighted sums, over the point's weight.
 template <class Real>
 double StateBound<Real>::largestShare() const {
     Real most = 0;
@@ -261,6 +262,7 @@ double StateBound<Real>::largestShare() const {
     return static_cast<double>(most);
 }
 
+// The largest row sum of what the cells' pressures add, see B2 in stability.h.
 template <class Real>
 double StateBound<Real>::largestRow(const Real* inverseMass) {
     std::fill(pressed_.begin(), pressed_.end(), glm::dvec3(0.0));
@@ -287,7 +289,7 @@ double StateBound<Real>::largestRow(const Real* inverseMass) {
     return largest;
 }
 
-// Where all springs have the same damping time, C is at most that times their K.
+// If all springs have the same damping time, C is at most that time times their K.
 template <class Real>
 FastestNow StateBound<Real>::operator()(const SpringNetwork<Real>& network, const Real* x, const Real* inverseMass) {
     FastestNow now;

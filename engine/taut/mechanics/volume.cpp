@@ -30,7 +30,7 @@ std::vector<std::array<int, 4>> pointsOf(std::span<const VolumeCell> cells) {
     return points;
 }
 
-// |V/V0 - 1| within the working stretch s, from mirrored cells to those stretched along all three axes.
+// The largest |V/V0 - 1| within the working stretch s, from mirrored cells to cells stretched along all three axes.
 double largestChange(double s) {
     return std::max(1.0 + s, s * s * s - 1.0);
 }
@@ -138,7 +138,7 @@ void VolumePreservation<Real>::addStiffnessProduct(const Motion<Real>& motion, c
         const double along =
             (glm::dot(g[0], w[0]) + glm::dot(g[1], w[1]) + glm::dot(g[2], w[2]) + glm::dot(g[3], w[3])) /
             cell.restVolume;
-        // ∂(6 g1) = d2 × e3 + e2 × d3 and cyclic, d_i the change of the edge e_i.
+        // ∂(6 g1) = d2 × e3 + e2 × d3 and cyclic. d_i is the change of the edge e_i.
         const dvec3 e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0];
         const dvec3 d1 = w[1] - w[0], d2 = w[2] - w[0], d3 = w[3] - w[0];
         const dvec3 h1 = (glm::cross(d2, e3) + glm::cross(e2, d3)) / 6.0;

@@ -1,5 +1,5 @@
-// Compiled once per instruction set (engine/taut.cmake). Only + - * /, no sum across lanes: the same bits for every
-// width.
+// Compiled once for each instruction set (engine/taut.cmake). It uses only + - * /, and no sum across lanes, so every
+// width gives the same bits.
 #include "taut/mechanics/private/volume_kernel.h"
 
 #include "taut/core/private/vectorise.h"
@@ -14,7 +14,7 @@ struct Corners {
     const Real* of[4][3];
 };
 
-// Those on corners 1, 2 and 3; corner 0 has what makes their sum vanish.
+// The forces on corners 1, 2 and 3. The force on corner 0 is minus their sum.
 template <class Real>
 struct Forces {
     alignas(64) Real of[3][3][kernelBlock];  // [N]
@@ -81,7 +81,7 @@ void addRun(const VolumeBatch<Real>& batch, const CornerRun<4>& run) {
     }
 }
 
-// Moved so that corner 0 is the origin: the same forces.
+// Adds the loose tetrahedra. Each is moved so that corner 0 is the origin, which leaves the forces the same.
 template <class Real>
 void addLoose(const VolumeBatch<Real>& batch) {
     const CornerLanes<4>& lanes = batch.lanes;
@@ -101,6 +101,7 @@ void addLoose(const VolumeBatch<Real>& batch) {
         const int count = lanes.looseCount - start < kernelBlock ? lanes.looseCount - start : kernelBlock;
         const int *p0 = lanes.loose[0] + start, *p1 = lanes.loose[1] + start, *p2 = lanes.loose[2] + start,
                   *p3 = lanes.loose[3] + start;
+        // Gather the edges, four tetrahedra at a time.
         for (int l = 0; l < count; l += 4) {
             Four<Real> e1[4], e2[4], e3[4];
             for (int i = 0; i < 4; ++i) {
@@ -120,7 +121,7 @@ void addLoose(const VolumeBatch<Real>& batch) {
         }
         const int lane = lanes.looseLane + start;
         findForces(x, batch.sixthOfBulk + lane, batch.inverseRestSixth + lane, count, forces);
-        // One tetrahedron after the other: neighbours share points.
+        // One tetrahedron after the other, because neighbours share points.
         for (int l = 0; l < count; l += 4) {
             Four<Real> f1[4], f2[4], f3[4];
             collect(forces.of[0], l, f1);

@@ -6,7 +6,7 @@
 namespace taut::mechanics::TAUT_ISA {
 namespace {
 
-// As wide as the numbers that are compared, so that masks need not be narrowed.
+// A mask type as wide as the compared numbers, so that masks need no narrowing.
 template <class Real>
 struct MaskOf;
 template <>

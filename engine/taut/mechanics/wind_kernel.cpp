@@ -1,5 +1,5 @@
-// Compiled once per instruction set (engine/taut.cmake). Only + - * / and square roots, no sum across lanes:
-// the same bits for every width.
+// Compiled once for each instruction set (engine/taut.cmake). It uses only + - * / and square roots, and no sum across
+// lanes, so every width gives the same bits.
 #include "taut/mechanics/private/wind_kernel.h"
 
 #include "taut/core/private/vectorise.h"
@@ -10,7 +10,7 @@ namespace {
 
 using core::TAUT_ISA::root;
 
-// Adding and taking away 1.5 · 2^23 (2^52) rounds to the nearest whole number.
+// Adding and subtracting 1.5 · 2^23 (2^52) rounds to the nearest whole number.
 inline float nearestWhole(float x) {
     return (x + 12582912.0F) - 12582912.0F;
 }
@@ -21,7 +21,7 @@ inline double nearestWhole(double x) {
 template <class Real>
 struct Block {
     alignas(64) Real air[3][kernelBlock];    // air relative to the triangle [m/s]
-    alignas(64) Real force[3][kernelBlock];  // a third of the triangle's [N]
+    alignas(64) Real force[3][kernelBlock];  // a third of the triangle's force [N]
 };
 
 // Planes of a vector at the three corners: [corner][axis].
@@ -30,7 +30,7 @@ struct Corners {
     const Real* of[3][3];
 };
 
-// The velocities of the points less the gust there: the waves' sum g, bent to g/√(1 + g²/limit²).
+// Computes the velocities of the points less the gust there. The gust is the waves' sum g, bent to g/√(1 + g²/limit²).
 template <class Real>
 inline void findSlip(const WindBatch<Real>& batch) {
     const GustWaves<Real>& waves = *batch.gust;
@@ -85,7 +85,7 @@ inline void findRelativeAir(const Corners<Real>& slip, const Real* flow, int cou
 
 // With N = e1 × e2 = 2 A n, q = u·N and c = q/(|u||N|) the force ½ρA (C_D |u·n| u + C_L (u·n) (|u| n - (u·n)/|u| u)) is
 //   ¼ρ (C_D |q| u + C_L c (|u|² N - q u)).
-// A trifle added to |u||N| makes 0/0 a 0: no area or no wind, no force.
+// A tiny number added to |u||N| makes 0/0 a 0: without area or wind there is no force.
 template <class Real>
 inline void findForces(const Corners<Real>& x, const Real* weight, Real drag, Real lift, int count,
                        Block<Real>& block) {
@@ -149,7 +149,8 @@ void addRun(const WindBatch<Real>& batch, const Planes<Real>& slip, const Corner
     }
 }
 
-// Moved so that corner a is the origin, and with the sum of all slips at corner a: the same forces.
+// Adds the loose triangles. Each is moved so that corner a is the origin, and corner a gets the sum of all slips. The
+// forces stay the same.
 template <class Real>
 void addLoose(const WindBatch<Real>& batch, const Planes<Real>& slip) {
     const CornerLanes<3>& lanes = batch.lanes;
@@ -168,6 +169,7 @@ void addLoose(const WindBatch<Real>& batch, const Planes<Real>& slip) {
         x.of[2][axis] = c[axis];
         u.of[0][axis] = sum[axis];
     }
+    // Block by block: gather the corners, compute all forces, add them triangle by triangle.
     for (int start = 0; start < lanes.looseCount; start += kernelBlock) {
         const int count = lanes.looseCount - start < kernelBlock ? lanes.looseCount - start : kernelBlock;
         const int *pa = lanes.loose[0] + start, *pb = lanes.loose[1] + start, *pc = lanes.loose[2] + start;
@@ -193,7 +195,7 @@ void addLoose(const WindBatch<Real>& batch, const Planes<Real>& slip) {
             spread(slips, sum, l);
         }
         findBlock(batch, x, u, lanes.looseLane + start, count, block);
-        // One triangle after the other: neighbours share points.
+        // One triangle after the other, because neighbours share points.
         for (int l = 0; l < count; l += 4) {
             Four<Real> force[4];
             collect(block.force, l, force);

@@ -1,15 +1,15 @@
-// Blanes and Moan's symplectic method S6 (2002): order 4 with six force evaluations a step, and errors so small that
-// nothing of that order costs less.
+// Blanes and Moan's symplectic method S6 (2002): order 4 with six force evaluations a step. Its errors are so small
+// that no method of this order costs less.
 //
 //   v += a_i h K_i,  i = 0 … 6, and in between  x += b_i h v,   K_i = a(t + c_i h, x, w_i),  a_i = a_{6-i}
 //
-// The last K is the first of the next step. Forces that depend on the velocity, drag among them, see
+// The last K is the first of the next step. Forces that depend on the velocity, such as drag, see
 //
 //   w_i = v_n + h Σ_{j<i} α_ij K_j,  w_0 = v_n
 //
-// which neither a symmetric nor an exact flow would need: α makes the whole a Nyström method for x'' = a(t, x, v), and
-// fulfils the conditions of order 4 for those (Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I,
-// II.14), w_6 those of order 3, as the error of a K counts h times. What they leave free was chosen for the widest
+// No symmetric or exact flow would need these w_i. The α make the whole a Nyström method for x'' = a(t, x, v), and
+// fulfil its conditions of order 4 (Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, II.14). For
+// w_6 order 3 is enough, because the error of a K counts h times. The α that the conditions leave free give the widest
 // range of stability with damping. Without such forces the method is symplectic and reversible.
 #include <algorithm>
 #include <array>
@@ -32,7 +32,8 @@ struct Coefficients {
     double ahead[kicks][kicks];  // α_ij
 };
 
-// Blanes and Moan 2002, table 2, S6: a_i and b_i; those not listed follow from symmetry and from their sums, 1.
+// Blanes and Moan 2002, table 2, S6: a_i and b_i. Those not listed follow from symmetry and from their sums, which are
+// 1.
 constexpr Coefficients coefficients() {
     constexpr double a[] = {0.0792036964311957, 0.353172906049774, -0.0420650803577195};
     constexpr double b[] = {0.209515106613362, -0.143851773179818};
@@ -55,7 +56,7 @@ constexpr Coefficients s6 = coefficients();
 template <class Real>
 class BlanesMoan final : public Method<Real> {
   public:
-    enum Memory { slope, stale, count };  // K_0; one number, 0 or 1: it is not that of the state
+    enum Memory { slope, stale, count };  // K_0; one number, 1 if K_0 is not that of the state, else 0
 
     void start(SecondOrderSystem<Real>& system, double t, double, State<Real>& state) override {
         state.memory.assign(count, core::AlignedArray<Real>(state.layout.size()));
@@ -114,7 +115,7 @@ class BlanesMoan final : public Method<Real> {
         }
     }
 
-    // w_i into seen_.
+    // Computes w_i -> seen_.
     void predict(int i, double h, std::size_t n) {
         std::copy_n(start_.data(), n, seen_.data());
         for (int j = 0; j < i; ++j)
@@ -137,7 +138,8 @@ std::unique_ptr<Method<Real>> makeBlanesMoan(const MethodOptions&) {
     return std::make_unique<BlanesMoan<Real>>();
 }
 
-// One step of x'' = -ω² x - c v at h = 1, ω = z, c = d, as it acts on x, v/r and K/r², r the larger of z and d.
+// The matrix of one step of x'' = -ω² x - c v, with h = 1, ω = z, c = d. It acts on x, v/r and K/r², r the larger of z
+// and d.
 using Matrix = std::array<std::array<double, 3>, 3>;
 
 Matrix stepMatrix(double z, double d) {
@@ -160,8 +162,8 @@ Matrix stepMatrix(double z, double d) {
     return m;
 }
 
-// Whether no eigenvalue of the step lies outside the unit circle, by Jury's conditions on
-// λ³ + p λ² + q λ + s, with what rounding may add to those that undamped motion meets with equality.
+// Whether no eigenvalue of the step lies outside the unit circle, by Jury's conditions on λ³ + p λ² + q λ + s. Undamped
+// motion meets some conditions with equality, so they allow for rounding.
 bool isStable(double z, double d) {
     constexpr double rounding = 1e-11;
     const Matrix m = stepMatrix(z, d);
@@ -174,12 +176,12 @@ bool isStable(double z, double d) {
            s * s < 1 + rounding;
 }
 
-// z h at which undamped motion first grows, by 1.4 % a step at most; from 3.160 to 6.314 it does not. With ζ > 0.0044
-// nothing grows there, and up to 6.3 and more.
+// z = ω h at which undamped motion first grows, by 1.4 % a step at most. From 3.160 to 6.314 it does not grow. With
+// ζ > 0.0044 no motion grows up to 6.3 and more.
 constexpr double undampedLimit = 3.132823398;
-constexpr double dashpotLimit = 9.5760540;  // of h times a rate that no spring opposes
+constexpr double dashpotLimit = 9.5760540;  // largest stable h times a rate that no spring opposes
 
-// The first z at which a mode of that damping ratio grows.
+// The first z at which a mode of this damping ratio grows.
 double firstUnstable(double zeta) {
     constexpr double narrow = 0.01,
                      most = 8.5;  // narrower than the ranges in which a mode grows; none is stable beyond
@@ -192,7 +194,8 @@ double blanesMoanLargestStep(const FastestMode& mode) {
     return explicitLimit(mode, dashpotLimit, firstUnstable);
 }
 
-// With damping no more than without: slower modes may have less of it, and lie where they would grow.
+// The step with damping is never longer than without: slower modes may have less damping, and may lie in the range
+// where undamped motion grows.
 double blanesMoanAutomaticStep(const FastestMode& mode) {
     return explicitLimit(
         mode, dashpotLimit,

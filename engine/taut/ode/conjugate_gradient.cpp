@@ -36,7 +36,7 @@ double weightedSum(std::size_t size, const Real* w, const Real* a, const Real* b
     return total(sum);
 }
 
-// r = b - A x; its squared norm.
+// Computes r = b - A x. Returns its squared norm.
 template <class Real>
 double ConjugateGradient<Real>::residual(const Product& multiply, const Real* inverse, const Real* b, const Real* x) {
     multiply(x, q_.data());
@@ -48,7 +48,7 @@ template <class Real>
 Solution ConjugateGradient<Real>::solve(const Product& multiply, const Real* inverse, const Real* b, double tolerance,
                                         int maxIterations, Real* x) {
     Solution solution;
-    // What is to be reached is measured by the right-hand side as the free unknowns see it.
+    // The tolerance is relative to the right-hand side as the free unknowns see it: given x move to that side.
     double scale = weightedSum(size_, inverse, b, b);
     bool isGiven = false;
     for (std::size_t i = 0; i < size_; ++i) isGiven = isGiven || (inverse[i] == Real(0) && x[i] != Real(0));
@@ -64,6 +64,7 @@ Solution ConjugateGradient<Real>::solve(const Product& multiply, const Real* inv
     }
     const double target = tolerance * tolerance * scale;
 
+    // The iterations, from the given x on.
     double rho = residual(multiply, inverse, b, x);
     ++solution.products;
     for (std::size_t i = 0; i < size_; ++i) p_[i] = inverse[i] * r_[i];
@@ -71,7 +72,7 @@ Solution ConjugateGradient<Real>::solve(const Product& multiply, const Real* inv
         multiply(p_.data(), q_.data());
         ++solution.products;
         const double curvature = dot(size_, p_.data(), q_.data());
-        if (!(curvature > 0.0)) break;  // not a number, or rounding has eaten what is left
+        if (!(curvature > 0.0)) break;  // it is not a number, or nothing but rounding is left
         const Real along = static_cast<Real>(rho / curvature);
         Real *r = r_.data(), *p = p_.data();
         const Real* q = q_.data();

@@ -1,5 +1,5 @@
-// Explicit Euler: y' = y + h f(t, y), from old data only. Order 1; without damping unstable for every step:
-// kept as a comparison.
+// Explicit Euler: y' = y + h f(t, y), from old data only. Order 1. Without damping it is unstable for every step. It is
+// kept for comparison.
 #include "taut/ode/method.h"
 #include "taut/ode/private/runge_kutta.h"
 #include "taut/ode/private/step_limits.h"
@@ -12,9 +12,9 @@ std::unique_ptr<FirstOrderMethod<Real>> makeExplicitEuler() {
     return makeRungeKutta<Real>({1, {0.0}, {1}, 1});
 }
 
-// ω h <= 2ζ for ζ < 1 and 2(ζ - √(ζ²-1)) above, both smallest for the fastest mode: for ζ < 1
-// the first is τ + γ/ω², and an overdamped mode decays at most at the rate ω (ζ + √(ζ²-1)). Springs under tension add
-// motion that no dashpot damps; then the limit is too high.
+// ω h <= 2ζ for ζ < 1, and <= 2(ζ - √(ζ²-1)) above. Both limits of h are smallest for the fastest mode: the first is
+// τ + γ/ω², and an overdamped mode decays at most at the rate ω (ζ + √(ζ²-1)). Springs under tension add motion that no
+// dashpot damps. Then the limit is too high.
 double explicitEulerLargestStep(const FastestMode& mode) {
     return explicitLimit(
         mode, 2.0, [](double zeta) { return zeta < 1.0 ? 2.0 * zeta : overdampedLimit(zeta, 2.0); });

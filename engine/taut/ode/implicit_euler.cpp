@@ -1,21 +1,20 @@
-// Implicit Euler: v' = v + h a(t + h, x + h v', v'), x' = x + h v'. Order 1; stands any step on linear problems and
-// damps what it cannot follow, ζ_num ≈ z/2.
+// Implicit Euler: v' = v + h a(t + h, x + h v', v'), x' = x + h v'. Order 1. It is stable for any step on linear
+// problems, and damps motion that is too fast for the step, ζ_num ≈ z/2.
 //
 // The first Newton step is Baraff and Witkin's, from the forces at (t + h, x, v):
 //
 //   [M + hΓ + hC + h²K] Δv = h (F - Γ v) - h² K v,   Γ the drag m γ
 //
-// with K and C without what is not positive in them (ImplicitSystem), so that conjugate gradients apply. Held points
-// keep Δv = 0; points moved by hand have theirs given, and pull at the others. Further Newton steps start from the
-// residual
+// K and C lack their parts that are not positive (ImplicitSystem), so that conjugate gradients apply. Held points keep
+// Δv = 0. Points moved by hand have a given Δv, and pull at the others. Further Newton steps start from the residual
 //
 //   G(u) = M (u - v) - h [F(t + h, x + h u, u) - Γ u]
 //
 // and are halved until it falls: |G|² = Σ G²/m.
 //
-// Where contacts then put points elsewhere, the step is solved for once more with those held up along their normals:
-// springs that only the contact compressed, by up to v h, would add ½ k (v h)². What is across is solved for, by
-// conjugate gradients in the subspace (Baraff and Witkin's filter), with friction as an impulse.
+// If contacts then move points, the step is solved once more, with these points held up along their normals. Otherwise
+// springs that only the contact compressed, by up to v h, would add the energy ½ k (v h)². The solve finds the motion
+// across the normals, by conjugate gradients in the subspace (Baraff and Witkin's filter), with friction as an impulse.
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +41,7 @@ class ImplicitEuler final : public Method<Real> {
     }
 
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
-        if (change_.size() != state.layout.size()) prepare(state.layout);  // a state that another one started
+        if (change_.size() != state.layout.size()) prepare(state.layout);  // another object started this state
         std::copy(state.x.begin(), state.x.end(), start_.x.begin());
         std::copy(state.v.begin(), state.v.end(), start_.v.begin());
         Step now{system, implicitPartOf(system, implicitEulerTitle), t + h, h, state};
@@ -115,13 +114,13 @@ class ImplicitEuler final : public Method<Real> {
         ++this->work_.evaluations;
     }
 
-    // Solves A change_ = b_, A = M + hΓ + hC + h²K at (x, v), from the given guess.
+    // Solves A change_ = b_, A = M + hΓ + hC + h²K at (x, v), from the guess in change_.
     void solve(const Step& now, const Real* x, const Real* v) {
         matrix_.fix(now.system, now.end, x, v, now.h, &supports_);
         matrix_.solve(b_, change_, supports_, this->work_);
     }
 
-    // The velocities at the end into u_.
+    // Computes the velocities at the end -> u_.
     void solve(const Step& now) {
         const double scale = firstNewtonStep(now);
         if (newtonSteps_ > 1) refine(now, scale);
@@ -131,7 +130,7 @@ class ImplicitEuler final : public Method<Real> {
         return now.linear.inverseMasses()[i] > Real(0) && supports_.isFree(i);
     }
 
-    // Baraff and Witkin's step into u_; the norm of its right-hand side.
+    // Baraff and Witkin's step -> u_. Returns the norm of its right-hand side.
     double firstNewtonStep(const Step& now) {
         const State<Real>& state = now.state;
         const Real h = static_cast<Real>(now.h);
@@ -141,7 +140,7 @@ class ImplicitEuler final : public Method<Real> {
         now.linear.linearise(now.end, state.x.data(), state.v.data(), now.h * now.h, 0.0);
         now.linear.addProduct(state.v.data(), scratch_.data());
         ++this->work_.iterations;
-        // Where points that are moved by hand will be gives their velocity, so that x + h u is there.
+        // Points that are moved by hand get the velocity that takes them to their place, x + h u.
         std::copy(state.x.begin(), state.x.end(), place_.begin());
         std::copy(state.v.begin(), state.v.end(), trial_.begin());
         now.system.prescribe(now.end, place_.data(), trial_.data());
@@ -158,6 +157,7 @@ class ImplicitEuler final : public Method<Real> {
                     change_[at] = (end - state.x[at]) / h - state.v[at];
                 }
             });
+        // Points held along a normal get the change along it that takes them to where the contact put them.
         supports_.forEachAlong([&](const Support& support) {
             const auto part = [&](const Real* rows) { return supports_.along(support, rows); };
             const double wanted = (part(supports_.given()) - part(state.x.data())) / now.h - part(state.v.data());
@@ -169,7 +169,8 @@ class ImplicitEuler final : public Method<Real> {
         return scale;
     }
 
-    // Newton steps on from u_ until the residual is small against the scale, or what the first step has left.
+    // Makes Newton steps from u_ on, until the residual is small against the scale or the residual of the first step,
+    // whichever is larger.
     void refine(const Step& now, double scale) {
         double norm = residual(now, u_.data());
         const double target = newtonTolerance_ * std::max(scale, norm);
@@ -189,7 +190,7 @@ class ImplicitEuler final : public Method<Real> {
         if (!(norm <= target)) ++this->work_.unconverged;
     }
 
-    // -G(u) into b_, x + h u into place_; |G|.
+    // Computes -G(u) -> b_ and x + h u -> place_. Returns |G|.
     double residual(const Step& now, const Real* u) {
         const State<Real>& state = now.state;
         const Real h = static_cast<Real>(now.h);
@@ -219,10 +220,10 @@ class ImplicitEuler final : public Method<Real> {
     int newtonSteps_;
     double newtonTolerance_;
     ImplicitMatrix<Real> matrix_;
-    State<Real> start_;                    // of the last step
-    Supports<Real> supports_;              // while it yields
+    State<Real> start_;                    // at the start of the last step
+    Supports<Real> supports_;              // during yield()
     core::AlignedArray<Real> change_, b_;  // Δv, unknown of the solve; right-hand side
-    core::AlignedArray<Real> u_, trial_;   // v', and the one in question
+    core::AlignedArray<Real> u_, trial_;   // v', and the one on trial
     core::AlignedArray<Real> place_;       // x + h u
     core::AlignedArray<Real> acceleration_, scratch_;
 };

@@ -4,8 +4,8 @@
 //   x' = x + h v⁺
 //   w' = 1.5 v⁺ - 0.5 v⁻                                        velocity at t + h for dashpots and wind
 //
-// Drag is semi-implicit (limit h ω < 2 whatever γ), other velocity forces see the extrapolated w, which keeps order
-// 2 at the limit h²ω² + 4hc < 4 for a modal rate c. Start: v(-h/2) = v0 - (h/2) a(x0, v0), w = v0.
+// Drag is semi-implicit (limit h ω < 2 for any γ). Other velocity forces see the extrapolated w. This keeps order 2, at
+// the limit h²ω² + 4hc < 4 for a modal rate c. Start: v(-h/2) = v0 - (h/2) a(x0, v0), w = v0.
 #include <algorithm>
 #include <atomic>
 
@@ -40,7 +40,7 @@ class Leapfrog final : public Method<Real> {
         ++this->work_.evaluations;
     }
 
-    // v_n = ½(v⁻ + v⁺): the v⁺ that the next step will find.
+    // v_n = ½(v⁻ + v⁺), with the v⁺ that the next step will compute.
     void synchronise(SecondOrderSystem<Real>& system, double t, double h, const State<Real>& state, Real* v) override {
         if (h != h_) prepare(system, h, state.layout);
         Centre centre(*this, state, v);
@@ -78,7 +78,7 @@ class Leapfrog final : public Method<Real> {
     struct Update final : Sink {
         Update(const Leapfrog& m, Real step, State<Real>& s) : Sink(m, s.layout), h(step), state(s) {}
         void take(int first, int last, const Real* const* a) override {
-            // With one drag for all, the start of the tables serves every range and stays in the cache.
+            // If all points have the same drag, every range uses the start of the tables, which stays in the cache.
             const int entry = this->method.isDragUniform_ ? 0 : first;
             for (int p = 0; p < this->layout.planes; ++p) {
                 const std::ptrdiff_t at = this->plane(p) + first;

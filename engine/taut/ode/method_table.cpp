@@ -5,7 +5,8 @@
 #include "taut/core/error.h"
 #include "taut/ode/private/stacked_method.h"
 
-// A line a method, in the order in which texts name them: the function that returns its row, in a file of its own.
+// One line for each method, in the order in which texts name them. It is the function that returns the method's row;
+// each has its own file.
 #define TAUT_METHODS(METHOD) \
     METHOD(explicitEuler)    \
     METHOD(symplecticEuler)  \

@@ -1,4 +1,4 @@
-// The classical Runge-Kutta method. Order 4; stands undamped motion up to ω h = 2√2.
+// The classical Runge-Kutta method. Order 4. Undamped motion is stable up to ω h = 2√2.
 #include <cmath>
 
 #include "taut/ode/method.h"
@@ -25,7 +25,7 @@ std::unique_ptr<FirstOrderMethod<Real>> makeRk4() {
     return makeRungeKutta<Real>({4, {0.0, 0.5, 0.5, 1.0}, {1, 2, 2, 1}, 6});
 }
 
-// |R(w)| = 1. Within |w| <= 2.5 all of the left half plane is stable, and beyond 3.5 nothing.
+// The limit is |R(w)| = 1. All of the left half plane within |w| <= 2.5 is stable, and nothing beyond 3.5.
 double rk4LargestStep(const FastestMode& mode) {
     constexpr double real = 2.785293563405282;  // on the real axis: w³ + 4w² + 12w + 24 = 0
     return explicitLimit(mode, real, [](double zeta) {

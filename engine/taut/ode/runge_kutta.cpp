@@ -58,7 +58,7 @@ class RungeKutta final : public FirstOrderMethod<Real> {
     }
 
     Tableau tableau_;
-    bool usesSum_ = false;  // else the last slope alone counts, and its weight is the divisor
+    bool usesSum_ = false;  // false: only the last slope counts, and its weight is the divisor
     core::AlignedArray<Real> slope_, stage_, sum_;
 };
 

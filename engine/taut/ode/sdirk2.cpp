@@ -3,20 +3,20 @@
 //
 //   y1 = y + γh f(t + γh, y1),   y' = y + (1 - γ)h f(t + γh, y1) + γh f(t + h, y')
 //
-// It stands any step on linear problems, and what is too fast for the step dies out. Either stage is a step of implicit
-// Euler by s = γh, the second one from y + (1/γ - 1)(y1 - y). Of
+// It is stable for any step on linear problems, and motion that is too fast for the step dies out. Each stage is a step
+// of implicit Euler by s = γh, the second one from y + (1/γ - 1)(y1 - y). A stage makes one Newton step for G(u) = 0,
 //
 //   G(u) = M (u - v) - s [F(x + s u, u) - Γ u],   Γ the drag m γ
 //
-// one Newton step is made from u_0, the velocity at hand, v or that of the first stage, with the forces at
-// X = x + s u_0 and a velocity w that the last slope predicts:
+// It starts from u_0, which is v or the velocity of the first stage. It takes the forces at X = x + s u_0 and at a
+// velocity w that the last slope predicts:
 //
 //   [M + sΓ + sC + s²K] Δu = M (v - u_0) + s [F(X, w) - Γ u_0 - C (u_0 - w)]
 //
-// K and C, at (X, w), lack what is not positive in them, and C of wind more (ImplicitSystem); F does not, so that the
-// order is 2 nonetheless: of Δu = O(h) what K lacks leaves s² of it, and of u - w = O(h²) what C lacks s. A stage that
-// starts from the forces where the points will be also undoes most of what motion across a spring has stretched it,
-// which keeps very stiff ones calm; predicted by a slope, places would be further off than what they are to mend.
+// K and C at (X, w) lack their parts that are not positive, and for wind C lacks more (ImplicitSystem). F is complete,
+// so the order is still 2: the missing part of K acts on Δu = O(h) with s², the missing part of C on u - w = O(h²) with
+// s. The forces are taken where the points will be, so a stage also undoes most of the stretch that motion across a
+// spring causes. This keeps very stiff springs calm. Places predicted by a slope would be off by more than that.
 #include <algorithm>
 #include <cmath>
 
@@ -42,11 +42,12 @@ class Sdirk2 final : public Method<Real> {
     }
 
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
-        if (matrix_.size() != state.layout.size()) prepare(state.layout);  // a state that another one started
+        if (matrix_.size() != state.layout.size()) prepare(state.layout);  // another object started this state
         implicitPartOf(system, sdirk2Title);
         std::copy(state.v.begin(), state.v.end(), u_.begin());
         for (std::size_t i = 0; i < u_.size(); ++i)
             seen_[i] = state.v[i] + static_cast<Real>(gamma * h) * state.memory[0][i];
+        // The first stage, then the second from the first one's change.
         stage(system, t + gamma * h, gamma * h, state.x, state.v);
         const Real ahead = static_cast<Real>(1 / gamma - 1);
         for (std::size_t i = 0; i < u_.size(); ++i) {
@@ -82,8 +83,9 @@ class Sdirk2 final : public Method<Real> {
         x_ = v_ = u_ = seen_ = place_ = force_ = b_ = change_ = Planes(layout.size());
     }
 
-    // u_ and place_ = x + s u_ at t, from the guess u_.
+    // Solves a stage at t, from the guess u_ -> u_ and place_ = x + s u_.
     void stage(SecondOrderSystem<Real>& system, double t, double s, const Planes& x, const Planes& v) {
+        // The forces at X = place_ and w = seen_.
         const Real step = static_cast<Real>(s);
         const Layout layout = system.layout();
         for (std::size_t i = 0; i < u_.size(); ++i) place_[i] = x[i] + step * u_[i];
@@ -93,6 +95,7 @@ class Sdirk2 final : public Method<Real> {
         system.accelerate(t, place_.data(), seen_.data(), store);
         ++this->work_.evaluations;
 
+        // The right-hand side, then the Newton step.
         ImplicitSystem<Real>& implicit = *system.implicitPart();
         const Real *mass = implicit.masses(), *inverseMass = implicit.inverseMasses(), *drag = system.dragRates();
         for (std::size_t i = 0; i < u_.size(); ++i) change_[i] = u_[i] - seen_[i];
@@ -116,10 +119,10 @@ class Sdirk2 final : public Method<Real> {
     }
 
     ImplicitMatrix<Real> matrix_;
-    Planes x_, v_;       // from which the second stage starts
+    Planes x_, v_;       // start of the second stage
     Planes u_, seen_;    // velocities of a stage, and w
     Planes place_;       // x + s u
-    Planes force_;       // over mass
+    Planes force_;       // divided by mass
     Planes b_, change_;  // -G, Δu
 };
 

@@ -1,29 +1,29 @@
-// Leap-frog with strong damping split off: its limit is ω h < 2 whatever the dashpots.
+// Leap-frog with strong damping split off. Its limit is ω h < 2 for any dashpots.
 //
 //   v⁺ = D* R D v⁻,   x' = x + h v⁺,   w' = 1.5 v⁺ - 0.5 v⁻
 //
 // Why split. A dashpot c damps the velocity of a pair of points at a rate c (w_a + w_b). An explicit step is unstable
-// once h times that rate is large: a strong dashpot then sets the step although it moves nothing. An implicit step
-// would solve for all points at once.
+// once h times this rate is large. So a strong dashpot sets the step although it moves nothing. An implicit step would
+// have to solve for all points at once.
 //
-// What is split. The kick, at fixed positions, solves v' = A v + r(t, x, v) - γ v. A is the sum of the dashpots; each
-// of them acts on two points only, so each alone is solved in closed form (mechanics/dashpot_sweep.h).
+// What is split. The kick, at fixed positions, solves v' = A v + r(t, x, v) - γ v. A is the sum of the dashpots. Each
+// dashpot acts on only two points, so each alone is solved in closed form (mechanics/dashpot_sweep.h).
 //   D    half a step of most dashpots, one after the other
 //   R    a whole step of the forces r and the drag γ, then of the dashpots that are solved as chains
 //   D*   half a step of the dashpots of D, in the opposite order: the adjoint of D
 //
-// What order it keeps. D alone composes flows that do not commute: order 1 (Lie and Trotter). D* R D reads the same in
-// both directions where R does, and a symmetric method has even order: 2 (Strang 1968; Hairer, Lubich and Wanner,
-// Geometric Numerical Integration, II.5). In R drag takes the mean of the velocities before and after it, and chains
-// the mean of those before the kick and after themselves: each alone is symmetric. Where drag and chains act on the
-// same points an error of first order remains, γ h/2 of what the chains do. Forces that depend on velocity take w,
-// extrapolated to the time of the positions with an error O(h²).
+// What order it keeps. D alone composes flows that do not commute: order 1 (Lie and Trotter). D* R D is the same in
+// both directions if R is, and a symmetric method has even order: 2 (Strang 1968; Hairer, Lubich and Wanner, Geometric
+// Numerical Integration, II.5). In R, drag takes the mean of the velocities before and after it, and chains take the
+// mean of the velocities before the kick and after the chains. Each alone is symmetric. If drag and chains act on the
+// same points, an error of first order remains: γ h/2 of what the chains do. Forces that depend on velocity take w,
+// which is extrapolated to the time of the positions with an error O(h²).
 //
 // Why it is stable. D and D* never raise the kinetic energy, for any h and any c. Without them the method is leap-frog.
-// For large h c they are wrong only in how fast they damp: accuracy, not stability, keeps the step short against the
-// dashpots too (island/step_choice.cpp).
+// For large h c they are wrong only in how fast they damp. So the dashpots limit the step by accuracy, not by stability
+// (island/step_choice.cpp).
 //
-// The first kick is half as long; from then on v lags by half a step, as in leap-frog.
+// The first kick is half as long. From then on v lags by half a step, as in leap-frog.
 #include <algorithm>
 
 #include "taut/ode/private/leapfrog_parts.h"
@@ -57,7 +57,7 @@ class SplitLeapfrog final : public Method<Real> {
         ++this->work_.evaluations;
     }
 
-    // Half of the kick to come.
+    // Adds half of the next kick.
     void synchronise(SecondOrderSystem<Real>& system, double t, double h, const State<Real>& state, Real* v) override {
         std::copy(state.v.begin(), state.v.end(), v);
         if (isAtStart(state)) return;
@@ -99,7 +99,7 @@ class SplitLeapfrog final : public Method<Real> {
         split.dampAfter(state.x.data(), v);
     }
 
-    // ahead: of a whole kick's change, by which v has to be led to be that at the end of the step.
+    // ahead: the share of this kick's change that takes v on to the end of the step.
     void drift(double h, Real ahead, State<Real>& state) {
         const Real step = static_cast<Real>(h);
         Real *x = state.x.data(), *v = state.v.data(), *w = state.memory[0].data();

@@ -17,7 +17,7 @@ class Stacked final : public Method<Real> {
 
     void step(SecondOrderSystem<Real>& system, double t, double h, State<Real>& state) override {
         const std::size_t half = state.layout.size();
-        if (y_.size() != 2 * half) y_ = core::AlignedArray<Real>(2 * half);  // a state that another one started
+        if (y_.size() != 2 * half) y_ = core::AlignedArray<Real>(2 * half);  // another object started this state
         std::copy_n(state.x.data(), half, y_.data());
         std::copy_n(state.v.data(), half, y_.data() + half);
         FirstOrderView<Real> view(system);

@@ -36,12 +36,12 @@ double cubeRoot(double x) {
 }
 
 double slowGrowthStep(double omega, double drag) {
-    // ω⁴ h³/8 - γ/2 = 1/patience, which is the growth for z well below 1.
+    // ω⁴ h³/8 - γ/2 = 1/patience. The left side is the growth rate for z well below 1.
     const double rate = 1.0 / patience + 0.5 * drag;
     return std::min(cubeRoot(8.0 * rate / omega), 0.5) / omega;
 }
 
-// ζ < 1: the root of z³/4 - ζ z² + 2ζ² z - 2ζ = 0, at most 2.2; ζ >= 1 as explicit Euler.
+// For ζ < 1 the root of z³/4 - ζ z² + 2ζ² z - 2ζ = 0, at most 2.2. For ζ >= 1 the limit of explicit Euler.
 double heunLargestStep(const FastestMode& mode) {
     return explicitLimit(
         mode, 2.0,
@@ -54,9 +54,10 @@ double heunLargestStep(const FastestMode& mode) {
         });
 }
 
-// The stable step, but at least that at which the fastest motion, undamped, grows slowly, unless it is overdamped; and
-// no more than that at which motion across tense springs, which no dashpot damps, grows slowly: it is taken to have up
-// to a quarter of the fastest frequency, as of a tension that stretches springs by 1/16.
+// The stable step, with two corrections. It is at least the step at which the fastest motion grows slowly without
+// dashpots, unless that motion is overdamped. It is at most the step at which motion across tense springs grows slowly,
+// because no dashpot damps it. That motion is taken to have up to a quarter of the fastest frequency, which a tension
+// causes that stretches springs by 1/16.
 double heunAutomaticStep(const FastestMode& mode) {
     const double limit = heunLargestStep(mode);
     if (mode.omega <= 0.0) return limit;
@@ -65,7 +66,7 @@ double heunAutomaticStep(const FastestMode& mode) {
     return std::min(std::max(limit, least), slowGrowthStep(0.25 * mode.omega, mode.drag));
 }
 
-// Largest h with h²ω² + 4h(τω² + c) < 4; drag is semi-implicit and does not enter.
+// Largest h with h²ω² + 4h(τω² + c) < 4. Drag is semi-implicit and does not enter.
 double leapfrogLargestStep(const FastestMode& mode) {
     if (mode.omega <= 0.0) return mode.rate > 0.0 ? 1.0 / mode.rate : HUGE_VAL;
     const double omega2 = mode.omega * mode.omega;

@@ -57,14 +57,14 @@ std::unique_ptr<Method<Real>> makeSymplecticEuler(const MethodOptions&) {
     return std::make_unique<SymplecticEuler<Real>>();
 }
 
-// Largest h with h²ω² + 2h(τω² + c - γ) < 4: from the trace and determinant of a step of the damped oscillator. Drag
-// helps, as little as the point with the smallest has.
+// Largest h with h²ω² + 2h(τω² + c - γ) < 4, from the trace and determinant of a step of the damped oscillator. Drag
+// raises the limit, so the smallest drag of a point counts.
 double symplecticEulerLargestStep(const FastestMode& mode) {
     if (mode.omega <= 0.0) return mode.rate > mode.drag ? 2.0 / (mode.rate - mode.drag) : HUGE_VAL;
     const double omega2 = mode.omega * mode.omega;
     const double b = 0.5 * (mode.tau * omega2 + mode.rate - mode.drag);  // h²ω²/4 + h b - 1 = 0
     const double root = std::sqrt(b * b + omega2);
-    // Without a difference of equals.
+    // Each form avoids a difference of nearly equal numbers.
     return b >= 0.0 ? 2.0 / (root + b) : 2.0 * (root - b) / omega2;
 }
 

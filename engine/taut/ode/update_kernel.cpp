@@ -18,8 +18,8 @@ struct BitsOf<double> {
 template <class Real>
 inline bool leapfrog(int n, const Real* a, const Real* keep, const Real* gain, Real h, Real limit, Real* x, Real* v,
                      Real* w) {
-    // Without their sign, numbers come in the order of their bits, infinity and NaN last. What is added carries those
-    // from the limit on into the sign's place.
+    // Without the sign, numbers are ordered as their bits, with infinity and NaN last. Adding `room` carries into the
+    // sign's place for every number from the limit on.
     using Bits = typename BitsOf<Real>::Type;
     constexpr Bits sign = Bits(1) << (8 * sizeof(Real) - 1);
     const Bits room = sign - __builtin_bit_cast(Bits, limit);

@@ -3,8 +3,8 @@
 //   v½ = v + (h/2)(a_el - γ v),  x' = x + h v½,  v' = (v½ + (h/2) a_el')/(1+b),  b = γ h/2
 //
 // a_el is kept from the step before. a_el' sees the velocity extrapolated from half steps, w = 1.5 v½ - 0.5 v½(before),
-// as leap-frog does; at the start and after a contact a_el is evaluated anew, from v. That a contact has been is part
-// of the state, so that a copy of it goes on in the same way.
+// as in leap-frog. At the start and after a contact a_el is evaluated anew, from v. The state records that there was a
+// contact, so a copy of the state goes on in the same way.
 #include "taut/ode/method.h"
 #include "taut/ode/private/step_limits.h"
 

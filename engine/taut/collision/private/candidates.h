@@ -1,4 +1,4 @@
-// What Candidates keeps: an enlarged box (room) for every solid and every block of points, and which of them overlap.
+// The data of Candidates: an enlarged box (room) for every solid and every block of points, and which of them overlap.
 // It knows no contacts.
 #pragma once
 
@@ -16,17 +16,17 @@ namespace taut::collision {
 // Points that are tried together.
 inline constexpr int candidateBlock = contactBatch;
 
-// How near to a solid the points have to be to be tried at all: the distance that they keep, and roundings of the
-// largest coordinate in their box [m].
+// [m] Points are tried against a solid if they are nearer to it than this: the distance that they keep, plus roundings
+// of the largest coordinate in their box.
 template <class Real>
 double reachOf(double thickness, const core::Aabb& box);
 
 class CandidateRooms {
   public:
-    // Gives new rooms to solids that have left theirs. Before the blocks of a step.
+    // Gives new rooms to solids that have left theirs. Call it before the blocks of a step.
     void follow(std::span<const Solid> solids);
-    // Of a block of a step, counting from 0, those that it may touch, into near(); `box` is that of all paths unless
-    // there are none.
+    // Finds the solids that a block of points (numbered from 0 in each step) may touch -> near(). `box` becomes the box
+    // of all paths, unless near() is empty.
     template <class Real>
     void look(std::span<const Solid> solids, std::size_t block, const BlockRows<Real>& rows, double thickness,
               core::Aabb& box);
@@ -37,7 +37,7 @@ class CandidateRooms {
     std::vector<Contact> scratch;
 
   private:
-    // A bounded solid stays in the box, a half-space under the plane.
+    // A bounded solid stays in the box, a half-space stays under the plane.
     struct SolidRoom {
         core::Aabb box;
         HalfSpace above{};

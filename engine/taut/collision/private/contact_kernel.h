@@ -1,14 +1,14 @@
-// Contact of a batch of points with one convex solid, one copy an instruction set; every copy gives the bits that the
-// points get one by one (resolve.cpp). Plain data only.
+// Contact of a batch of points with one convex solid. There is one copy for each instruction set. Every copy gives the
+// same bits as resolving the points one by one (resolve.cpp). Plain data only.
 #pragma once
 
 #include "taut/collision/closed_shape.h"
 
 namespace taut::collision {
 
-inline constexpr int contactBatch = 64;  // points at most: what is known of them stays in the first-level cache
+inline constexpr int contactBatch = 64;  // points at most, so that their data stays in the first-level cache
 
-// Room for them in a row, and for a line of the cache more: rows a page apart would get in each other's way.
+// Length of a row: a batch and one cache line more. Rows that are a page apart would slow each other down.
 inline constexpr int contactRow = contactBatch + 8;
 
 struct KernelFrame {
@@ -24,13 +24,13 @@ struct ContactArgs {
     Real* x[3];               // (n) [m] at its end
     Real* v[3];               // (n) [m/s]
     const Real* inverseMass;  // (n) [1/kg]; 0: left alone
-    const unsigned* mask;     // (n) those of another mask than `bits` are left alone; nullptr: none are
+    const unsigned* mask;     // (n) points whose mask is not `bits` are left alone; nullptr: none are
     unsigned bits;
-    bool records;  // whether positions of touched points are wanted
+    bool records;  // whether the caller wants the positions of touched points
 
     ClosedShape shape;
     double normal[3];      // of a half-space, in the world
-    double offset;         // [m] likewise
+    double offset;         // [m] of a half-space, in the world
     KernelFrame from, to;  // of the solid, at the start and the end of the step
     bool still;            // from and to are the same
     double thickness;      // [m] to be kept
@@ -42,16 +42,16 @@ struct ContactArgs {
     double fastest;        // [m/s] limit of the surface's speed
 };
 
-// What the kernel makes of a point.
+// What the kernel has done with a point.
 enum class PointOutcome : long {
-    free,     // nothing
-    touched,  // out of the solid
-    left      // its path may lead through: nothing is done
+    free,     // nothing: it does not touch
+    touched,  // moved it out of the solid
+    left      // nothing: its path may lead through the solid
 };
 
-// Of a batch: what the kernel works on, and its results.
+// The kernel's results for a batch, and its working data.
 struct ContactLanes {
-    alignas(64) long outcome[contactRow];        // a PointOutcome each
+    alignas(64) long outcome[contactRow];        // a PointOutcome for each point
     alignas(64) double impulse[contactRow];      // of touched points, as in Contact
     alignas(64) double position[3][contactRow];  //
     alignas(64) double normal[3][contactRow];    //
@@ -60,34 +60,34 @@ struct ContactLanes {
     alignas(64) double carried[3][contactRow];  // velocity of the surface at `position`
     alignas(64) double end[3][contactRow];
     alignas(64) double v[3][contactRow];
-    alignas(64) double localStart[3][contactRow];  // then, of a moving solid, the start carried along by it
+    alignas(64) double localStart[3][contactRow];  // for a moving solid, later the start carried along by it
     alignas(64) double localEnd[3][contactRow];
     alignas(64) double skin[contactRow];
-    alignas(64) double distance[contactRow];  // at the end; then the offset of the half-space to end in
+    alignas(64) double distance[contactRow];  // at the end; later the offset of the half-space to end in
     alignas(64) double depth[contactRow];
     alignas(64) double startDistance[contactRow];
     alignas(64) double startNormal[3][contactRow];
     alignas(64) double approach[contactRow];
     alignas(64) double bounce[contactRow];
-    alignas(64) double slide[3][contactRow];  // then the velocity after the touch
+    alignas(64) double slide[3][contactRow];  // later the velocity after the touch
     alignas(64) double grip[contactRow];
     alignas(64) long slips[contactRow];
     alignas(64) double slideSquare[contactRow];
     alignas(64) double square[contactRow];
     alignas(64) double pressed[contactRow];
-    alignas(64) double along[3][contactRow];  // then the end after the touch
+    alignas(64) double along[3][contactRow];  // later the end after the touch
     alignas(64) double back[contactRow];
     alignas(64) long creeps[contactRow];
 };
 
-// Bits of what a call returns: whether any point was touched, or left.
+// Bits of a call's return value: whether any point was touched, or left.
 inline constexpr long anyTouched = 1;
 inline constexpr long anyLeft = 2;
 
 template <class Real>
 using ContactKernel = long (*)(const ContactArgs<Real>& args, ContactLanes& lanes);
 
-// For the instruction set in use.
+// The kernel for the instruction set in use.
 template <class Real>
 ContactKernel<Real> contactKernel();
 template <>

@@ -1,4 +1,5 @@
-// The response to a touch in loops over a batch: a part of contact_kernel.cpp, compiled once for each instruction set.
+// The response to a touch, in loops over a batch. It is part of contact_kernel.cpp, compiled once for each instruction
+// set.
 #pragma once
 
 #include "taut/collision/private/contact_kernel.h"
@@ -10,26 +11,26 @@ namespace {
 using Row = double[contactRow];
 using Rows = Row[3];
 
-// What is found out of a point on the way.
+// Bits of `outcome` while the kernel works: what it has found out about a point so far.
 constexpr long isLive = 4, isNear = 8, needsStart = 16;
 
-// a where all bits of `mask` are set, b where none are. Unlike a selection it reads both, always: compilers make masked
-// reads and writes of selections, which some processors take long over.
+// a if all bits of `mask` are set, b if none are. It always reads both. Compilers turn a selection into masked reads
+// and writes, which are slow on some processors.
 inline double choose(long mask, double a, double b) {
     return __builtin_bit_cast(double, (mask & __builtin_bit_cast(long, a)) | (~mask & __builtin_bit_cast(long, b)));
 }
 
-// Apart from the loops that find them: no compiler here vectorises those otherwise.
+// A loop of its own: inside the loops that set `outcome` it would keep compilers from vectorising them.
 inline long anyOf(const long (&outcome)[contactRow], int n) {
     long any = 0;
     for (int i = 0; i < n; ++i) any |= outcome[i];
     return any;
 }
 
-// respond of response.h, which is cut where one condition would depend on another: compilers vectorise each of these
-// loops, and not all of them as one. `velocity` is the surface's.
-// What the normal impulse and friction would do to each point. `path` is the start of the path, carried along by the
-// surface.
+// respond() of response.h, cut where one condition would depend on another: compilers vectorise each of these loops,
+// but not all of them as one. `velocity` is the surface's.
+// press() computes what the normal impulse and friction would do to each point. `path` is the start of the path,
+// carried along by the surface.
 template <bool still>
 inline void press(double friction, double restitution, double restSpeed, const Rows& path, const Rows& velocity,
                   ContactLanes& lanes, int n) {
@@ -47,6 +48,7 @@ inline void press(double friction, double restitution, double restSpeed, const R
         const double slideSquare = sx * sx + sy * sy + sz * sz;
         const double grip = friction * impulse;
 
+        // Position: the way relative to the surface, and the part of it along the surface after the touch.
         const double x = lanes.end[0][i], y = lanes.end[1][i], z = lanes.end[2][i];
         const double wx = x - path[0][i], wy = y - path[1][i], wz = z - path[2][i];
         const double depth = lanes.distance[i] - (nx * x + ny * y + nz * z);
@@ -76,7 +78,7 @@ inline void press(double friction, double restitution, double restSpeed, const R
         lanes.back[i] = limit;
         const long found = lanes.outcome[i];
         lanes.slips[i] = slideSquare <= grip * grip ? 0L : found;  // friction does not stop it
-        lanes.creeps[i] = square <= limit * limit ? 0L : found;    // nor undo all of its way
+        lanes.creeps[i] = square <= limit * limit ? 0L : found;    // friction does not undo all of its way
     }
 }
 
@@ -121,7 +123,8 @@ inline void findBacks(ContactLanes& lanes, int n) {
     }
 }
 
-// With friction, along is taken away as well; and what held where it stood on a still surface stays to the bit.
+// Moves the end out of the solid. With friction it also takes `along` away. A point that friction held in its place on
+// a still surface stays there to the bit.
 template <bool still, bool rough, bool creeps>
 inline void lift(ContactLanes& lanes, int n) {
     TAUT_INDEPENDENT

@@ -1,4 +1,5 @@
-// Convex forms: the search along a path asks their distance by name, not by a virtual call, place after place.
+// Convex forms. The search along a path asks for their distance at many places, so it is a direct call, not a virtual
+// one.
 #pragma once
 
 #include <concepts>
@@ -8,16 +9,16 @@
 
 namespace taut::collision {
 
-// A convex shape by its signed distance, exact outside and inside, and by what it fills.
+// A convex shape, given by its signed distance (exact outside and inside) and its box.
 template <class T>
 concept ClosedForm = requires(const T shape, const dvec3& p) {
     { shape.nearest(p) } -> std::same_as<Nearest>;
     { shape.bounds() } -> std::convertible_to<std::optional<core::Aabb>>;
 };
 
-// Where a path first comes as near as `gap` [m] to the shape. From outside, every nearest point carries a plane that
-// the shape lies behind, so a step to that plane never goes too far, and a path that leads away from it never
-// arrives: Newton's method on the distance, which for a convex shape converges from one side.
+// Where a path first comes as near as `gap` [m] to the shape. Seen from outside, the shape lies behind the plane
+// through every nearest point. So a step to that plane never goes too far, and a path that leads away from it never
+// arrives. This is Newton's method on the distance, which for a convex shape converges from one side.
 template <ClosedForm Closed>
 bool reachConvex(const Closed& shape, const Path& path, Nearest near, double gap, HalfSpace& touch) {
     constexpr int mostSteps = 32;
@@ -44,7 +45,7 @@ template <ClosedForm Closed>
 bool sweepConvex(const Closed& shape, const Path& path, HalfSpace& touch) {
     const Nearest end = shape.nearest(path.to);
     if (end.distance >= path.thickness + path.skin) {
-        // The shape lies behind the plane of `end`: a start before that plane means a free path.
+        // The shape lies behind the plane of `end`, so a path that starts before that plane is free.
         const double startHeight = end.distance - glm::dot(end.normal, path.to - path.from);
         if (startHeight >= path.thickness) return false;
         const Nearest start = shape.nearest(path.from);

@@ -1,4 +1,4 @@
-// The loops over whole blocks of points that find out which of them may touch at all. Know boxes and planes only.
+// Loops over whole blocks of points that find which points may touch at all. They know only boxes and planes.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace taut::collision {
 
-// Rounding of a coordinate of 1 m, some times over: of the state, and of the frames it is taken through.
+// [-] Some times the rounding of a coordinate of 1 m: the state is rounded, and so are the frames it is taken through.
 template <class Real>
 constexpr double skinPerMetre = sizeof(Real) == sizeof(float) ? 4.8e-7 : 4e-15;
 
@@ -19,11 +19,11 @@ struct BlockRows {
     int count = 0;
 };
 
-// The box of all paths; a coordinate that is not a number leaves it as it is.
+// The box of all paths. A coordinate that is not a number is ignored.
 template <class Real>
 core::Aabb boundsOf(const BlockRows<Real>& rows);
 
-// Whether every path ends in the box; a coordinate that is not a number is taken to.
+// Whether every path ends in the box. A coordinate that is not a number counts as inside.
 template <class Real>
 bool staysIn(const BlockRows<Real>& rows, const core::Aabb& box);
 

@@ -1,4 +1,5 @@
-// Triangles as they bound a solid, or a sheet: checked, their repeated vertices joined, the outside found.
+// The triangles that bound a solid or form a sheet. They are checked, repeated vertices are joined, and the outside is
+// found.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,9 @@ struct Facet {
 
 struct Facets {
     std::vector<Facet> triangles;        // none without area
-    std::vector<std::uint32_t> corners;  // (3 · triangles) vertices; those at one place are the same
-    std::vector<bool> isBorder;          // (vertices) an edge that has not a triangle on either side ends here
-    bool isClosed = false;               // it has no border; then triangles show their front to the outside
+    std::vector<std::uint32_t> corners;  // (3 · triangles) vertices; two at one place have the same number
+    std::vector<bool> isBorder;          // (vertices) an edge without a triangle on each side ends here
+    bool isClosed = false;               // there is no border; then the triangles' fronts face outwards
 };
 
 // Throws core::Error(badContent) for a mesh without triangles of non-zero area, an index out of range, or more than two

@@ -1,5 +1,5 @@
-// The nearest place of a set of triangles, found in cells that know which triangles can be nearest, or in a tree
-// where no cell knows. It knows neither paths nor what the triangles bound.
+// Finds the nearest place on a set of triangles: in cells that know which triangles can be nearest, or in a tree where
+// no cell knows. It knows no paths, and does not know what the triangles bound.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace taut::collision {
 
-// The nearest place of some triangles.
+// The nearest place on some triangles.
 struct Foot {
     double square = std::numeric_limits<double>::infinity();  // [m²] of the distance
     double facing = -1.0;                                     // |height over the triangle's plane| [m]
@@ -25,24 +25,24 @@ struct Foot {
 class FootFinder {
   public:
     FootFinder() = default;
-    // The same whatever the number of threads.
+    // Gives the same bits for any number of threads.
     explicit FootFinder(Facets facets);
 
-    // What is known of a place without looking at triangles.
+    // What the cells know about a place, without a look at triangles.
     struct Place {
         double least;               // [m] the surface is at least this far
-        double most;                // [m] and at most this far
-        bool inside;                // if least > 0
-        std::span<const int> list;  // triangles among which the nearest is; empty: not known
+        double most;                // [m] the surface is at most this far
+        bool inside;                // the place is inside; valid if least > 0
+        std::span<const int> list;  // triangles that include the nearest; empty: not known
     };
     Place place(const dvec3& p) const;
 
-    // The nearest place to p, which is at that place. Among triangles that are equally near (at an edge or a corner)
-    // the one that faces p most is taken.
+    // The nearest place to p. `place` is place(p). Of triangles that are equally near (at an edge or a corner) it takes
+    // the one that faces p most.
     Foot foot(const dvec3& p, const Place& place) const;
 
-    // Whether p, of which the foot is given, is inside a closed surface: the triangle that faces p most decides that
-    // rightly for every closed surface.
+    // Whether p is inside a closed surface; `foot` is the foot of p. The triangle that faces p most decides this
+    // correctly for every closed surface.
     bool isInside(const dvec3& p, const Foot& foot) const;
 
     // The distance of p, negative inside, and the direction in which it grows.
@@ -56,17 +56,18 @@ class FootFinder {
     const Facets& facets() const { return facets_; }
 
   private:
-    // A triangle in single precision, from the middle of all: heights over its plane and beyond its three edges.
+    // A triangle in single precision, relative to the middle of all triangles. It gives a place's heights over the
+    // triangle's plane and beyond its three edges.
     using Four = float __attribute__((vector_size(16)));
     struct Prism {
         Four x, y, z, offset;
     };
-    // A cube of space. From its middle the surface is `least` to |most| metres away.
+    // A cube of space. The surface is from `least` to |most| metres away from its middle.
     struct Cell {
         float least = 0.0F;
         float most = 0.0F;        // below zero: the middle is inside
-        std::uint32_t first = 0;  // of its list, or of its eight parts
-        std::int32_t count = 0;   // of its list; 0: it has none; below 0: it has parts
+        std::uint32_t first = 0;  // start of its list, or of its eight parts
+        std::int32_t count = 0;   // length of its list; 0: it has none; below 0: it has parts
     };
     static constexpr std::size_t longestList = 64;
     struct Slab;  // the cells of one layer, while they are made

@@ -1,4 +1,4 @@
-// What Colliders keeps: all solids in one row, in the order in which they were added.
+// The data of Colliders: all solids in one row, in the order in which they were added.
 #pragma once
 
 #include <vector>

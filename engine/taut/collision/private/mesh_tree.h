@@ -1,5 +1,5 @@
-// The tree of boxes over the triangles of a mesh. Bullet builds it; it is walked here, because Bullet's own walk
-// writes a global counter, which bodies that are resolved side by side would share. Knows boxes only.
+// The tree of boxes over the triangles of a mesh. Bullet builds it. It is walked here, because Bullet's own walk writes
+// a global counter, which bodies that are resolved in parallel would share. It knows only boxes.
 #pragma once
 
 #include <array>
@@ -39,15 +39,15 @@ class MeshTree {
         }
     }
 
-    // Calls see(triangle) for every triangle whose box may be nearer to p than `square` [m²], which see() lowers, near
-    // ones first; what is nearer by less than the factor 1 / shrink of the squares may be left out.
+    // Calls see(triangle) for every triangle whose box may be nearer to p than `square` [m²], near ones first. see()
+    // lowers `square`. Triangles that are nearer by less than the factor 1 / shrink of the squares may be left out.
     template <class See>
     void closest(const dvec3& p, double shrink, const double& square, const See& see) const {
         struct Open {
             const Node* node;
             double square;
         };
-        std::array<Open, 64> open;  // Bullet's splits leave either side a third, at least
+        std::array<Open, 64> open;  // enough, because Bullet's splits leave each side a third at least
         std::size_t count = 0;
         Open now{nodes_.data(), squareTo(nodes_[0], p)};
         for (;;) {
@@ -70,9 +70,9 @@ class MeshTree {
 
   private:
     struct Node {
-        float low[3], high[3];  // [m] a little larger than what they hold, so that float is enough
+        float low[3], high[3];  // [m] a little larger than the contents, so that float is enough
         int triangle;           // below 0: an inner node
-        int skip;               // nodes from here to the next that is not below this one
+        int skip;               // number of nodes from here to the next one that is not below this one
     };
 
     // [m²] from p to a box.

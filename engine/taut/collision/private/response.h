@@ -1,4 +1,4 @@
-// What a touch does to a point: projection, the normal impulse with restitution, Coulomb's friction. Knows no shapes.
+// What a touch does to a point: projection, the normal impulse with restitution, Coulomb friction. It knows no shapes.
 #pragma once
 
 #include "taut/collision/geometry.h"
@@ -33,7 +33,7 @@ struct Impact {
     bool shifted;   // x moved by more than rounding
 };
 
-// Of the surface's place that ends the step at `place`, by its way during the step.
+// The velocity of the surface's place that ends the step at `place`: its way during the step over h.
 inline dvec3 surfaceVelocity(const MovingSurface& surface, const dvec3& place) {
     if (surface.still) return dvec3(0.0);
     const dvec3 v = (place - surface.from.toWorld(surface.to.toLocal(place))) / surface.h;
@@ -43,11 +43,11 @@ inline dvec3 surfaceVelocity(const MovingSurface& surface, const dvec3& place) {
 
 //      from o           The path in the world, its start carried along by the surface. `fall` is how far it goes
 //            \          against the normal, `pressed` the part of that after the touch. Friction acts on the way along
-//   ----------x-------  the surface after the touch just as it does on the velocity: as much of it as μ times `pressed`
-//              \        allows is undone. A point that sticks is then where it was, and does not creep down a slope by
-//            to o       what gravity adds in a step.
+//   ----------x-------  the surface after the touch as it does on the velocity: it undoes as much of this way as
+//              \        μ times `pressed` allows. So a point that sticks is where it was. It does not creep down a
+//            to o       slope by what gravity adds in a step.
 //
-// Returns false where there is nothing to report; `impact` then means nothing.
+// Returns false if there is nothing to report. Then `impact` means nothing.
 inline bool respond(const MovingSurface& surface, const Path& path, const HalfSpace& touch, MovingPoint& point,
                     Impact& impact) {
     const dvec3& n = touch.normal;
@@ -56,7 +56,8 @@ inline bool respond(const MovingSurface& surface, const Path& path, const HalfSp
     const double out = depth > 0.0 ? depth : 0.0;
     const dvec3 onSurface = path.to + (out - path.thickness) * n;
 
-    // Velocity relative to the surface: the approaching normal part goes, or comes back; the rest is slowed.
+    // Velocity relative to the surface: the normal part is removed or bounces, if it approaches. Friction slows the
+    // rest.
     const dvec3 carried = surfaceVelocity(surface, onSurface);
     const dvec3 u = point.v - carried;
     const double un = glm::dot(u, n);
@@ -77,7 +78,7 @@ inline bool respond(const MovingSurface& surface, const Path& path, const HalfSp
             point.v -= slide * (grip / std::sqrt(slideSquare));
     }
 
-    // Position.
+    // Position: out along the normal, and back along the surface by friction.
     const dvec3 way = path.to - path.from;
     const double fall = -glm::dot(way, n);
     double pressed = depth + path.skin < fall ? depth + path.skin : fall;
@@ -91,7 +92,8 @@ inline bool respond(const MovingSurface& surface, const Path& path, const HalfSp
         holds = square <= limit * limit;
         end -= holds ? along : along * (limit / std::sqrt(square));
     }
-    // Held where it stood within rounding of the surface: it stays to the bit, so that rounding cannot add up.
+    // A point that friction held, and that stood within rounding of the surface, stays to the bit. So rounding cannot
+    // add up.
     const double startHeight = glm::dot(n, path.from) - touch.offset;
     point.rests = holds && sticks && surface.still && bounce == 0.0 && std::abs(startHeight) <= path.skin;
     point.x = point.rests ? point.before : end;

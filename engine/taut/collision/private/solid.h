@@ -1,4 +1,4 @@
-// A single shape in the world with its motion during the step: what a collider, or a part of a compound, is made of.
+// A single shape in the world, with its motion during the step. A collider or a part of a compound is made of it.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace taut::collision {
 
-// Above this speed [m/s] of any of its places a collider is taken to have jumped: see Colliders::resolve.
+// If any place of a collider is faster than this [m/s], the collider counts as having jumped: see Colliders::resolve.
 inline constexpr double fastestSurface = 100.0;
 
 struct Solid {
@@ -36,10 +36,11 @@ void appendSolids(const Shape& shape, const Frame& inCollider, std::vector<Solid
 // The frame of a pose; throws core::Error(badContent) if it is not finite or has no rotation.
 Frame frameOf(const Pose& pose);
 
-// Sets from, to, turn, still and bounds of one solid; travel is the collider's and set by the caller.
+// Sets from, to, turn, still and bounds of one solid. The caller sets travel, which belongs to the collider.
 void place(Solid& solid, const Pose& from, const Pose& to);
 
-// How far the farthest corner of the solid goes from `from` to `to` [m]; of a plane, of the metre round its origin.
+// [m] How far the fastest corner of the solid's box goes from `from` to `to`. A plane has a box of 1 m to each side of
+// its origin.
 double travelOf(const Solid& solid);
 
 }  // namespace taut::collision

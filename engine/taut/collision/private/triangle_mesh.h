@@ -20,9 +20,9 @@ class TriangleMesh final : public Form {
     // Distance to the surface; negative inside a closed mesh.
     Nearest nearest(const dvec3& p) const override { return finder_.nearest(p); }
 
-    // A path that crosses a triangle ends before it; one that ends too near is pushed off on the side where it ends;
-    // one that starts inside a closed mesh goes the shortest way out. `crossed` tells the first case. The thickness
-    // has to be larger than the skin: a side needs a distance that rounding cannot turn round.
+    // A path that crosses a triangle ends before it; `crossed` reports this case. A path that ends too near is pushed
+    // off on the side where it ends. A path that starts inside a closed mesh goes the shortest way out. Expects a
+    // thickness larger than the skin, so that rounding cannot change the side.
     bool sweep(const Path& path, HalfSpace& touch, bool& crossed) const override;
 
     std::optional<core::Aabb> bounds() const override { return finder_.bounds(); }

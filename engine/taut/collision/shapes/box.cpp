@@ -6,7 +6,7 @@
 namespace taut::collision {
 namespace {
 
-// Corner i is on the positive side of axis k where bit k of i is set.
+// Corner i is on the positive side of axis k if bit k of i is set.
 Outline outlineOfBox(const dvec3& half) {
     Outline outline;
     const auto beyond = [](int i, int k) { return i ^ (1 << (k % 3)); };

@@ -25,7 +25,7 @@ class Hull final : public Form {
 
   private:
     FootFinder finder_;
-    double tiny_ = 0.0;  // [m²] square of what rounding makes of a distance
+    double tiny_ = 0.0;  // [m²] square of the rounding of a distance
 };
 
 Hull::Hull(std::span<const dvec3> vertices) {
@@ -39,7 +39,7 @@ Hull::Hull(std::span<const dvec3> vertices) {
     const std::vector<std::uint32_t> triangles = convexHull(vertices);
     if (triangles.empty()) failFlat();
     Facets facets = makeFacets(vertices, triangles);
-    facets.isClosed = true;  // also where a triangle is too narrow to have a direction
+    facets.isClosed = true;  // even if a triangle is too narrow to have a direction
     double depth = std::numeric_limits<double>::infinity();
     for (const Facet& t : facets.triangles) depth = std::min(depth, glm::dot(t.corner - mean, t.normal));
     finder_ = FootFinder(std::move(facets));
@@ -52,7 +52,8 @@ Hull::Hull(std::span<const dvec3> vertices) {
 Nearest Hull::nearest(const dvec3& p) const {
     const Foot foot = finder_.foot(p, finder_.place(p));
     if (foot.triangle < 0) return {std::numeric_limits<double>::infinity(), {0.0, 1.0, 0.0}};
-    // Off a face the direction is the face's, which is exact however near the point is. Inside it always is.
+    // Over a face the direction is the face's normal, which is exact no matter how near the point is. Inside, the
+    // direction is always a face's normal.
     const Facet& t = finder_.triangle(foot.triangle);
     if (foot.square - foot.facing * foot.facing <= 1e-12 * foot.square + tiny_)
         return {glm::dot(p - t.corner, t.normal), t.normal};

@@ -1,4 +1,4 @@
-// A surface of triangles, as it is in its file; the work is in triangle_mesh.h.
+// A surface of triangles, unchanged from its file; the work is in triangle_mesh.h.
 #include "taut/collision/shape_table.h"
 #include "taut/collision/private/triangle_mesh.h"
 

@@ -1,4 +1,5 @@
-// Forces of a grid's folds and twists, see Bending in model.h. Knows no generator; one copy for each instruction set.
+// Forces of a grid's folds and twists, see Bending in model.h. It knows no generator. There is one copy for each
+// instruction set.
 #pragma once
 
 namespace taut::mechanics {
@@ -6,14 +7,14 @@ namespace taut::mechanics {
 template <class Real>
 struct BendingBatch {
     int columns, rows;                           // of the whole grid
-    int first, last;                             // rows whose forces are wanted: first … last - 1
+    int first, last;                             // rows that get forces: first … last - 1
     const Real *along, *across, *both, *twist;  // (columns · rows) [N/m]
     const Real* x[3];                            // (columns · rows) [m]
-    Real* f[3];                                  // (columns · rows) [N], to which minus the gradient is added
+    Real* f[3];                                  // (columns · rows) [N]; the kernel adds minus the gradient
     Real* room;                                  // bendingRoom(columns)
 };
 
-// Rows of moments are that far apart: one number more on either side, and whole vectors.
+// The distance between rows of moments: one more number on each side, rounded up to whole vectors.
 inline int bendingPitch(int columns) {
     return (columns + 2 * 16 + 15) / 16 * 16;
 }

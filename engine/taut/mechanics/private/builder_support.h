@@ -1,4 +1,4 @@
-// What all builders share: setting up the points of a model. It knows no shape.
+// Shared by all builders: sets up the points of a model. It knows no shape.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace taut::mechanics::detail {
 
-// `count` points at rest at the origin, free, massless so far, with one drag rate; makes the group "all".
+// Adds `count` free points at rest at the origin, without mass so far, with one drag rate. Makes the group "all".
 inline void addRestingPoints(Model& model, int count, double dragRate) {
     const auto size = static_cast<std::size_t>(count);
     model.positions.assign(size, glm::dvec3(0.0));
@@ -23,7 +23,7 @@ inline void addRestingPoints(Model& model, int count, double dragRate) {
     std::iota(all.begin(), all.end(), 0);
 }
 
-// -0 + 0 = +0, and nothing else changes: equal positions then have equal bits.
+// -0 + 0 = +0, and nothing else changes. So equal positions have equal bits.
 inline glm::dvec3 withoutNegativeZero(glm::dvec3 p) {
     return p + glm::dvec3(0.0);
 }

@@ -1,4 +1,4 @@
-// The geometry of a tetrahedron that its stiffness is made of.
+// The geometry of a tetrahedron, from which its stiffness is computed.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace taut::mechanics {
 
 using CellCorners = std::array<glm::dvec3, 4>;  // [m]
 
-// Of a cell in planes of points.
+// The corners of a cell, from planes of points.
 template <class Real>
 CellCorners cornersOf(const VolumeCell& cell, const Real* planes, std::ptrdiff_t stride) {
     CellCorners p;
@@ -33,7 +33,7 @@ inline CellCorners gradientsOf(const CellCorners& p) {
     return {-(g1 + g2 + g3), g1, g2, g3};
 }
 
-// Edges i–j, and k and l the other two corners, so that (i, j, k, l) is an even permutation: then
+// Edges i–j. k and l are the other two corners, such that (i, j, k, l) is an even permutation. Then
 // (∂²V/∂p_i∂p_j) u = h × u with h = (p_k - p_l)/6.
 struct CellEdge {
     std::size_t i, j, k, l;

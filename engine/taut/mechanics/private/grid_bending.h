@@ -1,7 +1,8 @@
-// The force of Bending (model.h) on the points of a grid. Knows neither the cloth nor the rope it stands for.
+// The force of Bending (model.h) on the points of a grid. It does not know whether the grid is a cloth or a rope.
 //
-// Momentum and angular momentum are exact, for every combination of places has weights that sum to 0 and pulls along
-// itself. So is the bound of its stiffness on an even grid: rows of fourth differences sum to their largest eigenvalue.
+// Momentum and angular momentum are exact, because every combination of places has weights that sum to 0 and pulls
+// along itself. On an even grid the bound of its stiffness is exact too: rows of fourth differences sum to their
+// largest eigenvalue.
 #pragma once
 
 #include <functional>
@@ -18,14 +19,14 @@ namespace taut::mechanics {
 template <class Real>
 class GridBending final : public ForceGenerator<Real> {
   public:
-    // How the arms of the clamps are turned at t [s]; null: they are as they were given.
+    // How the arms of the clamps are turned at t [s]; null: not at all.
     using Turn = std::function<glm::dquat(double t)>;
 
-    // `points` (columns · rows) say which of the island are the grid's. Uses the kernel of the instruction set in use
-    // now. Expects a bending that is not empty, with coefficients for each point.
+    // `points` (columns · rows): the grid's points in the island. Uses the kernel of the current instruction set.
+    // Expects a bending that is not empty, with coefficients for each point.
     GridBending(Bending bending, std::span<const int> points, Turn turn = {});
 
-    // Takes other coefficients and clamps over, of a grid of the same size.
+    // Takes new coefficients and clamps, for a grid of the same size.
     void set(Bending bending);
 
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
@@ -38,10 +39,10 @@ class GridBending final : public ForceGenerator<Real> {
 
   private:
     using Array = core::AlignedArray<Real>;
-    struct Coefficients {  // as the kernel has them
+    struct Coefficients {  // in the precision of the kernel
         Array along, across, both, twist;  // (points) [N/m]
     };
-    // Places of the grid, in planes `stride` apart.
+    // Places of the grid's points, in planes `stride` apart.
     struct Planes {
         const Real* x;
         int stride;

@@ -1,8 +1,8 @@
-// Sorts the elements of a mesh (triangles, tetrahedra) into runs and loose ones. Knows nothing of forces.
+// Sorts the elements of a mesh (triangles, tetrahedra) into runs and loose elements. It knows no forces.
 //
-// Builders number points row by row, so that the triangles of a row, and its tetrahedra of one kind, follow each
-// other with all corners one point further. Rows and layers are joined over small gaps (a row's last point starts no
-// cell) by lanes without an element; kernels give those no weight. The order depends on the list of elements alone.
+// Builders number points row by row. So the triangles of a row follow each other with all corners one point further,
+// and so do its tetrahedra of one kind. Lanes without an element join rows and layers over small gaps (a row's last
+// point starts no cell); kernels give these lanes no weight. The order depends only on the list of elements.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ class IndexRuns {
         }
     }
 
-    // (lanes) which element of the list a lane holds; -1: none.
+    // (lanes) The element of the list that a lane holds; -1: none.
     const std::vector<int>& sources() const { return sources_; }
 
     CornerLanes<Corners> lanes() const {
@@ -66,8 +66,8 @@ class IndexRuns {
     }
 
   private:
-    static constexpr int widestGap = 8;             // lanes, and at most a third of the elements before it, or 1
-    static constexpr std::size_t shortestRun = 16;  // lanes; below, gathering costs no more
+    static constexpr int widestGap = 8;             // lanes; and at most a third of the elements before it, or 1
+    static constexpr std::size_t shortestRun = 16;  // lanes; gathering a shorter run costs no more
 
     struct Chain {
         Element first{};

@@ -1,18 +1,18 @@
-// What the batch kernels over triangles and tetrahedra share. Plain data only: kernel files are compiled once per
-// instruction set and must not pull in an inline function of the standard library.
+// Shared by the batch kernels over triangles and tetrahedra. Plain data only: kernel files are compiled once for each
+// instruction set, and must not pull in an inline function of the standard library.
 #pragma once
 
 namespace taut::mechanics {
 
-// Elements that a kernel treats at once: its buffers stay in the first-level cache.
+// Elements that a kernel treats at once, so that its buffers stay in the first-level cache.
 inline constexpr int kernelBlock = 64;
 
-// Elements whose corners all advance by one point from each to the next: they need no index and no gather.
+// Elements whose corners all advance by one point from one element to the next. They need no index and no gather.
 template <int Corners>
 struct CornerRun {
     int first[Corners];  // points of the run's first element
     int count;           // lanes
-    int lane;            // of the first element, into the arrays that hold one value a lane
+    int lane;            // of the first element, for arrays with one value for each lane
 };
 
 // The elements of a kernel call: runs first, then loose ones with an index for each corner.

@@ -1,5 +1,5 @@
-// Points side by side for elements that jump between them: x y z 0 in one vector. Include it in files of taut_kernel
-// only: everything in it is TAUT_ISA's own.
+// Points packed as x y z 0 in one vector, for elements that jump between points. Include it only in files of
+// taut_kernel, because everything in it belongs to TAUT_ISA.
 #pragma once
 
 #include "taut/core/private/vectors.h"
@@ -10,7 +10,7 @@ namespace {
 template <class Real>
 using Four = typename core::TAUT_ISA::Lanes<Real, 4 * sizeof(Real)>::Vector;
 
-// By reference: without AVX compilers warn of vectors of four doubles as values.
+// By reference, because without AVX compilers warn about vectors of four doubles as values.
 template <class Real>
 inline void fetch(const Real* from, Four<Real>& v) {
     __builtin_memcpy(&v, from, sizeof v);
@@ -26,7 +26,7 @@ inline void addTo(Real* sum, const Four<Real>& v) {
     put<Real>(sum, old + v);
 }
 
-// The points `of` (n) of planes; place i of `to` is 4 · each · i.
+// Packs the points `of` (n) from planes. Point i goes to to[4 · each · i].
 template <class Real>
 inline void pack(const Real* planes, long stride, const int* of, int n, Real* to, int each = 1) {
     const Real *x = planes, *y = x + stride, *z = y + stride;
@@ -39,7 +39,7 @@ inline void pack(const Real* planes, long stride, const int* of, int n, Real* to
     }
 }
 
-// Adds packed vectors (n) to the planes at the points `of`, each of which comes once.
+// Adds packed vectors (n) to the planes at the points `of`. Each point comes once.
 template <class Real>
 inline void addPacked(const Real* packed, const int* of, int n, Real* planes, long stride) {
     Real *x = planes, *y = x + stride, *z = y + stride;
@@ -51,7 +51,7 @@ inline void addPacked(const Real* packed, const int* of, int n, Real* planes, lo
     }
 }
 
-// Four packed vectors into places l … l + 3 of three planes, and back.
+// spread() puts four packed vectors into places l … l + 3 of three planes. collect() takes them back.
 template <class Real, int size>
 inline void spread(const Four<Real> (&of)[4], Real (&planes)[3][size], int l) {
     const Four<Real> ab = __builtin_shufflevector(of[0], of[1], 0, 4, 1, 5);

@@ -1,5 +1,5 @@
-// Which springs of a network are longer or shorter than their limits; cheap enough to run after every step. It does not
-// know what happens to them.
+// Finds the springs of a network that are longer or shorter than their limits. It is cheap enough to run after every
+// step. It does not know what happens to these springs.
 #pragma once
 
 #include <limits>
@@ -25,15 +25,15 @@ class SpringWatch {
 
     // limits (springs of the network).
     void set(const SpringNetwork<Real>& network, std::span<const LengthLimits> limits);
-    // Expects limits where there have been some before.
+    // Expects a spring that had limits before.
     void change(const SpringNetwork<Real>& network, int spring, const LengthLimits& limits);
 
-    // Appends the numbers of the springs that are beyond their limits, ascending; x (3 · stride) [m]. The same for any
-    // number of threads.
+    // Appends the numbers of the springs beyond their limits, ascending; x (3 · stride) [m]. Any number of threads
+    // gives the same result.
     void find(const SpringNetwork<Real>& network, int stride, const Real* x, std::vector<int>& beyond) const;
 
   private:
-    // Runs that are watched, and single springs.
+    // The watched runs and single springs of a chunk.
     struct Part {
         std::vector<int> runs;
         int firstSingle = 0, lastSingle = 0;

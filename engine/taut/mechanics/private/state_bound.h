@@ -1,12 +1,11 @@
-// The bound of a state's frequencies over a network as it is laid out for speed: cheap enough to be asked for every
-// tick.
+// The bound of a state's frequencies, over a network that is laid out for speed. It is cheap enough for every tick.
 //
-// Springs alone: B2 of stability.h. With cells, and any weights w_i > 0 of the points that move (0 of held ones),
+// With springs alone it is B2 of stability.h. With cells, and any weights w_i > 0 of free points (0 of held points),
 //
 //   λ <= max over points i of λ_max(Σ over the elements e at i of (Σ over the points j of e of w_j) K_e,ii) / (m_i w_i)
 //
-// by Cauchy and Schwarz, and what the pressures of the cells add. The weights are the a_i of B2 at rest: nearly as
-// tight as those of the state itself, which would cost a sweep of their own.
+// by Cauchy and Schwarz, plus the part of the cells' pressures. The weights are the a_i of B2 at rest. They are nearly
+// as tight as those of the state itself, which would cost another sweep.
 #pragma once
 
 #include <array>
@@ -25,22 +24,22 @@ namespace taut::mechanics {
 struct FastestNow {
     double omega2 = 0;   // [1/s²] of M⁻¹K, springs and cells
     double damping = 0;  // [1/s] of M⁻¹C, dashpots
-    double pairs = 0;    // [1/s] DashpotSweep::largestPairRate(), which no state changes
+    double pairs = 0;    // [1/s] DashpotSweep::largestPairRate(), the same in every state
 };
 
 template <class Real>
 class StateBound {
   public:
-    // Of points in planes of `stride`.
+    // For points in planes of `stride`.
     StateBound(int points, int stride);
 
-    // Cells by the points of the network; restPositions (points) [m], up to a rigid motion of each body.
+    // Cells name points of the network. restPositions (points) [m], up to a rigid motion of each body.
     void setCells(std::span<const VolumeCell> cells, std::span<const glm::dvec3> restPositions);
-    // To be called when masses or springs have changed: the weights are found again.
+    // Call it when masses or springs have changed, so that the weights are computed again.
     void forgetWeights() { areWeightsKnown_ = false; }
 
-    // x (3 · stride) [m], inverseMass (stride) [1/kg], 0 if held. Same bits on every machine; single precision may come
-    // out low by a ten-thousandth.
+    // x (3 · stride) [m], inverseMass (stride) [1/kg], 0 if held. Every machine gives the same bits. In single
+    // precision the bound may be too low by a ten-thousandth.
     FastestNow operator()(const SpringNetwork<Real>& network, const Real* x, const Real* inverseMass);
 
   private:
@@ -52,7 +51,7 @@ class StateBound {
     void sumSingles(const SpringSingles<Real>& s, const Real* x, Of what, const Real* weights);
     void lookAtCells(const Real* x);
     void sumCells(const Real* weights);
-    // a (points) from the sums: w λ_max.
+    // Computes a (points) from the sums: w λ_max.
     void takeRates(const Real* inverseMass, core::AlignedArray<Real>& a) const;
     double largestOfSprings(const SpringNetwork<Real>& network, const Real* a) const;
     double largestRow(const Real* inverseMass);

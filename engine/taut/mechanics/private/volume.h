@@ -1,9 +1,9 @@
-// Tetrahedra that resist a change of their signed volume, so that a block squashed flat or turned inside out comes
-// back. Knows only tetrahedra, not the lattice they come from.
+// Tetrahedra that resist a change of their signed volume. So a block that was squashed flat or turned inside out comes
+// back. It knows only tetrahedra, not the lattice they come from.
 //
 // A tetrahedron's edges cannot tell it from its mirror image; V = det[e1 e2 e3]/6 can:
 //   E = ½ K V0 (V/V0 - 1)²,   F_i = -K (V/V0 - 1) ∂V/∂p_i.
-// Collapsed to a line or a point ∂V vanishes and nothing brings it back: inspect() tells.
+// If it collapses to a line or a point, ∂V vanishes and nothing brings it back. inspect() reports that.
 #pragma once
 
 #include <array>
@@ -18,40 +18,40 @@
 
 namespace taut::mechanics {
 
-// How tetrahedra fare.
+// The condition of all tetrahedra.
 struct VolumeReport {
     double smallestRatio = 1.0;  // smallest V/V0 [-]
-    int smallestCell = -1;       // the cell that has it
+    int smallestCell = -1;       // the cell with the smallest ratio
     int collapsed = 0;           // cells with V/V0 < 0.1, inverted ones included
     int inverted = 0;            // cells with V/V0 <= 0
-    int overstretched = 0;       // cells beyond the working stretch: a step chosen for it may not hold there
+    int overstretched = 0;       // cells beyond the working stretch, where a step chosen for it may be too long
 };
 
 template <class Real>
 class VolumePreservation final : public ForceGenerator<Real> {
   public:
-    // Rest positions (points) [m] give the areas and edges that a stretch is told by; the volumes come with the cells.
-    // Uses the kernel of the instruction set in use now. Expects V0 > 0, K >= 0, workingStretch >= 1.
+    // Rest positions (points) [m] give the areas and edges by which inspect() finds a stretch. The volumes come with
+    // the cells. Uses the kernel of the current instruction set. Expects V0 > 0, K >= 0, workingStretch >= 1.
     VolumePreservation(std::span<const VolumeCell> cells, std::span<const glm::dvec3> restPositions,
                        double workingStretch = 1.5);
 
     double workingStretch() const { return workingStretch_; }
-    // Takes over the bulk moduli of the cells. Expects the cells that it was made with.
+    // Takes the bulk moduli of the cells. Expects the cells of the constructor.
     void setBulkModuli(std::span<const VolumeCell> cells);
-    // Without `stretches` none is counted as overstretched.
+    // Without `stretches` it counts no cells as overstretched.
     VolumeReport inspect(const Motion<Real>& motion, bool stretches = true) const;
 
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
     double potentialEnergy(const Motion<Real>& motion, const std::vector<bool>& only = {}) const override;
-    // The exact product; indefinite where a cell is compressed.
+    // The exact product. It is indefinite where a cell is compressed.
     void addStiffnessProduct(const Motion<Real>& motion, const Real* u, Real* out) const override;
     // (K/V0) g gᵀ of each cell, g = ∂V/∂p: the part that is never negative.
     void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
     void addProduct(int stride, const Real* u, Real* out) const override;
     void addDiagonal(int stride, Real* out) const override;
 
-    // None: the bounds of stability.h count cells themselves. They hold, and inspect() finds nothing overstretched,
-    // while
+    // Adds nothing, because the bounds of stability.h count cells themselves. These bounds hold, and inspect() finds
+    // nothing overstretched, while
     //   |g| <= s² |g| at rest,   edge <= s edge at rest,   |V/V0 - 1| <= max(1 + s, s³ - 1),
     // s the working stretch.
     void addStability(const Motion<Real>&, StabilityShare&) const override {}
@@ -62,7 +62,7 @@ class VolumePreservation final : public ForceGenerator<Real> {
     double workingStretch_;
     IndexRuns<4> runs_;
     core::AlignedArray<Real> sixthOfBulk_, inverseRestSixth_;  // (lanes)
-    mutable core::AlignedArray<Real> packed_;                  // the kernel's room
+    mutable core::AlignedArray<Real> packed_;                  // scratch of the kernel
     void (*addBatch_)(const VolumeBatch<Real>&);
     std::vector<std::array<Real, 12>> slopes_;  // (cells) √(s K/V0) g, corner by corner
 };

@@ -1,5 +1,5 @@
-// The force that preserves the signed volume of tetrahedra, in batches. Knows no generator; one copy for each
-// instruction set.
+// The force that preserves the signed volume of tetrahedra, in batches. It knows no generator. There is one copy for
+// each instruction set.
 #pragma once
 
 #include "taut/mechanics/private/kernel_parts.h"
@@ -13,8 +13,8 @@ struct VolumeBatch {
     const Real* inverseRestSixth;  // (lanes) 1/(6 V0) [1/m³]
     int stride;
     const Real* x;  // (3 · stride) [m]
-    Real* f;        // (3 · stride) [N], added to
-    Real* packed;   // (8 · loosePointCount) room for x and forces of points of loose tetrahedra
+    Real* f;        // (3 · stride) [N]; the kernel adds to it
+    Real* packed;   // (8 · loosePointCount) scratch for x and forces of points of loose tetrahedra
 };
 
 namespace sse2 {

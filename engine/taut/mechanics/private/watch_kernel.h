@@ -1,18 +1,18 @@
-// The inner loops that compare the lengths of springs with their limits; one copy for each instruction set, all with
-// the same answer.
+// The inner loops that compare the lengths of springs with their limits. There is one copy for each instruction set,
+// and all give the same answer.
 #pragma once
 
 namespace taut::mechanics {
 
-// Springs alike: spring i joins points i and i + offset.
+// A run of springs: spring i joins points i and i + offset.
 template <class Real>
 struct WatchRun {
     int n;
     int offset;
     int stride;         // of x
     const Real* x;      // planes at the run's first point [m]
-    const Real* least;  // (n) [m²] squares of the lengths between which each may be; null: 0
-    const Real* most;   // (n) [m²]
+    const Real* least;  // (n) [m²] square of the least length; null: 0
+    const Real* most;   // (n) [m²] square of the largest length
 };
 
 template <class Real>
@@ -26,7 +26,7 @@ struct WatchList {
     const Real* most;
 };
 
-// Whether any spring is beyond its lengths.
+// Whether any spring is beyond its limits.
 #define TAUT_DECLARE(isa)                       \
     namespace isa {                             \
     bool isAnyBeyond(const WatchRun<float>&);   \

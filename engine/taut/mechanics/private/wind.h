@@ -1,16 +1,16 @@
-// Air that moves past triangles: drag and lift, steady or in gusts. Knows neither cloth nor the rest of the scene.
+// Air that moves past triangles: drag and lift, steady or in gusts. It knows no cloth, and not the rest of the scene.
 //
-// With u the mean of the air's velocities relative to a triangle's points, n its normal turned along u, A its area:
+// Let u be the mean of the air's velocities relative to a triangle's points, n its normal turned along u, A its area:
 //
 //   F = ½ρA (u·n) [ C_D u + C_L (|u| n - (u·n)/|u| u) ],       a third to each corner.
 //
 // Across the flow (n ∥ u) this is the flat plate's drag ½ρ A C_D u². At an angle α between plate and flow, drag is
-// ∝ A sin α, the area that the flow sees, and lift, at a right angle to u towards n, is ½ρ A C_L u² sin α cos α.
+// ∝ A sin α, the area that the flow sees. Lift is at a right angle to u towards n, and is ½ρ A C_L u² sin α cos α.
 // Both vanish edge-on. Cloth is edge-on much of the time, and a lift C_L |u|² n would jump there with the sign of n.
 //
-// Smoothness. Edge-on, at u·n = 0, the drag's |u·n| has a kink: F is continuous and its slope jumps by ρA C_D |u|. A
-// step across it is off by O(h²) in v whatever the method, so that methods of order 4 fall to 2 once triangles turn
-// through the flow or are carried along by it; methods of order 1 and 2 keep theirs. The lift is smooth wherever u is
+// Smoothness. Edge-on, at u·n = 0, the drag's |u·n| has a kink: F is continuous, and its slope jumps by ρA C_D |u|. A
+// step across the kink is off by O(h²) in v for any method. So methods of order 4 fall to order 2 once triangles turn
+// through the flow or are carried along by it. Methods of order 1 and 2 keep their order. The lift is smooth where u is
 // not zero, and gusts are smooth enough for order 4 (noise.h).
 #pragma once
 
@@ -31,24 +31,24 @@ struct WindSettings {
     double airDensity = 1.2;  // ρ [kg/m³]
     double drag = 1.0;        // C_D [-]
     double lift = 0.6;        // C_L [-]
-    GustField gust;           // added to the steady flow; none with amplitude 0
-    // Relative speed up to which the damping share holds [m/s]; 0: twice the fastest air, at least 10 m/s.
+    GustField gust;           // added to the steady flow; amplitude 0: no gusts
+    // [m/s] Relative speed up to which the damping share holds; 0: twice the fastest air, at least 10 m/s.
     double workingSpeed = 0.0;
     bool operator==(const WindSettings&) const = default;
 };
 
-// One flow over a set of triangles. Two of them over the same triangles do not add up as flows would (each resists
-// the other): add their velocities instead.
+// One flow over a set of triangles. Do not put two winds on the same triangles: each would resist the other. Add their
+// velocities instead.
 template <class Real>
 class Wind final : public ForceGenerator<Real> {
   public:
     using Triangle = std::array<int, 3>;  // points
 
-    // Uses the kernel of the instruction set in use now.
+    // Uses the kernel of the current instruction set.
     Wind(std::span<const Triangle> triangles, const glm::dvec3& velocity, const WindSettings& settings);
     Wind(std::span<const Triangle> triangles, const LinearPath& velocity, const WindSettings& settings);
 
-    // The steady flow [m/s]: as given, or evenly from one to the other between t0 and t1 [s].
+    // The steady flow [m/s]: constant, or changing evenly from `from` to `to` between t0 and t1 [s].
     void setVelocity(const glm::dvec3& velocity) { velocity_ = {velocity, velocity, 0.0, 0.0}; }
     void setVelocity(const glm::dvec3& from, const glm::dvec3& to, double t0, double t1) {
         velocity_ = {from, to, t0, t1};
@@ -63,15 +63,16 @@ class Wind final : public ForceGenerator<Real> {
     void addForces(const Motion<Real>& motion, int first, int last, Real* f) const override;
     double potentialEnergy(const Motion<Real>&, const std::vector<bool>& = {}) const override { return 0.0; }
     void addStiffnessProduct(const Motion<Real>&, const Real*, Real*) const override {}
-    // Its K is left out. Of C the drag's share, ½ρA C_D (|u·n| I + u nᵀ), with u replaced by its part along n in the
-    // second term: ½ρA C_D |u·n| (I + nnᵀ), symmetric and positive, in the steady flow; a ninth for each
-    // pair of corners.
+    // K is left out. Of C it takes the drag's share in the steady flow, ½ρA C_D (|u·n| I + u nᵀ). It replaces u by its
+    // part along n in the second term: ½ρA C_D |u·n| (I + nnᵀ) is symmetric and positive. Each pair of corners gets a
+    // ninth.
     void linearise(const Motion<Real>& motion, double stiffness, double damping) override;
     void addProduct(int stride, const Real* u, Real* out) const override;
     void addDiagonal(int stride, Real* out) const override;
-    // dampingRate at the working speed U, for the areas at the motion's positions. |∂F/∂u| <= ½ρA U (2 C_D + 3/2 C_L):
-    // drag has at most 2 (broadside), lift in polar terms of u √(sin² 2α + cos² 2α) in the plane of u and n, and
-    // sin² α across it. Each corner has a third of the force and of the mean velocity: its row sums to 1/3 of that.
+    // Adds dampingRate at the working speed U, for the areas at the motion's positions.
+    // |∂F/∂u| <= ½ρA U (2 C_D + 3/2 C_L): drag has at most 2 (broadside). Lift, in polar terms of u, has
+    // √(sin² 2α + cos² 2α) in the plane of u and n, and sin² α across it. Each corner has a third of the force and of
+    // the mean velocity, so its row sums to 1/3 of that.
     void addStability(const Motion<Real>& motion, StabilityShare& share) const override;
 
   private:
@@ -79,13 +80,13 @@ class Wind final : public ForceGenerator<Real> {
     IndexRuns<3> runs_;
     core::AlignedArray<Real> weight_;  // (lanes) 1, or 0 for a lane without a triangle
     int firstPoint_ = 0, pointCount_ = 0;
-    mutable core::AlignedArray<Real> slip_, packed_;  // the kernel's room
+    mutable core::AlignedArray<Real> slip_, packed_;  // scratch of the kernel
     LinearPath velocity_;
     WindSettings settings_;
     void (*addBatch_)(const WindBatch<Real>&);
     struct Resistance {
         Real normal[3];  // n
-        Real each;       // of a pair of corners
+        Real each;       // for a pair of corners
     };
     std::vector<Resistance> resistances_;  // (triangles)
 };

@@ -1,4 +1,4 @@
-// The force of moving air on triangles, in batches. Knows no generator; one copy for each instruction set.
+// The force of moving air on triangles, in batches. It knows no generator. There is one copy for each instruction set.
 #pragma once
 
 #include "taut/mechanics/private/kernel_parts.h"
@@ -7,8 +7,8 @@ namespace taut::mechanics {
 
 inline constexpr int gustWaveCount = 6;
 
-// wave(θ) = r (w0 + w1 r² + w2 r⁴) with r = θ - nearest whole: a sine of one turn but for a few per cent. The second
-// derivative vanishes at r = ½, so that value, slope and curvature go on from turn to turn; 1 at a quarter turn.
+// wave(θ) = r (w0 + w1 r² + w2 r⁴) with r = θ - nearest whole: a sine of one turn, up to a few per cent. It is 1 at a
+// quarter turn. The second derivative vanishes at r = ½, so value, slope and curvature are continuous between turns.
 inline constexpr double gustWaveShape[3] = {448.0 / 75.0, -2560.0 / 75.0, 3072.0 / 75.0};
 
 // A gust field at one instant: g = Σ strength · wave(wavenumber · x + phase), then bent below its limit.
@@ -20,7 +20,7 @@ struct GustWaves {
     Real inverseLimitSquared;           // 1/limit² [s²/m²]
 };
 
-// Wind on triangles. With gusts the kernel finds their air at the points first, into `air`.
+// Wind on triangles. With gusts the kernel first computes the points' velocities less the gust -> `slip`.
 template <class Real>
 struct WindBatch {
     CornerLanes<3> lanes;
@@ -28,13 +28,13 @@ struct WindBatch {
     int stride;
     const Real* x;                // (3 · stride) [m]
     const Real* v;                // (3 · stride) [m/s]
-    Real* f;                      // (3 · stride) [N], added to
+    Real* f;                      // (3 · stride) [N]; the kernel adds to it
     Real flow[3];                 // steady part of the air's velocity [m/s]
     Real drag, lift;              // ρ C_D / 12, ρ C_L / 12 [kg/m³]
     const GustWaves<Real>* gust;  // null: steady
-    int firstPoint, pointCount;   // all triangles' points are among these
-    Real* slip;                   // (3 · pointCount) room for the velocities of the points less the gust there
-    Real* packed;                 // (12 · loosePointCount) room for x, slip and forces of points of loose triangles
+    int firstPoint, pointCount;   // the range that has all points of the triangles
+    Real* slip;                   // (3 · pointCount) scratch for the velocities of the points less the gust there
+    Real* packed;                 // (12 · loosePointCount) scratch for x, slip and forces of points of loose triangles
 };
 
 namespace sse2 {

@@ -1,5 +1,5 @@
-// Conjugate gradients for A x = b with a diagonal preconditioner: A is known by its products only. Sums have one order
-// whatever the processor and the number of threads, and are kept in double.
+// Conjugate gradients for A x = b with a diagonal preconditioner. It knows A only by its products. Sums are in double,
+// in the same order on any processor and for any number of threads.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 namespace taut::ode {
 
 struct Solution {
-    int products = 0;        // with A
+    int products = 0;        // number of products with A
     bool converged = false;  // the preconditioned residual fell below tolerance times that of x = 0
 };
 
@@ -20,8 +20,8 @@ class ConjugateGradient {
 
     explicit ConjugateGradient(std::size_t size) : size_(size), r_(size), p_(size), q_(size) {}
 
-    // b and x (size); `inverse` (size) holds 1/A_ii, 0 where x stays as given, which the other equations then see. The
-    // other x are the first guess. Expects A to be symmetric and positive definite.
+    // b and x (size); `inverse` (size) holds 1/A_ii, or 0 where x stays as given. The other equations see the given x.
+    // The other x are the first guess. Expects A to be symmetric and positive definite.
     Solution solve(const Product& multiply, const Real* inverse, const Real* b, double tolerance, int maxIterations,
                    Real* x);
 
@@ -32,7 +32,7 @@ class ConjugateGradient {
     core::AlignedArray<Real> r_, p_, q_;
 };
 
-// Σ w a b over `size` numbers each, in double, in an order that depends on the size alone.
+// Σ w a b over `size` numbers each, in double. The order depends only on the size.
 template <class Real>
 double weightedSum(std::size_t size, const Real* w, const Real* a, const Real* b);
 

@@ -1,4 +1,4 @@
-// What implicit methods share: linear systems of the masses and the derivatives of the forces, and loops over planes.
+// Shared by implicit methods: linear systems of the masses and the derivatives of the forces, and loops over planes.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace taut::ode {
 
-// Calls f(place in the array, point) for all numbers in use, plane by plane.
+// Calls f(index in the array, point) for all numbers in use, plane by plane.
 template <class F>
 void forEachNumber(Layout layout, F&& f) {
     for (int p = 0; p < layout.planes; ++p)
@@ -23,12 +23,12 @@ void forEachNumber(Layout layout, F&& f) {
               static_cast<std::size_t>(i));
 }
 
-// The largest step [s] of methods that are stable for every step on linear problems.
+// [s] The largest step of methods that are stable on linear problems for every step.
 inline double unlimitedStep(const FastestMode&) {
     return HUGE_VAL;
 }
 
-// Keeps accelerations as they come. out (layout.size()).
+// Stores the accelerations in out (layout.size()).
 template <class Real>
 class StoreAccelerations final : public AccelerationSink<Real> {
   public:
@@ -43,7 +43,7 @@ class StoreAccelerations final : public AccelerationSink<Real> {
     Real* out_;
 };
 
-// Throws core::Error(usage) when the system gives no derivatives; `title` is of the method that needs them.
+// Throws core::Error(usage) if the system gives no derivatives. `title` names the method that needs them.
 template <class Real>
 ImplicitSystem<Real>& implicitPartOf(SecondOrderSystem<Real>& system, std::string_view title) {
     if (ImplicitSystem<Real>* implicit = system.implicitPart()) return *implicit;
@@ -51,7 +51,7 @@ ImplicitSystem<Real>& implicitPartOf(SecondOrderSystem<Real>& system, std::strin
                       std::string(title) + " needs a system that gives masses and the derivatives of its forces");
 }
 
-// A = M + sΓ + sC + s²K, Γ the drag m γ, at a configuration. Solves with it stop at a tolerance that the precision can
+// A = M + sΓ + sC + s²K at a configuration, Γ the drag m γ. Its solves stop at a tolerance that the precision can
 // reach.
 template <class Real>
 class ImplicitMatrix {
@@ -69,7 +69,7 @@ class ImplicitMatrix {
     }
     std::size_t size() const { return inverse_.size(); }
 
-    // At (t, x, v); s [s].
+    // Fixes A at (t, x, v); s [s].
     void fix(SecondOrderSystem<Real>& system, double t, const Real* x, const Real* v, double s,
              const Supports<Real>* supports = nullptr) {
         system_ = &system;
@@ -87,13 +87,13 @@ class ImplicitMatrix {
         if (supports != nullptr) supports->level(inverse_.data());
     }
 
-    // A u = b from the guess u, in which what is held or moved by hand stays as given.
+    // Solves A u = b from the guess u. Points that are held or moved by hand keep their given u.
     Solution solve(const Real* b, Real* u, Work& work) {
         return solve([this](const Real* in, Real* out) { multiply(in, out); }, b, u, work);
     }
 
-    // The same with points held up, where what u has along their normals is given too: across them. Adds to what each
-    // support bears. b is used up.
+    // The same with points that contacts hold up. Their u along the normal is given too, and the solve finds their u
+    // across it. Adds to the impulse of each support. Overwrites b.
     Solution solve(core::AlignedArray<Real>& b, core::AlignedArray<Real>& u, const Supports<Real>& supports,
                    Work& work) {
         if (supports.empty()) return solve(b.data(), u.data(), work);
@@ -101,7 +101,7 @@ class ImplicitMatrix {
             multiply(in, out);
             supports.flatten(out);
         };
-        // What is given along normals goes to the other side.
+        // The given part along the normals goes to the other side of the equation.
         if (given_.size() != u.size()) given_ = product_ = whole_ = core::AlignedArray<Real>(u.size());
         std::copy(u.begin(), u.end(), given_.begin());
         supports.flatten(u.data());
@@ -111,6 +111,7 @@ class ImplicitMatrix {
         supports.flatten(b.data());
         for (std::size_t i = 0; i < b.size(); ++i) b[i] -= product_[i];
         const Solution solution = solve(multiplyAcross, b.data(), u.data(), work);
+        // What the equations miss along the normals is the impulse of the supports.
         for (std::size_t i = 0; i < u.size(); ++i) u[i] += given_[i];
         multiply(u.data(), product_.data());
         for (Support& support : supports.all())
@@ -146,8 +147,8 @@ class ImplicitMatrix {
     Real step_ = 0;
 };
 
-// A force that is not a number cannot be solved for, and the solver would leave the state unchanged. So the value goes
-// into the unknown of its point, and the check of the state finds it.
+// The solver cannot handle a force that is not a number, and would leave the state unchanged. So the value goes into
+// the unknown of its point, where the check of the state finds it. Returns whether there was any.
 template <class Real>
 bool passOnWhatIsNoNumber(const core::AlignedArray<Real>& b, core::AlignedArray<Real>& unknown, Work& work) {
     bool isThere = false;

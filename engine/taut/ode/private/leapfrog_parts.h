@@ -1,4 +1,4 @@
-// What leap-frog and its form with dashpots split off share.
+// Shared by leap-frog and its form with dashpots split off.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,8 @@ namespace taut::ode {
 template <class Real>
 std::unique_ptr<Method<Real>> makeSplitLeapfrog();
 
-// After a contact the velocity predicted for the time of the positions, memory[0], is unknown: the new one replaces it.
+// After a contact the velocity predicted for the time of the positions, memory[0], is unknown. The new velocity
+// replaces it.
 template <class Real>
 void takeAsPredicted(State<Real>& state, std::span<const int> points) {
     for (int p = 0; p < state.layout.planes; ++p) {

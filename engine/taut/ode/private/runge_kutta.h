@@ -1,4 +1,4 @@
-// Explicit Runge-Kutta methods as tableaus, for one loop that knows none of them by name.
+// Explicit Runge-Kutta methods as tableaus. One loop runs all of them and knows none by name.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,9 @@
 
 namespace taut::ode {
 
-// Methods whose every stage starts from the slope of the stage before:
+// Methods in which every stage uses only the slope of the stage before:
 //   k_s = f(t + c_s h, y + c_s h k_{s-1}),  y' = y + (h / divisor) Σ w_s k_s
-// Weights are whole numbers, so that both precisions hold them exactly. If the last is the only one, it is the divisor.
+// Weights are whole numbers, so that both precisions hold them exactly. If only the last is not 0, it is the divisor.
 struct Tableau {
     static constexpr int most = 4;
     int stages;

@@ -1,5 +1,5 @@
-// Points that contacts hold up while an implicit step is solved for again: which numbers are given, and the subspace
-// that is left to the others (the filter of Baraff and Witkin).
+// Points that contacts hold up while an implicit step is solved again: which numbers are given, and the subspace that
+// is left for the solve (the filter of Baraff and Witkin).
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class Supports {
         rubbed_ = core::AlignedArray<Real>(layout.size());
     }
 
-    // x (layout.size()): where the contacts have put points.
+    // Takes the supports of a solve. x (layout.size()): where the contacts have put the points.
     void take(std::span<Support> supports, const Real* x) {
         all_ = supports;
         x_ = x;
@@ -50,16 +50,16 @@ class Supports {
     bool isFree(std::size_t point) const { return holds_[point] != Hold::fully; }
     Real given(std::size_t at) const { return x_[at]; }
     const Real* given() const { return x_; }
-    Real rubbed(std::size_t at) const { return rubbed_[at]; }  // what friction has changed of v
+    Real rubbed(std::size_t at) const { return rubbed_[at]; }  // change of v by friction
     std::span<Support> all() const { return all_; }
 
-    // Of those held along their normals.
+    // Calls f(support) for the points held along their normals.
     template <class F>
     void forEachAlong(F&& f) const {
         for (Support& support : all_)
             if (holds_[index(support)] == Hold::along) f(support);
     }
-    // f(place in the array, component of the normal)
+    // Calls f(index in the array, component of the normal) for each plane.
     template <class F>
     void forEachPlane(const Support& support, F&& f) const {
         for (int p = 0; p < layout_.planes; ++p)
@@ -75,11 +75,12 @@ class Supports {
         forEachPlane(
             support, [&](std::size_t at, double n) { rows[at] += static_cast<Real>(length * n); });
     }
-    // Takes out of the rows of points held along a normal what is along it.
+    // Removes the part along the normal from the rows of points held along a normal.
     void flatten(Real* rows) const {
         forEachAlong([&](const Support& support) { addAlong(support, -along(support, rows), rows); });
     }
-    // One number for such a point, so that what is across its normal stays across it. inverse: of a diagonal.
+    // Gives all planes of such a point one number, so that a vector across its normal stays across it. inverse: of a
+    // diagonal.
     void level(Real* inverse) const {
         forEachAlong([&](const Support& support) {
             double sum = 0;

@@ -18,12 +18,12 @@ inline void expectSize(double size, const char* what) {
         failShape(std::string(what) + " has to be above zero, is " + std::to_string(size));
 }
 
-// The half size of a solid of revolution about y.
+// The box of a solid of revolution about y.
 inline core::Aabb roundBounds(double radius, double halfHeight) {
     return {dvec3(-radius, -halfHeight, -radius), dvec3(radius, halfHeight, radius)};
 }
 
-// A convex shape of which closed_shape.h has the distance.
+// A convex shape whose distance is in closed_shape.h.
 template <ClosedKind kind>
 struct ShapeByFormula {
     ClosedShape shape;

@@ -14,7 +14,7 @@ constexpr Range fieldOfView{1.0, 170.0};
 constexpr Range lightSize{0.0, 45.0};  // [degrees]
 constexpr auto inPicture = Affects::picture;
 
-// Whether one can look from one point to another with y up.
+// Checks that one can look from one point to another with y up.
 void checkView(const CheckInput& input, const Node& table, Place place, const dvec3& eye, const dvec3& target) {
     const Member* member = table.find("eye");
     const Place where = member != nullptr ? member->value.place : place;

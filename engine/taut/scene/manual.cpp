@@ -48,7 +48,7 @@ std::string manual(const world::Kinds& kinds) {
                                   : section.name == "defaults"      ? "[defaults.SECTION]"
                                                                     : fmt::format("[{}]", section.name);
         out += fmt::format("\n{}\n  {}\n\n", title, section.help);
-        if (section.name != "defaults")  // they are the keys of the sections above
+        if (section.name != "defaults")  // it repeats the keys of the sections above
             writeFields(section, section.enter(scene, "name", {}), "  ", out);
     }
     out +=

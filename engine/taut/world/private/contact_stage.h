@@ -77,7 +77,7 @@ class ContactStage {
     const std::vector<contact::Crossing>& crossings();           // at present
     dvec3 position(int point) const {
         return x1_[static_cast<std::size_t>(point)];
-    }  // [m] at the last call of crossings()
+    }  // [m] after the last tick or crossings()
     const contact::Elements& elements() const { return group_->elements(); }
     // The body of a surface. Surfaces of bodies come before those of colliders.
     const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }

@@ -280,6 +280,7 @@ SceneSection backgroundSection() {
 }
 
 SceneSection cameraSection() {
+    // A keyframe.
     Section key;
     key.fields = FieldList<CameraKey>()
                      .number("t", &CameraKey::t, "s", Range{0.0, 1e6}, "Moment.")
@@ -304,6 +305,7 @@ SceneSection cameraSection() {
                : table.find("orbit_period_s") != nullptr ? "an orbiting camera"
                                                          : "a still camera";
     };
+    // The camera; with keys it has no place of its own.
     section.fields = FieldList<CameraSpec>()
                          .vector("eye", &CameraSpec::eye, "m", Range{-1e6, 1e6}, "Where the camera stands.")
                          .ramps(inPicture)

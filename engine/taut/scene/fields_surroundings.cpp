@@ -138,6 +138,7 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
     section.name = "joint";
     section.layout = Layout::list;
     section.help = "Ties points of bodies to each other, or to a collider that carries them.";
+    // The variant depends on the kind, and on whether a side is a collider.
     section.variant = [kinds](const Node& table) -> std::string {
         const Member* kind = table.find("kind");
         const Kind<JointSpec>* row = kind != nullptr ? kinds.find(kind->value.text) : nullptr;
@@ -151,6 +152,7 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
         };
         return isOn("a") || isOn("b") ? variants.back() : variants.front();
     };
+    // The field `kind` chooses the struct; it is not stored.
     Field what;
     what.key = "kind";
     what.kind = FieldKind::choice;
@@ -166,6 +168,7 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
             makers[variant] = kind.make;
         }
     }
+    // Enters a joint of its variant. The fields of all kinds stand together.
     section.enter = [makers, first = kinds.all().front().make](SceneSpec& scene, const std::string& variant,
                                                                const Source& source) -> void* {
         const auto maker = makers.find(variant);

@@ -1,5 +1,5 @@
-// What has been cut or torn off a body, in points of its model: edges, and the triangles and tetrahedra that are gone
-// with them. It knows neither islands nor the cause.
+// The damage of a body by cuts and tears, in points of its model: severed edges, and the triangles and tetrahedra that
+// are gone with them. It knows neither islands nor the cause.
 #pragma once
 
 #include <cstddef>

@@ -289,7 +289,7 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
         const double need = (*of.need)(then);
         return need > 0 ? tickSeconds / need : HUGE_VAL;
     };
-    // Rounds up, but for a hair, so that a dt of exactly a tick's part is not divided once more.
+    // Rounds up with a small tolerance, so that a dt of exactly a tick's part is not divided once more.
     const auto substepsOf = [&](double step) { return std::max(1.0, std::ceil(tickSeconds / step * (1 - 1e-12))); };
 
     const double wanted = wantedStep(1.0, choice);

@@ -71,7 +71,7 @@ class StepFollowing {
     }
 
   private:
-    // Rounds up, but for a hair, so that a step of exactly a tick's part is not divided once more.
+    // Rounds up with a small tolerance, so that a step of exactly a tick's part is not divided once more.
     static int enough(double need) {
         const double steps = std::ceil(need * (1 - 1e-12));
         return steps < mostSubsteps ? std::max(1, static_cast<int>(steps)) : mostSubsteps;

@@ -53,7 +53,7 @@ SceneSection atSection(const world::KindTable<world::ActionSpec>& kinds);
 SceneSection checkSection();
 SceneSection goldenSection();
 
-// Expects that keys ascend in t; reports each that does not. `list` is the value of `keys`.
+// Keys must ascend in t. Reports each that does not.
 void checkAscending(const CheckInput& input);
 
 // Enters a new element with a name and a source.

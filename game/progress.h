@@ -14,13 +14,13 @@ namespace taut::game {
 // A duration for people: "0:07", "12:05", "1:02:05".
 std::string clockText(double seconds);
 
-// What never changes during a run.
+// What of a run never changes.
 struct ProgressFacts {
     std::int64_t frames = 1;              // to simulate
     double fps = 60.0;                    // pictures a second of scene time
     double step = 0.0;                    // h of the island with the smallest [s]
     double stepLimit = 0.0;               // its largest stable step [s]
-    std::optional<double> firstEnergy{};  // [J] at the start of the run; none: of the first record with metrics
+    std::optional<double> firstEnergy{};  // [J] at the start of the run; none: of the first record that has metrics
 };
 
 class Progress {
@@ -40,7 +40,7 @@ class Progress {
     ProgressFacts facts_;
     LiveLine line_;
     Clock::time_point start_ = Clock::now();
-    // Start of the measured pace: the start, or the first picture, because frames without a picture pass faster.
+    // Where the pace is measured from: the start, or the first picture, because frames without one pass faster.
     Clock::time_point paceStart_ = start_;
     std::int64_t paceFrame_ = -1;
     bool pictured_ = false;

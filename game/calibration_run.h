@@ -1,5 +1,5 @@
-// The calibration of golden pictures as a command runs it: with processes of their own for other numbers of threads and
-// other processors. It knows neither goldens nor reports.
+// Calibrates golden pictures for a command: it runs processes for other numbers of threads and other processors. It
+// knows neither goldens nor reports.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@ struct CalibrationRequest {
     bool quiet = false;
 };
 
-// Throws core::Error(inputOutput) when a process of its own fails.
+// Throws core::Error(inputOutput) when one of these processes fails.
 std::vector<report::CalibrationRow> runCalibration(const CalibrationRequest& request, const std::atomic<bool>& stop);
 
 }  // namespace taut::game

@@ -1,4 +1,4 @@
-// `taut chart refinement`: the study of ever finer bodies as tables and pictures.
+// `taut chart refinement`: the study of ever finer bodies, as tables and pictures.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,9 @@ namespace taut::game {
 inline constexpr const char* refinementName = "refinement";
 inline constexpr const char* refinementAbout = "ropes, cloths and blocks at rest, at four resolutions, against theory";
 
-// Prints the table and writes CSV, JSON and, when gnuplot runs, the pictures into the folder. `note` stands at the foot
-// of the pictures. Returns the exit code; throws core::Error(inputOutput) when gnuplot is missing, after the rest is
-// written. `settings` say what is studied; stop and progress are set here.
+// Prints the table and writes CSV, JSON and, if gnuplot runs, the pictures into the folder. `note` stands at the foot
+// of the pictures. Returns the exit code. Throws core::Error(inputOutput) if gnuplot is missing, after writing the
+// rest. `settings` say what to study; it sets stop and progress in them.
 int chartRefinement(const std::filesystem::path& folder, const study::MachineFacts& machine, const std::string& note,
                     bool isQuiet, study::RefinementSettings settings = {});
 

@@ -1,5 +1,5 @@
-// All commands of the program: a value, to which another program may add commands of its own. A new one is one file
-// with what it takes, what it does and its row, and one line in command_table.cpp.
+// All commands of the program, as a value to which another program may add commands. A new command is one file with its
+// options, its action and its row, and one line in command_table.cpp.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace taut::game {
 
-// In the order in which the help names them.
+// In the order of the help.
 std::vector<Command> builtInCommands(const Tables& tables = {});
 
 }  // namespace taut::game

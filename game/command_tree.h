@@ -1,5 +1,4 @@
-// What a command line takes, as plain values: what a manual and the completion of a shell are made of. It knows no
-// command.
+// What a command line takes, as plain values. Manual pages and shell completion are made from it. It knows no command.
 #pragma once
 
 #include <string>
@@ -8,11 +7,11 @@
 namespace taut::game {
 
 struct OptionFacts {
-    std::vector<std::string> names;  // "-o", "--output"; of a word that stands for itself one name without dashes
-    std::string value;               // what the help calls its value: "FILE", "TEXT"; empty for a flag
-    std::vector<std::string> words;  // all that the value may be, or most of it; empty where that is no short list
+    std::vector<std::string> names;  // "-o", "--output"; a positional word has one name without dashes
+    std::string value;               // the name of its value in the help: "FILE", "TEXT"; empty for a flag
+    std::vector<std::string> words;  // all its values, or most of them; empty if the list would not be short
     std::string range;               // "1 - 1024"; empty without one
-    std::string standard;            // what it is when it is not given; empty when the help says no more
+    std::string standard;            // its value if not given; empty if the help does not say
     std::string help;
     bool isRequired = false;
     bool isRepeatable = false;
@@ -26,7 +25,7 @@ struct CommandFacts {
 };
 
 struct CommandTree {
-    CommandFacts program;  // what it takes without a command
+    CommandFacts program;  // what the program takes without a command
     std::vector<CommandFacts> commands;
 };
 

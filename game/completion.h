@@ -1,5 +1,4 @@
-// Scripts by which shells complete the command line, made from what the commands say of themselves. It knows none of
-// them.
+// Scripts by which shells complete the command line, made from the descriptions of the commands. It knows none of them.
 #pragma once
 
 #include <string>
@@ -8,7 +7,7 @@
 
 namespace taut::game {
 
-// Names of scenes are asked of the program whenever they are needed, by its command `completion --scenes`.
+// Scripts ask the program for scene names when needed, by its command `completion --scenes`.
 std::string bashCompletion(const CommandTree& tree);
 std::string zshCompletion(const CommandTree& tree);
 std::string fishCompletion(const CommandTree& tree);

@@ -1,4 +1,4 @@
-// Files that somebody may write while the program runs. It reads none of them.
+// Files that others may write while the program runs. It reads none of them.
 #pragma once
 
 #include <chrono>
@@ -11,12 +11,12 @@ namespace taut::game {
 
 class FileWatch {
   public:
-    // From now on these, each once; a folder changes when a file in it comes, goes or is replaced. Those that were
-    // watched before are still compared with what they were when last told of.
+    // Watches these files from now on, each once. A folder changes when a file in it comes, goes or is replaced. Files
+    // that were watched before are still compared with their last reported state.
     void watch(std::vector<std::string> files);
 
-    // Whether one of them is another than when this was last true, or watch() was called: once it has stayed so from
-    // one look to the next, so that a file is not read while it is written. Looks at most every `pause`.
+    // Whether one of them has changed since this last returned true, or since watch(). The change must have lasted from
+    // one look to the next, so that no file is read while it is written. Looks at most every `pause`.
     bool hasChanged();
 
     static constexpr std::chrono::milliseconds pause{150};
@@ -31,7 +31,7 @@ class FileWatch {
     std::vector<Stamp> look() const;
 
     std::vector<std::string> files_;
-    std::vector<Stamp> known_, last_;  // (files) when last told of, when last looked at
+    std::vector<Stamp> known_, last_;  // (files) when last reported, when last looked at
     std::chrono::steady_clock::time_point next_{};
 };
 

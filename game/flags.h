@@ -1,4 +1,4 @@
-// Flags with a form of their own, as plain values. It knows no command.
+// Flags with a syntax of their own, as plain values. It knows no command.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace taut::game {
 
 struct FrameRange {
     std::int64_t first = 0;
-    std::optional<std::int64_t> last;  // included; none: to the end
+    std::optional<std::int64_t> last;  // included; none: up to the end
 };
 
 // "120", "120-239" or "120-"; throws core::Error(usage).
 FrameRange frameRange(const std::string& text);
 
-// A piece of work that is cut into `count`.
+// One of `count` pieces of work.
 struct Shard {
     std::int64_t index = 0, count = 1;
 
-    // The pieces of so many things are contiguous and differ by one thing at most.
+    // The pieces are contiguous. Their sizes differ by one at most.
     std::int64_t begin(std::int64_t things) const { return things * index / count; }
     std::int64_t end(std::int64_t things) const { return things * (index + 1) / count; }
     std::string text() const { return std::to_string(index) + "/" + std::to_string(count); }
@@ -37,21 +37,21 @@ struct Size {
 // "1280x720", each side 1 … 16384; throws core::Error(usage).
 Size pictureSize(const std::string& text);
 
-// A check for a flag: empty when its text is a number in least … most, else what is wrong. Unlike Option::within it
-// lets neither nan nor numbers of hundreds of digits through.
+// A check for a flag: empty if its text is a number in least … most, else what is wrong. Unlike Option::within it
+// rejects nan and numbers of hundreds of digits.
 std::function<std::string(const std::string&)> numberWithin(double least, double most);
 
 class Options;
 
-// --isa, which fixes the instruction set of the kernels before anything asks for it. `isa` holds what was given.
+// --isa, which sets the instruction set of the kernels before anything asks for it. `isa` holds the given value.
 void addInstructionSetFlag(Options& options, std::string& isa);
 
-// --fps and --seconds, which stand over what the scene says of its run; 0: not given.
+// --fps and --seconds, which override what the scene says of its run; 0: not given.
 void addRunFlags(Options& options, double& fps, double& seconds);
-// What they ask for, in the words of the scene format.
+// These flags in the words of the scene format.
 void addRunOverrides(double fps, double seconds, std::vector<std::string>& overrides);
 
-// What `--seconds` takes: more motion, or less, than anybody waits for is a slip of the hand.
+// Limits of `--seconds`; values beyond them are slips.
 inline constexpr double leastSeconds = 1e-3, mostSeconds = 86400.0;  // [s]
 
 }  // namespace taut::game

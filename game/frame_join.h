@@ -1,4 +1,5 @@
-// Frames that the parts of a run have drawn: proved to be one run's, and made a video. It knows no scene.
+// Joins frames that the parts of a run have drawn: proves that they are of one run, and makes a video. It knows no
+// scene.
 #pragma once
 
 #include <atomic>
@@ -22,22 +23,22 @@ struct FrameJoin {
     double fps() const { return records.front().fps; }
 };
 
-// All frames of the run, or those wanted. Throws core::Error(inputOutput) where records are not of one run, by their
-// keys, their renderers and versions of the program unless any will do, or their state hashes; where frames or records
-// are missing, with all that is; and where frames are not as records say, by their checksums.
+// All frames of the run, or the wanted ones. Throws core::Error(inputOutput) if records are not of one run: by their
+// keys, their state hashes, or their renderers and versions of the program, unless any will do. Also if frames or
+// records are missing, with a list of them, or if checksums of frames differ from the records.
 FrameJoin provedFrames(const image::FramePattern& pattern, const std::optional<FrameRange>& wanted,
                        bool takesAnyRenderer);
 
 struct JoinedMetrics {
     std::string text;
-    std::string fault;  // why there is no text, where some parts have metrics
+    std::string fault;  // why there is no text although some parts have metrics
 };
-// metrics.csv of all parts: of each the lines of its own frames, and before the first what that one has. None where not
-// all have written the same columns.
+// metrics.csv of all parts: from each the lines of its own frames, and from the first also the lines before
+// those. None if the parts have not all written the same columns.
 JoinedMetrics joinedMetrics(const FrameJoin& join);
 
-// Into the sink, which is not finished where `stop` became true: false then. Throws what the sink throws, and
-// core::Error for a picture that cannot be read.
+// Writes the frames into the sink. Returns false, with the sink not finished, if `stop` became true. Throws what the
+// sink throws, and core::Error for a picture that cannot be read.
 bool encodeFrames(const FrameJoin& join, image::FrameSink& sink, bool quiet, const std::atomic<bool>& stop);
 
 }  // namespace taut::game

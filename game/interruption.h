@@ -1,4 +1,4 @@
-// Ctrl-C and the request to terminate, as a flag that long work looks at.
+// Ctrl-C and the request to terminate, as a flag that long work checks.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@
 
 namespace taut::game {
 
-// While it lives, the first SIGINT or SIGTERM sets the flag, and one that comes more than a second later ends the
-// program. One at a time.
+// While it lives, the first SIGINT or SIGTERM sets the flag. A further one more than a second later ends the program.
+// Only one may live at a time.
 class Interruption {
   public:
     Interruption();
@@ -21,7 +21,7 @@ class Interruption {
 
     const std::atomic<bool>& flag() const;
 
-    // What the program is to end with: interrupted (130), terminated (143), or none.
+    // The program's exit code: interrupted (130), terminated (143), or none.
     std::optional<ExitCode> exitCode() const;
 
   private:

@@ -1,5 +1,5 @@
-// What the commands that measure share: checked flags, progress, the folder of results, facts of the machine. It knows
-// nothing of what is measured.
+// What the measuring commands share: checked flags, progress, the folder of results, facts of the machine. It does not
+// know what is measured.
 #pragma once
 
 #include <atomic>
@@ -17,15 +17,15 @@
 
 namespace taut::game {
 
-// Throws core::Error(usage), with a suggestion, when there is no method of one of the names.
+// Throws core::Error(usage), with a suggestion, for the name of no method.
 void checkMethods(const std::vector<std::string>& wanted);
 
-// Name and value of everything that measured times depend on.
+// Name and value of everything on which measured times depend.
 std::vector<std::pair<std::string, std::string>> machineFacts(const pipeline::Machine& machine);
 std::string programText(const pipeline::Machine& machine);  // version and commit
 
-// Tells how far the work is and how long it will take, from any thread but one at a time; nothing once it is stopped,
-// as what is done then is no measure.
+// Reports progress and the remaining time. Any thread may call it, one at a time. It stays silent once stopped, because
+// work after that is no measure.
 class LabProgress {
   public:
     LabProgress(std::string name, bool isQuiet, const std::atomic<bool>& stop)
@@ -39,7 +39,7 @@ class LabProgress {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The folder that results go to. Without gnuplot it keeps tables only, and says so.
+// The folder for results. Without gnuplot it holds tables only, and says so.
 class LabFolder {
   public:
     // Makes the folder; throws core::Error(inputOutput).
@@ -49,12 +49,12 @@ class LabFolder {
 
     // Says where the results are and returns the exit code; throws core::Error(inputOutput) without gnuplot.
     int finish(const Interruption& interruption) const;
-    // The same when interrupted before there were results: of the folders made, none is left.
+    // The same after an interruption before there were results: removes the folders that it made.
     int abandon(const Interruption& interruption) const;
 
   private:
     std::filesystem::path folder_;
-    std::vector<std::filesystem::path> made_;  // folders that were not there before, the innermost first
+    std::vector<std::filesystem::path> made_;  // new folders, the innermost first
     bool draws_, isQuiet_;
 };
 

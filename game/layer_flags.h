@@ -1,4 +1,4 @@
-// The flags of what a picture has besides colours, and of its exposure: alpha, layers, motion blur. It draws nothing.
+// The flags for what a picture has besides colours, and for its exposure: alpha, layers, motion blur. It draws nothing.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ class World;
 
 namespace taut::game {
 
-// A row of the table of layers, and what was said of it.
+// A row of the table of layers, with what the command line says of it.
 struct LayerFlag {
     render::LayerKind kind;
     bool isGiven = false;
-    double number = 0.0;  // that of the row; its standard when not given
+    double number = 0.0;  // the number of the row; its default if not given
 
     explicit LayerFlag(const render::LayerKind& row) : kind(row), number(row.number ? row.number->standard : 0.0) {}
     bool hasOwnNumber() const { return kind.number && number != kind.number->standard; }
@@ -30,28 +30,28 @@ struct LayerFlags {
     bool alpha = false;
     std::vector<LayerFlag> layers{};  // one for each row
     int blurMoments = 0;              // 0: no motion blur
-    double fStop = 0.0, focus = 0.0;  // as of pipeline::RunOptions
+    double fStop = 0.0, focus = 0.0;  // as in pipeline::RunOptions
 };
 
-// `debug` is the flag of the debug view, which is not transparent. Expects that the rows are there, and stay.
+// `debug` is the flag of the debug view, which is not transparent. Expects that the rows exist and outlive the options.
 void addLayerFlags(Options& options, LayerFlags& flags, const Option& debug);
 
 std::vector<LayerFlag> flagsOf(const render::LayerKinds& kinds);
 
-// Throws core::Error(usage) where an output cannot hold what is asked for. `output` and `video` are as on the command
-// line, empty where there is none.
+// Throws core::Error(usage) if an output cannot hold what is asked for. `output` and `video` are as on the command
+// line, or empty.
 void checkLayerFlags(const LayerFlags& flags, const std::string& output, const std::string& video);
 
-// The exposure, into the options of a run.
+// Writes the exposure into the options of a run.
 void expose(const LayerFlags& flags, pipeline::RunOptions& options);
 
-// What pictures depend on besides the scene; `debug` and `overlay` are flags of their own.
+// What changes pictures besides the scene. `debug` and `overlay` are separate flags.
 std::vector<std::uint64_t> lookOf(bool debug, bool overlay, const LayerFlags& flags);
 
 // Kinds of files beside frames: image::FramePattern::beside.
 std::vector<std::string> filesBeside(const LayerFlags& flags);
 
-// What the renderer has to know; `world` is the one that is shown at first.
+// What the renderer needs to know. `world` is the first to be shown.
 pipeline::PictureLayers layersOf(const LayerFlags& flags, const world::World& world);
 
 }  // namespace taut::game

@@ -1,5 +1,5 @@
-// One line on standard error that tells how far something is: rewritten in place on a terminal, a plain line now and
-// then otherwise. It does not know what it tells of.
+// One line of progress on standard error. On a terminal it is rewritten in place, otherwise a plain line appears now
+// and then. It does not know what makes progress.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ class LiveLine {
     LiveLine(const LiveLine&) = delete;
     LiveLine& operator=(const LiveLine&) = delete;
 
-    // Whether it is time for another line; the last one always is. Then show() is to follow.
+    // Whether it is time for another line; always for the last one. If so, show() must follow.
     bool isDue(bool last);
     void show(const std::string& text);
 

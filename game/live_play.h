@@ -1,5 +1,5 @@
-// A scene played in a window: events become what the session, the camera and the recorder do, and every turn of the
-// loop draws a picture while the next ticks are computed. It knows neither the command line nor SDL.
+// Plays a scene in a window. Events become actions of the session, the camera and the recorder. Every turn of the loop
+// draws a picture while the next ticks are computed. It knows neither the command line nor SDL.
 #pragma once
 
 #include <atomic>
@@ -27,26 +27,26 @@
 namespace taut::game {
 
 struct PlaySettings {
-    std::string scene;                   // as given
+    std::string scene;                   // as the user gave it
     std::vector<std::string> overrides;  // "key=value"
     int width = 512, height = 288;       // [px] on a common screen
-    std::string quality = "auto";        // or as levelNamed() has it
+    std::string quality = "auto";        // or a name of levelNamed()
     std::string gl;                      // as in the flag --gl; empty: the first that works
-    int threads = 0;                     // 0: all of the machine
-    double seconds = 0.0;                // [s] of wall time after which it ends; 0: when the user ends it
+    int threads = 0;                     // 0: all threads of the machine
+    double seconds = 0.0;                // [s] of wall time after which it ends; 0: the user ends it
     bool records = false;                // from the start
-    bool watches = false;                // the scene is read again when one of its files changes
+    bool watches = false;                // reads the scene again when one of its files changes
     std::filesystem::path record;        // the file to write; empty: named after the scene, in the current folder
-    bool isQuiet = false;                // says on standard error only what went wrong
-    bool isVerbose = false;              // prints every action on standard error
+    bool isQuiet = false;                // only errors appear on standard error
+    bool isVerbose = false;              // every action appears on standard error
 };
 
 class LivePlay {
   public:
-    // Throws core::Error of the scene, noRenderer without a display.
+    // Throws core::Error for a faulty scene, noRenderer without a display.
     explicit LivePlay(PlaySettings settings);
 
-    // Until the user ends it, the time is over or `stop` is set. Writes what is being recorded then.
+    // Runs until the user ends it, the time is over or `stop` is set. Then writes what is being recorded.
     void run(const std::atomic<bool>& stop);
 
   private:
@@ -87,10 +87,10 @@ class LivePlay {
     void printSummary(double seconds) const;
 
     PlaySettings settings_;
-    std::vector<std::string> changes_;  // overrides by keys, after those of the settings
+    std::vector<std::string> changes_;  // overrides by keys, applied after those of the settings
     std::unique_ptr<Window> window_;
     int width_ = 0, height_ = 0;        // [px] of the window
-    std::vector<DrawingLevel> levels_;  // one, where the quality is fixed
+    std::vector<DrawingLevel> levels_;  // one if the quality is fixed
     std::optional<live::Adaptation> adaptation_;
     std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<live::Session> session_;
@@ -100,28 +100,28 @@ class LivePlay {
     live::Pace pace_{1.0};
     live::Orbit orbit_;
     PlayScreen screen_;
-    std::optional<live::PickedPoint> named_;  // under the mouse, where names are shown
+    std::optional<live::PickedPoint> named_;  // under the mouse, if names are shown
     FiguresPlace figures_;
-    pipeline::PictureBox covered_;  // [px] by the figures
+    pipeline::PictureBox covered_;  // [px] covered by the figures
 
     enum class Dragging { nothing, point, view };
     Dragging dragging_ = Dragging::nothing;
     glm::dvec2 mouse_{0.5};     // [shares of the picture]
-    std::string heldBody_;      // whose point it is
-    glm::dvec3 held_{0.0};      // [m] where the mouse leads the point that it holds
-    glm::dvec3 offset_{0.0};    // [m] from the ray's place to that point
-    view::Camera shownCamera_;  // of the scene, in the picture that is shown
+    std::string heldBody_;      // the body of the held point
+    glm::dvec3 held_{0.0};      // [m] to where the mouse moves the held point
+    glm::dvec3 offset_{0.0};    // [m] from the place on the ray to that point
+    view::Camera shownCamera_;  // the scene's camera in the shown picture
 
     bool isOver_ = false, isPaused_ = false, showsMarks_ = false, showsOverlay_ = true, isRecording_ = false;
     bool showsNames_ = false;
     bool hasChanged_ = true;  // since the last picture
-    int steps_ = 0;           // single ticks asked for
-    int slowness_ = 0;        // motion is 2 to the power of this slower
+    int steps_ = 0;           // single ticks that are asked for
+    int slowness_ = 0;        // motion is slower by 2 to the power of this
     bool saidDivergence_ = false;
-    std::size_t printed_ = 0;  // deeds
+    std::size_t printed_ = 0;  // number of deeds printed
     std::int64_t pictures_ = 0, ticks_ = 0;
     double rate_ = 0.0;     // [pictures/s] lately
-    double drawing_ = 0.0;  // [s] that the last picture took
+    double drawing_ = 0.0;  // [s] for the last picture
 };
 
 }  // namespace taut::game

@@ -1,7 +1,7 @@
 // What the program says: results on standard output, everything else on standard error. It knows no command.
 //
-// Nothing here throws. What cannot be written to standard error is dropped, for results must not be lost because nobody
-// listens; that standard output has failed is known at the end, by areResultsWritten().
+// Nothing here throws. What cannot be written to standard error is dropped, because results must not be lost if nobody
+// listens. areResultsWritten() tells at the end whether standard output has failed.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 
 namespace taut::game {
 
-// As they are; what would steer a terminal is shown as text by the two below.
+// writeResult() writes a text unchanged. The two below make control characters of a terminal visible.
 void writeResult(std::string_view text);
 void writeNote(std::string_view text);
 
@@ -30,16 +30,16 @@ void printNote(fmt::format_string<Values...> format, Values&&... values) {
     printNoteText(fmt::format(format, std::forward<Values>(values)...));
 }
 
-// Faults of a file come as FILE:LINE:COLUMN, which editors understand at the start of a line only; others are preceded
-// by the name of the program.
+// Faults of a file start with FILE:LINE:COLUMN, because editors understand that only at the start of a line. Other
+// messages start with the name of the program.
 void printError(const core::Error& error);
 void printWarnings(const std::vector<std::string>& warnings);
 
-// Makes sure that what was printed has left, and tells whether all of it did, or its reader wanted no more of it.
+// Flushes the output. Returns whether all of it was written, or its reader closed it early.
 bool areResultsWritten();
 
-// Opens what the program was started without, so that no file of ours gets the number of a standard stream: there,
-// writing results fails and notes go nowhere.
+// Opens standard streams that are closed at the start, so that no file of ours gets their numbers. Writing results to
+// such a stream fails, and notes disappear.
 void openMissingStreams();
 
 }  // namespace taut::game

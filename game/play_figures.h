@@ -1,4 +1,4 @@
-// Where the figures of `taut play` stand: out of the way of what is pulled. It paints nothing.
+// The place of the figures of `taut play`: out of the way of what is pulled. It paints nothing.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,13 +9,13 @@
 
 namespace taut::game {
 
-// Whether the box holds the place, or has it no farther away than `margin`, all in [px].
+// Whether the place is in the box or at most `margin` away from it, all in [px].
 bool holds(const pipeline::PictureBox& box, glm::vec2 at, float margin);
 
 class FiguresPlace {
   public:
-    // What the figures cover in the picture now, of that width, and what is pulled [px]: where the hand has it, and
-    // points of its body. `seconds` since the last call.
+    // covered: what the figures cover in the present picture of that width. hand, body: where the hand and points of
+    // the pulled body are [px]. `seconds` since the last call.
     void follow(const pipeline::PictureBox& covered, float width, std::optional<glm::vec2> hand,
                 std::span<const glm::vec2> body, double seconds);
 

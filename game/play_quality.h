@@ -1,5 +1,5 @@
-// How finely `taut play` draws: levels from coarse to the scene's own, each with what a picture costs. It knows neither
-// the renderer nor which level there is time for.
+// How finely `taut play` draws: levels from coarse to the scene's own, each with the cost of a picture. It knows
+// neither the renderer nor which level there is time for.
 #pragma once
 
 #include <string>
@@ -18,16 +18,16 @@ struct DrawingLevel {
     int samples = 1;        // of anti-aliasing
     int shadowSize = 1024;  // [texels]
     bool occlusion = true;  // things darken the ground around them
-    double cost = 1.0;      // of a picture, in processor time [ms]: what counts is how levels compare
+    double cost = 1.0;      // of a picture, in processor time [ms]; only the ratio of levels counts
 
     int pixels(int length) const;  // of the window's length
     bool looksAs(const DrawingLevel& other) const;
 };
 
-// Ascending, the last as the scene has it; none finer than that.
+// Ascending. The last is as the scene has it, and none is finer.
 std::vector<DrawingLevel> drawingLevels(const world::PictureSpec& scene);
 
-// "draft", "normal" or "full", as the flag --quality names them, whatever the scene has but for "full".
+// "draft", "normal" or "full", as in the flag --quality. Only "full" depends on the scene.
 DrawingLevel levelNamed(const std::string& name, const world::PictureSpec& scene);
 
 }  // namespace taut::game

@@ -1,5 +1,5 @@
-// What `taut play` writes over its pictures besides the figures: help, what is on, and messages for a while. It knows
-// neither the session nor the window.
+// What `taut play` writes over its pictures besides the figures: help, what is switched on, and short messages. It
+// knows neither the session nor the window.
 #pragma once
 
 #include <chrono>
@@ -17,15 +17,15 @@
 
 namespace taut::game {
 
-// A point, and what it is called, written beside the mouse; places in [px].
+// A point with its name, written beside the mouse; places in [px].
 struct NamedPoint {
     glm::vec2 point{0.0F}, mouse{0.0F};
     std::string name;
 };
 
 struct ScreenContent {
-    std::vector<std::string> marks;   // "paused", "recording", … in the upper corner where the figures are not
-    std::optional<glm::vec2> hand;    // [px] where it holds something: no message over it
+    std::vector<std::string> marks;   // "paused", "recording", … in the upper corner without figures
+    std::optional<glm::vec2> hand;    // [px] where the hand holds something; messages leave it free
     std::optional<NamedPoint> named;
 };
 
@@ -33,19 +33,19 @@ class PlayScreen {
   public:
     using Clock = std::chrono::steady_clock;
 
-    // The font for what is wrong with a file, best with letters of one width.
+    // The font is for faults of a file; letters of one width are best.
     explicit PlayScreen(const std::filesystem::path& font) : fixed_(render::Font(font)) {}
 
-    // A line at the lower edge, for some seconds; a new one takes its place.
+    // Shows a line at the lower edge for some seconds. A new line replaces it.
     void say(std::string text, double seconds = 4.0);
     bool isSaying() const { return Clock::now() < until_; }
 
-    // What is wrong with the scene, in as many lines as it has, until the next call; empty: nothing is.
+    // Shows what is wrong with the scene, in as many lines as needed, until the next call; empty: nothing is wrong.
     void showFault(std::string text) { fault_ = std::move(text); }
 
     void toggleHelp() { isHelping_ = !isHelping_; }
 
-    // The figures say where and how.
+    // Place and size follow from the figures.
     void paint(image::Image& picture, render::TextPainter& letters, const ScreenContent& content,
                const pipeline::OverlayLook& figures);
 

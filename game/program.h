@@ -1,4 +1,4 @@
-// The program: chooses the command and turns what goes wrong into a message and an exit code. It knows no command.
+// The program: chooses the command, and turns errors into a message and an exit code. It knows no command.
 #pragma once
 
 #include <span>

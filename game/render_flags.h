@@ -1,4 +1,4 @@
-// What the command line of `taut render` says, as plain values. It renders nothing.
+// The command line of `taut render` as plain values. It renders nothing.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct RenderFlags {
     std::string frames, shard, size, camera, gl, isa, hashEvery = "frame", metricsOf;
     double fps = 0.0, seconds = 0.0;
     int threads = 0, samples = 0, drawThreads = 0, jobs = 0;
-    std::vector<std::string> at;  // [s]: stills of these moments instead of a run
+    std::vector<std::string> at;  // [s] draws stills at these moments instead of a run
     std::vector<std::string> overrides;
     ContinuationFlags continuation;
     LayerFlags layers;
@@ -28,13 +28,13 @@ struct RenderFlags {
 
 void addRenderFlags(Options& options, RenderFlags& flags);
 
-// Throws core::Error(usage) for what does not go together.
+// Throws core::Error(usage) for flags that do not go together.
 void checkFlags(const RenderFlags& flags);
 
-// The files that --at draws, by number. Throws core::Error(usage) where their names have no place for one.
+// The files that --at draws, by number. Throws core::Error(usage) if their names have no place for a number.
 image::FramePattern stillPattern(const RenderFlags& flags);
 
-// What --fps, --seconds, --size and --camera ask for, in the words of the scene format.
+// The flags --fps, --seconds, --size and --camera in the words of the scene format.
 std::vector<std::string> allOverrides(const RenderFlags& flags);
 
 }  // namespace taut::game

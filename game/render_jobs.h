@@ -1,5 +1,5 @@
-// A run drawn by several processes of this program, each a shard. It simulates nothing: the states that shards go on
-// from are there.
+// Draws a run by several processes of this program, each with a shard. It simulates nothing: the states from which
+// shards go on exist already.
 #pragma once
 
 #include <atomic>
@@ -15,17 +15,17 @@
 
 namespace taut::game {
 
-// Where a run keeps what it needs on the way, beside its output; goes with the object.
+// The folder beside the output for the intermediate files of a run; removed with the object.
 class JobsFolder {
   public:
-    // Empties what a killed run has left. Throws core::Error(inputOutput), also while another run uses it.
+    // Removes what a killed run has left. Throws core::Error(inputOutput), also while another run uses the folder.
     explicit JobsFolder(const std::filesystem::path& output);
     ~JobsFolder();
     JobsFolder(const JobsFolder&) = delete;
     JobsFolder& operator=(const JobsFolder&) = delete;
 
     std::filesystem::path states() const { return path_ / "states"; }
-    // Where frames are drawn to: the output itself where it is frames.
+    // Where frames are drawn: into the output itself if it is a sequence of frames.
     std::filesystem::path frames() const { return frames_; }
 
   private:
@@ -33,18 +33,18 @@ class JobsFolder {
     pipeline::RunLock lock_;
 };
 
-// How often states are to be kept [frames], so that shards of that many frames begin shortly after one.
+// [frames] How often to keep states, so that shards of that many frames start shortly after one.
 std::int64_t checkpointEveryFor(int jobs, std::int64_t frames);
 
-// Draws the part's frames, proves that they are of the run with that key and these states, and gives them to `video` if
-// there is one, which is finished then. The records of the shards are gone afterwards. Returns what drew them; none
-// when `stop` became true: what was drawn so far stays. Throws core::Error of a shard's exit code with what it said;
-// the others are ended then.
+// Draws the part's frames and proves that they are of the run with that key and these states. Passes them to `video`,
+// if given, and finishes it. Removes the records of the shards. Returns the renderer that drew them, or none if `stop`
+// became true; frames drawn so far stay. If a shard fails, throws core::Error with its exit code and message, and ends
+// the other shards.
 std::optional<render::RendererInfo> drawByJobs(const RenderFlags& flags, const RunPart& part, std::uint64_t key,
                                                const pipeline::RecordLog& states, const JobsFolder& folder,
                                                image::FrameSink* video, const std::atomic<bool>& stop);
 
-// In a process that drawByJobs has started: makes it end with the one that did.
+// In a process started by drawByJobs(): makes it end with the process that started it.
 void endWithStarter();
 
 }  // namespace taut::game

@@ -1,4 +1,4 @@
-// What a run of `taut render` writes: its pictures, and the records beside them. It plays nothing.
+// The files of a run of `taut render`: its pictures, and the records beside them. It plays nothing.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,21 @@
 
 namespace taut::game {
 
-// Everything that was asked for, or null; asks before it overwrites. With --jobs frames are left to others.
+// The sink for all outputs that were asked for, or null. Asks before it overwrites. With --jobs others write the
+// frames.
 std::unique_ptr<image::FrameSink> makeOutputs(const RenderFlags& flags, const RunPart& part, double fps);
 
-// A record of the part beside the output: of run.json "run", ".json".
+// The path of a record of the part beside the output: run.json for "run", ".json".
 std::filesystem::path recordPath(const RenderFlags& flags, const RunPart& part, const std::string& stem,
                                  const std::string& extension);
 
-// Where states are kept; empty without an output and a folder given.
+// The folder of states; empty if neither an output nor a folder is given.
 std::filesystem::path checkpointFolder(const RenderFlags& flags);
 
-// Whole or not at all; throws core::Error(inputOutput).
+// Writes the whole file or nothing; throws core::Error(inputOutput).
 void writeWith(const std::filesystem::path& path, const std::function<void(const pipeline::Write&)>& writeAll);
 
-// run.json, and metrics.csv if it was asked for.
+// Writes run.json, and metrics.csv if asked for.
 void writeRecords(const RenderFlags& flags, const RunPart& part,
                   const std::function<void(const pipeline::Write&)>& writeJson, const world::SceneSpec& spec,
                   const pipeline::RunResult& result, const std::vector<std::string>& figures);

@@ -1,12 +1,12 @@
-// Single moments of a scene as pictures: what `taut render --at` does. It knows no video and keeps no record.
+// Draws single moments of a scene: what `taut render --at` does. It knows no video and keeps no record.
 #pragma once
 
 #include "game/render_flags.h"
 
 namespace taut::game {
 
-// Simulates from the start and draws the moments of RenderFlags::at on the way; returns the exit code. Expects flags
-// that have been checked. Throws core::Error.
+// Simulates from the start and draws the moments of RenderFlags::at on the way. Returns the exit code. Expects checked
+// flags. Throws core::Error.
 int renderStills(const RenderFlags& flags);
 
 }  // namespace taut::game

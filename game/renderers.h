@@ -1,4 +1,4 @@
-// Renderers for the program's pictures: its shaders, its font, the backends that may draw.
+// Makes renderers for the program's pictures: its shaders, its font, the allowed backends.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ struct PictureSpec;
 
 namespace taut::game {
 
-// What --gl names; all in the order of trying when it is empty.
+// The choice of --gl. Empty: all backends, in the order of trying.
 struct GlChoice {
     std::vector<render::Backend> backends;
     std::optional<int> device{};  // of EGL
@@ -28,20 +28,20 @@ class Options;
 // --gl
 void addRendererFlag(Options& options, std::string& gl);
 
-// How many threads the software renderer may use, unless the user's LP_NUM_THREADS says it; 0: as many as there are.
+// How many threads the software renderer may use, unless the user sets LP_NUM_THREADS; 0: as many as the machine has.
 void limitSoftwareRenderer(int threads);
 
-// Of the picture's size and quality. Throws core::Error(noRenderer).
+// With the picture's size and quality. Throws core::Error(noRenderer).
 std::unique_ptr<render::Renderer> makeRenderer(const world::PictureSpec& picture, int threads,
                                                const std::string& gl = {}, const pipeline::PictureLayers& layers = {});
 
-// Several that draw the same pictures.
+// Several renderers that draw the same pictures.
 std::vector<std::unique_ptr<render::Renderer>> makeRenderers(const world::PictureSpec& picture, int threads,
                                                              const std::string& gl,
                                                              const pipeline::PictureLayers& layers, int count);
 
-// How many renderers pay: `wanted`, or where that is 0 one for each thread, at most four, and no more than there are
-// pictures and than an eighth of the memory holds.
+// A useful number of renderers: `wanted`, or if that is 0 one for each thread, at most four. Never more than there are
+// pictures, or than fit in an eighth of the memory.
 int drawersFor(int wanted, int threads, const world::PictureSpec& picture, const pipeline::RunOptions& options);
 
 }  // namespace taut::game

@@ -1,4 +1,4 @@
-// Finds and reads the scene that a command was given. It knows no command.
+// Finds and reads the scene given to a command. It knows no command.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +11,16 @@
 
 namespace taut::game {
 
-// A file as named, or, for a bare name, the shipped scene or else scenario of that name. Throws
-// core::Error(inputOutput), with the nearest shipped scene when it was a bare name.
+// The file as named. A bare name means the shipped scene of that name, or else the shipped scenario. Throws
+// core::Error(inputOutput), for a bare name with the nearest shipped scene.
 std::filesystem::path sceneFile(const std::string& argument);
 
-// With the asset folder. A confined scene reads files below its own folder and the shipped assets only.
+// Options with the asset folder. A confined scene reads only files below its own folder and the shipped assets.
 scene::LoadOptions loadOptions(const std::vector<std::string>& overrides = {}, bool isConfined = false);
 void addConfinedFlag(Options& options, bool& isConfined);
 
-// Reads the scene with overrides ("key=value") and prints its warnings to standard error. Throws core::Error, also for
-// a scene that needs more memory than the machine can give.
+// Reads the scene with overrides ("key=value") and prints its warnings to standard error. Throws core::Error, also if
+// the scene needs more memory than the machine can give.
 world::SceneSpec readScene(const std::string& argument, const std::vector<std::string>& overrides,
                            bool isConfined = false);
 
@@ -28,12 +28,12 @@ world::SceneSpec readScene(const std::string& argument, const std::vector<std::s
 scene::Loaded readSceneWithKeys(const std::string& argument, const std::vector<std::string>& overrides,
                                 bool isConfined = false);
 
-// Says which colliders of a scene take a second or so to prepare; a world that is made of it is silent.
+// Says which colliders of a scene take about a second to prepare, because a world says nothing while it is made.
 std::string preparationText(const world::SceneSpec& spec);
 void notePreparation(const world::SceneSpec& spec);
 
-// Puts `content` in the place of a scene file that still holds `expected`; a link stays one, permissions stay. Throws
-// core::Error(inputOutput), also when someone else has changed the file meanwhile.
+// Replaces a scene file that still holds `expected` by `content`. Links and permissions stay. Throws
+// core::Error(inputOutput), also if somebody else has changed the file meanwhile.
 void replaceSceneFile(const std::filesystem::path& file, const std::string& expected, const std::string& content);
 
 }  // namespace taut::game

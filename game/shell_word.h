@@ -1,11 +1,11 @@
-// Words of a command line, as a person copies them into a shell. It knows no command.
+// Words of a command line that a person can copy into a shell. It knows no command.
 #pragma once
 
 #include <string>
 
 namespace taut::game {
 
-// Quoted where the shell would read something else in it.
+// Quoted if the shell would read it differently.
 std::string shellWord(const std::string& word);
 
 }  // namespace taut::game

@@ -1,4 +1,4 @@
-// Finds the word that was probably meant. It knows nothing of where the words come from.
+// Finds the word that was probably meant. It does not know where the words come from.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace taut::game {
 
-// "; did you mean X?" with the nearest candidate, or nothing when none is near: at most one change in three letters.
+// "; did you mean X?" with the nearest candidate, with at most one change in three letters. Empty if none is near.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace taut::game

@@ -1,4 +1,4 @@
-// What commands choose from by name: tables that are values, to which another program adds rows of its own.
+// What commands choose from by name: tables as values, to which another program can add rows.
 #pragma once
 
 #include "taut/geometry/private/format_table.h"
@@ -7,8 +7,8 @@
 namespace taut::game {
 
 struct Tables {
-    geometry::Formats formats = geometry::builtInFormats();  // of geometry, chosen by how names of files end
-    render::LayerKinds layers = render::builtInLayers();     // of pictures, chosen by flags of their names
+    geometry::Formats formats = geometry::builtInFormats();  // of geometry, chosen by the endings of file names
+    render::LayerKinds layers = render::builtInLayers();     // of pictures, chosen by flags with their names
 };
 
 }  // namespace taut::game

@@ -1,4 +1,4 @@
-// What is made of the report of a run of tests: its exit code, what accepts what differs, the page and the files. It
+// What follows from the report of a test run: exit code, commands that accept differences, the page and the files. It
 // plays nothing.
 #pragma once
 
@@ -11,18 +11,18 @@
 
 namespace taut::game {
 
-// The beginning of the command that makes what scenarios do their goldens.
+// The beginning of the command that records what scenarios do as their goldens.
 std::string acceptBeginning(const TestFlags& flags);
 
-// Says of each scenario what accepts it, and of all what is outdated.
+// Adds to each scenario the command that accepts it, and to the report what is outdated.
 void addAcceptance(const std::string& beginning, report::TestReport& report);
 
 int exitCodeOf(report::Verdict verdict);
 
-// Prints what came out, and writes the pictures of this run below the folder.
+// Prints the outcome, and writes the pictures of this run below the folder.
 void showOutcome(const report::TestReport& report, const std::filesystem::path& folder);
 
-// The page in the folder and, unless its name is empty, the JUnit file.
+// Writes the page into the folder and, unless its name is empty, the JUnit file.
 void writeReport(const report::TestReport& report, const std::filesystem::path& folder, const std::string& junit);
 
 std::filesystem::path pageIn(const std::filesystem::path& folder);

@@ -1,4 +1,4 @@
-// What a run of `taut test` is of: scenarios as named and chosen, goldens, and how they are played. It plays nothing.
+// What a run of `taut test` covers: the chosen scenarios, their goldens, and how they are played. It plays nothing.
 #pragma once
 
 #include <cstdint>
@@ -25,15 +25,16 @@ struct TestRun {
     regression::ReadScenarios read;
     regression::SuiteOptions suite;
     regression::Manifest manifest;
-    std::vector<std::string> names;  // of all scenarios, of which this run may be a shard
-    std::uint64_t key = 0;           // of all that a shard has in common with the others
-    pipeline::RunLock lock;          // of the goldens, while they are changed
+    std::vector<std::string> names;  // of all scenarios; this run may be a shard of them
+    std::uint64_t key = 0;           // of all that shards have in common
+    pipeline::RunLock lock;          // of the goldens, while they change
 };
 
-// Throws core::Error: usage for flags that do not go together and names that fit nothing, what reading goldens throws.
+// Throws core::Error: usage for flags that do not go together and names that match nothing, and what reading goldens
+// throws.
 TestRun prepare(const TestFlags& flags);
 
-// Of the scenarios, those that cannot be read last.
+// The names of the scenarios; those that cannot be read come last.
 std::vector<std::string> namesOf(const regression::ReadScenarios& read);
 
 }  // namespace taut::game

@@ -16,13 +16,13 @@ namespace taut::world {
 namespace {
 
 constexpr std::size_t mostDoubts = 8;  // of one sort
-constexpr double samePlace = 0.01;     // of the distance kept: so near nothing says which of two is on which side
+constexpr double samePlace = 0.01;     // of the distance kept; any closer, the sides of two surfaces are not known
 
 std::string inLength(double metres) {
     return metres < 0.01 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
 }
 
-// Those that touch, there or to come.
+// The bodies that touch, now or later.
 std::vector<const Body*> touchingBodies(const WorldImpl& world) {
     std::vector<const Body*> all;
     const auto add = [&](const Body& body) {
@@ -34,7 +34,7 @@ std::vector<const Body*> touchingBodies(const WorldImpl& world) {
 }
 
 void doubtThickness(std::span<const Body* const> bodies, std::vector<std::string>& doubts) {
-    std::set<const BodySpec*> seen;  // copies would say the same again
+    std::set<const BodySpec*> seen;  // copies would repeat the same
     std::size_t count = 0;
     for (const Body* body : bodies) {
         const double edge = shortestEdge(*body), thickness = body->spec->thickness;
@@ -119,6 +119,7 @@ void doubtPlaces(const ContactStage& stage, std::vector<std::string>& doubts) {
 }  // namespace
 
 std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage& stage) {
+    // Pairs of patches whose boxes overlap.
     const contact::Elements& elements = stage.elements();
     std::vector<dvec3> x;
     for (int i = 0; i < elements.pointCount(); ++i) x.push_back(stage.position(i));
@@ -130,6 +131,7 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
     std::vector<contact::LeafPair> near;
     patches.findNear(boxes, 0.0, near);
     const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
+    // Notes the points of a that lie on a triangle or an edge of b.
     std::map<std::pair<int, int>, std::set<int>> found;
     const auto look = [&](const contact::BvhLeaf& a, const contact::BvhLeaf& b) {
         const Body &own = stage.bodyOf(a.surface), &other = stage.bodyOf(b.surface);
@@ -153,6 +155,7 @@ std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage
         for (int i : a.points)
             if (isIn(at(i))) found[std::minmax(a.surface, b.surface)].insert(i);
     };
+    // Looks both ways, for surfaces of different bodies that are not joined.
     for (contact::LeafPair pair : near) {
         const contact::BvhLeaf &a = patches[contact::lowOf(pair)], &b = patches[contact::highOf(pair)];
         if (a.surface == b.surface || elements.shareBond(a.surface, b.surface) || !stage.isOfBody(a.surface) ||

@@ -1,4 +1,4 @@
-// What a scene asks of bodies that touch and hardly means: found before the first tick.
+// Doubts about bodies that touch, found before the first tick: what a scene asks for and hardly means.
 #pragma once
 
 #include <map>
@@ -12,11 +12,11 @@ namespace taut::world {
 class ContactStage;
 class World;
 
-// Bodies that go through each other or themselves as they start, or lie in one place, `touch` without anything to
-// touch, thickness above the cell. Expects a world that has not ticked.
+// Bodies that pass through each other or themselves at the start, or lie in one place; `touch` with nothing to touch;
+// thickness above the cell size. Expects a world that has not ticked.
 std::vector<std::string> touchDoubts(World& world);
 
-// Of pairs of surfaces the points of either that lie in the other, so near that nothing says which is to go to which
+// For pairs of surfaces: the points of either that lie in the other, so near that nothing tells which belongs on which
 // side. Expects that crossings have been looked for.
 std::map<std::pair<int, int>, std::set<int>> pointsInOnePlace(const ContactStage& stage);
 

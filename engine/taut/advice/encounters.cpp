@@ -12,8 +12,8 @@
 namespace taut::world {
 namespace {
 
-// [ns] about, of what is done in a tick; counted, for a clock would not say the same twice.
-constexpr double perEvaluation = 15, perIteration = 60, perPointInstant = 80;  // and point
+// [ns] Rough cost of the work in a tick. Work is counted, since a clock would not say the same twice.
+constexpr double perEvaluation = 15, perIteration = 60, perPointInstant = 80;  // for each point
 constexpr double perPair = 250;
 
 class LookAhead {
@@ -75,7 +75,7 @@ class LookAhead {
         found_.pairs.emplace((isBefore ? a : b).fullName(), (isBefore ? b : a).fullName());
     }
 
-    // Of all ticks so far [ns].
+    // [ns] Cost of all ticks so far.
     double workOf(const WorldImpl& world) {
         const ContactInfo contact = world.contactStage->info();
         contactWork_ += contact.lastInstants * (perPointInstant * contact.points + perPair * contact.lastTestedPairs);

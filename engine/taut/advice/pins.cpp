@@ -8,7 +8,7 @@
 namespace taut::world {
 namespace {
 
-// Points of the plan at which a force comes from outside the body.
+// The points of a plan on which a force acts from outside the body.
 class Loads {
   public:
     Loads(const IslandPlan& plan, const Body& body, const SceneSpec& scene)
@@ -31,7 +31,7 @@ class Loads {
                     add(body.pointOf[static_cast<std::size_t>(i)]);
     }
 
-    // The first point of the model with a load and none at its neighbours, or -1.
+    // The first point of the model with a load while its neighbours have none, or -1.
     int firstAlone() const {
         std::vector<bool> isAlone = isLoaded_;
         for (const mechanics::Spring& s : body_.model.springs) {

@@ -17,16 +17,16 @@
 namespace taut::world {
 namespace {
 
-constexpr double mostPointSteps = 2e7;  // of playing: about a second
+constexpr double mostPointSteps = 2e7;  // that it plays: about a second
 
 struct Refusal {
     std::int64_t tick = 0;
     std::string message;
-    bool isCertain = false;  // wherever bodies will be
+    bool isCertain = false;  // holds wherever bodies will be
     bool isWarning = false;  // the run goes on
 };
 
-// Whether what the action finds does not depend on where bodies are.
+// Whether the action's finds do not depend on where bodies are.
 bool isPlaceless(const ActionSpec& action) {
     if (const auto* cut = dynamic_cast<const CutAction*>(&action)) return cut->from.has_value();
     if (const auto* grab = dynamic_cast<const GrabAction*>(&action)) return !grab->near && grab->radius == 0;
@@ -34,7 +34,7 @@ bool isPlaceless(const ActionSpec& action) {
     return points != nullptr ? !points->near : builtInActions().find(action.kind()) != nullptr;
 }
 
-// A hand whose grab was refused can neither be led nor let go; that has been said.
+// A hand whose grab was refused can neither move nor let go. The refusal has been reported.
 bool followsFromAnother(const ActionSpec& action, const std::vector<Refusal>& before) {
     const bool isOfHand =
         dynamic_cast<const MoveAction*>(&action) != nullptr || dynamic_cast<const ReleaseAction*>(&action) != nullptr;
@@ -80,7 +80,7 @@ void warnOfEncounters(const SceneSpec& scene, Rehearsal& rehearsal) {
         rehearsal.advice.push_back(fmt::format("bodies were followed up to {:.2g} s to see which meet", seen));
 }
 
-// Plays up to the end of that tick; why it was refused into `why`, what actions warned of into `warnings`.
+// Plays up to the end of that tick. `why` gets the refusal, `warnings` the warnings of actions.
 Outcome play(const SceneSpec& scene, std::int64_t tick, std::string& why, std::vector<std::string>& warnings) {
     World world(scene);
     double pointSteps = 0;

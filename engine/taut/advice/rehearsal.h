@@ -1,4 +1,4 @@
-// What a scene says that its run will refuse when its moment comes, found before the first tick. It knows no files.
+// Finds before the first tick what a run will refuse later. It knows no files.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ namespace taut::world {
 struct SceneSpec;
 
 struct Rehearsal {
-    std::vector<std::string> faults;    // what ends the run, with file, line and column
-    std::vector<std::string> warnings;  // of the world as it starts; and what may end the run: it depends on where
-                                        // bodies are by then
-    std::vector<std::string> advice;    // what would allow longer steps; how far ahead was looked
+    std::vector<std::string> faults;    // they end the run, with file, line and column
+    std::vector<std::string> warnings;  // of the world at its start, and of what may end the run, depending on
+                                        // where bodies are by then
+    std::vector<std::string> advice;    // what would allow longer steps; how far the look ahead went
 };
 
-// Performs the timeline on bodies that stay where they start: that shows what can be held, cut or pushed at all. Where
-// the verdict hangs on where a body is by then, the scene is played up to there if that is not dear (a second or two).
-// Steps that will diverge are faults too. Throws core::Error where the scene cannot be built.
+// Performs the timeline on bodies that stay at their starting places. This shows what can be held, cut or pushed at
+// all. Where the verdict depends on the later place of a body, it plays the scene up to there if that is cheap (a
+// second or two). Steps that will diverge are faults too. Throws core::Error if the scene cannot be built.
 Rehearsal rehearse(const SceneSpec& scene);
 
 }  // namespace taut::world

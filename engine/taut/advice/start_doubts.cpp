@@ -14,9 +14,9 @@
 namespace taut::world {
 namespace {
 
-constexpr double strongestStorm = 120;  // [m/s] the fastest gust measured near the ground had 113
+constexpr double strongestStorm = 120;  // [m/s] the fastest gust measured near the ground was 113
 constexpr double mostStrain = 0.5;
-constexpr int mostSteps = 1000;  // a tick
+constexpr int mostSteps = 1000;  // in a tick
 
 void doubtWinds(const WorldImpl& world, std::vector<std::string>& doubts) {
     for (const WindSpec& wind : world.spec.forces.of<WindSpec>()) {
@@ -28,7 +28,7 @@ void doubtWinds(const WorldImpl& world, std::vector<std::string>& doubts) {
     }
 }
 
-// Wherever keyframes lead cameras and colliders.
+// Checks all places to which keyframes lead cameras and colliders.
 void doubtCameras(WorldImpl& world, std::vector<std::string>& doubts) {
     constexpr int moments = 100;
     for (const CameraSpec& camera : world.spec.cameras)
@@ -64,7 +64,7 @@ void doubtStrains(const Island& island, std::vector<std::string>& doubts) {
         if (strain > of.strain) of = {strain, length, s.restLength};
     }
     for (std::size_t b = 0; b < longest.size(); ++b)
-        if (longest[b].length > 0 && plan.bodies[b]->kind() != NetSpec::kindName)  // says it of every spring
+        if (longest[b].length > 0 && plan.bodies[b]->kind() != NetSpec::kindName)  // a net has springs of any length
             doubts.push_back(asWarning(at(plan.bodies[b]->spec->source)) +
                              fmt::format("{} starts with a strain of {:.2g}: a spring of it is {:.3g} m long, and "
                                          "{:.3g} m at rest; bring its ends together, or make it longer",

@@ -61,7 +61,7 @@ BodyOutline BlockSpec::outline(const SceneSpec&) const {
     BodyOutline outline;
     const dvec3 n(cells);
     outline.points = (n.x + 1) * (n.y + 1) * (n.z + 1);
-    outline.springs = 9.0 * n.x * n.y * n.z;  // three edges and six face diagonals a cell
+    outline.springs = 9.0 * n.x * n.y * n.z;  // three edges and six face diagonals per cell
     outline.volumes = 6.0 * n.x * n.y * n.z;
     outline.hasSurface = true;
     outline.groups = mechanics::blockGroups();

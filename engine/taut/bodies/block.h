@@ -17,7 +17,7 @@ struct BlockSpec final : SpecOf<BlockSpec, BodySpec> {
     double bulk = 2e4;            // [Pa]
     double dampingTime = 1e-3;    // [s]
     double drag = 0.1;            // [1/s]
-    double workingStretch = 1.5;  // up to which the step must hold [-]
+    double workingStretch = 1.5;  // stretch up to which the step must hold [-]
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
 

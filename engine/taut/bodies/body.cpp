@@ -67,7 +67,7 @@ void setInMotion(Body& body) {
     }
 }
 
-// Each copy of an array has the model of the first, elsewhere.
+// Each copy of an array has the model of the first, moved.
 void addCopies(std::vector<Body>& bodies, const BodySpec& spec, const SceneSpec& scene) {
     const ArraySpec& array = spec.array;
     const Body first = buildBody(spec, scene);
@@ -127,7 +127,7 @@ Body buildBody(const BodySpec& spec, const SceneSpec& scene) {
     body.seed = spec.seed;
     body.model = spec.build(scene);
     body.plasticity = spec.plasticityIn(scene);
-    for (dvec3& x : body.model.positions) x += dvec3(0.0);  // no negative zero, so that pinned points keep their bits
+    for (dvec3& x : body.model.positions) x += dvec3(0.0);  // no negative zero: pinned points keep their bits
     return body;
 }
 

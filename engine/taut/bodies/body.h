@@ -1,4 +1,4 @@
-// A body of the scene: its model, and where its points live in an island.
+// A body of the scene: its model, and the numbers of its points in an island.
 #pragma once
 
 #include <cstdint>
@@ -18,42 +18,42 @@ namespace taut::world {
 class Island;
 
 struct Body {
-    std::shared_ptr<const BodySpec> spec;  // what it was made from; copies of an array share it
+    std::shared_ptr<const BodySpec> spec;  // what it was made from; all copies of an array share it
     std::string name;                      // "flag", or "flag.2" in an array
     std::int64_t seed = 1;                 // of its jitter
     mechanics::Model model;
     PlasticitySpec plasticity;
 
-    std::vector<int> carried;    // ascending points of the model that its spec holds on a collider
-    std::vector<bool> clamped;   // (points) whose direction is held while they are; empty: none
-    glm::dquat carriedFrom{1, 0, 0, 0};  // how that collider was turned when the points were tied to it
+    std::vector<int> carried;    // ascending points of the model that a collider holds by its spec
+    std::vector<bool> clamped;   // (points) whether the direction is held while the point is; empty: none
+    glm::dquat carriedFrom{1, 0, 0, 0};  // rotation of that collider when the points were tied to it
 
-    Damage damage;  // what has been cut or torn of it
+    Damage damage;  // what has been cut or torn
 
     // In the island that owns it.
     Island* island = nullptr;
-    std::vector<int> pointOf;           // (points) number in the island, for each point of the model
-    int firstPoint = 0, lastPoint = 0;  // the range that collides for this body
+    std::vector<int> pointOf;           // (points) number in the island of each point of the model
+    int firstPoint = 0, lastPoint = 0;  // range of points that collide for this body
 
     std::string_view kind() const { return spec->kind(); }
     const std::string& base() const { return spec->name; }  // "flag"
     std::string fullName() const;                           // "cloth.flag"
 };
 
-// All bodies of the scene with arrays expanded, held points set, masses added and starting velocities given; sorted
-// by kind and name. Throws core::Error(badContent) naming file, line and column.
+// All bodies of the scene: arrays expanded, held points set, masses added, starting velocities given, sorted by kind
+// and name. Throws core::Error(badContent) naming file, line and column.
 std::vector<Body> buildBodies(const SceneSpec& spec);
 
 // The order of the state hash: by kind and name, row.2 before row.10.
 bool sortsBefore(const Body& a, const Body& b);
 
-// One body, for spawning: at rest and free, arrays not expanded; startBody does the rest.
+// One body for spawning: at rest and free, arrays not expanded. startBody() does the rest.
 Body buildBody(const BodySpec& spec, const SceneSpec& scene);
 
-// Holds the points that its spec names, in place or for a collider to carry, and gives the others their starting
-// velocity and jitter. Throws core::Error(badContent) where `hold` names nothing.
+// Holds the points that its spec names, in place or on a collider. Gives the others their starting velocity and jitter.
+// Throws core::Error(badContent) where `hold` names nothing.
 void startBody(Body& body);
-// [m] of that, what jitter has added to a point of the model.
+// [m] How far jitter has moved a point of the model.
 dvec3 jitterOf(const Body& body, int point);
 
 // Whether a target names the body.
@@ -63,8 +63,8 @@ std::vector<Body*> matchBodies(std::span<Body* const> bodies, const std::string&
 
 std::vector<Body*> pointersTo(std::vector<Body>& bodies);
 
-// [m] at the start, of what others touch: its triangles, or its structural springs if it has none. Infinite if it has
-// no edges.
+// [m] Shortest edge at the start of what other bodies touch: triangles, or structural springs if there are none.
+// Infinite if there are no edges.
 double shortestEdge(const Body& body);
 
 }  // namespace taut::world

@@ -21,7 +21,7 @@ dvec3 unit(const dvec3& v) {
     return v / std::sqrt(glm::dot(v, v));
 }
 
-// A scene file has none without an energy (fields_materials.cpp).
+// The loader refuses numbers that belong to no bending energy (fields_materials.cpp).
 mechanics::BendingRigidity rigidityOf(const BendingSpec& spec) {
     if (!spec.warp) return {};
     const auto rigidity = mechanics::orthotropicRigidity(*spec.warp, spec.weft.value_or(*spec.warp), spec.bias);
@@ -59,6 +59,7 @@ mechanics::MeshClothShape shapeOf(const ClothSpec& spec) {
 }  // namespace
 
 Section ClothSpec::section() {
+    // Two variants: each field says to which it belongs.
     Section section;
     section.help = "A cloth: a grid, or a mesh from an OBJ file.";
     section.variant = [](const fields::Node& table) -> std::string {
@@ -88,6 +89,7 @@ Section ClothSpec::section() {
             .number("scale", &ClothSpec::scale, "", lengthRange, "Metres of a unit of the file.")
             .only(mesh)
             .take();
+    // Makes both directions unit vectors, and exactly perpendicular if they are nearly so.
     section.check = [](const fields::CheckInput& input, void* target) {
         auto& cloth = *static_cast<ClothSpec*>(target);
         if (input.table.find("across") == nullptr && input.table.find("down") == nullptr) return;
@@ -122,7 +124,7 @@ mechanics::Model ClothSpec::build(const SceneSpec& scene) const {
     try {
         return mechanics::buildMeshCloth(shape);
     } catch (const mechanics::MeshFault& fault) {
-        const auto triangle = static_cast<std::size_t>(fault.triangle);  // of none: larger than any
+        const auto triangle = static_cast<std::size_t>(fault.triangle);  // a fault of no triangle is larger than any
         const std::string line =
             triangle < meshData->lines.size() ? ":" + std::to_string(meshData->lines[triangle]) : "";
         throw core::Error(fault.kind(),

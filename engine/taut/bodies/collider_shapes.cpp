@@ -30,7 +30,7 @@ bool isFloor(const ColliderSpec& spec) {
            spec.rotation == dvec3(0.0) && spec.keys.empty();
 }
 
-// What is made of a collider: its shape, and the pieces that are drawn.
+// Makes the shape of a collider, and the pieces that are drawn.
 class Maker {
   public:
     Maker(const collision::ShapeKinds& kinds, const ColliderSpec& whole, std::span<const ColliderSpec> all,
@@ -58,7 +58,7 @@ class Maker {
     }
 
   private:
-    // Upright on a floor as the scene starts, or down in it.
+    // Whether it stands upright on a floor at the start, or is sunk into one.
     bool stands(const collision::ShapeSizes& sizes, const glm::mat4& transform) const {
         constexpr double near = 1e-4;  // [m]
         const glm::mat4 at = matrixOf(poseAt(whole_, 0.0)) * transform;
@@ -70,7 +70,7 @@ class Maker {
     const collision::ShapeKinds& kinds_;
     const ColliderSpec& whole_;
     std::span<const ColliderSpec> all_;
-    std::vector<ColliderModel::Piece>* pieces_;  // null: it is not drawn
+    std::vector<ColliderModel::Piece>* pieces_;  // null: the collider is not drawn
 };
 
 }  // namespace
@@ -87,7 +87,7 @@ std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec,
     model->material = {spec.friction, spec.restitution};
     model->isGround = isFloor(spec) && !mayTurn;
     const bool isDrawn = spec.visible && !model->isGround;
-    try {  // what cannot be is found here, where its line is known
+    try {  // errors are found here, where the line is known
         model->shape = Maker(kinds, spec, all, isDrawn ? &model->pieces : nullptr).make(spec, glm::mat4(1.0F));
         collision::Colliders().add(model->shape, model->material, poseAt(spec, 0.0));
     } catch (const core::Error& error) {

@@ -11,7 +11,7 @@ Damage::Edge edgeOf(int a, int b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
-// Whether the edges that hold still lead from the first corner to all others.
+// Whether the edges that hold still connect the first corner to all others.
 template <std::size_t N, class Holds>
 bool isConnected(const std::array<int, N>& corners, Holds&& holds) {
     std::array<bool, N> reached{true};
@@ -30,7 +30,7 @@ double Damage::share(int a, int b) const {
     return a < b ? found->second : 1.0 - found->second;
 }
 
-// What meets at each point of a model.
+// The springs, triangles and cells at each point of a model.
 struct Damage::Index {
     struct Way {
         int to;
@@ -52,7 +52,7 @@ struct Damage::Index {
             for (const int i : model.cells[c].points) cells[at(i)].push_back(c);
     }
     const std::vector<Way>& from(int point) const { return springs[static_cast<std::size_t>(point)]; }
-    // Whether a spring joins them that is none of bending.
+    // Whether a spring other than a bending spring joins them.
     bool areJoined(int a, int b) const {
         return std::any_of(
             from(a).begin(), from(a).end(),
@@ -76,7 +76,7 @@ Damage::Assessed Damage::assess(const mechanics::Model& model) {
     triangles_.resize(model.triangles.size(), false);
     cells_.resize(model.cells.size(), false);
     const Index& index = *index_;
-    // A bending spring goes when no point is left between its ends that is tied to both.
+    // A bending spring goes when no point between its ends is tied to both any more.
     const auto isLoose = [&](int a, int b) {
         bool isBetween = false;
         for (const Index::Way& way : index.from(a)) {

@@ -1,5 +1,5 @@
-// What has been cut or torn of a body, in points of its model: edges, and the triangles and tetrahedra that went with
-// them. It knows neither islands nor the cause.
+// The damage of a body by cuts and tears, in points of its model: severed edges, and the triangles and tetrahedra that
+// are gone with them. It knows neither islands nor the cause.
 #pragma once
 
 #include <cstddef>
@@ -18,24 +18,26 @@ class Damage {
 
     bool isEmpty() const { return edges_.empty(); }
     bool isSevered(int a, int b) const { return edges_.count({a < b ? a : b, a < b ? b : a}) > 0; }
-    // Where it is severed, as a share of the way from a to b; a half where nothing else is known.
+    // Where an edge is severed, as a share of the way from a to b; a half if not known.
     double share(int a, int b) const;
     const std::map<Edge, double>& edges() const { return edges_; }  // with the share from the lower point
-    // A triangle that is not one of the model's is never gone.
+    // Always false for a triangle that is not of the model.
     bool isTriangleGone(std::size_t triangle) const { return triangle < triangles_.size() && triangles_[triangle]; }
     bool isCellGone(std::size_t cell) const { return !cells_.empty() && cells_[cell]; }
     std::size_t goneCells() const { return goneCells_; }  // how many
-    // Number of cells and triangles that are gone, of a body that has cells. While it stays, so do the bare faces.
+    // Number of cells and triangles that are gone, for a body with cells. While it stays the same, so do the bare
+    // faces.
     std::size_t goneAround() const { return goneCells_ > 0 ? goneCells_ + goneTriangles_ : 0; }
 
-    // Share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
+    // Severs an edge at a share 0 … 1 of the way from a to b. An edge that is severed already stays as it is.
     void sever(int a, int b, double share);
     struct Assessed {
         std::vector<Edge> severed;   // since the last time
-        bool isSurfaceLess = false;  // triangles or tetrahedra have gone
+        bool isSurfaceLess = false;  // triangles or tetrahedra are gone
     };
-    // To be called after sever(), always with the same model. A bending spring goes with the springs along it;
-    // triangles and tetrahedra go when no spring holds their corners together. The cost is that of the new damage.
+    // Finds what sever() has brought about. Expects the same model in every call. A bending spring goes with the
+    // springs along it. Triangles and tetrahedra go when no springs hold their corners together. The cost grows only
+    // with new damage.
     Assessed assess(const mechanics::Model& model);
 
   private:
@@ -43,8 +45,8 @@ class Damage {
 
     std::map<Edge, double> edges_;
     std::vector<Edge> fresh_;              // not assessed yet
-    std::shared_ptr<const Index> index_;   // once it is needed
-    std::vector<bool> triangles_, cells_;  // (of the model) gone; empty while nothing is severed
+    std::shared_ptr<const Index> index_;   // made when first needed
+    std::vector<bool> triangles_, cells_;  // (of the model) gone; empty while no edge is severed
     std::size_t goneCells_ = 0, goneTriangles_ = 0;
 };
 

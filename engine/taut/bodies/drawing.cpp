@@ -14,7 +14,7 @@ namespace {
 
 constexpr int rodSides = 10;
 
-// The block's own axes, so that a pattern lies along its edges however it starts.
+// The axes of a block. A pattern lies along its edges, however the block starts.
 struct BlockAxes {
     BlockAxes() = default;
     explicit BlockAxes(const mechanics::Model& model) {
@@ -26,14 +26,14 @@ struct BlockAxes {
         static constexpr const char* ends[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
         for (int a = 0; a < 3; ++a) axes[a] = glm::normalize(centre(ends[a][1]) - centre(ends[a][0]));
     }
-    // The two coordinates along a side of a place where it is before anything moves [m].
+    // The two coordinates [m] along a side, of a place before anything moves.
     glm::vec2 across(const glm::dvec3& rest, int side) const {
         const glm::dvec3 x = transpose(axes) * rest;
         if (side < 2) return {x.z, x.y};
         if (side < 4) return {x.x, x.z};
         return {x.x, x.y};
     }
-    // The side that a face with this normal is most like.
+    // The side whose normal is closest to this one.
     int sideLike(const glm::dvec3& normal) const {
         const glm::dvec3 n = glm::abs(transpose(axes) * normal);
         return n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 2 : 4;
@@ -52,7 +52,7 @@ Skin wholeSkin(const mechanics::Model& model) {
     return skin;
 }
 
-// The vertices of a mesh file in its order, for who knows them by it; none if the body is made of none.
+// The vertices of a mesh file in file order, for users who know them by number; empty if the body is not from a mesh.
 std::vector<int> orderInFile(const BodySpec& spec) {
     const MeshSource* source = spec.meshSource();
     if (source == nullptr || source->meshData == nullptr) return {};
@@ -65,7 +65,7 @@ std::vector<int> orderInFile(const BodySpec& spec) {
     return order;
 }
 
-// Cloth, and the skin of a block. A block's faces get vertices of their own, so that its edges stay edges.
+// Draws cloth, and the skin of a block. A block's faces have vertices of their own, so that its edges stay sharp.
 class SkinDrawing final : public BodyDrawing {
   public:
     SkinDrawing(const Body& body, bool twoSided)
@@ -92,7 +92,7 @@ class SkinDrawing final : public BodyDrawing {
         if (body.damage.isEmpty())
             for (int v : orderInFile(*body.spec)) vertexAt(v, 0);
         for (const SkinTriangle& triangle : skin.triangles) {
-            // The faces of cuts are sides of their own.
+            // The faces of cuts are separate sides.
             const bool isCut = triangle.source < 0;
             const int side = twoSided_ ? 0
                              : isCut   ? sidesOfBlock + axes.sideLike(normalOf(skin, triangle))
@@ -127,7 +127,7 @@ class SkinDrawing final : public BodyDrawing {
         };
         return glm::cross(at(1) - at(0), at(2) - at(0));
     }
-    // Which of the six sides of a block a triangle lies on, by the groups of its corners.
+    // The side of a block that a triangle lies on, found from the groups of its corners.
     static int sideOf(const mechanics::Model& model, const std::array<int, 3>& triangle) {
         static constexpr const char* sides[] = {"left", "right", "bottom", "top", "back", "front"};
         for (int side = 0; side < sidesOfBlock; ++side) {
@@ -138,7 +138,7 @@ class SkinDrawing final : public BodyDrawing {
         }
         return 0;
     }
-    // Pictures are laid with v upwards; a grid counts it downwards from its top.
+    // Pictures count v upwards; a grid counts it downwards from its top.
     static glm::vec2 along(const mechanics::Model& model, const glm::dvec2& material) {
         const glm::vec2 uv(material);
         return model.grid[0] > 0 ? glm::vec2(uv.x, -uv.y) : uv;
@@ -148,12 +148,12 @@ class SkinDrawing final : public BodyDrawing {
     bool twoSided_;
     float hem_;  // [m]
     std::shared_ptr<const view::Finish> finish_;
-    std::vector<int> points_;                                 // (vertices) point of the model
-    std::vector<std::pair<std::size_t, SkinVertex>> beyond_;  // vertices at a cut, beyond any point
+    std::vector<int> points_;                                 // (vertices) their points of the model
+    std::vector<std::pair<std::size_t, SkinVertex>> beyond_;  // vertices at a cut, beyond all points
     std::shared_ptr<const view::Topology> topology_;
 };
 
-// Springs as rods, points as balls.
+// Draws springs as rods and points as balls.
 class RodDrawing final : public BodyDrawing {
   public:
     RodDrawing(const Body& body, double radius, double ball)
@@ -169,7 +169,7 @@ class RodDrawing final : public BodyDrawing {
         ballFinish.pattern = view::Pattern::plain;
         ballFinish_ = finishOf(ballFinish);
         for (int i = 0; ball > 0 && i < body.model.pointCount(); ++i) {
-            // Balls grow with the cube root of their mass, so that a heavier one looks it.
+            // Balls grow with the cube root of their mass, so that a heavier point looks heavier.
             const double size = ball * std::cbrt(body.model.masses[static_cast<std::size_t>(i)]);
             balls_.push_back(view::sphereMesh(static_cast<float>(size)));
         }

@@ -1,4 +1,4 @@
-// How bodies and colliders become surfaces of a picture.
+// How bodies and colliders become surfaces in a picture.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -19,21 +19,21 @@ namespace taut::world {
 glm::vec3 linearColour(const dvec3& srgb);
 std::shared_ptr<const view::Finish> finishOf(const FinishSpec& spec);
 
-// Draws one body; what does not change is made once.
+// Draws one body. What does not change is made only once.
 class BodyDrawing {
   public:
     virtual ~BodyDrawing() = default;
     // positions (points of the model) [m], in the order of authoring.
     virtual void addSurfaces(std::span<const glm::vec3> positions, std::vector<view::Surface>& surfaces) const = 0;
 };
-// Of the triangles of the model: a sheet with a front and a back, or the skin of something with the groups left, right,
-// bottom, top, back and front, whose sides meet at sharp edges.
+// Drawings of the model's triangles. A sheet has a front and a back. A sided drawing is a skin with sharp edges between
+// the groups left, right, bottom, top, back and front.
 std::unique_ptr<BodyDrawing> sheetDrawing(const Body& body);
 std::unique_ptr<BodyDrawing> sidedDrawing(const Body& body);
-// Springs as rods of this radius [m], points as balls of radius `ball` times the cube root of their mass; 0: none.
+// Springs as rods of this radius [m]. Points as balls of radius `ball` times the cube root of their mass; 0: no balls.
 std::unique_ptr<BodyDrawing> rodDrawing(const Body& body, double radius, double ball);
 
-// A collider's shape, for collision and for the eye.
+// A collider's shape, for collision and for drawing.
 struct ColliderModel {
     collision::Shape shape;
     collision::Material material;
@@ -45,8 +45,8 @@ struct ColliderModel {
     };
     std::vector<Piece> pieces;
 };
-// A plane that mayTurn is drawn as a board, not as the floor. `all` are the scene's, on whose floors it may stand.
-// Throws core::Error(badContent) with file, line and column for a shape that cannot be built.
+// A plane with `mayTurn` is drawn as a board, not as the floor. `all`: the scene's colliders, on whose floors it may
+// stand. Throws core::Error(badContent) with file, line and column for a shape that cannot be built.
 std::shared_ptr<const ColliderModel> makeColliderModel(const ColliderSpec& spec, const collision::ShapeKinds& kinds,
                                                        bool mayTurn, std::span<const ColliderSpec> all);
 

@@ -19,7 +19,7 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-// Disjoint sets with path halving; the smallest member stands for its set.
+// Disjoint sets with path halving. The smallest member represents its set.
 class Sets {
   public:
     explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -69,13 +69,13 @@ class Planner {
     }
 
     std::vector<IslandPlan> plans() {
-        std::vector<std::vector<int>> members(bodies_.size());  // by the body that stands for the set
+        std::vector<std::vector<int>> members(bodies_.size());  // by the body that represents the set
         for (int body = 0; body < static_cast<int>(bodies_.size()); ++body)
             members[static_cast<std::size_t>(islands_.find(body))].push_back(body);
         std::vector<std::vector<JointPair>> joints(bodies_.size());
         for (const JointPair& joint : joints_)
             joints[static_cast<std::size_t>(islands_.find(joint.a.body))].push_back(joint);
-        std::vector<int> numberOf(firstGlobalEnd(), -1);  // by the global point that stands for a weld
+        std::vector<int> numberOf(firstGlobalEnd(), -1);  // by the global point that represents a weld
         std::vector<IslandPlan> plans;
         for (std::size_t root = 0; root < members.size(); ++root)
             if (!members[root].empty()) plans.push_back(plan(members[root], joints[root], numberOf));
@@ -99,7 +99,7 @@ class Planner {
     Body& body(int i) const { return *bodies_[static_cast<std::size_t>(i)]; }
     dvec3 position(PointRef p) const { return body(p.body).model.positions[static_cast<std::size_t>(p.point)]; }
 
-    // Each once; of one target in the order of its bodies.
+    // Each point once; those of one target in the order of its bodies.
     std::vector<PointRef> points(const JointSide& side, const Source& source) const {
         std::vector<PointRef> found;
         for (const std::string& text : side.targets) {
@@ -132,8 +132,8 @@ class Planner {
         const bool merges = joint.isWeld() && !isOneBody && !joint.hasOwnTies();
         JointReport& report = reports_.emplace_back();
         report.spec = &joint;
-        std::map<std::pair<int, int>, int> pairs;  // bodies: points joined
-        std::map<int, double> reached;             // bodies on either side: how near they come to the other [m]
+        std::map<std::pair<int, int>, int> pairs;  // by bodies: number of joined points
+        std::map<int, double> reached;             // by body: distance to the nearest point of the other side [m]
         for (const PointRef& b : bs) reached.emplace(b.body, HUGE_VAL);
         int made = 0;
         double nearest = HUGE_VAL;
@@ -190,7 +190,7 @@ class Planner {
                     std::vector<int>& numberOf) {
         IslandPlan plan;
         for (int body : members) addBody(plan, body, numberOf);
-        for (const bool isWeld : {true, false})  // which move points
+        for (const bool isWeld : {true, false})  // welds first, as they move points
             for (const JointPair& joint : joints)
                 if (joint.spec->isWeld() == isWeld) tie(plan, joint);
         plan.origins.resize(plan.springs.size());
@@ -246,7 +246,7 @@ class Planner {
         plan.bodies.push_back(&b);
     }
 
-    // Two points become one: masses add, drag by mass, momentum is kept, held if either is.
+    // Merges two points: masses add, drag is weighted by mass, momentum is kept, held if either is.
     static void weldOnto(IslandPlan& plan, int island, const mechanics::Model& model, std::size_t k) {
         auto& point = plan.points[static_cast<std::size_t>(island)];
         dvec3& velocity = plan.velocities[static_cast<std::size_t>(island)];
@@ -258,8 +258,8 @@ class Planner {
         if (point.held) velocity = dvec3(0.0);
     }
 
-    // Grids and ropes are numbered well as they are. The points of a mesh are taken breadth first from one end of its
-    // longest side (Cuthill and McKee 1969), so that neighbours have near numbers.
+    // Grids and ropes are numbered well already. The points of a mesh are taken breadth first from one end of its
+    // longest side (Cuthill and McKee 1969), so that neighbours have close numbers.
     static std::vector<int> localOrder(const mechanics::Model& model) {
         std::vector<int> order(model.positions.size());
         std::iota(order.begin(), order.end(), 0);
@@ -339,7 +339,7 @@ std::vector<IslandPlan> planIslands(std::span<Body* const> bodies, const SceneSp
 
 void addTie(IslandPlan& plan, JointTie tie, const std::function<void()>& add) {
     const std::size_t springs = plan.springs.size(), grips = plan.grips.size();
-    std::vector<int> sizes;  // of the constraints
+    std::vector<int> sizes;  // of the constraints before `add`
     for (const auto& constraint : plan.constraints) sizes.push_back(constraint->size());
     add();
     for (std::size_t s = springs; s < plan.springs.size(); ++s) tie.springs.push_back(static_cast<int>(s));
@@ -357,7 +357,7 @@ void addTie(IslandPlan& plan, JointTie tie, const std::function<void()>& add) {
 
 namespace {
 
-// Of a tie of its own, or of several.
+// Whether the grip belongs to this tie alone or serves several, this one among them.
 bool isOf(const Grip& grip, const IslandPlan& plan, const JointTie& tie) {
     if (grip.tie >= 0) return &plan.ties[static_cast<std::size_t>(grip.tie)] == &tie;
     return grip.ofCollider && grip.holder == tie.collider &&
@@ -408,7 +408,7 @@ void takeSpringsFromModels(IslandPlan& plan) {
         plan.springs[s].stiffness = model.springs[static_cast<std::size_t>(origin.spring)].stiffness;
         plan.springs[s].dampingTime = model.springs[static_cast<std::size_t>(origin.spring)].dampingTime;
     }
-    // Drag of welded points by mass, as the planner has it.
+    // The drag of welded points is weighted by mass, as in the planner.
     std::vector<double> mass(plan.points.size(), 0.0);
     for (const Body* body : plan.bodies)
         for (std::size_t i = 0; i < body->pointOf.size(); ++i) {

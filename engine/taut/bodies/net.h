@@ -16,7 +16,7 @@ struct NetPointSpec {
 struct NetSpringSpec {
     std::string a, b;                   // names of two points
     double stiffness = 100.0;           // [N/m]
-    std::optional<double> restLength;   // [m]; none: the distance
+    std::optional<double> restLength;   // [m]; none: the distance at the start
     std::optional<double> dampingTime;  // [s]; none: the net's
     Source source;
 };
@@ -27,7 +27,7 @@ struct NetSpec final : SpecOf<NetSpec, BodySpec> {
     double dampingTime = 0.0;  // [s]
     double drag = 0.1;         // [1/s]
     double radius = 0.015;     // [m] of a drawn spring
-    double ball = 0.06;        // [m] radius of a drawn point
+    double ball = 0.06;        // [m] radius of a drawn point with a mass of 1 kg
     PlasticitySpec plasticity{};
 
     NetSpec() { thickness = radius; }

@@ -24,7 +24,7 @@ namespace {
 constexpr int tubeSides = 10;
 constexpr int tubeSubdivisions = 2;
 
-// A rope, or the pieces of one that has been cut. Each piece goes on straight beyond its last point up to the cut.
+// Draws a rope or its pieces. Each piece of a cut rope goes straight on beyond its last point up to the cut.
 class RopeDrawing final : public BodyDrawing {
   public:
     RopeDrawing(const RopeSpec& spec, const Body& body)
@@ -69,11 +69,11 @@ class RopeDrawing final : public BodyDrawing {
 
   private:
     struct Piece {
-        int first = 0, last = 0;      // of order_
-        float before = 0, after = 0;  // segments more at its ends
+        int first = 0, last = 0;      // in order_
+        float before = 0, after = 0;  // extra segments at its ends
         std::shared_ptr<const view::Topology> topology;
     };
-    // From one end to the other. A ring is drawn from its first cut on, which comes last again.
+    // The points from one end to the other. A ring starts at its first cut, whose point comes last again.
     static std::vector<int> orderOf(const RopeSpec& spec, const Body& body) {
         const int count = body.model.pointCount();
         std::vector<int> order(static_cast<std::size_t>(count));
@@ -89,7 +89,7 @@ class RopeDrawing final : public BodyDrawing {
     }
     int point(int i) const { return order_[static_cast<std::size_t>(i)]; }
     void addPiece(Piece piece, float perSegment) {
-        if (piece.last == piece.first) return;  // a point without a segment: it has no direction
+        if (piece.last == piece.first) return;  // one point without a segment has no direction
         const int points = piece.last - piece.first + 1 + (piece.before > 0 ? 1 : 0) + (piece.after > 0 ? 1 : 0);
         const float segments = static_cast<float>(piece.last - piece.first) + piece.before + piece.after;
         piece.topology = std::make_shared<view::Topology>(
@@ -100,7 +100,7 @@ class RopeDrawing final : public BodyDrawing {
     std::string name_;
     float radius_;
     std::shared_ptr<const view::Finish> finish_;
-    std::vector<int> order_;  // points of the model as they are drawn
+    std::vector<int> order_;  // points of the model in drawing order
     std::vector<Piece> pieces_;
 };
 
@@ -144,6 +144,7 @@ Section RopeSpec::section() {
                          .choice("lumping", &RopeSpec::lumping, lumpingNames(),
                                  "How mass is shared out: by length, or the same for every point.")
                          .take();
+    // Rules that concern several fields.
     section.check = [](const fields::CheckInput& input, void* target) {
         constexpr int leastOfRing = 3;
         auto& rope = *static_cast<RopeSpec*>(target);

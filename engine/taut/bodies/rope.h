@@ -22,10 +22,10 @@ struct RopeSpec final : SpecOf<RopeSpec, BodySpec> {
     double mass = 1.0;          // [kg]
     double stretch = 1e4;       // EA [N]
     double bend = 0.0;          // EA of the span-2 springs [N]
-    std::optional<double> rigidity;  // EI of bending [N m²]; none: it has none
+    std::optional<double> rigidity;  // EI of bending [N m²]; none: no bending rigidity
     double dampingTime = 1e-4;  // [s]
     double drag = 0.3;          // [1/s]
-    double radius = 0.02;       // [m] drawn
+    double radius = 0.02;       // [m] for drawing
     mechanics::Lumping lumping = mechanics::Lumping::weighted;
     PlasticitySpec plasticity{};
 

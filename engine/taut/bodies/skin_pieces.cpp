@@ -32,7 +32,7 @@ class Cutter {
     static Damage::Edge edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
     const dvec3& rest(int point) const { return model_.positions[static_cast<std::size_t>(point)]; }
 
-    // The whole triangles or tetrahedra at a point, by their other corners: what the surface there is like.
+    // Whole triangles or tetrahedra at a point, as their other corners. They tell what the surface is like there.
     template <std::size_t N>
     void addFan(const std::array<int, N>& corners) {
         for (int corner : corners) {
@@ -43,7 +43,7 @@ class Cutter {
         }
     }
 
-    // Corners in the groups that springs still hold together, in their order.
+    // Groups of corners that springs still hold together, in their order.
     template <std::size_t N>
     std::vector<Corners> groupsOf(const std::array<int, N>& corners) const {
         std::vector<Corners> groups;
@@ -61,14 +61,14 @@ class Cutter {
         return groups;
     }
 
-    // The vertex at a point itself.
+    // The vertex at a point.
     int vertexAt(int point) {
         const auto [entry, isNew] = known_.try_emplace({point, -1}, static_cast<int>(skin_.vertices.size()));
         if (isNew) skin_.vertices.push_back({{{point, 1.0F}}, rest(point), model_.uv[static_cast<std::size_t>(point)]});
         return entry->second;
     }
 
-    // Where the edge from a to b is severed, fastened to a.
+    // The vertex where the edge from a to b is severed, attached to a.
     int vertexBeyond(int a, int b) {
         const auto [entry, isNew] = known_.try_emplace({a, b}, static_cast<int>(skin_.vertices.size()));
         if (!isNew) return entry->second;
@@ -79,8 +79,8 @@ class Cutter {
         return entry->second;
     }
 
-    // The place at `way` [m] of the model from a, as the triangles or tetrahedra at a have carried it along: the mean
-    // over those that are whole, the more weight the less they have to be extended. Without any, a itself.
+    // The place at `way` [m] of the model from a, carried along by the triangles or tetrahedra at a: a weighted mean
+    // over the whole ones, with more weight where they extend less. Without any of these, a itself.
     std::vector<SkinVertex::Term> termsBeyond(int a, const dvec3& way) const {
         std::map<int, double> weights;
         double sum = 0;
@@ -107,7 +107,7 @@ class Cutter {
         return terms;
     }
 
-    // `way` as a combination of the edges from a to the others; least squares where they span a plane only.
+    // `way` as a combination of the edges from a to the others; least squares if they span only a plane.
     std::vector<double> inCorners(int a, const Corners& others, const dvec3& way) const {
         const dvec3 e = rest(others[0]) - rest(a), f = rest(others[1]) - rest(a);
         if (others.size() == 3) {
@@ -131,8 +131,7 @@ class Cutter {
                                                 : std::vector<Corners>{{t[0], t[1], t[2]}};
         if (groups.size() == 1) return add(vertexAt(t[0]), vertexAt(t[1]), vertexAt(t[2]), number);
         for (const Corners& group : groups) {
-            // The corner that stands for the group's place in the triangle's order: that alone, or that which is not in
-            // it.
+            // The corner of the triangle that represents the group: the only one in it, or the only one not in it.
             std::size_t k = 0;
             const auto isIn = [&](int corner) { return std::find(group.begin(), group.end(), corner) != group.end(); };
             while (isIn(t[k]) != (group.size() == 1)) ++k;
@@ -146,7 +145,8 @@ class Cutter {
         }
     }
 
-    // What a cut through a tetrahedron bares of each part: a triangle, or a quadrangle between two pairs.
+    // Adds the faces that a cut through a tetrahedron bares on each part: a triangle, or a quadrangle between two
+    // pairs.
     void addCutFaces(const std::array<int, 4>& corners) {
         for (const Corners& group : groupsOf(corners)) {
             Corners others;

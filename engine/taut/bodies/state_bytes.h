@@ -1,4 +1,4 @@
-// The bytes of a world, written and read by the same code: a struct lists once what it saves, and in which order. It
+// Writes and reads the bytes of a world by the same code: a struct lists once what it saves, and in which order. It
 // knows no struct of the world.
 #pragma once
 
@@ -20,19 +20,19 @@ namespace taut::world {
 }
 
 // Writing changes nothing. Reading throws core::Error(badContent) for bytes that end too early or hold impossible
-// values: a number that is not finite, an unknown enumerator.
+// values, such as an infinite number or an unknown enumerator.
 class StateBytes {
   public:
     explicit StateBytes(core::ByteWriter& writer) : writer_(&writer) {}
     explicit StateBytes(core::ByteReader& reader) : reader_(&reader) {}
 
     bool isReading() const { return reader_ != nullptr; }
-    // Of what was read; nothing while writing.
+    // Checks a condition on what was read. Does nothing while writing.
     void require(bool condition) const {
         if (isReading() && !condition) core::ByteReader::fail();
     }
 
-    // Writes the mark if it is wanted; reads it if it is there. Returns whether it is there.
+    // Writes the mark if wanted; reads it if present. Returns whether it is there.
     bool mark(std::uint64_t mark, bool isWanted) {
         if (!isReading()) {
             if (isWanted) writer_->add(mark);
@@ -50,7 +50,7 @@ class StateBytes {
         raw(number);
         if constexpr (std::is_floating_point_v<Number>) require(std::isfinite(number));
     }
-    // Any bits that a number can have, also infinite or not a number: the state of a run that diverged.
+    // Any number, also infinite or NaN: for the state of a run that diverged.
     template <class Number>
     void raw(Number& number) {
         if (isReading())
@@ -80,7 +80,7 @@ class StateBytes {
         else
             writer_->add(text);
     }
-    // A value that the bytes must have exactly.
+    // Reading expects exactly this value.
     void expect(std::string text, const char* why) {
         const std::string expected = text;
         (*this)(text);
@@ -114,7 +114,7 @@ class StateBytes {
         else
             writer_->addList(std::span<const Item>(items));
     }
-    // Of a fixed size.
+    // An array of fixed size.
     template <class Array>
     void planes(Array& array) {
         using Number = std::remove_cvref_t<decltype(*array.begin())>;

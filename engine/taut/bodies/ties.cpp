@@ -31,7 +31,7 @@ std::vector<int> namedPoints(const JointSide& side, const Body& body) {
     return points;
 }
 
-// What the scene ties of one plan.
+// The ties of the scene to colliders, for one plan.
 class Tying {
   public:
     Tying(IslandPlan& plan, const FindPose& find) : plan_(plan), find_(find), holder_(plan.points.size()) {}
@@ -76,7 +76,7 @@ class Tying {
         points.erase(std::unique(points.begin(), points.end()), points.end());
     }
 
-    // All grips from that one on are one, of ascending points.
+    // Merges all grips from `first` on, of ascending points, into one.
     void join(std::size_t first) {
         if (plan_.grips.size() <= first + 1) return;
         Grip& all = plan_.grips[first];
@@ -90,7 +90,7 @@ class Tying {
         plan_.grips.resize(first + 1);
     }
 
-    // Points that it has hold of already are left out.
+    // Leaves out points that the collider holds already.
     void lead(const std::string& collider, std::vector<int> points, const Source& source) {
         const collision::Pose pose = poseOf(collider, find_, source);
         sort(points);
@@ -116,7 +116,7 @@ class Tying {
 
     IslandPlan& plan_;
     const FindPose& find_;
-    std::vector<std::string> holder_;  // (points) the collider that leads it; empty: none
+    std::vector<std::string> holder_;  // (points) the collider that moves it; empty: none
 };
 
 double lengthOf(const dvec3& v) {

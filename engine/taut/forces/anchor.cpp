@@ -37,7 +37,7 @@ class AnchorForce final : public ForceOf<AnchorForce> {
           stiffness_(anchor.stiffness),
           damping_(anchor.damping) {}
 
-    // A point that bodies share is drawn once by each.
+    // Each of the bodies that share a point draws it once.
     template <class Real>
     std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan& plan) const {
         std::map<int, int> times;  // by point
@@ -59,7 +59,7 @@ class AnchorForce final : public ForceOf<AnchorForce> {
         const dvec3 a = from.place_.to, b = to.place_.to;
         place_ = a == b ? mechanics::LinearPath{a, a} : mechanics::LinearPath::line(a, (b - a) / (t1 - t0), t0);
     }
-    // As fast as before, from where that was.
+    // Whether it moves on from the old place with the old velocity.
     bool follows(const AnchorForce& before) const {
         return before.stiffness_ == stiffness_ && before.damping_ == damping_ && before.target_ == target_ &&
                rateOf(before.place_) == rateOf(place_) && (before.place_.isLine || before.place_.to == place_.from);

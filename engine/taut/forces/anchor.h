@@ -1,4 +1,4 @@
-// Springs of no length from points to a place.
+// Springs of zero length from points to a place.
 #pragma once
 
 #include "taut/spec/force_spec.h"

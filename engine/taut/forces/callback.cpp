@@ -107,7 +107,7 @@ class Callback final : public mechanics::ForceGenerator<Real> {
 
     std::shared_ptr<const CallbackSpec> spec_;
     std::vector<Seen> seen_;
-    mutable std::vector<dvec3> x_, v_, f_;  // (seen) scratch; never in use by two at a time
+    mutable std::vector<dvec3> x_, v_, f_;  // (seen) scratch; never used by two at a time
     mutable std::vector<double> mass_;
 };
 

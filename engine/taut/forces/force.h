@@ -1,7 +1,8 @@
-// Something that acts on the points of bodies besides their springs: gravity, a wind, an anchor, one of the user's own.
-// One force acts on the whole world; each island makes a generator of its part of it. It knows no method.
+// A force on points of bodies besides their springs: gravity, wind, an anchor, or one of the user's own. One force acts
+// on the whole world; each island makes a generator for its part. It knows no method.
 //
-// To add one: derive from ForceOf, give make<Real>(), and World::addForce() it; tests/unit/world_forces_test.cpp does.
+// To add one: derive from ForceOf, write make<Real>(), and pass it to World::addForce().
+// tests/unit/world_forces_test.cpp does so.
 #pragma once
 
 #include <memory>
@@ -14,35 +15,35 @@
 
 namespace taut::world {
 
-// A force as it is during one tick. It does not change; another takes its place.
+// A force during one tick. It never changes; a new one replaces it.
 class Force {
   public:
     explicit Force(std::string name) : name_(std::move(name)) {}
     virtual ~Force() = default;
 
-    // "wind.breeze": the same for the same force at all times, different for different ones.
+    // "wind.breeze": one force keeps its name at all times; different forces have different names.
     const std::string& name() const { return name_; }
 
-    // What it does to the points of an island, numbered as in its plan; null where it does nothing. Of the plan only
-    // numbering, triangles and damage hold as long as the generator does: masses and pinned points come with Motion.
+    // Makes its generator for the points of an island, numbered as in its plan; null if it does nothing there. The
+    // generator may rely on the plan's numbering, triangles and damage only. Masses and pinned points come with Motion.
     virtual std::unique_ptr<mechanics::ForceGenerator<float>> inSingle(const IslandPlan& plan) const = 0;
     virtual std::unique_ptr<mechanics::ForceGenerator<double>> inDouble(const IslandPlan& plan) const = 0;
 
-    // The force during a tick from t0 to t1 [s]: `from` at its start, this one in its middle, `to` at its end. Values
-    // that can change evenly do so; all others are those of the middle. Expects the same kind.
+    // The force during a tick from t0 to t1 [s]: `from` holds at its start, this one in its middle, `to` at its end.
+    // Values that can change evenly do so. All others keep their value of the middle. Expects the same kind.
     virtual std::shared_ptr<const Force> during(const Force& from, const Force& to, double t0, double t1) const = 0;
-    // Whether it continues the force of the tick before without a jump. If so, no method has to start again.
+    // Whether it continues the force of the previous tick without a jump. If so, no method has to start again.
     virtual bool goesOn(const Force& before) const = 0;
-    // Only where it continues: gives the changed values to the generator that the force before it made.
+    // Expects that it continues: gives the changed values to the generator that the previous force made.
     virtual void steer(mechanics::ForceGenerator<float>& generator) const = 0;
     virtual void steer(mechanics::ForceGenerator<double>& generator) const = 0;
 
-    // Whether it calls a function of the program that uses the engine. Then the islands on which it acts advance one
-    // after another, in their order, and its bits may differ between machines.
+    // Whether it calls a function of the program that uses the engine. If so, its islands advance one after another, in
+    // their order, and its bits may differ between machines.
     virtual bool isCallback() const { return false; }
 
-    // visit() reads or writes all that may differ from the force at the start of the scene; copy() makes one to read
-    // into.
+    // visit() reads or writes all that may differ from the force at the start of the scene. copy() makes a force to
+    // read into.
     virtual void visit(StateBytes& bytes) = 0;
     virtual std::shared_ptr<Force> copy() const = 0;
 
@@ -50,12 +51,13 @@ class Force {
     std::string name_;
 };
 
-// Whether all values that they save are the same.
+// Whether both save the same values.
 bool hasSameBytes(const Force& a, const Force& b);
 
 // Implements what is the same for every force. `Own` must have
 //   template <class Real> std::unique_ptr<mechanics::ForceGenerator<Real>> make(const IslandPlan&) const;
-// The other functions are for forces that change while they act: visit() for all that a ramp or the force itself
+// Forces that change while they act override the rest: visit() for all that a ramp or the force itself changes, the
+// others for changes after which no method has to start again.
 // changes, the rest for changes that no method has to start again for.
 template <class Own>
 class ForceOf : public Force {
@@ -82,7 +84,7 @@ class ForceOf : public Force {
     void visit(StateBytes&) override {}
     std::shared_ptr<Force> copy() const final { return std::make_shared<Own>(own()); }
 
-    // Of a force that stays as it is.
+    // For forces that do not change.
     void changeEvenly(const Own&, const Own&, double, double) {}
     bool follows(const Own& before) const { return hasSameBytes(*this, before); }
     template <class Real>
@@ -95,14 +97,14 @@ class ForceOf : public Force {
 // The forces of a world during a tick, in the order in which an island adds them.
 using ForceList = std::vector<std::shared_ptr<const Force>>;
 
-// Each of `middle`, changing evenly where all three have it.
+// The forces of `middle`. Each changes evenly where all three lists have it.
 ForceList during(const ForceList& from, const ForceList& middle, const ForceList& to, double t0, double t1);
 
-// Whether they are the same forces as before, and each continues without a jump.
+// Whether these are the same forces as before, and each continues without a jump.
 bool goesOn(const ForceList& before, const ForceList& now);
 
-// Writes the forces, or reads them over those at the start of the scene: gravity, winds, anchors, then those that were
-// added, whose names the world has compared. Throws core::Error(badContent) where the bytes have other forces.
+// Writes the forces, or reads them over those at the start of the scene: gravity, winds, anchors, then added forces,
+// whose names the world has compared. Throws core::Error(badContent) if the bytes have other forces.
 void visit(StateBytes& bytes, ForceList& forces);
 
 }  // namespace taut::world

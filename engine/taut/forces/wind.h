@@ -1,4 +1,4 @@
-// Moving air; acts on surfaces.
+// Moving air, which acts on surfaces.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct WindSpec final : SpecOf<WindSpec, ForceSpec> {
     std::int64_t gustSeed = 1;
     double drag = 1.0;            // drag coefficient of a triangle across the flow [-]
     double lift = 0.6;            // lift coefficient [-]
-    std::vector<std::string> on;  // bodies it acts on, e.g. "cloth.*"; empty: every cloth
+    std::vector<std::string> on;  // bodies on which it acts, e.g. "cloth.*"; empty: every cloth
 
     static fields::Section section();
     std::shared_ptr<const Force> make(const SceneSpec& scene) const override;

@@ -7,8 +7,8 @@
 namespace taut::world {
 namespace {
 
-// Signed distances, of any unit, from a cut to the points of a body; and whether an edge between two of them that
-// lie on different sides meets it, which for a plane it does.
+// Signed distances, in any unit, from a cut to the points of a body. An edge with its ends on different sides may cross
+// the cut: always for a plane, within its length for a segment.
 struct Knife {
     std::vector<double> side;    // (points of the model)
     std::vector<dvec2> place;    // (points of the model) in shares of the grid; empty for a plane

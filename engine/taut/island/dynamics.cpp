@@ -209,9 +209,8 @@ class DynamicsOf final : public Dynamics {
     void setVelocity(int point, const dvec3& v) override { set(state_.v, point, v); }
     bool isBounded() const override {
         if (speeds_ != ode::Speeds::unknown) return speeds_ == ode::Speeds::within;
-        // Without their sign, numbers come in the order of their bits, infinity and NaN last. What is added carries
-        // those from the limit on into the sign's place. Written so, a line of the cache at a time, it takes a tenth of
-        // the time.
+        // Without their sign, numbers come in the order of their bits, infinity and NaN last. Adding `room` carries
+        // numbers from the limit on into the sign bit. One cache line at a time, this takes a tenth of the time.
         using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
         constexpr Bits sign = Bits{1} << (8 * sizeof(Real) - 1);
         constexpr Bits room = sign - std::bit_cast<Bits>(static_cast<Real>(mechanics::speedLimit));
@@ -226,7 +225,7 @@ class DynamicsOf final : public Dynamics {
     }
     bool isTouchedBounded() const override {
         const std::span<const int> touched = contacts_.touched();
-        // All are looked at sooner than a tenth of them is picked out.
+        // Checking all is faster than picking out more than a tenth.
         if (touched.size() * 10 > static_cast<std::size_t>(state_.layout.count)) return isBounded();
         const auto limit = static_cast<Real>(mechanics::speedLimit);
         return std::all_of(touched.begin(), touched.end(), [&](int i) {
@@ -282,7 +281,7 @@ class DynamicsOf final : public Dynamics {
         rounding_.visit(bytes, state_.x.size());
         if (!bytes.isReading()) return;
         contacts_.drop();
-        makeMethod();  // it has nothing of its own that the state does not have
+        makeMethod();  // all that it keeps is in the state
         for (const Since moment : {Since::tick, Since::step}) keep(moment);
     }
     void describe(IslandInfo& info) const override {
@@ -313,7 +312,7 @@ class DynamicsOf final : public Dynamics {
         return rest;
     }
 
-    // Points in a rigid grip go where what holds them goes.
+    // Points in a rigid grip move with its holder.
     void lead() {
         leads_ = std::any_of(plan_.grips.begin(), plan_.grips.end(), [](const Grip& grip) { return grip.rigid; });
         for (std::size_t g = 0; g < plan_.grips.size(); ++g) {
@@ -330,7 +329,7 @@ class DynamicsOf final : public Dynamics {
         }
     }
 
-    // The anchors of the others, which are the last of the generators.
+    // Adds the anchors of the other grips, as the last of the generators.
     void addGrips() {
         system_.removeGenerators(firstGrip_);
         anchors_.clear();
@@ -345,7 +344,7 @@ class DynamicsOf final : public Dynamics {
         }
     }
 
-    // What keeps the volume of each body that has cells.
+    // Adds the volume forces of each body that has cells.
     void addVolumes() {
         for (const Body* body : plan_.bodies) {
             const std::vector<mechanics::VolumeCell> cells = cellsOf(*body);
@@ -369,7 +368,7 @@ class DynamicsOf final : public Dynamics {
         }
     }
 
-    // Directions that a collider holds turn with it.
+    // Directions that a collider holds turn with the collider.
     typename mechanics::GridBending<Real>::Turn turnOf(const Body& body) const {
         if (body.carried.empty() || body.clamped.empty()) return {};
         return [this, holder = body.spec->holdOn, back = glm::conjugate(body.carriedFrom)](double t) {
@@ -386,7 +385,7 @@ class DynamicsOf final : public Dynamics {
         method_->watch(static_cast<Real>(mechanics::speedLimit));
     }
 
-    // Those at t into velocity_. Methods that store them have had them resolved.
+    // The velocities at t into velocity_. Methods that store velocities at t have them resolved already.
     void findVelocities(double t, std::span<const collision::Contact> contacts, std::span<const ContactAcceleration> pressed) {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
         contacts_.bear(pressed, 0.5 * step_, velocity_);
@@ -405,7 +404,7 @@ class DynamicsOf final : public Dynamics {
         for (int i = 0; i < state_.layout.count; ++i) all.push_back(at(planes, i));
         return all;
     }
-    // Calls each(numbers, count) for all that is in use of the state.
+    // Calls each(numbers, count) for all parts of the state in use.
     template <class Each>
     void forEachPart(Each&& each) {
         const auto count = static_cast<std::size_t>(state_.layout.count);
@@ -426,17 +425,17 @@ class DynamicsOf final : public Dynamics {
     // Among the system's generators:
     std::vector<std::pair<const Body*, mechanics::VolumePreservation<Real>*>> volumes_;
     std::vector<std::pair<const Body*, mechanics::GridBending<Real>*>> bendings_;
-    std::vector<std::pair<std::size_t, Generator*>> acting_;  // of the forces those that act here, by their number
+    std::vector<std::pair<std::size_t, Generator*>> acting_;  // the forces that act here, by their number
     std::size_t firstGrip_ = 0;
     std::vector<mechanics::Anchor<Real>*> anchors_;  // (grips) null for rigid ones
 
     std::unique_ptr<ode::Method<Real>> method_;
-    double step_ = 0, time_ = 0;                 // [s] of the last step, when it began
-    bool splits_ = false;                        // the dashpots off
+    double step_ = 0, time_ = 0;                 // length and start of the last step [s]
+    bool splits_ = false;                        // the dashpots act apart from the other forces
     bool leads_ = false;                         // whether some grip is rigid
-    ode::Speeds speeds_ = ode::Speeds::unknown;  // of the state as it stands
+    ode::Speeds speeds_ = ode::Speeds::unknown;  // of the present state
     ode::State<Real> state_;
-    // (moments) of the state, close together: of small islands a line of the cache or two
+    // (moments) copies of the state, close together: one or two cache lines for small islands
     std::array<std::vector<Real>, 2> kept_;
     std::size_t keptSize_ = 0;
     mechanics::StateBound<Real> bound_;

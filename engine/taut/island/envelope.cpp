@@ -26,8 +26,8 @@ bool changesIslands(const RampAction& ramp) {
     return ramp.field->affects == fields::Affects::forces || ramp.field->affects == fields::Affects::springs;
 }
 
-// The scene with every field that ramps change at the largest value that it takes, or the smallest. A ramp begins
-// somewhere between the values before it and keeps between its ends, so that these are all that count.
+// The scene with every field that ramps change at its largest value, or at its smallest. A ramp begins between the
+// values before it and stays between its ends, so no other values count.
 SceneSpec extreme(const SceneSpec& spec, bool largest) {
     SceneSpec scene = spec;
     foreseen<RampAction>(spec.actions, [&](const RampAction& ramp) {
@@ -38,7 +38,7 @@ SceneSpec extreme(const SceneSpec& spec, bool largest) {
     return scene;
 }
 
-// Numbers in the island of the points that an action names.
+// The points, in island numbers, that an action names.
 std::vector<int> pointsOf(const IslandPlan& plan, const std::string& target) {
     std::vector<int> points;
     for (const Body* body : matchBodies(plan.bodies, target))
@@ -53,8 +53,8 @@ auto& point(IslandPlan& plan, int i) {
     return plan.points[static_cast<std::size_t>(i)];
 }
 
-// Whether [hand] anywhere allows for this grab already, so that a scene that was played live has the steps that it had
-// then: a grip has at least the mass of each of its points.
+// Whether [hand] anywhere already allows for this grab: a grip has at least the mass of each of its points. So a
+// recorded scene has the same steps as when it was played live.
 bool isAllowedAnywhere(const GrabAction& grab, const HandSpec& hand) {
     return hand.anywhere && grab.id.starts_with(liveHand) && grab.strength <= hand.strength &&
            grab.dampingRatio <= hand.dampingRatio;
@@ -77,8 +77,8 @@ void lighten(Envelope& envelope, const SceneSpec& spec) {
         });
 }
 
-// Grabs by springs. The mass of a grip is at least that of its points that are free all the time; or, where it is not
-// known which point will be the nearest, that of the lightest.
+// Adds grabs by springs. The mass of a grip is at least that of its points that are always free. Where the nearest
+// point is not known yet, it is at least that of the lightest point.
 void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec) {
     std::vector<bool> mayBeHeld;
     for (const auto& p : start.points) mayBeHeld.push_back(p.held);
@@ -128,7 +128,7 @@ void addHands(Envelope& envelope, const IslandPlan& start, const SceneSpec& spec
     }
 }
 
-// `held` of one plan, drag of another.
+// Takes `held` from one plan and drag from the other.
 void addDrag(Envelope& envelope, const IslandPlan& of) {
     for (std::size_t i = 0; i < of.points.size(); ++i) {
         if (envelope.plan.points[i].held) continue;
@@ -137,7 +137,7 @@ void addDrag(Envelope& envelope, const IslandPlan& of) {
     }
 }
 
-// The forces as the scene makes them at their strongest; those that the scene does not know, as they are.
+// The forces at their strongest, as the scene makes them. Forces that the scene does not know stay as they are.
 ForceList strongest(const ForceList& forces, const SceneSpec& strong) {
     const ForceList scene = sceneForces(strong);
     ForceList all = forces;
@@ -158,12 +158,12 @@ double largestTau(const IslandPlan& plan) {
     return tau;
 }
 
-// One end of what the scene may become.
+// One extreme of the scene, with its bodies and plans.
 struct EnvelopeSide {
     SceneSpec spec;
     std::vector<std::shared_ptr<Body>> bodies;
-    std::vector<IslandPlan> plans;                      // of the bodies that are there from the start
-    std::map<std::string, std::size_t> bodyOf, planOf;  // by name, the plan by that of its first body
+    std::vector<IslandPlan> plans;                      // of the bodies present from the start
+    std::map<std::string, std::size_t> bodyOf, planOf;  // by name; a plan by the name of its first body
 
     explicit EnvelopeSide(SceneSpec scene) : spec(std::move(scene)) {
         std::vector<Body*> first;
@@ -177,7 +177,7 @@ struct EnvelopeSide {
         for (std::size_t i = 0; i < plans.size(); ++i) planOf.emplace(plans[i].bodies.front()->fullName(), i);
     }
 
-    // The plan of the same bodies; nothing if the scene does not have them.
+    // The plan of the same bodies, or nothing if the scene does not have them.
     std::optional<IslandPlan> like(const IslandPlan& plan, bool hasJoints) const {
         const std::string name = plan.bodies.front()->fullName();
         if (hasJoints) {
@@ -193,7 +193,7 @@ struct EnvelopeSide {
         return own;
     }
 
-    // Wherever the colliders are: it is only by what springs.
+    // Ties points to colliders, wherever these are: only the springs of the ties matter here.
     void tie(IslandPlan& plan) const {
         addTies(
             plan, spec, [](const std::string&) { return std::optional<collision::Pose>(collision::Pose{}); });
@@ -253,7 +253,7 @@ Envelope Envelopes::of(const IslandPlan& plan, const ForceList& forces, bool has
     envelope.leastDrag = HUGE_VAL;
     addDrag(envelope, envelope.plan);
     if (soft) addDrag(envelope, *soft);
-    if (envelope.leastDrag == HUGE_VAL) envelope.leastDrag = 0;  // none is free
+    if (envelope.leastDrag == HUGE_VAL) envelope.leastDrag = 0;  // no point is ever free
     return envelope;
 }
 

@@ -11,8 +11,8 @@
 namespace taut::world {
 namespace {
 
-constexpr int mostToPress = 1024;  // instants of a tick: who has more steps is warned of them
-constexpr int leastParts = 4;      // of a tick of bodies that touch others, whatever their method bears
+constexpr int mostToPress = 1024;  // instants of a tick; an island with more steps is warned of
+constexpr int leastParts = 4;      // of a tick of bodies that touch others, whatever step their method could take
 
 std::string insideWarning(const Body& body, const std::string& collider, int points, double depth) {
     char text[200];
@@ -59,7 +59,7 @@ Island::Island(IslandPlan plan, const ForceList& forces, const Envelope& envelop
     for (const Since moment : {Since::tick, Since::step}) dynamics_->keep(moment);
     yielding_.watch(plan_, *dynamics_);
     mayFreeze_ = plan_.solver.onDivergence == OnDivergence::freeze;
-    isChanged_ = !plan_.grips.empty();  // they go on ways that the scene alone does not tell
+    isChanged_ = !plan_.grips.empty();  // grips follow paths that the scene alone does not tell
     hasCells_ = std::any_of(plan_.bodies.begin(), plan_.bodies.end(),
                             [](const Body* body) { return !body->model.cells.empty(); });
 }
@@ -69,8 +69,8 @@ void Island::setColliders(collision::Colliders colliders, std::span<const std::s
     mayCollide_ = colliders_.size() > 0 &&
                   std::any_of(plan_.bodies.begin(), plan_.bodies.end(), [](const Body* b) { return b->spec->collide; });
     if (!mayCollide_) now_.contacts.clear();
-    // Without restitution an impact takes ½ m v² from its point and its shift adds ½ k (v h)², which is less while
-    // ω h < 1, and at the limits little enough for the sum to stay below 2 % (measured on stiff nets).
+    // Without restitution an impact takes ½ m v² from its point, and its shift adds ½ k (v h)². That is less while ω h
+    // < 1. At the limits it is little enough for the sum to stay below 2 % (measured on stiff nets).
     const bool takesMore =
         method().symplectic && !colliders_.bounces() && (choice_.need || now_.step <= choice_.limit * (1 + 1e-9));
     dynamics_->watchContacts(mayCollide_ && !takesMore);
@@ -78,7 +78,7 @@ void Island::setColliders(collision::Colliders colliders, std::span<const std::s
     hasLooked_ = true;
 }
 
-// Points that come out within a step at that speed anyway do not count.
+// Points that come out within one step at emergingSpeed do not count.
 void Island::findInside(std::span<const std::string> names) {
     for (const Body* body : plan_.bodies) {
         if (!body->spec->collide) continue;
@@ -129,7 +129,7 @@ void Island::beginTry() {
     dynamics_->forgetImpulses();
     tieLoad_.begin(plan_);
     now_.contacts.clear();
-    dynamics_->takeContactWork();  // of a try that others gave up
+    dynamics_->takeContactWork();  // drops the work of a try that other islands gave up
 }
 
 std::optional<Fault> Island::advance(const TickTime& time, std::span<const ColliderMotion> moving, int part,
@@ -154,11 +154,10 @@ TickVerdict Island::judge(const TickTime& time, std::optional<Fault>& fault) {
     return TickVerdict::stands;
 }
 
-// A tick stands in steps so short that they are within the bound of the state at its end, and contact adds little
-// energy.
+// A tick stands if its steps are within the bound of the state at its end and if contact adds little energy.
 TickVerdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault) {
-    constexpr int mostRescues = 3;  // of a tick that diverges, perhaps because the state has stiffened within it
-    constexpr int fairTrial = 3;    // doublings of steps, after which contact should add less
+    constexpr int mostRescues = 3;  // of a diverging tick, as the state may have stiffened within it
+    constexpr int fairTrial = 3;    // doublings of substeps, after which contact should add less
     if (fault && !choice_.need) return TickVerdict::fails;
     const ContactWork work = dynamics_->takeContactWork();
     bool isTooLong = fault.has_value();
@@ -169,7 +168,7 @@ TickVerdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault
         need = (*choice_.need)(fastest);
         isTooLong = now_.following.isExceededBy(need / now_.budget.factor);
     }
-    // Where shorter steps have not helped, still shorter ones will not.
+    // If shorter steps have not helped, still shorter ones will not either.
     const bool isInVain = tries_.doublings >= fairTrial && work.added > 0.75 * tries_.addedFirst;
     if (!isTooLong && (isInVain || !addsTooMuch(work))) {
         if (isInVain) now_.budget.factor = std::max(1, now_.budget.factor >> tries_.doublings);
@@ -177,7 +176,8 @@ TickVerdict Island::judgeSteps(const TickTime& time, std::optional<Fault>& fault
         now_.budget.add(work, tickSeconds_);
         return TickVerdict::stands;
     }
-    // Constraints that a step turns too far have no solution, rather than one that is too fast.
+    // Infinite velocities are hopeless. With constraints they may mean a step that turns too far, and shorter steps
+    // help.
     const bool isHopeless = fault && !fault->isNumber && plan_.constraints.empty();
     if (fault && (isHopeless || ++tries_.rescues > mostRescues || need > mostSubsteps)) return TickVerdict::fails;
     if (!isTooLong) {
@@ -200,7 +200,7 @@ void Island::tryAgain(const TickTime& time, TickVerdict verdict) {
     const ContactBudget budget = now_.budget;
     undoTick();
     if (verdict != TickVerdict::again) return;
-    // What the try has taught of steps stays.
+    // The new steps outlive the undone try.
     now_.following = following;
     now_.budget.factor = budget.factor;
     now_.budget.calmTicks = budget.calmTicks;
@@ -208,7 +208,7 @@ void Island::tryAgain(const TickTime& time, TickVerdict verdict) {
     startWith(time, wantedSubsteps(), true);
 }
 
-// While nothing presses it; few substeps become a power of two.
+// For a tick without pressure. Small numbers of substeps become a power of two.
 int Island::inParts(int substeps) const {
     if (substeps >= quietParts_) return (substeps + quietParts_ - 1) / quietParts_ * quietParts_;
     int parts = plan_.solver.dt ? 1 : std::min(quietParts_, leastParts);
@@ -258,7 +258,7 @@ void Island::startWith(const TickTime& time, int substeps, bool isRepeated) {
     precision_.restart();
 }
 
-// Contacts are those of the last of them.
+// Keeps the contacts of the last substep.
 std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first,
                                           int last) {
     now_.contacts.clear();
@@ -276,7 +276,7 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
             if (!now_.inside.empty()) {
                 dynamics_->emerge(colliders_, now_.inside);
                 now_.budget.sum.atTouch =
-                    now_.budget.energyAtTouch(dynamics_->takeContactWork());  // no step added it, but the start
+                    now_.budget.energyAtTouch(dynamics_->takeContactWork());  // the start added it, not a step
             }
             const bool settles = touches && dynamics_->settle();
             if (touches && !(settles ? dynamics_->isBounded() : dynamics_->isTouchedBounded())) return giveUp(end());
@@ -284,7 +284,7 @@ std::optional<Fault> Island::takeSubsteps(const TickTime& time, std::span<const 
         if (mayFreeze_)
             if (const auto fault = overstrained(end())) return fault;
         if (yielding_.isOn() && yielding_.giveWay(plan_, *dynamics_, forces_))
-            isChanged_ = true;  // of steps that stand
+            isChanged_ = true;  // only of steps that stand
         if (tieLoad_.isOn()) tieLoad_.add(plan_, *dynamics_, end());
     }
     return std::nullopt;
@@ -314,7 +314,7 @@ Fault Island::giveUp(double t) const {
     double most = -1;
     for (int i = 0; i < static_cast<int>(v.size()); ++i) {
         const double speed = glm::length(v[static_cast<std::size_t>(i)]);
-        const bool isHeld = plan_.points[static_cast<std::size_t>(i)].held;  // 0 times what is infinite
+        const bool isHeld = plan_.points[static_cast<std::size_t>(i)].held;  // 0 times infinity is no number
         if (!std::isfinite(speed) && !isHeld) return {.point = i, .time = t, .isNumber = false};
         if (speed > most) fastest = i;
         most = std::max(most, speed);
@@ -322,8 +322,8 @@ Fault Island::giveUp(double t) const {
     return {.point = fastest, .time = t};
 }
 
-// The spring furthest from its rest length, if that is further than freezing allows. Springs of bending span two
-// cells and tell nothing that the others do not.
+// Finds the spring furthest from its rest length, if that is further than freezing allows. Bending springs span two
+// cells and add no information.
 std::optional<Fault> Island::overstrained(double t) {
     Fault fault;
     dynamics_->positions(x_);
@@ -340,7 +340,7 @@ std::optional<Fault> Island::overstrained(double t) {
     return fault;
 }
 
-// Beyond the working stretch a step that stays may not hold, and a collapsed cell may not come back: each said once.
+// Beyond the working stretch a fixed step may not hold, and a collapsed cell may not recover. Each is said once.
 void Island::watchVolumes(double t) {
     const bool stretches = !choice_.need && stretchWarning_.empty();
     if (!stretches && !collapseWarning_.empty()) return;
@@ -361,7 +361,7 @@ void Island::watchVolumes(double t) {
     }
 }
 
-// What is changed between two ticks.
+// Changes between two ticks.
 
 void Island::open(const TickTime& time) {
     if (isOpen_) return;
@@ -439,14 +439,14 @@ std::vector<bool> Island::overloaded() const {
 
 void Island::setPath(std::size_t grip, const mechanics::PosePath& path) {
     plan_.grips[grip].path = path;
-    // Grips that are not what the dynamics know are led when those take them over.
+    // The dynamics take over new grips with their paths later.
     if (!changes_.has(Change::grips)) dynamics_->leadGrip(grip);
 }
 
 void Island::setForces(const TickTime& time, const ForceList& forces) {
     if (frozen_) return;
     const bool jumps = !goesOn(forces_, forces);
-    if (jumps) open(time);  // on the forces so far
+    if (jumps) open(time);  // with the forces so far
     haveForcesJumped_ = haveForcesJumped_ || jumps;
     forces_ = forces;
     if (jumps)
@@ -455,14 +455,14 @@ void Island::setForces(const TickTime& time, const ForceList& forces) {
         dynamics_->steer(forces_);
 }
 
-// What is changed while it runs may go beyond what a step that stays was chosen for; that is said once. Rest lengths
-// have no part in the limit.
+// A change during the run may lower the limit below a fixed step; that is said once. Rest lengths have no part in the
+// limit.
 void Island::watchLimit(double t) {
     if (choice_.need || changes_ == Changes{}.add(Change::lengths) || !limitWarning_.empty() ||
         !(now_.step <= choice_.limit))
         return;
     const double limit = stepLimit(plan_, dynamics_->stabilityShare(t));
-    if (now_.step <= limit * (1 + 1e-6)) return;  // single precision computes the share a little differently
+    if (now_.step <= limit * (1 + 1e-6)) return;  // single precision computes the share slightly differently
     limitWarning_ = plan_.bodies.front()->fullName() + ": since " + inSeconds(t) + " its step of " +
                     inSeconds(now_.step) + " is over the stability limit, which has fallen to " + inSeconds(limit) +
                     ": it may diverge; a shorter dt, or [hand] in the scene, allows for it";
@@ -471,7 +471,7 @@ void Island::watchLimit(double t) {
 std::vector<dvec3> Island::velocities(const TickTime& time) {
     if (frozen_) return std::vector<dvec3>(plan_.points.size(), dvec3(0.0));
     if (isOpen_) return dynamics_->velocities();
-    // Asking changes nothing, the work of the run least of all.
+    // A query changes nothing, and its work does not count for the run.
     workElsewhere_ += dynamics_->work();
     std::vector<dvec3> v = dynamics_->velocitiesAt(time.start(), now_.contacts, now_.pressed);
     workElsewhere_ -= dynamics_->work();

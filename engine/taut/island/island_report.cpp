@@ -36,7 +36,7 @@ void addSprings(const IslandPlan& plan, std::span<const dvec3> x, const std::vec
         if (s.restLength > 0 && s.kind != mechanics::SpringKind::bend)
             metrics.maxStrain = std::max(metrics.maxStrain, std::abs(stretch) / s.restLength);
     }
-    // Of joints of other kinds.
+    // Ties of joints of other kinds.
     for (const JointTie& tie : plan.ties)
         if (tie.springs.empty() && only[static_cast<std::size_t>(tie.a)] &&
             only[static_cast<std::size_t>(tie.b < 0 ? tie.a : tie.b)] && !holds(plan, tie))
@@ -56,7 +56,7 @@ void addCells(const Body& body, std::span<const dvec3> x, Metrics& metrics) {
     }
 }
 
-// Only points that touched something in the last step can be inside anything, once there has been a step.
+// After a step, only points that touched something in it can be inside anything.
 double penetrationOf(const Island& island, const std::vector<bool>& wanted) {
     double depth = 0;
     if (island.colliders().size() == 0) return depth;
@@ -183,7 +183,7 @@ Divergence diagnose(const Island& island, const Fault& fault, const TickTime& ti
         d.body = body->fullName();
         d.point = point;
     }
-    // The bound for the last good state, and the stiffest spring at that point or, where there is none, of all.
+    // The bound for the last good state, and the stiffest spring at that point, or of all if the point has none.
     const std::vector<double> inverseMasses = inverseMassesOf(plan);
     std::vector<dvec3> positions;
     island.dynamics().positions(positions);

@@ -1,4 +1,4 @@
-// An island as bytes. What is as the scene builds it is not written: of a plan that nothing has changed, nothing.
+// An island as bytes. It does not write what the scene builds again: of an unchanged plan, nothing.
 #include <algorithm>
 #include <cmath>
 
@@ -9,13 +9,13 @@
 namespace taut::world {
 namespace {
 
-// Before the bytes of a grip that a collider has, or that turns; no length of a name, with which all others begin.
+// Marks a grip that a collider has, or that turns. No name, with which all other grips begin, has such a length.
 constexpr std::uint64_t poseMark = 0xfff8'7461'7574'0003ULL;
 
-// Before the largest forces of a grip; neither that nor such a length.
+// Marks the largest forces of a grip; differs from the other marks and from any length of a name.
 constexpr std::uint64_t mostForceMark = 0xfff8'7461'7574'0006ULL;
 
-// Before the number of the tie of a grip that is of a tie alone; neither that nor such a length.
+// Marks the tie of a grip that belongs to one tie; differs likewise.
 constexpr std::uint64_t tieMark = 0xfff8'7461'7574'0005ULL;
 
 void visitPart(StateBytes& bytes, Grip& grip, const IslandPlan& plan) {
@@ -98,8 +98,8 @@ void visitPart(StateBytes& bytes, Divergence& d) {
     bytes(d.message);
 }
 
-// Before the bytes of an island with points that began inside a collider; no length of a name, with which all others
-// begin.
+// Marks an island with points that began inside a collider. No name, with which all other islands begin, has such a
+// length.
 constexpr std::uint64_t insideMark = 0xfff8'7461'7574'0002ULL;
 
 }  // namespace
@@ -157,7 +157,7 @@ void Island::visitStep(StateBytes& bytes) {
     bytes(now_.budget.factor);
     bytes(now_.budget.calmTicks);
     bytes.require(now_.budget.factor >= 1 && now_.budget.factor <= mostContactFactor && now_.budget.calmTicks >= 0);
-    // By contact they may have been more, and be about to be less again.
+    // Contact may have raised their number, which may be about to fall again.
     const bool isOwn = own == ownSubsteps_ && substeps > 0 && substeps <= mostSubsteps;
     if (follows != choice_.need.has_value() || (splits && !follows) || (!follows && !isOwn))
         misfit("the steps of " + plan_.bodies.front()->fullName() + " are others");
@@ -188,7 +188,7 @@ void Island::visitStep(StateBytes& bytes) {
     if (!bytes.isReading()) return;
     now_.substeps = substeps;
     now_.step = choice_.need->tickSeconds / substeps;
-    // Decided when the island was made, of springs that may have been others then.
+    // Splitting was decided when the island was made, perhaps with other springs.
     const bool isOther = splits != choice_.splits;
     choice_.splits = choice_.need->splits = splits;
     dynamics_->setStep(now_.step);
@@ -200,6 +200,7 @@ void Island::visitStep(StateBytes& bytes) {
 
 void Island::visit(StateBytes& bytes) {
     const std::string name = plan_.bodies.front()->fullName();
+    // What must be as the scene makes it, and the steps.
     visitInside(bytes);
     bytes.expect(name, "the bodies are others");
     bytes.expect(plan_.solver.integrator, "the methods of its bodies are others");
@@ -207,6 +208,7 @@ void Island::visit(StateBytes& bytes) {
     auto springs = static_cast<std::uint64_t>(plan_.springs.size());
     bytes(springs);
     if (springs != plan_.springs.size()) misfit("the springs of " + name + " are others");
+    // The plan, if changed; forces, constraints and the colliders that carry them.
     bytes(isChanged_);
     if (isChanged_) visitPlan(bytes);
     world::visit(bytes, forces_);
@@ -222,6 +224,7 @@ void Island::visit(StateBytes& bytes) {
         bytes(carrier.path.t1);
         bytes.require(carrier.path.t0 < carrier.path.t1);
     }
+    // The moving points, and what the last tick has left.
     dynamics_->visit(bytes);
     bool isPending = changes_.any() || haveForcesJumped_;
     for (bool* flag : {&isOpen_, &isPending, &hasMoved_}) bytes(*flag);
@@ -243,7 +246,8 @@ void Island::visit(StateBytes& bytes) {
         visitPart(bytes, frozen.divergence);
     });
     if (!bytes.isReading()) return;
-    haveForcesJumped_ = false;  // as they were set for what is read; those that had are among what is pending
+    // Makes the island anew from what was read.
+    haveForcesJumped_ = false;  // the forces were set for what is read; a pending jump is in isPending
     workElsewhere_ = done;
     bytes.require(!frozen_ || mayFreeze_);
     if (frozen_) {

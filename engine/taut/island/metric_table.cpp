@@ -18,13 +18,13 @@ void visitNumber(Number& number, const NumberVisitor& visit) {
     visit(&number);
 }
 
-// A member of Metrics.
+// A row that reads a member of Metrics.
 template <auto member>
 constexpr MetricSource ofMember = {
     [](const Metrics& metrics) -> MetricValue { return metrics.*member; },
     [](Metrics& metrics, const NumberVisitor& visit) { visitNumber(metrics.*member, visit); }};
 
-// A count of the methods' work.
+// A row that reads a count of the methods' work.
 template <auto member>
 constexpr MetricSource ofWork = {
     [](const Metrics& metrics) -> MetricValue { return metrics.work.*member; },
@@ -34,7 +34,7 @@ constexpr MetricSource totalEnergy = {[](const Metrics& metrics) -> MetricValue 
 
 constexpr MetricSource volumeRatio = {[](const Metrics& metrics) -> MetricValue {
                                           return metrics.restVolume > 0 ? metrics.volume / metrics.restVolume
-                                                                        : 1.0;  // of nothing nothing is missing
+                                                                        : 1.0;  // without cells no volume is lost
                                       },
                                       [](Metrics& metrics, const NumberVisitor& visit) {
                                           visitNumber(metrics.volume, visit);

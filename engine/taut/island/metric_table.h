@@ -1,5 +1,5 @@
 // The metrics of bodies, one row each. Claims call them as functions, metrics.csv has a line of them for each frame,
-// and the records of a run keep them. To add a metric, write its row, with the function that measures it of an island.
+// and the records of a run keep them. To add a metric, write a row and the function that measures one island.
 #pragma once
 
 #include <cstdint>
@@ -30,26 +30,26 @@ using NumberVisitor = std::function<void(MetricNumber)>;
 struct MeasuredIsland {
     const IslandPlan& plan;
     std::span<const glm::dvec3> x, v;  // (points) [m], [m/s]
-    const std::vector<bool>& counts;   // (points) whether it is asked for
+    const std::vector<bool>& counts;   // (points) whether the metric counts this point
 };
 
 // A row either reads what Metrics has a member for, or measures by itself.
 struct MetricSource {
     MetricValue (*value)(const Metrics& metrics) = nullptr;
-    // Visits the numbers that the value is made of; null: other rows visit them.
+    // Visits the numbers that make up the value; null: other rows visit them.
     void (*eachNumber)(Metrics& metrics, const NumberVisitor& visit) = nullptr;
-    // The value of all islands until this one, from that of those before it; 0 of none.
+    // `before` is the value over the islands so far, 0 at first. Returns the value with this island included.
     double (*measure)(const MeasuredIsland& island, double before) = nullptr;
 };
 
 struct Metric {
-    std::string_view columns;   // of metrics.csv, with unit; a vector has three, with commas between
+    std::string_view columns;   // of metrics.csv, with unit; a vector has three, separated by commas
     std::string_view function;  // of claims; empty: none
     std::string_view unit;      // "kg m/s"; empty: a plain number
     std::string_view help;
     MetricSource source;
     int extreme = 0;  // which body a claim names as the place: 1 the one with the largest value, -1 smallest, 0 none
-    Measures measures = Measures::butCrossings;  // what it needs
+    Measures measures = Measures::butCrossings;  // what has to be measured for it
     Counts counts = Counts::everyBody;
 
     MetricValue value(const Metrics& metrics) const;
@@ -58,10 +58,10 @@ struct Metric {
 
 std::span<const Metric> metricTable();
 
-// Adds what rows measure by themselves.
+// Adds the values of the rows that measure by themselves.
 void addMeasured(const MeasuredIsland& island, Metrics& metrics);
 
-// Visits the time, and every number that a row of the table is made of, in the order of the table.
+// Visits the time and every number that a row of the table consists of, in the order of the table.
 void eachNumber(Metrics& metrics, const NumberVisitor& visit);
 
 bool isCounted(Counts counts, const BodySpec& body);

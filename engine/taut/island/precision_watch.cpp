@@ -9,9 +9,9 @@
 namespace taut::world {
 namespace {
 
-constexpr double lostShare = 0.01;  // of a body's size, that rounding may keep a point back
+constexpr double lostShare = 0.01;  // of a body's size, by which rounding may keep a point back
 constexpr int looksEvery = 64;      // ticks
-constexpr double considered = 1.0;  // [s] for which a speed is taken to last
+constexpr double considered = 1.0;  // [s] for which a speed is assumed to last
 
 std::string warningOf(const IslandPlan& plan, const Dynamics& dynamics, int point, int plane, double step,
                       const std::string& limitingSpring) {
@@ -49,7 +49,7 @@ void PrecisionWatch::foresee(const IslandPlan& plan, const Dynamics& dynamics, d
     }
 }
 
-// What moves at the freezing speed for a second has to lose a noticeable way before each tick is looked at.
+// A tick is looked at only if a second at the freezing speed is a noticeable way.
 void PrecisionWatch::look(const IslandPlan& plan, Dynamics& dynamics, double tickSeconds, double step,
                           const std::string& limitingSpring) {
     if (plan.solver.precision == Precision::double_ || !warning_.empty()) return;

@@ -1,4 +1,4 @@
-// What is told of islands: energies, steps, why a run ended. It knows no island.
+// What islands report: energies, steps, why a run ended. It knows no island.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace taut::world {
 
-// Why a run cannot go on: everything a person needs to mend the scene.
+// Why a run cannot go on, with everything that a person needs to mend the scene.
 struct Divergence {
     std::int64_t tick = 0;
     double time = 0;      // [s]
     std::string body;     // "cloth.flag"
     int point = -1;       // in the order of authoring
-    std::string spring;   // the stiffest relative to its masses at that point, e.g. "structural 12-13"
+    std::string spring;   // the stiffest one at that point, relative to its masses, e.g. "structural 12-13"
     double omegaH = 0;    // ω h there
-    double limit = 0;     // largest ω h that the method stands
+    double limit = 0;     // largest ω h that the method can stand
     double safeStep = 0;  // [s] largest step that would hold
     std::string message;  // the whole diagnosis, several lines
 };
@@ -32,8 +32,8 @@ struct FrozenIsland {
     Divergence divergence;
 };
 
-// Crossings, those of edges of colliders among them, cost the most: up to some microseconds for each point of bodies
-// that touch.
+// Crossings cost the most, up to some microseconds for each point of bodies that touch. They include crossings of
+// colliders' edges.
 enum class Measures { all, butCrossings };
 
 struct Metrics {                      // at a published tick, velocities synchronised; frozen islands left out
@@ -43,7 +43,7 @@ struct Metrics {                      // at a published tick, velocities synchro
     double gravitational = 0;         // [J]
     glm::dvec3 momentum{0.0};         // [kg m/s]
     glm::dvec3 angularMomentum{0.0};  // [kg m²/s] about the origin
-    double maxStrain = 0;             // largest |l - L|/L of any rod and any spring but those of bending
+    double maxStrain = 0;             // largest |l - L|/L of all rods and of all springs except bending springs
     int contacts = 0;
     int invertedCells = 0;   // V/V0 <= 0
     int brokenSprings = 0;   // cut or torn since the start
@@ -51,28 +51,28 @@ struct Metrics {                      // at a published tick, velocities synchro
     double restVolume = 0;   // [m³] of the same cells without force
     double penetration = 0;  // [m] largest depth of a free, colliding point inside a collider
     double facePenetration =
-        0;  // [m] largest height of a collider's corner or edge out of a triangle of what meets them
+        0;  // [m] largest height of a collider's corner or edge out of a triangle of a body that meets faces
     double minVolumeRatio = 1;  // smallest V/V0
     ode::Work work{};           // of the methods since the start
     int bodyContacts = 0;       // pairs of parts of bodies that pressed each other at the end of the last tick
-    int crossings = 0;          // edges of bodies that touch, through triangles of such; 0 where not looked for
-    std::vector<double> measured{};  // (rows of metric_table.h) what rows measure by themselves; empty: nothing yet
+    int crossings = 0;          // edges of touching bodies through triangles of touching bodies; 0 if not looked for
+    std::vector<double> measured{};  // (rows of metric_table.h) what rows measure by themselves; empty: none yet
 
     double energy() const { return kinetic + elastic + gravitational; }  // [J]
 };
 
-// An island's step, a tick's part, that followed its state.
+// One change of the step of an island that follows its state.
 struct StepChange {
-    double time = 0;          // [s] of the tick that it began with
+    double time = 0;          // [s] start of the tick from which it holds
     int from = 1, to = 1;     // substeps a tick
-    bool isRepeated = false;  // the tick, which had been taken in steps too long
+    bool isRepeated = false;  // the tick was first taken in longer steps, which were too long
 };
 
 struct IslandInfo {
     std::string name;                 // of its first body
     std::vector<std::string> bodies;  // "cloth.flag", …
     int points = 0, heldPoints = 0, springs = 0, runs = 0, singles = 0, cells = 0;
-    int constraints = 0;  // rods, and what else ties points without a spring
+    int constraints = 0;  // rods and other constraints that tie points without a spring
     double mass = 0;      // [kg] of the points
     std::string method;
     double omegaBound = 0;       // B1 [1/s]
@@ -82,8 +82,8 @@ struct IslandInfo {
     double stepLimit = 0;        // [s] largest stable step by B1 with damping
     double step = 0;             // [s] chosen
     int substeps = 1;
-    bool followsState = false;            // the step may change
-    bool splitsDashpots = false;          // off from the other forces
+    bool followsState = false;            // the step may change during the run
+    bool splitsDashpots = false;          // the dashpots act apart from the other forces
     std::vector<StepChange> stepChanges;  // so far
     std::string limitingSpring;           // what sets the limit, in words
     std::vector<std::string> advice;      // what would allow a longer step

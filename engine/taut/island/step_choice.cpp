@@ -13,7 +13,7 @@ namespace {
 using core::Error;
 using core::ErrorKind;
 
-// The bounds of an island's plan, where its points are or in any shape that it may take.
+// The bounds of an island's plan, at its positions or in any shape.
 class PlanBounds {
   public:
     PlanBounds(const IslandPlan& plan, std::span<const double> moreStiffness)
@@ -23,7 +23,7 @@ class PlanBounds {
         for (const mechanics::Spring& spring : plan.springs) {
             dashpots_.push_back(spring);
             dashpots_.back().stiffness *= spring.dampingTime;
-            dashpots_.back().restLength = HUGE_VAL;  // it acts along the spring alone
+            dashpots_.back().restLength = HUGE_VAL;  // it acts only along the spring
         }
     }
 
@@ -47,7 +47,7 @@ class PlanBounds {
     double stretch_ = 1;
 };
 
-// Drags [1/s]: the smallest and the largest of free points. damping [1/s]: of the dashpots.
+// leastDrag, mostDrag: over free points [1/s]. damping [1/s]: of the dashpots.
 ode::FastestMode fastestMode(const mechanics::StabilityShare& share, double leastDrag, double mostDrag, double omega,
                              double damping) {
     ode::FastestMode mode{.omega = omega, .drag = leastDrag, .largestDrag = mostDrag};
@@ -56,23 +56,23 @@ ode::FastestMode fastestMode(const mechanics::StabilityShare& share, double leas
     return mode;
 }
 
-// Some methods need damping, others bear little of it: the step has to hold with the most and with the least.
+// Some methods need damping, others bear little of it. The step has to hold with the most and the least damping.
 double automaticStep(const ode::MethodInfo& method, double leastTauShare, ode::FastestMode mode) {
     const double most = method.automaticStep(mode);
     mode.tau *= leastTauShare;
     return std::min(most, method.automaticStep(mode));
 }
 
-// Of a method that splits the dashpots off: one after the other they drag velocities along over y springs, and above y
-// = 1 (half of it before a kick, half after) they would turn them round.
+// For a method that splits the dashpots off. They act one after the other over y springs and drag velocities along.
+// Above y = 1 (half before a kick, half after) they would reverse them.
 double longestSplit(const ode::MethodInfo& method, const ode::FastestMode& undamped, double pairs) {
     constexpr double mostOfLimit = 0.98, mostY = 1.0;
     const double limit = mostOfLimit * method.automaticStep(undamped);
     return pairs > 0 ? std::min(limit, mostY / pairs) : limit;
 }
 
-// The longest step [s] of which it is not sure that the mode grows beyond all bounds, whatever damps it. Methods with a
-// caution are given steps at which undamped motion grows slowly; at four times those, by 64 times as much or more.
+// The longest step [s] at which the mode does not certainly grow beyond all bounds, whatever damps it. Methods with a
+// caution get steps at which undamped motion grows slowly; at four times those it grows 64 times as much or more.
 double longestBearable(const ode::MethodInfo& method, ode::FastestMode mode) {
     const double damped = method.automaticStep(mode);
     mode.tau = mode.rate = mode.drag = mode.largestDrag = 0;
@@ -120,9 +120,9 @@ std::string lengthText(double length) {
     return length < 0.1 ? plain(1e3 * length) + " mm" : plain(length) + " m";
 }
 
-// The edge of a mesh that is far shorter than the others, by which the limiting spring or a neighbour is stiff.
+// Advises on an edge of a mesh that is far shorter than the others and makes the limiting spring or a neighbour stiff.
 void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
-    constexpr double shortEdge = 0.2;  // of the median: a step grows with the square of an edge
+    constexpr double shortEdge = 0.2;  // of the median; the step grows with the square of an edge
     if (!choice.anywhere.bySprings || choice.anywhere.spring < 0) return;
     const mechanics::Spring& limiting = plan.springs[static_cast<std::size_t>(choice.anywhere.spring)];
     const int number = plan.origins[static_cast<std::size_t>(choice.anywhere.spring)].body;
@@ -154,8 +154,9 @@ void adviseOnSliver(const IslandPlan& plan, StepChoice& choice) {
                             ", and sets the step: merge by distance, or integrator = \"implicit-euler\"");
 }
 
-// A damping time with which the step is at least half as long as without any, where that makes it twice as long.
-// substepsWith: a tick with damping times that share of what they are; all are the same, so that one says them.
+// Advises a damping time with which the step is at least half as long as without damping, if that doubles the step.
+// substepsWith(share): substeps of a tick with all damping times multiplied by that share. All damping times are equal
+// here, so one number states them.
 void adviseOnDamping(const IslandPlan& plan, StepChoice& choice, const std::function<int(double)>& substepsWith) {
     constexpr double worthIt = 2.0, nearly = 0.5;
     const double tau = largestTau(plan);
@@ -191,8 +192,8 @@ double stepLimit(const IslandPlan& plan, const mechanics::StabilityShare& share)
         fastestMode(share, leastDrag, mostDrag, bounds.anywhere().omega, bounds.dampingAnywhere()));
 }
 
-// Springs are not linear: near ω h = √3, where a mode takes three steps to turn, a step within the linear limit feeds
-// wide swings (Schlick, Mandziuk, Skeel and Srinivas 1998, third-order resonance), unless dashpots take more out. A
+// Springs are not linear: near ω h = √3 a mode takes three steps to turn. There a step within the linear limit feeds
+// wide swings (Schlick, Mandziuk, Skeel and Srinivas 1998, third-order resonance), unless dashpots take out more. A
 // share of 0.9 keeps ω h below 1.5. Drag takes out too little to count.
 constexpr double mostUndamped = 1.5 / 0.9, weakDamping = 0.02;  // ω h, and τ ω
 
@@ -214,7 +215,7 @@ void StepNeed::raise(const mechanics::StabilityShare& share, std::span<const dou
     for (double rate : share.dampingRate) others.rate = std::max(others.rate, rate);
 }
 
-// A method without a limit takes one step a tick by itself, and shakes springs in it as no shorter one would.
+// A method without a limit takes one step a tick on its own. Springs in it then shake more than with shorter steps.
 void warnOfTears(const IslandPlan& plan, const ode::MethodInfo& method, StepChoice& choice) {
     if (plan.solver.dt || !std::isinf(choice.limit)) return;
     for (const Body* body : plan.bodies)
@@ -227,7 +228,7 @@ void warnOfTears(const IslandPlan& plan, const ode::MethodInfo& method, StepChoi
         }
 }
 
-// What a step that splits the dashpots off costs, of one that does not: two sweeps over them besides the forces.
+// The cost of a step that splits the dashpots off, relative to one that does not: two extra sweeps over them.
 constexpr double splitCosts = 2.5;
 
 std::string inSeconds(double t) {
@@ -265,11 +266,11 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
     choice.mode = modeAt(choice.anywhere.omega, damping);
     const double limitHere = automaticStep(*method, leastTauShare, modeAt(choice.here.omega, bounds.dampingHere()));
 
-    // The step [s] with that part of the damping, and what it comes of.
+    // The step [s] with that part of the damping, and its cause.
     const auto wantedStep = [&](double part, StepChoice& of) {
         of.limit = automaticStep(*method, leastTauShare, modeAt(choice.anywhere.omega, part * damping));
         if (plan.solver.dt) return *plan.solver.dt;
-        // What turns on rods has a limit that only its state tells.
+        // The limit of motion that turns on rods depends on its state.
         const bool isBounded =
             std::isfinite(of.limit) ||
             (!plan.constraints.empty() && std::isfinite(method->automaticStep({.omega = 1.0})));
@@ -288,7 +289,7 @@ StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share,
         const double need = (*of.need)(then);
         return need > 0 ? tickSeconds / need : HUGE_VAL;
     };
-    // A hair less, so that a dt of exactly a tick's part is not cut once more.
+    // Rounds up with a small tolerance, so that a dt of exactly a tick's part is not divided once more.
     const auto substepsOf = [&](double step) { return std::max(1.0, std::ceil(tickSeconds / step * (1 - 1e-12))); };
 
     const double wanted = wantedStep(1.0, choice);

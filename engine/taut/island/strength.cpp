@@ -8,10 +8,10 @@ namespace taut::world {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-// Square of the strain far from a tear over that to break, when the tear runs: for one of some 20 reference cells, of
-// which broken springs make one that is longer by up to half a cell.
+// Square of (strain far from the tear / break strain) at which a tear of some 20 reference cells runs. Its broken
+// springs make it longer by up to half a cell.
 constexpr double evenShare = 0.08;
-// Rounding alone is no yielding.
+// Rounding alone does not count as yielding.
 constexpr double beyond = 1 + 1e-6;
 
 const PlasticitySpec* limitsIn(const IslandPlan& plan, int spring) {
@@ -55,14 +55,14 @@ bool Strength::anyNear(int point, Each&& each) const {
 
 bool Strength::isAtTip(int spring) const {
     const mechanics::Spring& s = plan_.springs[static_cast<std::size_t>(spring)];
-    // A diagonal that is broken has sides of its cell beside it, which are along the tear.
+    // A broken diagonal has the sides of its cell beside it. They lie along the tear.
     const auto counts = [&](int other) {
         const auto kind = plan_.springs[static_cast<std::size_t>(other)].kind;
         return plan_.broken[static_cast<std::size_t>(other)] &&
                (kind == mechanics::SpringKind::structural || kind == s.kind);
     };
     return anyNear(s.a, [&](int a) {
-        // What is broken of what starts near the one end, and ends near the other.
+        // Looks for a broken spring that starts near one end and ends near the other.
         return std::any_of(from(a).begin(), from(a).end(), [&](const Way& way) {
             return counts(way.spring) && anyNear(s.b, [&](int b) { return b == way.to; });
         });
@@ -71,7 +71,7 @@ bool Strength::isAtTip(int spring) const {
 
 double Strength::breakStrain(int spring) const {
     const PlasticitySpec* limits = limitsIn(plan_, spring);
-    // Springs of bending break with those that they lie along.
+    // Bending springs break with the springs along which they lie.
     if (limits == nullptr || !limits->breakStrain || isBend(spring)) return never;
     if (!isAtTip(spring)) return *limits->breakStrain;
     return *limits->breakStrain * std::sqrt(limits->breakCell / cellOf(madeAs(plan_, spring)) + evenShare);

@@ -6,13 +6,13 @@
 namespace taut::world {
 namespace {
 
-// [N] of a spring at its first end, along it, which turns.
+// [N] of a spring on its first end, along its axis. The axis turns, so the sum counts along it.
 double pullOf(const mechanics::Spring& spring, const Dynamics& dynamics) {
     const dvec3 d = dynamics.position(spring.b) - dynamics.position(spring.a);
     return spring.stiffness * (std::sqrt(glm::dot(d, d)) - spring.restLength);
 }
 
-// [N] of what draws a point to its place on a collider at t [s].
+// [N] that draws a point to its place on a collider at t [s].
 dvec3 pullOf(const Grip& grip, const Dynamics& dynamics, double t) {
     const mechanics::PosePath::Frame frame = grip.path.at(t);
     dvec3 sum(0.0);

@@ -4,9 +4,9 @@
 
 namespace taut::world {
 
-// Beyond the break strain, against the length that it was made with, a spring is gone; beyond the yield strain its
-// rest length follows, so that the elastic strain stays at it. The method goes on: what it keeps of forces is those of
-// a moment before.
+// Beyond the break strain a spring is gone; that strain counts from the length with which it was made. Beyond the yield
+// strain its rest length follows, so that the elastic strain stays there. The method goes on; the forces that it keeps
+// are those of a moment before.
 bool Yielding::giveWay(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces) {
     beyond_.clear();
     dynamics.findBeyond(beyond_);

@@ -14,7 +14,7 @@ namespace {
     throw core::Error(core::ErrorKind::badContent, problems.errors());
 }
 
-// A document of that action alone.
+// A document with that action only.
 Node documentOf(const std::string& table, double t, Problems& problems) {
     Node root;
     try {

@@ -16,7 +16,7 @@ namespace {
 
 using std::filesystem::path;
 
-// A file that a scene names: as found, and what it holds if it is a mesh.
+// A file that a scene names: its path, and its contents if it is a mesh.
 struct Asset {
     std::string found;
     std::shared_ptr<const world::MeshData> mesh;
@@ -46,7 +46,7 @@ void setMesh(world::MeshSource& spec, const Assets& meshes) {
     spec.meshData = found->second.mesh;
 }
 
-// Why a file that was found cannot be used; empty if it can. Of a mesh, what it holds goes into the asset.
+// Why a found file cannot be used; empty if it can. Stores the contents of a mesh in the asset.
 std::string faultOf(const NameReference& reference, const LoadOptions& options, Asset& asset) {
     if (reference.role != Role::mesh) {
         const std::string fault =
@@ -61,7 +61,7 @@ std::string faultOf(const NameReference& reference, const LoadOptions& options, 
     return "";
 }
 
-// Where a file that is named there lies: beside the file that names it, else beside the scene and what it builds on.
+// The folders for a file named at this place: that of the file that names it, then of the scene and of its bases.
 std::vector<path> foldersFor(Place place, const world::SceneSpec& spec) {
     std::vector<path> folders{path(spec.file).parent_path()};
     for (const std::string& base : spec.bases) folders.push_back(path(base).parent_path());
@@ -72,7 +72,7 @@ std::vector<path> foldersFor(Place place, const world::SceneSpec& spec) {
     return once;
 }
 
-// Puts what was found in the place of its names.
+// Replaces names by what was found.
 void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, Problems& problems) {
     for (world::BodySpec& body : scene.spec.bodies) {
         if (world::MeshSource* source = body.meshSource()) {
@@ -100,6 +100,7 @@ void useAssets(const Assets& meshes, const Assets& textures, ReadScene& scene, P
 }  // namespace
 
 void loadAssets(const LoadOptions& options, const Confinement& confinement, ReadScene& scene, Problems& problems) {
+    // Each file is looked for once; a second reference takes the same.
     Assets meshes, textures, environments;
     for (const NameReference& reference : scene.references) {
         Assets* of = nullptr;
@@ -111,6 +112,7 @@ void loadAssets(const LoadOptions& options, const Confinement& confinement, Read
         if (assets.contains(reference.text)) continue;
         problems.about(reference.owner);
 
+        // The first place that has the file wins.
         Asset asset;
         std::vector<std::string> searched;
         const std::vector<path> folders = foldersFor(reference.place, scene.spec);
@@ -120,6 +122,7 @@ void loadAssets(const LoadOptions& options, const Confinement& confinement, Read
             if (!asset.found.empty() || !std::filesystem::is_regular_file(place, code)) continue;
             asset.found = place.string();
         }
+        // Missing, outside of the allowed folders, or unusable.
         if (asset.found.empty()) {
             problems.addError(reference.place, fmt::format("there is no file \"{}\"", reference.text),
                               fmt::format("looked for {}", joined(searched)));

@@ -31,7 +31,7 @@ bool fits(std::string_view pattern, const BodyEntry& body) {
     return false;
 }
 
-// A plain decimal number that is the whole text but for blanks around it.
+// A plain decimal number that fills the whole text, apart from blanks around it.
 std::optional<double> number(std::string_view text) {
     while (text.starts_with(' ')) text.remove_prefix(1);
     while (text.ends_with(' ')) text.remove_suffix(1);
@@ -99,7 +99,7 @@ BodyIndex::BodyIndex(const world::SceneSpec& scene, const world::Kinds& kinds, c
         body.isFaulty = faulty.contains(body.title());
         try {
             body.outline = spec.outline(scene);
-        } catch (const core::Error&) {  // it cannot be built, which is said when it is
+        } catch (const core::Error&) {  // it cannot be built; building reports why
             body.isFaulty = body.outline.hasSurface = true;
         }
         body.solver = spec.solver;

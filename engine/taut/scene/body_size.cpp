@@ -9,7 +9,7 @@
 namespace taut::scene {
 
 double BodySize::bytes() const {
-    // Both precisions' worst, measured on a cloth and rounded up; a tetrahedron is as large as a spring.
+    // The larger of both precisions, measured on a cloth and rounded up; a tetrahedron takes as much as a spring.
     return 600.0 * points + 120.0 * (springs + volumes);
 }
 
@@ -35,8 +35,8 @@ namespace {
 
 constexpr double bytesOfTriangle = 500.0, bytesOfKey = 200.0, bytesOfAction = 2000.0;
 constexpr double bytesOfCollider = 4e3, bytesOfDrawnCollider = 9e4;
-constexpr double bytesOfShadowTexel = 4.5, bytesOfPixel = 15.0, bytesOfSample = 12.0;  // further samples
-constexpr double bytesOfMean = 32.0;  // of a pixel, where a picture is drawn several times
+constexpr double bytesOfShadowTexel = 4.5, bytesOfPixel = 15.0, bytesOfSample = 12.0;  // for further samples
+constexpr double bytesOfMean = 32.0;  // for a pixel of a picture that is drawn several times
 
 double bytesOf(const world::ColliderSpec& collider) {
     double bytes = (collider.visible ? bytesOfDrawnCollider : bytesOfCollider) +

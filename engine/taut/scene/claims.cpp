@@ -70,7 +70,7 @@ class Claims {
             if (const auto same = bodies_.betweenFault(mention.against, mention.target))
                 return problems_.addError(place, same->message, same->remedy);
         if (!mention.isNeeded) return;
-        // They must be there whenever they are asked for.
+        // They must exist whenever the claim asks for them.
         const double begin = spec.at ? *spec.at : spec.from.value_or(0.0);
         std::optional<double> birth;
         for (const std::string& name : bodies_.names(mention.target)) {
@@ -84,7 +84,7 @@ class Claims {
                            "give the check a later from");
     }
 
-    // What a function never finds anything of, it is hardly asked for.
+    // A function that can never find anything is hardly meant.
     void doubtCall(const Node& that, const check::Call& call) {
         if (call.function->counts == world::Counts::everyBody) return;
         const bool isOfFaces = call.function->counts == world::Counts::whatMeetsFaces;

@@ -9,7 +9,7 @@
 
 namespace {
 
-// Thrown where toml++ would end the program: a few malformed texts reach its assertions.
+// Thrown where toml++ would end the program: a few malformed texts trigger its assertions.
 struct Stumble {};
 [[noreturn]] void stumble() {
     throw Stumble();
@@ -17,7 +17,7 @@ struct Stumble {};
 
 }  // namespace
 
-#undef NDEBUG  // with it toml++ would take its assertions for true instead
+#undef NDEBUG  // with it toml++ would assume its assertions hold
 #define TOML_ASSERT(condition) ((condition) ? void() : stumble())
 #include <toml++/toml.h>
 
@@ -68,19 +68,19 @@ Node nodeOf(const toml::node& source, int origin) {
     return node;
 }
 
-// A table in braces that goes on in the next line, which TOML has no place for.
+// A table in braces that continues on the next line, which TOML does not allow.
 struct BrokenTable {
     Place place;  // of the brace
     int lastLine = 0;
     std::string remedy;
 };
 
-// Walks over a text as far as is needed to tell strings and comments from the rest.
+// Walks over a text just far enough to tell strings and comments from the rest.
 class Scanner {
   public:
     Scanner(std::string_view text, int origin) : text_(text), origin_(origin) {}
 
-    // Throws for what the parser would accept or survive badly.
+    // Throws for what the parser would wrongly accept or crash on.
     void check() {
         if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) fail("this is UTF-16; a scene is UTF-8");
         const std::size_t zero = text_.find('\0');
@@ -97,7 +97,7 @@ class Scanner {
             } else if (c == '"' || c == '\'') {
                 skipString(c);
             } else {
-                // toml++ 3.3 runs into undefined behaviour at some letters here; TOML 1.0 has none of them.
+                // toml++ 3.3 has undefined behaviour for some letters here; TOML 1.0 allows none of them.
                 if (static_cast<unsigned char>(c) >= 0x80) fail("a letter beyond ASCII stands outside of quotes");
                 if (c == '.' && ++dots > maxDots) fail("this key has too many parts");
                 if (std::string_view(",[]{}=\n").find(c) != std::string_view::npos) dots = 0;
@@ -107,11 +107,11 @@ class Scanner {
         }
     }
 
-    // The first table in braces that does not end in its line.
+    // The first table in braces that does not end on its line.
     const std::optional<BrokenTable>& brokenTable() const { return broken_; }
 
   private:
-    // Keeps which header and key a brace belongs to.
+    // Keeps track of the header and key to which a brace belongs.
     void follow(char c) {
         const std::string_view line = text_.substr(lineStart_, at_ - lineStart_);
         if (c == '[' || c == '{') {
@@ -126,7 +126,7 @@ class Scanner {
         } else if (c == '\n') {
             if (!broken_ && !open_.empty() && open_.back().bracket == '{') enterBroken();
             lineStart_ = at_ + 1;
-            if (isHeader_) open_.clear();  // a header that is not closed ends all the same
+            if (isHeader_) open_.clear();  // a header ends with its line even if not closed
         }
     }
 
@@ -160,7 +160,7 @@ class Scanner {
         for (int i = 0; i < 2 && isLong && at_ < text_.size() && text_[at_] == quote; ++i) ++at_;
     }
 
-    // toml++ stumbles over letters beyond ASCII after a backslash that breaks a line, as it does outside of strings.
+    // Outside of strings, and after a backslash that breaks a line, toml++ fails on letters beyond ASCII.
     void checkEscape() {
         const std::size_t next = text_.find_first_not_of(" \t\r\n", at_ + 1);
         if (next == std::string_view::npos || static_cast<unsigned char>(text_[next]) < 0x80) return;
@@ -185,13 +185,13 @@ class Scanner {
     int origin_;
     std::size_t at_ = 0, lineStart_ = 0;
     std::vector<Bracket> open_;
-    char opening_ = 0;  // the outermost of them
+    char opening_ = 0;  // the outermost
     bool isHeader_ = false;
     std::string header_, key_;
     std::optional<BrokenTable> broken_;
 };
 
-// The line at which toml++ stumbles: the first lines up to it are the fewest that make it stumble.
+// The line at which toml++ fails: the shortest beginning of the text that makes it fail ends there.
 int stumbleLine(std::string_view text) {
     std::vector<std::size_t> ends;
     for (std::size_t i = 0; i < text.size(); ++i)

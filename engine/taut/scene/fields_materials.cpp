@@ -1,4 +1,4 @@
-// The field table, part two: what bodies are made of.
+// The field table, part two: materials.
 #include <fmt/format.h>
 
 #include "taut/fields/field_list.h"

@@ -14,7 +14,7 @@ constexpr Range fieldOfView{1.0, 170.0};
 constexpr Range lightSize{0.0, 45.0};  // [degrees]
 constexpr auto inPicture = Affects::picture;
 
-// Whether one can look from one point to another with y up.
+// Checks that one can look from one point to another with y up.
 void checkView(const CheckInput& input, const Node& table, Place place, const dvec3& eye, const dvec3& target) {
     const Member* member = table.find("eye");
     const Place where = member != nullptr ? member->value.place : place;
@@ -280,6 +280,7 @@ SceneSection backgroundSection() {
 }
 
 SceneSection cameraSection() {
+    // A keyframe.
     Section key;
     key.fields = FieldList<CameraKey>()
                      .number("t", &CameraKey::t, "s", Range{0.0, 1e6}, "Moment.")
@@ -304,6 +305,7 @@ SceneSection cameraSection() {
                : table.find("orbit_period_s") != nullptr ? "an orbiting camera"
                                                          : "a still camera";
     };
+    // The camera; with keys it has no place of its own.
     section.fields = FieldList<CameraSpec>()
                          .vector("eye", &CameraSpec::eye, "m", Range{-1e6, 1e6}, "Where the camera stands.")
                          .ramps(inPicture)

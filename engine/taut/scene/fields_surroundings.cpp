@@ -18,7 +18,7 @@ using namespace world;
 
 namespace {
 
-// The names of the shapes that have a use for this field.
+// The names of the shapes that use this field.
 std::vector<std::string> shapesWith(const collision::ShapeKinds& shapes, std::string_view field) {
     std::vector<std::string> names;
     for (const collision::ShapeKind& kind : shapes.all())
@@ -37,7 +37,7 @@ std::vector<std::string> shapeNames(const collision::ShapeKinds& shapes, In wher
     return names;
 }
 
-// The sizes and the place of a shape: what a collider and a part of a compound have in common.
+// Sizes and place of a shape, which a collider and a part of a compound share.
 FieldList<ColliderSpec> shapeFields(const collision::ShapeKinds& shapes, In where) {
     FieldList<ColliderSpec> list;
     list.choice("shape", &ColliderSpec::shape, shapeNames(shapes, where), "Its shape.")
@@ -106,7 +106,7 @@ void checkCollider(const CheckInput& input, ColliderSpec& collider) {
     }
 }
 
-// The titles of a joint between bodies and, where a kind has fields for one of the two alone, of one with a collider.
+// The titles of a joint between bodies and, if a kind has fields for one of the two only, of a joint with a collider.
 std::vector<std::string> variantsOf(const Kind<JointSpec>& kind) {
     const std::string title(kind.make()->title());
     const std::vector<Field>& rows = kind.section.fields;
@@ -138,6 +138,7 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
     section.name = "joint";
     section.layout = Layout::list;
     section.help = "Ties points of bodies to each other, or to a collider that carries them.";
+    // The variant depends on the kind, and on whether a side is a collider.
     section.variant = [kinds](const Node& table) -> std::string {
         const Member* kind = table.find("kind");
         const Kind<JointSpec>* row = kind != nullptr ? kinds.find(kind->value.text) : nullptr;
@@ -151,6 +152,7 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
         };
         return isOn("a") || isOn("b") ? variants.back() : variants.front();
     };
+    // The field `kind` chooses the struct; it is not stored.
     Field what;
     what.key = "kind";
     what.kind = FieldKind::choice;
@@ -166,6 +168,7 @@ SceneSection jointSection(const KindTable<JointSpec>& kinds) {
             makers[variant] = kind.make;
         }
     }
+    // Enters a joint of its variant. The fields of all kinds stand together.
     section.enter = [makers, first = kinds.all().front().make](SceneSpec& scene, const std::string& variant,
                                                                const Source& source) -> void* {
         const auto maker = makers.find(variant);
@@ -204,7 +207,7 @@ SceneSection colliderSection(const collision::ShapeKinds& shapes) {
     section.existing = findNamed(&SceneSpec::colliders);
     section.variant = shapeOf;
     section.variantKey = "shape";
-    std::vector<std::string> edged = shapesWith(shapes, "edge");  // and what may have such parts
+    std::vector<std::string> edged = shapesWith(shapes, "edge");  // and shapes that may have such parts
     edged.emplace_back("compound");
     section.fields =
         shapeFields(shapes, In::collider)

@@ -1,4 +1,4 @@
-// The field table, part five: what happens while a scene runs, and what is claimed of it.
+// The field table, part five: the timeline, and the claims.
 #include "taut/fields/field_list.h"
 #include "taut/fields/private/problems.h"
 #include "taut/scene/private/merged_rows.h"

@@ -11,8 +11,8 @@ namespace taut::scene {
 
 namespace {
 
-constexpr std::size_t longestChain = 16;       // of elements that are like another
-constexpr std::size_t mostValues = 1'000'000;  // that are taken over in all: a slip or an attack takes more
+constexpr std::size_t longestChain = 16;       // of elements that are like one another
+constexpr std::size_t mostValues = 1'000'000;  // that are inherited in all; only a slip or an attack needs more
 
 std::size_t valuesIn(const Node& node) {
     std::size_t count = 1;
@@ -21,7 +21,7 @@ std::size_t valuesIn(const Node& node) {
     return count;
 }
 
-// Leaves out what only `below` has said and what does not go with the form that the table has.
+// Removes keys that only `below` gives and that do not fit the form of the table.
 void eraseUnfit(const Section& section, const Node& own, Node& table) {
     const std::string variant = section.variant ? section.variant(table) : "";
     std::erase_if(table.members, [&](Member& member) {
@@ -70,14 +70,14 @@ class Elements {
         return whole;
     }
 
-    // What lies below an element, the uppermost first.
+    // The layers below an element, the nearest first and the defaults last.
     std::vector<const Node*> belowOf(const Member& element) {
         std::vector<const Member*> chain{&element};
         while (const Member* next = likeOf(*chain.back())) {
             const bool isNew = std::find(chain.begin(), chain.end(), next) == chain.end();
             chain.push_back(next);
             if (isNew && chain.size() <= longestChain) continue;
-            // Of a circle each of its elements says so; one that leads into it says nothing.
+            // Each element of a circle reports it; one that leads into it reports nothing.
             if (next == chain.front())
                 reportChain(chain, "is like itself");
             else if (isNew)
@@ -98,7 +98,7 @@ class Elements {
                            fmt::format("{} {}: {}", titles.front(), what, joined(titles, " -> ")));
     }
 
-    // The element that another says it is like; null where it says nothing, or nothing that is there.
+    // The element that another is like; null if it names none or a missing one.
     const Member* likeOf(const Member& element) {
         const Member* like = element.value.kind == NodeKind::table ? element.value.find("like") : nullptr;
         if (like == nullptr || like->value.kind != NodeKind::text) return nullptr;  // reported by the reader

@@ -30,8 +30,7 @@ void throwIfAny(const Problems& problems) {
     if (problems.errorCount() > 0) throw core::Error(core::ErrorKind::badContent, problems.errors());
 }
 
-// Refuses a scene that asks for too much, at the body that asks for most.
-// Of a scene that takes too much, and less than half of it for its bodies.
+// Refuses a scene that is too large, where its bodies take less than half of it.
 void addTooLarge(const ReadScene& scene, const SceneSize& size, double limit, Problems& problems) {
     constexpr double gigabyte = 1e9;
     const bool isPicture = size.pictures > size.colliders;
@@ -48,6 +47,7 @@ void addTooLarge(const ReadScene& scene, const SceneSize& size, double limit, Pr
                   : "give it fewer colliders, or visible = false where they need not be seen");
 }
 
+// Refuses a scene that is too large, at the body that takes most.
 void checkSize(const ReadScene& scene, double limit, Problems& problems) {
     const SceneSize whole = wholeSizeOf(scene.spec);
     const BodySize total = sizeOf(scene.spec);
@@ -118,8 +118,8 @@ Confinement confinementOf(const std::string& fileName, const LoadOptions& option
     return confinement;
 }
 
-// Lays the document over the scene that it names, and that over the one that it names, and says which, the nearest
-// first.
+// Merges the document into the scene that it names, and so on down the chain. Returns the names of these scenes, the
+// nearest first.
 std::vector<std::string> layOnBases(Node& root, const std::string& fileName, const LoadOptions& options,
                                     Problems& problems) {
     std::vector<std::filesystem::path> chain{fileName};
@@ -135,7 +135,7 @@ std::vector<std::string> layOnBases(Node& root, const std::string& fileName, con
         trees.push_back(treeOf(base.text, problems.addBase(base.text, base.path.string()), problems));
     }
     if (trees.empty()) return {};
-    // From the lowest up, as each was meant for what lies below it.
+    // From the lowest up, as each was written for what lies below it.
     Node sum = std::move(trees.back());
     for (auto over = trees.rbegin() + 1; over != trees.rend(); ++over) sum = merged(std::move(sum), *over);
     root = merged(std::move(sum), root);

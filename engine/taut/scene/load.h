@@ -1,4 +1,4 @@
-// The door of this folder: a scene file in, a checked world::SceneSpec out. It does not build the world.
+// The interface of this folder: takes a scene file and returns a checked world::SceneSpec. It does not build the world.
 #pragma once
 
 #include <filesystem>
@@ -18,46 +18,47 @@ namespace taut::scene {
 struct LoadOptions {
     // "cloth.flag.cells=[72,48]", checked like the file itself; later ones win.
     std::vector<std::string> overrides{};
-    // Where models and textures are looked for when they do not lie beside the scene file: in each folder, in its
-    // `models` and in its `textures`.
+    // Where to look for models and textures that are not beside the scene file: in each folder, its `models` and its
+    // `textures`.
     std::vector<std::filesystem::path> assetFolders{};
-    // Whether every file that the scene names must lie below its own folder or an asset folder, links resolved.
+    // Whether all files that the scene names must be below its own folder or an asset folder, with links resolved.
     bool isConfined = false;
-    // Why a picture cannot be used, as a texture or as one of all that is around; empty: it can. Null: nobody looks.
+    // Why a picture cannot be used as a texture or as the surroundings; empty if it can. Null: pictures are not
+    // checked.
     std::function<std::string(const std::filesystem::path& picture, bool isAround)> pictureFault{};
-    // What a scene may be made of; null: what the engine has.
+    // From what a scene may be made; null: the kinds of the engine.
     std::shared_ptr<const world::Kinds> kinds{};
-    // What a scene may take [bytes]; 0: half of the machine's memory.
+    // The most memory that a scene may take [bytes]; 0: half of the machine's.
     double memoryLimit = 0;
 };
 
 struct Loaded {
     world::SceneSpec spec;
     std::vector<std::string> warnings;            // file:line:col: warning: …, with the line and a caret
-    StateKeys keys;                               // of stored states
-    std::shared_ptr<const ActionReader> actions;  // reads more of them, for World::apply()
+    StateKeys keys;                               // of states that are stored
+    std::shared_ptr<const ActionReader> actions;  // reads further actions, for World::apply()
 };
 
-// A scene that world::World takes as it is. Throws core::Error: inputOutput if the file cannot be read; usage for an
-// override without key and value; badContent for everything that is wrong with the content, all of it in the order of
-// the file (of syntax errors the first), each as "file:line:col: error: …" with the line, a caret and a remedy.
+// A scene that world::World accepts. Throws core::Error: inputOutput if the file cannot be read; usage for an override
+// without key and value; badContent for all faults of the content in the order of the file (of syntax errors only the
+// first), each as "file:line:col: error: …" with the line, a caret and a remedy.
 Loaded loadScene(const std::filesystem::path& path, const LoadOptions& options);
 
-// The same for a text. fileName is used in messages, and its folder to look up models and textures.
+// The same for a text. fileName appears in messages, and models and textures are looked for in its folder.
 Loaded loadSceneText(std::string_view text, const std::string& fileName, const LoadOptions& options);
 
-// Why KIND.NAME or, if points may be meant, KIND.NAME@SELECTOR names nothing in the scene, or but the body that it is
-// to be measured against; empty if it does.
+// Why KIND.NAME, or KIND.NAME@SELECTOR if points are allowed, names nothing in the scene, or only the body against
+// which it is to be measured. Empty if there is no fault.
 std::string targetFault(const world::SceneSpec& scene, const std::string& target, bool mayHavePoints,
                         const std::string& against = {});
 
-// Why no joint of the scene has the name; empty if one has.
+// Why no joint of the scene has the name; empty if there is one.
 std::string jointFault(const world::SceneSpec& scene, const std::string& name);
 
 // The format as a JSON schema (draft 2020-12), for editors.
 std::string jsonSchema(const world::Kinds& kinds = world::builtIn());
 
-// The format as a text to read: every section and field with unit, range, default and meaning.
+// The format as text: every section and field with unit, range, default and meaning.
 std::string manual(const world::Kinds& kinds = world::builtIn());
 
 }  // namespace taut::scene

@@ -41,6 +41,7 @@ std::string manual(const world::Kinds& kinds) {
         "A scene is a TOML file. Numbers are in SI units unless the key's name or the text below says otherwise;\n"
         "y points up. What is left out has its default.\n";
     world::SceneSpec scene;
+    // Every section with its fields.
     for (const SceneSection& section : sceneSections(kinds)) {
         const std::string title = section.name.empty()              ? "the file"
                                   : section.layout == Layout::named ? fmt::format("[{}.NAME]", section.name)
@@ -48,9 +49,10 @@ std::string manual(const world::Kinds& kinds) {
                                   : section.name == "defaults"      ? "[defaults.SECTION]"
                                                                     : fmt::format("[{}]", section.name);
         out += fmt::format("\n{}\n  {}\n\n", title, section.help);
-        if (section.name != "defaults")  // they are the keys of the sections above
+        if (section.name != "defaults")  // it repeats the keys of the sections above
             writeFields(section, section.enter(scene, "name", {}), "  ", out);
     }
+    // What several sections share.
     out +=
         "\nTargets\n"
         "  KIND.NAME@SELECTOR, e.g. cloth.flag@left. NAME may hold *, which stands for any letters. A copy of an\n"

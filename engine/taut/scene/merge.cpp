@@ -36,7 +36,7 @@ bool isFile(const path& file) {
     return std::filesystem::is_regular_file(file, ignored);
 }
 
-// Names of the scene files in a folder, sorted, for suggestions.
+// The names of scene files in a folder, sorted, for suggestions.
 void addScenesIn(const path& folder, const path& but, std::vector<std::string>& names) {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
@@ -74,7 +74,7 @@ BaseFile baseFileOf(const Node& root, const std::vector<path>& chain, const std:
     if (member == nullptr) return {};
     const Node& value = member->value;
     const path& sceneFile = chain.back();
-    if (value.kind != NodeKind::text) {  // in the first file a wrong type is reported by the reader
+    if (value.kind != NodeKind::text) {  // in the first file the reader reports a wrong type
         if (chain.size() > 1)
             problems.addError(value.place, fmt::format("scene must be a text, not {}", description(value)));
         return {};

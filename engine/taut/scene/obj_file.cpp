@@ -22,7 +22,7 @@ using world::dvec2;
 using world::dvec3;
 
 constexpr std::uint64_t maxObjSize = 256U << 20U;  // [bytes]
-constexpr std::size_t maxCorners = 1000;           // of one face; cutting it takes their cube
+constexpr std::size_t maxCorners = 1000;           // of one face; the cost of cutting grows with the cube
 
 struct Corner {
     int position = 0, uv = -1;  // from 0; -1: none
@@ -51,7 +51,7 @@ class ObjReader {
         throw core::Error(core::ErrorKind::badContent, fmt::format("{}:{}: error: {}", fileName_, line_, message));
     }
 
-    // One line without its comment; a backslash at the end joins the next.
+    // One line without its comment. A backslash at its end joins the next line.
     std::string nextLine() {
         std::string line;
         line_ = nextLine_;
@@ -92,12 +92,12 @@ class ObjReader {
             readFace(words);
         } else if (words[0] == "g") {
             groups_.assign(words.begin() + 1, words.end());
-        } else if (words[0] == "o") {  // a name may have blanks
+        } else if (words[0] == "o") {  // a name may contain blanks
             object_ = words.size() < 2 ? "" : std::string(words[1].data(), words.back().data() + words.back().size());
         }
     }
 
-    // Independent of the locale and correctly rounded, so that every machine reads the same.
+    // Independent of the locale and correctly rounded, so that every machine reads the same number.
     double number(std::string_view word) const {
         std::string_view digits = word;
         if (digits.starts_with('+')) digits.remove_prefix(1);
@@ -115,7 +115,7 @@ class ObjReader {
         return text;
     }
 
-    // An index counts from 1, or back from the last one read.
+    // Indices count from 1, or backwards from the last element read.
     int index(std::string_view word, std::string_view kind, std::size_t count) const {
         long long value = 0;
         const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -167,7 +167,7 @@ class ObjReader {
         group.insert(group.end(), vertices.begin(), vertices.end());
     }
 
-    // The one vertex at the corner's position, new if this is its first use.
+    // The vertex at the corner's position; new at its first use.
     int vertex(const Corner& corner) {
         const dvec3 p = positions_[static_cast<std::size_t>(corner.position)] + dvec3(0.0);  // -0 becomes +0
         const auto [found, isNew] = vertices_.try_emplace({p.x, p.y, p.z}, static_cast<int>(mesh_.positions.size()));
@@ -187,7 +187,7 @@ class ObjReader {
     bool hasUv_ = true;
     std::vector<dvec3> positions_;
     std::vector<dvec2> uvs_;
-    std::vector<std::string> groups_;  // of the faces that follow
+    std::vector<std::string> groups_;  // of the following faces
     std::string object_;
     std::map<std::tuple<double, double, double>, int> vertices_;
     world::MeshData mesh_;

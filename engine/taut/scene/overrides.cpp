@@ -66,7 +66,7 @@ std::vector<std::string> keysOf(const Node& table) {
     return keys;
 }
 
-// Puts one value where a key leads.
+// Puts one value at the place of a key.
 class Override {
   public:
     Override(std::vector<std::string> parts, const Node& value, Place place, const std::vector<SceneSection>& sections,
@@ -86,7 +86,7 @@ class Override {
     void apply() { setIn(root_, 0, ""); }
 
   private:
-    // Below a node that the first `depth` parts of the key lead to, `path`.
+    // Goes on below a node at `path`, which the first `depth` parts of the key lead to.
     void setIn(Node& node, std::size_t depth, const std::string& path) {
         if (depth == parts_.size()) {
             node = value_;
@@ -126,7 +126,7 @@ class Override {
         if (isThere) return;
         if (depth == 0 && section_ != nullptr && section_->layout == Layout::list)
             return report(fmt::format("the scene has no [[{}]]", part));
-        // A new body, collider, … cannot be made of one value: this is a slip.
+        // One value cannot make a new body, collider, …, so this is a slip.
         if (isNameOfElement)
             return report(fmt::format("there is no {} \"{}\"", section_->name, part), suggestion(part, keysOf(table)));
         Member fresh{part, place_, Node{}};
@@ -141,7 +141,7 @@ class Override {
         setIn(member.value, depth + 1, path + (path.empty() ? "" : ".") + member.key);
     }
 
-    // A list that an element has from others, so that one of its own elements can be set.
+    // Copies a list that an element inherits, so that one element of it can be set.
     void takeList(const std::string& path, Member& fresh) const {
         if (section_ == nullptr || section_->layout != Layout::named) return;
         Node whole = root_;
@@ -162,7 +162,7 @@ class Override {
     const std::vector<SceneSection>& sections_;
     Node& root_;
     Problems& problems_;
-    const SceneSection* section_ = nullptr;  // null: the key leads into none
+    const SceneSection* section_ = nullptr;  // null: the key is in no section
 };
 
 }  // namespace

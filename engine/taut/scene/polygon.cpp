@@ -16,7 +16,7 @@ double area(const dvec2& a, const dvec2& b, const dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// The polygon seen along the axis in which it is flattest, turned so that it runs counter-clockwise.
+// The polygon seen along the axis in which it is flattest, mirrored if needed to run counter-clockwise.
 std::vector<dvec2> flattened(std::span<const dvec3> corners) {
     dvec3 normal(0.0);  // Newell's method
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -57,7 +57,7 @@ std::vector<std::array<int, 3>> polygonTriangles(std::span<const dvec3> corners)
     std::iota(ring.begin(), ring.end(), 0);
     std::vector<std::array<int, 3>> triangles;
     while (ring.size() > 3) {
-        // Corner 1 first: a convex polygon becomes a fan about corner 0.
+        // Starts at corner 1, so that a convex polygon becomes a fan about corner 0.
         std::size_t ear = 1;
         while (ear <= ring.size() && !isEar(points, ring, ear % ring.size())) ++ear;
         ear = ear > ring.size() ? 1 : ear % ring.size();

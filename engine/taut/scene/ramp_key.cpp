@@ -20,11 +20,11 @@ std::vector<std::string> partsOf(const std::string& key) {
     return parts;
 }
 
-// A field by its path inside a section, and what to call to get from the section's struct to its own.
+// A field by its path inside a section, and how to get from the section's struct to the struct of the field.
 struct Row {
     std::string path;  // "gust.amplitude"
     const Field* field = nullptr;
-    std::function<void*(void*, const world::Source&)> enter;  // none: it is the section's own
+    std::function<void*(void*, const world::Source&)> enter;  // none: the field is in the section's struct
 };
 
 std::vector<Row> rowsOf(const Section& section) {
@@ -52,7 +52,7 @@ std::vector<double> numbersIn(const Value& value) {
     return {};
 }
 
-// The elements of a kind that the document has.
+// The names of a kind's elements in the document.
 std::vector<std::string> namesIn(const Node& root, const std::string& kind) {
     std::vector<std::string> names;
     const Member* section = root.find(kind);
@@ -79,7 +79,7 @@ struct RowField final : world::RampField {
         return enter ? enter(target, {}) : target;
     }
     std::vector<double> read(const world::SceneSpec& scene) const override {
-        return numbersIn(row.read(place(const_cast<world::SceneSpec&>(scene))));  // it is only looked at
+        return numbersIn(row.read(place(const_cast<world::SceneSpec&>(scene))));  // read() does not change it
     }
     void write(world::SceneSpec& scene, const std::vector<double>& value) const override {
         row.write(place(scene), row.kind == FieldKind::number ? Value(value.front()) : Value(value));

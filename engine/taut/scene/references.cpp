@@ -46,7 +46,7 @@ void checkHoldOn(const NameReference& reference, const world::SceneSpec& scene, 
                               "say which points, e.g. hold = [\"top\"]");
 }
 
-// The first thing in which two overrides differ, or nothing.
+// The first difference between two overrides, or nothing.
 const char* difference(const world::SolverOverride& a, const world::SolverOverride& b) {
     return a.integrator != b.integrator ? "integrator"
            : a.dt != b.dt               ? "dt"
@@ -55,7 +55,7 @@ const char* difference(const world::SolverOverride& a, const world::SolverOverri
                                         : "newton_steps, cg_tolerance or cg_iterations";
 }
 
-// A joint makes one island of its bodies, and an island has one method and one step.
+// A joint joins its bodies to one island, which has one method and one step.
 void checkJoint(const world::JointSpec& joint, Place place, const BodyIndex& bodies, Problems& problems) {
     std::vector<const BodyEntry*> tied;
     for (const world::JointSide& side : {joint.a, joint.b})
@@ -67,7 +67,7 @@ void checkJoint(const world::JointSpec& joint, Place place, const BodyIndex& bod
     for (const world::JointSide& side : {joint.a, joint.b})
         if (world::isCollider(side) && side.targets.size() > 1)
             problems.addError(place, "a collider is a side of a joint by itself", "write a [[joint]] for each");
-    if (world::isTie(joint)) return;  // each body stays an island of its own
+    if (world::isTie(joint)) return;  // with a collider each body stays an island of its own
     for (const BodyEntry* body : tied) {
         const char* what = difference(tied.front()->solver, body->solver);
         if (what == nullptr) continue;

@@ -18,7 +18,7 @@ class SceneReader {
     void read(const Node& root) {
         const SceneSection& file =
             *std::find_if(sections_.begin(), sections_.end(), [](const Section& s) { return s.name.empty(); });
-        // The keys before the first table are a table of their own.
+        // The keys before the first table form a table of their own.
         Node settings;
         settings.place = {0, 1, 1};
         for (const Member& member : root.members) {
@@ -36,7 +36,7 @@ class SceneReader {
     }
 
   private:
-    // What is read now belongs to "cloth.flag", "solver", "joint", or to the file.
+    // Sets the owner of what is read next: "cloth.flag", "solver", "joint", or the file.
     void enter(const std::string& owner) {
         owner_ = owner;
         problems_.about(owner);
@@ -117,7 +117,7 @@ class SceneReader {
         }
     }
 
-    // An element of a list of tables.
+    // Reads an element of a list of tables.
     void readItem(const Section& section, const Node& item, const std::string& name, const std::string& where,
                   void* target) {
         if (item.kind == NodeKind::table)
@@ -132,7 +132,7 @@ class SceneReader {
         const auto named = std::find_if(section.forms.begin(), section.forms.end(),
                                         [&](const Section& s) { return s.name == variant; });
         const Section& own = named == section.forms.end() ? section : *named;
-        // A variant that no field knows is a mistake that is reported where it stands.
+        // A variant that no field has is an error, reported at its place.
         const auto fits = [&](const Field& field) {
             return field.only.empty() || variant.empty() ||
                    std::find(field.only.begin(), field.only.end(), variant) != field.only.end();
@@ -160,7 +160,7 @@ class SceneReader {
         own.check({problems_, table, place, where, variant, problems_.errorCount() == before}, target);
     }
 
-    // Whether a variant is one that the table has, not a slip such as shape = "spere".
+    // Whether a variant exists in the table; a slip such as shape = "spere" does not.
     static bool isKnownVariant(const Section& section, const std::string& variant) {
         const Field* key = section.find(section.variantKey);
         return key == nullptr || std::find(key->choices.begin(), key->choices.end(), variant) != key->choices.end();
@@ -173,7 +173,7 @@ class SceneReader {
         return fmt::format("{} is {}: {}", field.key, description(field), help);
     }
 
-    // What belongs to the file itself and was written below the header of a table.
+    // For keys of the file itself that stand below the header of a table.
     std::string remedyForFileKey(const Member& member) const {
         for (const SceneSection& section : sections_) {
             if (section.name.empty() && section.find(member.key) != nullptr && member.value.kind == NodeKind::text)
@@ -191,7 +191,7 @@ class SceneReader {
     template <class Fits>
     void reportUnknownKey(const Section& section, const Member& member, const std::string& where, const Fits& fits) {
         const std::vector<std::string> keys = section.keys();
-        // A key of a table inside that was written one level too high, or mistyped here, or both.
+        // A key of an inner table that was written one level too high, mistyped, or both.
         std::string remedy = remedyForFileKey(member);
         const auto lookInside = [&](bool mayBeMistyped) {
             for (const Field& field : section.fields) {

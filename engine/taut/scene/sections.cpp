@@ -8,7 +8,7 @@ namespace taut::scene {
 
 namespace {
 
-// The section of a kind, whose structs go into a list of the scene.
+// The section of a kind whose structs go into a list of the scene.
 template <class Base>
 SceneSection kindSection(const world::Kind<Base>& kind, world::Specs<Base> world::SceneSpec::*list) {
     SceneSection section;
@@ -26,7 +26,7 @@ SceneSection kindSection(const world::Kind<Base>& kind, world::Specs<Base> world
     return section;
 }
 
-// Takes keys over before anything is read: scene::inherit() has done so.
+// A row for `like`. scene::inherit() has taken over its keys before anything is read.
 Field likeRow(const std::string& section) {
     Field row;
     row.key = "like";
@@ -37,7 +37,7 @@ Field likeRow(const std::string& section) {
     return row;
 }
 
-// Without what a table must say to be whole: what it leaves out, others say.
+// The section without required fields: others may fill in what it leaves out.
 Section partly(Section section) {
     section.variant = nullptr;
     section.variantKey.clear();
@@ -49,7 +49,7 @@ Section partly(Section section) {
     return section;
 }
 
-// [defaults.rope] and so on, each read into a scene of its own that nobody looks at.
+// [defaults.rope] and so on. Each is read into a scene that is thrown away.
 SceneSection defaultsSection(const std::vector<SceneSection>& sections) {
     SceneSection all;
     all.name = "defaults";
@@ -74,7 +74,7 @@ SceneSection defaultsSection(const std::vector<SceneSection>& sections) {
     return all;
 }
 
-// Fields that name a method get the methods that there are.
+// Gives fields that name a method the known methods.
 void nameMethods(Section& section, const std::vector<std::string>& names) {
     for (Field& field : section.fields) {
         if (field.role == Role::method) field.choices = names;

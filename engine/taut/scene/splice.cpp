@@ -12,7 +12,7 @@ namespace taut::scene {
 
 namespace {
 
-// Keys from the root; elements of a list by their number.
+// Keys from the root; list elements by number.
 using KeyPath = std::vector<std::string>;
 
 [[noreturn]] void fail(const Change& change, const std::string& why) {
@@ -42,7 +42,7 @@ bool isSame(const Node& a, const Node& b) {
     });
 }
 
-// Sets a value in a tree; tables on the way are made.
+// Sets a value in a tree; makes missing tables on the way.
 void set(Node& root, const KeyPath& path, const Node& value, const Change& change) {
     Node* node = &root;
     for (const std::string& key : path) {
@@ -77,7 +77,7 @@ const Node* nodeAt(const Node& root, const KeyPath& path) {
     const Node* node = &root;
     for (const std::string& key : path) {
         if (node->kind == NodeKind::list) {
-            node = &node->items[std::stoul(key)];  // set() has refused what is no element
+            node = &node->items[std::stoul(key)];  // set() has refused non-numbers
             continue;
         }
         const Member* member = node->find(key);
@@ -87,7 +87,7 @@ const Node* nodeAt(const Node& root, const KeyPath& path) {
     return node;
 }
 
-// A text, and where in it everything stands.
+// A text, and the places of everything in it.
 class Written {
   public:
     // Throws SyntaxError.
@@ -102,19 +102,19 @@ class Written {
         return std::string(text_.substr(at(node.place), at(node.end) - at(node.place)));
     }
 
-    // Whether it is a table under a header of its own or of one inside it, or a list of such tables.
+    // Whether a header of its own or of an inner table introduces it, or it is a list of such tables.
     bool hasHeader(const Node& node) const {
         if (node.kind == NodeKind::table) return sign(node) == '[';
         return node.kind == NodeKind::list && !node.items.empty() && at(node.items.front().place) == at(node.place);
     }
 
-    // The text with that value: where it stands, else behind the last one of its table, as that is written.
+    // The text with that value in its place, or else after the last value of its table, in that table's style.
     std::string with(const KeyPath& path, const std::string& value) const {
         if (const Node* there = nodeAt(tree_, path)) return replaced(at(there->place), at(there->end), value);
         const auto pair = [&](std::size_t from) { return keyText(path, from) + " = " + value; };
-        // The innermost table on the way that is written in braces, under its own header, or by dotted keys.
+        // The innermost table on the way that has braces, a header of its own, or dotted keys.
         const Node* table = path.size() == 1 ? &tree_ : nullptr;
-        std::size_t depth = 0, header = 0;  // keys that lead to it, and to the header that it stands under
+        std::size_t depth = 0, header = 0;  // number of keys that lead to it, and to the header above it
         for (std::size_t d = 1; d < path.size(); ++d) {
             const Node* next = nodeAt(tree_, KeyPath(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(d)));
             if (next == nullptr) break;
@@ -142,17 +142,17 @@ class Written {
             while (byte < text_.size() && (static_cast<unsigned char>(text_[byte]) & 0xC0U) == 0x80U);
         return byte;
     }
-    // With what it begins: { in braces, [ under a header or as a list, else a value or the first of dotted keys.
+    // Its first character: { for braces, [ for a header or a list, else that of a value or of dotted keys.
     char sign(const Node& node) const { return at(node.place) < text_.size() ? text_[at(node.place)] : '\0'; }
 
-    // A table that there is only because a header says one inside it.
+    // A table that exists only because of the header of an inner table.
     bool isImplied(const Node& table) const {
         return std::any_of(
             table.members.begin(), table.members.end(),
             [&](const Member& member) { return hasHeader(member.value) && at(member.value.place) == at(table.place); });
     }
 
-    // key = value, of a table itself or of one that dotted keys make in it.
+    // One `key = value` of a table, or of a table that dotted keys make in it.
     struct Statement {
         const Node* value = nullptr;
         Place key{};
@@ -178,7 +178,7 @@ class Written {
         return first != std::string_view::npos && first > 0 && text_[first - 1] == '\r' ? "\r\n" : "\n";
     }
 
-    // On a line of its own, behind the line in which `place` lies.
+    // Adds a line after the line of `place`.
     std::string withLineBehind(std::size_t place, const std::string& indentation, const std::string& pair) const {
         const std::size_t end = text_.find('\n', place);
         if (end == std::string_view::npos) return std::string(text_) + lineEnd() + indentation + pair;
@@ -200,7 +200,7 @@ class Written {
 
     std::string_view text_;
     Node tree_;
-    std::vector<std::size_t> lines_;  // bytes at which they begin
+    std::vector<std::size_t> lines_;  // byte at which each begins
 };
 
 struct PartChange {
@@ -208,7 +208,7 @@ struct PartChange {
     std::string value;
 };
 
-// The changes of the single elements that a change of a list comes to where it keeps its length; else itself.
+// Splits a change of a list with the same length into changes of its elements; else keeps the change itself.
 void addParts(const Written& file, const Node* before, const Written& given, const Node& after, const KeyPath& path,
               std::vector<PartChange>& parts) {
     const bool isElementwise = before != nullptr && before->kind == NodeKind::list && after.kind == NodeKind::list &&

@@ -15,7 +15,7 @@ namespace {
 // Sections that only a picture shows, and keys of bodies and colliders.
 constexpr std::string_view picturesOnly[] = {"picture", "camera", "light", "lamp", "environment", "background", "label"};
 constexpr std::string_view finishOnly[] = {"finish", "visible", "edge", "ball"};
-// What changes nothing before its time, or nothing at all. Of the files that are named the content counts.
+// Sections that change nothing before their time, or nothing at all. For files that are named the content counts.
 constexpr std::string_view neither[] = {"schema", "title", "scene", "defaults", "need", "check", "golden", "at"};
 
 template <std::size_t n>
@@ -25,7 +25,7 @@ bool isOneOf(std::string_view key, const std::string_view (&keys)[n]) {
 
 void add(const Node& node, core::Hash& hash);
 
-// Members in the order of their names: layout is not content.
+// Members sorted by name, as layout is not content.
 std::vector<const Member*> sorted(const Node& table) {
     std::vector<const Member*> members;
     for (const Member& member : table.members) members.push_back(&member);
@@ -64,7 +64,7 @@ void add(const world::MeshData* mesh, core::Hash& hash) {
     }
 }
 
-// A named body or collider: its looks to the picture, the rest to the state.
+// Adds a named body or collider: its looks to the picture, the rest to the state.
 void addThing(const Member& thing, core::Hash& state, core::Hash& picture) {
     state.add(thing.key);
     picture.add(thing.key);
@@ -112,7 +112,7 @@ StateKeys::StateKeys(const Node& root, const world::SceneSpec& spec) {
         std::stable_sort(actions_.begin(), actions_.end(),
                          [](const auto& a, const auto& b) { return a.first < b.first; });
     }
-    // A body that will be spawned is not there from the start.
+    // A body that is spawned later is not there from the start.
     world::foreseen<world::SpawnAction>(spec.actions,
                                         [&](const world::SpawnAction& spawn) { state.add(spawn.target); });
     scene_ = state.value();

@@ -1,5 +1,5 @@
-// What a state and its picture have been made by, as numbers to compare: so that a stored state is not taken for that
-// of another scene. It knows what of a file reaches the state; it does not know how the state comes about.
+// Numbers that identify what a state and its picture were made from, so that a stored state is not taken for one of
+// another scene. It knows which parts of a file affect the state, but not how the state is computed.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@ using fields::Node;
 class StateKeys {
   public:
     StateKeys() = default;
-    // Of a whole document, overrides applied, and of what it was read as.
+    // For a whole document with overrides applied, and the spec read from it.
     StateKeys(const Node& root, const world::SceneSpec& spec);
 
-    // Of the state at a tick: everything in the scene but what only pictures show, and the actions of the ticks before.
-    // The steps that a world chose with an eye on later actions are not in it.
+    // Key of the state at a tick: everything in the scene except what only pictures show, and the actions of earlier
+    // ticks. It leaves out that a world chooses its steps with later actions in mind.
     std::uint64_t stateAt(std::int64_t tick) const;
 
-    // Of what only pictures show: camera, light, finish, labels, …
+    // Key of what only pictures show: camera, light, finish, labels, …
     std::uint64_t picture() const { return picture_; }
 
   private:
     std::uint64_t scene_ = 0, picture_ = 0;
-    std::vector<std::pair<std::int64_t, std::uint64_t>> actions_;  // tick and what is done, in the order of doing
+    std::vector<std::pair<std::int64_t, std::uint64_t>> actions_;  // tick and content, in the order of happening
 };
 
 }  // namespace taut::scene

@@ -17,7 +17,7 @@ bool usesMaterial(const world::SceneSpec& spec, const std::string& name) {
         [&](const world::BodySpec& body) { return body.materialName() == name; });
 }
 
-// Moments are taken at the nearest tick, which shows where that is half a frame away. One line for all of them.
+// Moments are rounded to the nearest tick, which is visible where that is half a frame away. One warning for all.
 void warnOfMoments(const ReadScene& scene, Problems& problems) {
     const world::Ticks ticks(scene.spec.run);
     const NameReference* first = nullptr;

@@ -22,7 +22,7 @@ struct Event {
     ActionSpec* action = nullptr;
     const Node* item = nullptr;
     std::int64_t tick = 0;
-    std::size_t order = 0;  // of happening
+    std::size_t order = 0;  // in which it happens
 
     template <class Own>
     Own* as() const {
@@ -30,7 +30,7 @@ struct Event {
     }
 };
 
-// A way that a hand, a collider or a value is on.
+// The time span in which a hand, a collider or a value is on its way.
 struct Span {
     double begin = 0, end = 0;  // [s]
 };
@@ -54,7 +54,7 @@ class Timeline {
     }
 
   private:
-    // The actions without a fault inside, in the order of happening.
+    // Collects the actions without faults, in the order in which they happen.
     void collect() {
         const Member* list = root_.find("at");
         for (std::size_t i = 0; i < scene_.spec.actions.size(); ++i) {
@@ -74,7 +74,7 @@ class Timeline {
     void error(const Event& event, const char* key, std::string message, std::string remedy = {}) {
         problems_.addError(placeOf(event, key), std::move(message), std::move(remedy));
     }
-    // Whether there was a fault.
+    // Returns whether there was a fault.
     bool report(const Event& event, const char* key, const std::optional<TargetFault>& fault) {
         if (fault) error(event, key, fault->message, fault->remedy);
         return fault.has_value();
@@ -119,7 +119,7 @@ class Timeline {
         if (const auto* cut = event.as<CutAction>()) checkCut(event, *cut);
     }
 
-    // Whether the target is right and there at that moment.
+    // Returns whether the target is valid and exists at that moment.
     bool checkTarget(const Event& event, const std::string& target) {
         if (report(event, "target", bodies_.targetFault(target))) return false;
         const Event* earliest = nullptr;
@@ -168,7 +168,7 @@ class Timeline {
         if (checkHeld(event, id, joints)) grabbed_.erase(id);
     }
 
-    // Whether the hand holds something; reports it if not. What else could be meant is suggested.
+    // Returns whether the hand holds something. If not, reports it with suggestions.
     bool checkHeld(const Event& event, const std::string& id, std::vector<std::string> others = {}) {
         if (grabbed_.contains(id)) return true;
         others.insert(others.begin(), known_.begin(), known_.end());
@@ -213,7 +213,7 @@ class Timeline {
         checkSpan(event, ramp.over, "ramp " + ramp.key, ramp.key, "changed");
     }
 
-    // Two ways at once contradict; one may begin where the other ends.
+    // Two ways at once contradict each other, but one may begin where the other ends.
     void checkSpan(const Event& event, double over, const std::string& key, const std::string& name, const char* done) {
         const Span span{event.action->t, event.action->t + over};
         const auto [before, isFirst] = spans_.emplace(key, span);
@@ -227,7 +227,7 @@ class Timeline {
         before->second = {span.begin, std::max(span.end, before->second.end)};
     }
 
-    // The same points held and freed at one tick. Points that different selectors share are not looked for.
+    // Reports points that are held and freed in one tick. It does not compare different selectors.
     template <class Opposite>
     void checkHold(const Event& event, const PointsAction& own) {
         const auto selectorOf = [](const std::string& target) {
@@ -271,10 +271,10 @@ class Timeline {
     const BodyIndex& bodies_;
     Ticks ticks_;
     std::vector<Event> events_;
-    std::map<std::string, std::size_t> spawns_;    // body: order of its spawn
-    std::map<std::string, const Event*> grabbed_;  // hand: its grab
-    std::map<std::string, const Event*> letGo_;    // name of joints: their release
-    std::vector<std::string> known_;               // hands that grabbed something so far
+    std::map<std::string, std::size_t> spawns_;    // by body: order of its spawn
+    std::map<std::string, const Event*> grabbed_;  // by hand: its grab
+    std::map<std::string, const Event*> letGo_;    // by name of joints: their release
+    std::vector<std::string> known_;               // hands that have grabbed something so far
     std::map<std::string, Span> spans_;
 };
 

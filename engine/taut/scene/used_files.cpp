@@ -90,7 +90,7 @@ void addUsedFiles(core::ByteWriter& writer, std::span<const UsedFile> files) {
 
 std::vector<UsedFile> nextUsedFiles(core::ByteReader& reader) {
     std::vector<UsedFile> files;
-    // Not reserved: a count that is not true ends with the bytes.
+    // Does not reserve: with a wrong count the bytes end first.
     for (auto left = reader.number<std::uint64_t>(); left > 0; --left) {
         UsedFile file{reader.text()};
         file.content = reader.number<std::uint64_t>();

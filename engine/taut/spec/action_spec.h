@@ -1,5 +1,5 @@
-// What happens in a scene at a moment: the timeline of a scenario, as plain data, whatever its kind. It knows neither
-// files nor the kinds, which are in actions/; a hand at a mouse makes the same actions.
+// What happens in a scene at a moment: the timeline as plain data, whatever the kinds of its actions. It knows neither
+// files nor the kinds, which are in actions/. A hand at a mouse makes the same actions.
 //
 // To add a kind: derive from SpecOf<Own, ActionSpec>, give it a `kindName` and perform(), and add its rows to a table
 // of kinds (actionKind() in common_rows.h, Kinds::actions); tests/unit/world_own_action_test.cpp does.
@@ -16,7 +16,7 @@ namespace taut::world {
 
 class World;
 
-// Happens at the start of tick ⌊t · ticks per second + ½⌋, those of one tick in the order of the list.
+// Happens at the start of tick ⌊t · ticks per second + ½⌋. Actions of one tick happen in the order of the list.
 struct ActionSpec {
     Source source;
     double t = 0.0;  // [s]
@@ -29,18 +29,18 @@ struct ActionSpec {
     virtual std::unique_ptr<ActionSpec> copy() const = 0;
 
     // Does it now, with what a world offers, such as apply() of other actions. Throws core::Error(badContent), with the
-    // source, where it finds nothing to act on.
+    // source, if it finds nothing to act on.
     virtual void perform(World& world) const = 0;
-    // How long it goes on after t [s], finite: a timeline performs it at every tick up to then.
+    // How long it goes on after t [s], finite. A timeline performs it at every tick up to then.
     virtual double lasts() const { return 0.0; }
 
-    // Calls visit with this action; an action that applies others calls it with those. The choice of the step uses
-    // this, and bodies that will be spawned are made ready.
+    // Calls visit with this action and with all actions that it applies. The choice of the step uses this, and bodies
+    // to be spawned are made ready by it.
     using Visit = std::function<void(const ActionSpec&)>;
     virtual void foresee(const Visit& visit) const { visit(*this); }
 };
 
-// Calls visit with each action of one kind: those of the timeline, and those that they will apply.
+// Calls visit with each action of one kind, both in the timeline and applied by its actions.
 template <class Own>
 void foreseen(const Specs<ActionSpec>& timeline, const std::function<void(const Own&)>& visit) {
     for (const ActionSpec& action : timeline)

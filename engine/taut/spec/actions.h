@@ -1,4 +1,4 @@
-// The actions that the engine has, as plain data. What they do is in actions/; when, in action_spec.h.
+// The actions of the engine as plain data. actions/ says what they do, action_spec.h when.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,30 +14,30 @@ namespace taut::world {
 
 struct SceneSpec;
 
-// The names of a live player's hands begin with this. Steps allow for them under HandSpec::anywhere.
+// The names of a live player's hands begin with this. HandSpec::anywhere makes steps allow for them.
 inline constexpr const char* liveHand = "mouse";
 
 // An action on points of bodies.
 struct PointsAction : ActionSpec {
-    std::string target;  // KIND.NAME@SELECTOR; without @ all points
-    // Only the point of them that is nearest to this place when it happens.
+    std::string target;  // KIND.NAME@SELECTOR; all points without @
+    // If set, only the point nearest to this place at that moment.
     std::optional<glm::dvec3> near;  // [m]
 };
 
-// A hand takes hold of points where they are.
+// A hand takes hold of points at their places.
 struct GrabAction final : SpecOf<GrabAction, PointsAction> {
     static constexpr std::string_view kindName = "grab";
     void perform(World& world) const override;
 
     std::string id;             // of the hand
-    double radius = 0.0;        // [m] points of the target's bodies this near to a point of the target too
-    bool rigid = false;         // led exactly; else drawn by springs
+    double radius = 0.0;        // [m] also points of the target's bodies this near to a point of the target
+    bool rigid = false;         // points follow exactly; else springs draw them
     double strength = 200.0;    // [N/m] of the whole hand, shared by mass
     double dampingRatio = 0.3;  // of the grabbed mass on the hand's spring [-]
-    std::optional<double> maxForce;  // [N] of the whole hand at most, shared by mass; none: any
+    std::optional<double> maxForce;  // [N] largest force of the whole hand, shared by mass; none: no limit
 };
 
-// A hand, or a collider, goes from where it is to somewhere.
+// Moves a hand or a collider from its present place.
 struct MoveAction final : SpecOf<MoveAction, ActionSpec> {
     static constexpr std::string_view kindName = "move";
     void perform(World& world) const override;
@@ -45,7 +45,8 @@ struct MoveAction final : SpecOf<MoveAction, ActionSpec> {
     std::string id;                // of the hand; empty: a collider
     std::string target;            // "collider.NAME"
     std::optional<glm::dvec3> to;  // [m]
-    // [rad] about x, then y, then z. A collider takes the short way; a hand turns by the angles, since its grab.
+    // [rad] about x, then y, then z. A collider turns the short way. A hand turns by these angles, counted from its
+    // grab.
     std::optional<glm::dvec3> rotation;
     double over = 0.0;  // [s]; 0: at once
     Ease ease = Ease::smooth;
@@ -62,22 +63,22 @@ struct PushAction final : SpecOf<PushAction, PointsAction> {
     static constexpr std::string_view kindName = "push";
     void perform(World& world) const override;
 
-    glm::dvec3 impulse{0.0};  // [N s] of the whole target, shared by mass: every point changes its velocity alike
+    glm::dvec3 impulse{0.0};  // [N s] of the whole target, shared by mass: all points change their velocity alike
 };
 
-// From then on the points stay where they are, or go with a collider, or are free to move.
+// From then on the points stay in place, move with a collider, or are free.
 struct HoldAction final : SpecOf<HoldAction, PointsAction> {
     static constexpr std::string_view kindName = "hold";
     void perform(World& world) const override;
 
-    std::string holdOn;  // "collider.pole"; empty: they stay
+    std::string holdOn;  // "collider.pole"; empty: they stay in place
 };
 struct FreeAction final : SpecOf<FreeAction, PointsAction> {
     static constexpr std::string_view kindName = "free";
     void perform(World& world) const override;
 };
 
-// Cuts the springs of bodies, all of them or those that cross …
+// Cuts the springs of bodies: all springs, or those that cross …
 struct CutAction final : SpecOf<CutAction, ActionSpec> {
     static constexpr std::string_view kindName = "cut";
     void perform(World& world) const override;
@@ -96,18 +97,19 @@ struct AddMassAction final : SpecOf<AddMassAction, PointsAction> {
     double mass = 1.0;  // [kg] of the whole target, shared evenly
 };
 
-// A number or a vector of the scene that a ramp changes while it runs.
+// A number or a vector of the scene that a ramp changes during a run.
 struct RampField {
     fields::Affects affects = fields::Affects::forces;
     std::string owner;  // "material.nylon", "rope.rail", "wind.breeze", "world", …
 
     virtual ~RampField() = default;
     virtual std::vector<double> read(
-        const SceneSpec& scene) const = 0;  // in the units of the file, as write takes them
+        const SceneSpec& scene) const = 0;  // in the units of the file, as write() takes them
     virtual void write(SceneSpec& scene, const std::vector<double>& value) const = 0;
 };
 
-// A field goes from its present value to another one. A later ramp of the same field starts from where it is then.
+// A field goes from its present value to another one. A later ramp of the same field starts from its value at that
+// time.
 struct RampAction final : SpecOf<RampAction, ActionSpec> {
     static constexpr std::string_view kindName = "ramp";
     void perform(World& world) const override;
@@ -116,7 +118,7 @@ struct RampAction final : SpecOf<RampAction, ActionSpec> {
     std::vector<double> value;  // in the units of the file
     double over = 0.0;          // [s]; 0: at once
     Ease ease = Ease::smooth;
-    std::shared_ptr<const RampField> field;  // what the key names
+    std::shared_ptr<const RampField> field;  // the field that the key names
 };
 
 // A body appears that was not there from the start.

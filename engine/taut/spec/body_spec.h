@@ -1,4 +1,4 @@
-// What moves by its own laws: what every body has, and what its kind says of it. The kinds are in bodies/.
+// What every body has, and what its kind says of it. The kinds are in bodies/.
 #pragma once
 
 #include <cstdint>
@@ -23,16 +23,16 @@ class BodyDrawing;
 
 // When a material stops being elastic.
 struct PlasticitySpec {
-    std::optional<double> yieldStrain;  // |l - L|/L beyond which a spring's rest length gives way; none: never
-    std::optional<double> breakStrain;  // (l - L)/L beyond which a spring is gone; none: never
-    double breakCell = 0.02;            // [m] cell for which that is stated, where it matters: at the tip of a tear
+    std::optional<double> yieldStrain;  // |l - L|/L beyond which a spring's rest length yields; none: never
+    std::optional<double> breakStrain;  // (l - L)/L beyond which a spring breaks; none: never
+    double breakCell = 0.02;            // [m] cell size for which breakStrain is stated; matters at the tip of a tear
 };
 
-// Bending rigidity of a sheet [N m]: bent across its warp, across its weft, and at 45° between them.
+// Bending rigidity of a sheet [N m]: across its warp, across its weft, and at 45° between them.
 struct BendingSpec {
-    std::optional<double> warp;  // none: the sheet has none
+    std::optional<double> warp;  // none: no bending rigidity
     std::optional<double> weft;  // none: as the warp
-    std::optional<double> bias;  // none: as an isotropic sheet between both
+    std::optional<double> bias;  // none: as of an isotropic sheet between both
 };
 
 struct MaterialSpec {             // of cloth, per metre of material
@@ -47,7 +47,7 @@ struct MaterialSpec {             // of cloth, per metre of material
     BendingSpec rigidity{};
 };
 
-// Which surfaces of bodies keep off each other: none, those of different bodies, or all, a body's own parts among them.
+// Which surfaces keep off each other: none, those of different bodies, or all, including parts of one body.
 enum class Touch { nothing, others, all };
 
 struct ArraySpec {  // copies of a body along three directions, named NAME.0, NAME.1, …
@@ -55,29 +55,29 @@ struct ArraySpec {  // copies of a body along three directions, named NAME.0, NA
     dvec3 stepX{0.0}, stepY{0.0}, stepZ{0.0};  // [m] from one copy to the next
 };
 
-// What is known of a body before it is built. Counts as doubles: they may be far beyond any integer.
+// What is known of a body before it is built. Counts are doubles, as they may be far beyond any integer.
 struct BodyOutline {
     double points = 0, springs = 0, volumes = 0;
-    std::vector<std::string> groups;  // names of its points, as its builder gives them
-    bool isGrid = false;              // has "(u,v)"
-    bool isLine = false;              // has "50%"
-    bool hasSurface = false;          // that a wind acts on
+    std::vector<std::string> groups;  // names of point groups, as its builder gives them
+    bool isGrid = false;              // accepts "(u,v)"
+    bool isLine = false;              // accepts "50%"
+    bool hasSurface = false;          // on which wind acts
 };
 
 struct BodySpec {
     std::string name;  // without the kind: "flag"
     Source source;
     std::vector<std::string> hold;  // selectors, see mechanics: a group, "(u,v)", "50%", "#index"
-    std::vector<std::string> clamp;  // more of them, whose directions are held as well
-    std::string holdOn;              // "collider.pole": what carries those; empty: they stay where they are
+    std::vector<std::string> clamp;  // further selectors; the direction at these points is held too
+    std::string holdOn;              // "collider.pole" that carries the held points; empty: they stay in place
     dvec3 velocity{0.0};            // [m/s] at the start
     dvec3 spin{0.0};                // [rad/s] at the start, about the centre of mass
-    double jitter = 0.0;            // [m] random offset of free points at the start: breaks symmetry
+    double jitter = 0.0;            // [m] random offset of free points at the start; breaks symmetry
     std::int64_t seed = 1;          // of the jitter
     double friction = 1.0;          // factor on the collider's friction
     double thickness = 0.005;       // [m] distance kept from colliders; two bodies that touch keep the sum of theirs
     bool collide = true;
-    bool meetsFaces = false;  // of colliders with its own, where `touch` does not say so
+    bool meetsFaces = false;  // its faces meet colliders even if it touches nothing
     Touch touch = Touch::nothing;
     FinishSpec finish;
     SolverOverride solver;
@@ -91,17 +91,17 @@ struct BodySpec {
     virtual std::unique_ptr<BodySpec> copy() const = 0;
     std::string fullName() const { return std::string(kind()) + "." + name; }
 
-    // At rest and free, one of an array. Throws core::Error(badContent) with file, line and column.
+    // At rest and free; for arrays, one copy. Throws core::Error(badContent) with file, line and column.
     virtual mechanics::Model build(const SceneSpec& scene) const = 0;
     virtual PlasticitySpec plasticityIn(const SceneSpec&) const { return {}; }
-    // The material that it takes numbers from; empty: none.
+    // The material from which it takes numbers; empty: none.
     virtual std::string_view materialName() const { return {}; }
 
-    // How a body that was made of it is drawn: by default the triangles of its model, if there are any.
+    // The drawing of a body of this spec: by default the triangles of its model, if there are any.
     virtual std::unique_ptr<BodyDrawing> drawing(const Body& body) const;
-    // How many points, springs and cells it will have. By default the body is built to count them.
+    // The number of its points, springs and cells. By default it builds the body and counts them.
     virtual BodyOutline outline(const SceneSpec& scene) const;
-    // The mesh file that it is made from, or null.
+    // The mesh file from which it is made, or null.
     virtual const MeshSource* meshSource() const { return nullptr; }
     MeshSource* meshSource() { return const_cast<MeshSource*>(std::as_const(*this).meshSource()); }
 };

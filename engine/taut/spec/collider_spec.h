@@ -17,7 +17,7 @@ struct PoseKey {
     double t = 0.0;            // [s]
     dvec3 position{0.0};       // [m]
     dvec3 rotation{0.0};       // [rad]
-    Ease ease = Ease::smooth;  // from the key before to this one
+    Ease ease = Ease::smooth;  // on the way from the previous key to this one
 };
 
 struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh
@@ -30,16 +30,16 @@ struct ColliderSpec : MeshSource {  // the file: of a hull, a mesh
     dvec3 size{1.0};               // box: whole edges [m]
     double radius = 0.5;           // [m]
     double height = 1.0;           // [m] cylinder, cone: whole; capsule: between the centres of its half spheres
-    std::map<std::string, double, std::less<>> sizes;  // what the shape adds to these, by its key
+    std::map<std::string, double, std::less<>> sizes;  // further sizes of the shape, by key
     double scale = 1.0;
     std::vector<ColliderSpec> parts;  // compound
     double friction = 0.3;            // Coulomb's μ [-]
     double restitution = 0.0;         // 0 … 1: speed after a bounce / speed before [-]
-    std::vector<PoseKey> keys;        // keyframes; then position and rotation are not used
+    std::vector<PoseKey> keys;        // keyframes; position and rotation are unused then
     bool visible = true;
     double edge = 0.01;  // [m] rounding of a drawn box's edges
     FinishSpec finish;
-    std::optional<FinishSpec> ownFinish;  // of a part; none: that of the compound
+    std::optional<FinishSpec> ownFinish;  // for a part; none: that of the compound
 };
 
 }  // namespace taut::world

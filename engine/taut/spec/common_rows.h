@@ -1,5 +1,5 @@
-// Rows of fields that several sections of a scene have in common, and the kinds that structs of bodies, joints,
-// forces and actions make.
+// Rows of fields that several sections of a scene share, and functions that turn structs of bodies, joints, forces and
+// actions into kinds.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ inline constexpr fields::Range placeRange{-1e6, 1e6};                           
 inline constexpr fields::Range speedRange{-mechanics::speedLimit, mechanics::speedLimit};  // [m/s]
 inline constexpr fields::Range lengthRange{1e-6, 1e6};                                     // [m]
 inline constexpr fields::Range momentRange{0.0, 1e6};                                      // [s]
-inline constexpr fields::Range countRange{1.0, 1e9};        // of cells; what is too much is said once all is read
+inline constexpr fields::Range countRange{1.0, 1e9};        // of cells; too large a sum is reported once all is read
 inline constexpr fields::Range dampingTimeRange{0.0, 1e3};  // [s]
 inline constexpr fields::Range dragRange{0.0, 1e6};         // [1/s]
 inline constexpr fields::Range strainRange{1e-6, 1e3};      // |l - L|/L
@@ -30,11 +30,11 @@ fields::Section overrideSection();  // of [solver], by a body
 fields::Section arraySection();
 std::vector<std::string> easeNames();
 std::vector<std::string> lumpingNames();
-std::vector<std::string> methodNames();  // of the engine's own
-// What is drawn round keeps its radius [m], if no thickness is given; one far below it is warned of.
+std::vector<std::string> methodNames();  // of the engine
+// If no thickness is given, a round thing gets its radius [m]. Warns of a thickness far below the radius.
 void keepRadius(const fields::CheckInput& input, double radius, BodySpec& body);
 
-// Fields of all that stops being elastic.
+// Fields of bodies and materials that may stop being elastic.
 template <class Spec>
 fields::FieldList<Spec> withPlasticity(fields::FieldList<Spec> list) {
     list.number("yield_strain", &Spec::plasticity, &PlasticitySpec::yieldStrain, "", strainRange,
@@ -49,7 +49,7 @@ fields::FieldList<Spec> withPlasticity(fields::FieldList<Spec> list) {
     return list;
 }
 
-// Fields of all bodies that have a stiffness of their own.
+// Fields of bodies with a stiffness of their own.
 template <class Spec>
 fields::FieldList<Spec> withLosses(fields::FieldList<Spec> list) {
     list.number("damping_time_s", &Spec::dampingTime, "s", dampingTimeRange,
@@ -60,7 +60,7 @@ fields::FieldList<Spec> withLosses(fields::FieldList<Spec> list) {
     return list;
 }
 
-// What every body has.
+// Fields of every body.
 template <class Spec>
 std::vector<fields::Field> bodyRows() {
     using fields::Range;
@@ -110,7 +110,7 @@ Kind<ForceSpec> forceKind() {
     return kindOf<Own, ForceSpec>();
 }
 
-// What every joint has besides its sides.
+// Fields of every joint besides its sides.
 template <class Own>
 std::vector<fields::Field> everyJointsRows() {
     return fields::FieldList<Own>()
@@ -127,12 +127,12 @@ std::vector<fields::Field> everyJointsRows() {
         .take();
 }
 
-// Reports what is wrong with what every joint has.
+// Reports faults in the fields that every joint has.
 void checkJoint(const fields::CheckInput& input, const JointSpec& joint);
 
-// A kind of joint, from the rows of the struct's own fields; those of both sides come before them. A field is `only`
-// for joints between bodies, by the title ("a weld"), or for those with colliders ("a weld to a collider"), or for both.
-// A key that another kind has too should mean the same. Expects no tables inside.
+// A kind of joint, from the rows of its own fields. The rows of both sides come before them. A field may be `only` for
+// joints between bodies, by the title ("a weld"), for joints with colliders ("a weld to a collider"), or for both. A
+// key that another kind also has should mean the same. Expects no tables inside.
 template <class Own>
 Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
     Kind<JointSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};
@@ -157,12 +157,12 @@ Kind<JointSpec> jointKind(std::string help, fields::FieldList<Own> own = {}) {
     return kind;
 }
 
-// A check that concerns several fields of a kind: reports what is wrong with an action that was read.
+// A check of several fields of a kind: reports faults in an action that was read.
 template <class Own>
 using ActionCheck = std::function<void(const fields::CheckInput& input, const Own& action)>;
 
-// A kind of action, from the rows of the struct's own fields; its moment comes before them. A key that another kind has
-// too should mean the same. Expects no tables inside.
+// A kind of action, from the rows of its own fields. Its moment comes before them. A key that another kind also has
+// should mean the same. Expects no tables inside.
 template <class Own>
 Kind<ActionSpec> actionKind(fields::FieldList<Own> own, ActionCheck<Own> check = {}) {
     Kind<ActionSpec> kind{std::string(Own::kindName), {}, [] { return std::make_unique<Own>(); }};

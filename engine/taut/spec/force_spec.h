@@ -1,4 +1,4 @@
-// What acts on bodies besides their springs and gravity, as a scene names it. The kinds are in forces/.
+// A force on bodies besides springs and gravity, as a scene names it. The kinds are in forces/.
 #pragma once
 
 #include <memory>
@@ -26,11 +26,11 @@ struct ForceSpec {
     virtual std::unique_ptr<ForceSpec> copy() const = 0;
     std::string fullName() const { return std::string(kind()) + "." + name; }
 
-    // The force, of that full name, in the scene as it is; null where it does nothing.
+    // The force with this full name in the present scene; null if it does nothing.
     virtual std::shared_ptr<const Force> make(const SceneSpec& scene) const = 0;
-    // Throws core::Error(badContent), with file, line and column, where none of the bodies has what it acts on.
+    // Throws core::Error(badContent), with file, line and column, if the force finds nothing to act on in any body.
     virtual void checkBodies(std::span<Body* const>) const {}
-    // The points that it pulls at, KIND.NAME@SELECTOR; empty: surfaces, or all.
+    // The points at which it pulls, KIND.NAME@SELECTOR; empty: surfaces, or all points.
     virtual std::string_view pulledPoints() const { return {}; }
 };
 

@@ -1,4 +1,4 @@
-// What a scene can be made of: the tables of kinds, as one value.
+// The tables of kinds from which a scene can be made, as one value.
 //
 // To add a kind of your own: Kinds kinds = builtIn(); kinds.bodies.add(bodyKind<Mine>()); scene::loadSceneText(text,
 // name, {.kinds = std::make_shared<const Kinds>(kinds)}).
@@ -22,7 +22,7 @@ namespace taut::world {
 template <class Base>
 class KindTable : public core::Table<Kind<Base>> {
   public:
-    // Expects a name that no other has.
+    // Expects a name that no other kind has.
     void add(Kind<Base> kind) {
         kind.section.name = kind.name;
         kind.section.layout = fields::Layout::named;
@@ -32,14 +32,14 @@ class KindTable : public core::Table<Kind<Base>> {
 
 struct Kinds {
     KindTable<BodySpec> bodies;
-    KindTable<JointSpec> joints;  // a joint that names no kind is of the first
+    KindTable<JointSpec> joints;  // the first is the default kind
     KindTable<ForceSpec> forces;
     KindTable<ActionSpec> actions;
     ode::Methods methods;
     collision::ShapeKinds shapes;
 };
 
-// Those of the engine.
+// The kinds of the engine.
 Kinds builtIn();
 const KindTable<ActionSpec>& builtInActions();
 

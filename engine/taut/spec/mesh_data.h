@@ -11,17 +11,17 @@
 
 namespace taut::world {
 
-// What an OBJ file holds, before scale, rotation and position: vertices welded by position, each used by a triangle.
+// Contents of an OBJ file, before scale, rotation and position. Vertices are welded by position; a triangle uses each.
 struct MeshData {
     std::vector<dvec3> positions;                    // (vertices) in the file's unit
     std::vector<dvec2> uv;                           // (vertices) as in the file, or empty if a corner has none
-    std::vector<std::array<int, 3>> triangles;       // (triangles) indices of vertices, in the file's orientation
+    std::vector<std::array<int, 3>> triangles;       // (triangles) indices of vertices, oriented as in the file
     std::map<std::string, std::vector<int>> groups;  // vertices by the file's g and o, ascending
-    // What the file calls them: vertices from 1, triangles by the line of their face.
+    // Numbers in the file: vertices count from 1, triangles have the line of their face.
     std::vector<int> numbers, lines;
 };
 
-// A mesh file that a body or a collider is made from.
+// The mesh file of a body or a collider.
 struct MeshSource {
     std::string mesh;                          // path, resolved by the loader; empty: none
     std::shared_ptr<const MeshData> meshData;  // what the file holds; null: none

@@ -75,7 +75,7 @@ view::Camera cameraAt(const CameraSpec& spec, double t) {
 collision::Pose between(const collision::Pose& from, const collision::Pose& to, double part) {
     if (part <= 0) return from;
     if (part >= 1) return to;
-    // What does not turn keeps its rotation to the bit: what has come to rest is still.
+    // Without a turn the rotation keeps its bits, so that a thing at rest is still.
     if (from.rotation == to.rotation) return {from.position + part * (to.position - from.position), from.rotation};
     const double sign = glm::dot(from.rotation, to.rotation) < 0 ? -1.0 : 1.0;
     return {from.position + part * (to.position - from.position),

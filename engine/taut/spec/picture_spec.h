@@ -1,4 +1,4 @@
-// What a picture is made with: cameras, light, background, labels.
+// What a picture shows besides bodies: cameras, light, background, labels.
 #pragma once
 
 #include <optional>
@@ -45,7 +45,7 @@ struct EnvironmentSpec {
     bool visible = true;
 };
 
-// A light beside the sun and as far away.
+// A further light, as far away as the sun.
 struct LampSpec {
     std::string name;
     Source source;
@@ -53,7 +53,7 @@ struct LampSpec {
     dvec3 colour{1.0, 1.0, 1.0};
     double intensity = 1.0;  // factor on colour
     double softness = 0.03;  // [rad]
-    bool shadow = true;      // whether things throw shadows in it
+    bool shadow = true;      // whether things cast shadows in it
 };
 inline constexpr std::size_t mostLamps = view::mostLamps;
 
@@ -62,11 +62,11 @@ struct BackgroundSpec {
     dvec3 horizon{0.60, 0.64, 0.70};
     double fadeStart = 8.0;       // [m]
     double fadeEnd = 30.0;        // [m]
-    bool fadesWithCamera = true;  // where neither is given
+    bool fadesWithCamera = true;  // if neither fade is given
 };
 
-// A line of text in the picture. A body's name hangs above it unless a place is given; once the body is frozen, a
-// second line says so.
+// A line of text in the picture. It hangs above the body, unless a place is given. Once the body is frozen, a second
+// line says so.
 struct LabelSpec {
     std::string name;
     Source source;
@@ -83,7 +83,7 @@ struct LabelSpec {
 struct PictureSpec {
     ivec2 size{1280, 720};  // [px]
     std::string camera;     // name; empty: the first by name
-    int samples = 4;        // a pixel: 1, 4, 8 or 16
+    int samples = 4;        // samples per pixel: 1, 4, 8 or 16
     int shadowSize = 2048;  // [px] edge of the shadow map
 };
 

@@ -1,4 +1,4 @@
-// How long a run is, and how many pictures it has.
+// The length of a run and its picture rate.
 #pragma once
 
 namespace taut::world {

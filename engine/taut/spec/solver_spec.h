@@ -14,8 +14,8 @@ namespace taut::world {
 enum class Precision { single_, double_ };
 enum class OnDivergence { stop, freeze };
 
-// How leap-frog treats dashpots: at a velocity extrapolated from the last two, or split off, which bears longer steps
-// and costs more each.
+// How leap-frog treats dashpots: at a velocity extrapolated from the last two, or split off. Splitting allows longer
+// steps, but each costs more.
 enum class Dashpots { automatic, extrapolated, split };
 
 struct SolverSpec {
@@ -23,16 +23,16 @@ struct SolverSpec {
     std::optional<double> dt;  // [s] largest step; none: found from the stability bound ("auto")
     double safety = 0.9;       // share of the stability limit that "auto" uses
     Precision precision = Precision::single_;
-    Dashpots dashpots = Dashpots::automatic;  // whichever takes less time; extrapolated where dt is given
-    int newtonSteps = 1;                      // of implicit Euler: linear solves a step, at most
+    Dashpots dashpots = Dashpots::automatic;  // automatic: the faster of both; extrapolated if dt is given
+    int newtonSteps = 1;                      // of implicit Euler: most linear solves in a step
     double cgTolerance = 1e-5;  // of implicit methods: residual over right-hand side at which a solve ends
-    int cgIterations = 1000;    // of implicit methods: at most, a solve
+    int cgIterations = 1000;    // of implicit methods: most iterations in a solve
     OnDivergence onDivergence = OnDivergence::stop;
-    double freezeStrain = 1.0;  // |l - L|/L of a spring (but of bending) at which freezing takes a body to diverge
-    std::shared_ptr<const ode::Methods> methods;  // that integrators are names of; none: the engine's own
+    double freezeStrain = 1.0;  // |l - L|/L of a spring (not of bending) above which freezing takes a body as diverged
+    std::shared_ptr<const ode::Methods> methods;  // that integrators are named in; none: the engine's own
 };
 
-// A body may override these parts of [solver]; none: as the scene has it.
+// The parts of [solver] that a body may override; none: as in the scene.
 struct SolverOverride {
     std::optional<std::string> integrator;
     std::optional<double> dt;

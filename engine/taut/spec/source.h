@@ -1,4 +1,4 @@
-// The words that several parts of a scene share.
+// Words that several parts of a scene share.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,12 +14,12 @@ using glm::dvec3;
 using glm::ivec2;
 using glm::ivec3;
 
-// "file:line:column: error: " of a source, or less when it has none.
+// "file:line:column: error: " of a source, or less if the source has less.
 std::string at(const Source& source);
-// The same text, or a message that begins with it, as a warning.
+// The message, or one that begins with it, as a warning.
 std::string asWarning(std::string message);
 
-// Ways from one key to the next, as animators name them.
+// Ways from one key to the next, with animators' names.
 enum class Ease { linear, smooth, in, out, hold };
 
 }  // namespace taut::world

@@ -2,7 +2,7 @@
 // neither files nor pictures. SI units; colours are sRGB as an artist writes them, 0 … 1.
 //
 // The loader refuses values out of range (scene::manual() lists every range). Code that fills a scene must keep to the
-// same ranges and words: the world does not check them again. It does check that targets and materials exist.
+// same ranges and words, because the world does not check them again. It does check that targets and materials exist.
 #pragma once
 
 #include <map>
@@ -36,17 +36,17 @@ struct WorldSpec {
     double airDensity = 1.2;         // [kg/m³]
 };
 
-// Of bodies that touch each other, or themselves.
+// For bodies that touch each other or themselves.
 struct ContactSpec {
     double friction = 0.3;        // Coulomb's μ between two bodies, times the factors of both [-]
-    std::optional<int> instants;  // a tick, at which contacts are looked at; none: as many as their speed asks for
+    std::optional<int> instants;  // in a tick, at which contact is resolved; none: as many as the speeds need
 };
 
-// What hands may do while the scene runs. A timeline's own grabs are allowed for without it.
+// What hands may do during a run. Steps allow for the timeline's own grabs without it.
 struct HandSpec {
-    bool anywhere = false;      // any point of any body may be grabbed: every step allows for it
-    double strength = 200.0;    // [N/m] at most, of a hand
-    double dampingRatio = 0.3;  // at most
+    bool anywhere = false;      // a hand may grab any point of any body, and every step allows for it
+    double strength = 200.0;    // [N/m] largest of a hand
+    double dampingRatio = 0.3;  // largest
 };
 
 struct MassSpec {  // mass added to points
@@ -57,7 +57,7 @@ struct MassSpec {  // mass added to points
 
 struct SceneSpec {
     std::string file;
-    std::vector<std::string> bases;  // the files that it builds on, the nearest first
+    std::vector<std::string> bases;  // the files on which it builds, the nearest first
     std::string title;
     WorldSpec world;
     ContactSpec contact;
@@ -75,17 +75,17 @@ struct SceneSpec {
     std::vector<MassSpec> masses;   // in the order of the file
     std::vector<ColliderSpec> colliders;
     std::shared_ptr<const collision::ShapeKinds> shapes;  // that colliders may have; none: the engine's own
-    Specs<ForceSpec> forces;                              // in the order in which they are added up
+    Specs<ForceSpec> forces;                              // in the order in which they are added
     std::vector<CameraSpec> cameras;
     std::vector<LabelSpec> labels;
     HandSpec hand;
-    Specs<ActionSpec> actions;                                 // by time, those of one moment in the order of the file
-    std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // the table of their kinds; none: the engine's own
+    Specs<ActionSpec> actions;                                 // by time; at one moment in the order of the file
+    std::shared_ptr<const KindTable<ActionSpec>> actionKinds;  // of their kinds; none: the engine's own
     std::vector<CheckSpec> checks;                             // in the order of the file
     std::vector<GoldenSpec> goldens;
 };
 
-// Whether any body of it touches others or itself.
+// Whether any body of the scene touches others or itself.
 bool bodiesTouch(const SceneSpec& spec);
 
 }  // namespace taut::world

@@ -1,5 +1,5 @@
-// A list of structs of several kinds under one base, such as the bodies of a scene. It is a value: a copy of the list
-// copies its items. Also here: what a struct needs to be a kind that such lists and scene files know.
+// A list of structs of several kinds with one base, such as the bodies of a scene. It is a value: a copy of the list
+// copies its items. Also here: what makes a struct a kind that such lists and scene files know.
 //
 // To add a kind: derive from SpecOf<Own, Base>, and add bodyKind<Own>(), forceKind<Own>() or actionKind<Own>(rows)
 // (common_rows.h) to a table of kinds.
@@ -20,7 +20,7 @@
 
 namespace taut::world {
 
-// Goes through pointers of any sort and shows what they point to, an Item.
+// Iterates over pointers of any sort and gives the Items to which they point.
 template <class Item, class Pointer>
 struct Pointee {
     using iterator_category = std::input_iterator_tag;
@@ -70,7 +70,7 @@ class Specs {
         return *this;
     }
 
-    // A copy of it, of the kind that it is.
+    // A copy of the same kind.
     template <class Spec>
     Spec& add(Spec spec) {
         return static_cast<Spec&>(add(std::unique_ptr<Base>(std::make_unique<Spec>(std::move(spec)))));
@@ -89,7 +89,7 @@ class Specs {
     Base& operator[](std::size_t i) { return *all_[i]; }
     const Base& operator[](std::size_t i) const { return *all_[i]; }
 
-    // Those of one kind.
+    // The items of one kind.
     template <class Spec>
     Pointees<Spec> of() {
         return some<Spec>(all_);
@@ -99,7 +99,7 @@ class Specs {
         return some<const Spec>(all_);
     }
 
-    // The one of that name, or null.
+    // The item of that name, or null.
     const Base* find(std::string_view kind, std::string_view name) const {
         const auto found = std::find_if(all_.begin(), all_.end(),
                                         [&](const auto& spec) { return spec->name == name && spec->kind() == kind; });
@@ -140,7 +140,7 @@ struct SpecOf : Base {
     }
 };
 
-// What a scene file has to know of a kind: its section and a fresh struct for its fields.
+// What a scene file needs to know of a kind: its section, and a fresh struct for its fields.
 template <class Base>
 struct Kind {
     std::string name;

@@ -12,18 +12,18 @@ namespace taut::world {
 
 struct Target {
     std::string kind;      // "cloth"
-    std::string name;      // "flag", may hold the wildcard *
+    std::string name;      // "flag"; may contain the wildcard *
     std::string selector;  // "top-left"; empty: all points
 };
 
-// Splits KIND.NAME@SELECTOR; the parts may be empty when the text is malformed (the loader has checked it).
+// Splits KIND.NAME@SELECTOR. Parts may be empty if the text is malformed; the loader has checked it.
 Target parseTarget(std::string_view text);
 
 using core::matches;
 
-// The points that a selector names, ascending: a group of the model ("left", "corners", "all" …), "#12" (by index),
-// "(u,v)" (the grid point nearest to that fraction of width and height, from the top left), "50%" (along a rope).
-// Empty when it names none.
+// The points of a selector, ascending: a group of the model ("left", "corners", "all" …), "#12" (by index), "(u,v)"
+// (the grid point nearest to that fraction of width and height, from the top left), "50%" (along a rope). Empty if it
+// names none.
 std::vector<int> selectPoints(const mechanics::Model& model, std::string_view selector);
 
 }  // namespace taut::world

@@ -1,4 +1,4 @@
-// The moments that a run has: ticks and frames, from the numbers in [run].
+// The moments of a run: ticks and frames, from the numbers in [run].
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Ticks {
           perSecond(run.fps * perFrame),
           lastFrame(std::max<std::int64_t>(1, std::llround(run.seconds * run.fps)) - 1) {}
 
-    // The tick nearest to t [s]: an action at t happens as it starts, and the state at t is the one that it starts from.
+    // The tick nearest to t [s]. An action at t happens at its start. The state at t is the state at its start.
     std::int64_t at(double t) const { return static_cast<std::int64_t>(std::floor(t * perSecond + 0.5)); }
     std::int64_t last() const { return lastFrame * perFrame; }
     double secondsOf(std::int64_t tick) const { return static_cast<double>(tick) / perSecond; }  // [s]

@@ -14,7 +14,7 @@
 namespace taut::world {
 namespace {
 
-// A body that comes later cannot be tied to others: islands are made once.
+// Throws if a joint ties a body that comes later: islands are made once.
 void checkUntied(const WorldImpl& w, Body& body) {
     for (const JointSpec& joint : w.spec.joints) {
         if (isTie(joint)) continue;
@@ -48,13 +48,13 @@ void addIsland(WorldImpl& w, IslandPlan plan, const ForceList& current, const En
     for (Body* body : members) body->island = w.islands.back().get();
 }
 
-// An island of its own.
+// Adds a body in an island of its own.
 ecs::Entity addAlone(WorldImpl& w, std::unique_ptr<Body> body) {
     const WorldImpl::Member newcomer = addBody(w, std::move(body));
     const auto isAfter = [&](const WorldImpl::Member& other) { return sortsBefore(*newcomer.body, *other.body); };
     w.bodies.insert(std::find_if(w.bodies.begin(), w.bodies.end(), isAfter), newcomer);
     ++w.generation;
-    SceneSpec alone;  // the joints of the scene do not concern it
+    SceneSpec alone;  // joints of the scene do not concern it
     alone.solver = w.spec.solver;
     const Envelopes envelopes(*w.start);
     const ForceList current = forcesOf(w);
@@ -96,7 +96,7 @@ ecs::Entity spawn(WorldImpl& w, Body body) {
     return entity;
 }
 
-// Bodies wait from the start, built; an island of each begins now.
+// Waiting bodies were built at the start. Each gets an island now.
 bool spawnWaiting(WorldImpl& w, const std::string& names) {
     const Target target = parseTarget(names);
     bool any = false;
@@ -111,7 +111,7 @@ bool spawnWaiting(WorldImpl& w, const std::string& names) {
     if (!any) return false;
     std::erase(w.waiting, nullptr);
     w.spawned.push_back(names);
-    // Winds and anchors that were without it may act on it.
+    // Winds and anchors may act on it that found nothing before.
     const ForceList current = forcesOf(w);
     for (const auto& island : w.islands) island->setForces(w.now(), current);
     rebuildColliders(w);

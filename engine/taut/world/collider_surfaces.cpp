@@ -8,8 +8,8 @@
 namespace taut::world {
 namespace {
 
-constexpr double roundCells = 2.0;   // radius of a ball or a capsule that slips between points, over the longest edge
-constexpr double jumpSpeed = 100.0;  // [m/s] of any vertex; above it a collider jumps
+constexpr double roundCells = 2.0;   // radius over the longest edge, below which a ball or a capsule slips through
+constexpr double jumpSpeed = 100.0;  // [m/s] of any vertex; a collider that is faster jumps
 
 struct Placing {
     glm::dmat3 rotation;
@@ -70,7 +70,7 @@ ColliderSurfaces::ColliderSurfaces(const std::vector<TouchedCollider>& colliders
         const Placing place(colliders[c].pose);
         for (const collision::Outline& outline : colliders[c].outlines) {
             if (outline.radius > thin) continue;
-            const int bond = -1 - static_cast<int>(surfaces.size());  // shared with no other
+            const int bond = -1 - static_cast<int>(surfaces.size());  // no other surface has it
             surfaces.push_back(surfaceOf(outline, colliders[c].friction, static_cast<int>(rest.size()), bond));
             for (const dvec3& vertex : outline.vertices) rest.push_back(place(vertex));
             own.vertices.insert(own.vertices.end(), outline.vertices.begin(), outline.vertices.end());

@@ -41,7 +41,7 @@ void placeColliders(WorldImpl& w) {
         const ColliderPart* part = w.registry.find<ColliderPart>(entity);
         if (part == nullptr) return;
         if (const auto& move = part->move) {
-            // Once there it may be moved by others.
+            // After the end other things may move it.
             if (w.tick < move->start + move->length)
                 placement.to =
                     between(move->from, move->to,

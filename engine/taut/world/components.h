@@ -24,16 +24,16 @@ struct Identity {
 struct BodyPart {
     std::unique_ptr<Body> body;
     std::unique_ptr<BodyDrawing> drawing;
-    std::size_t drawnDamage = 0;  // severed edges that the drawing knows of
+    std::size_t drawnDamage = 0;  // number of severed edges in the drawing
 };
 
-// Where a rigid thing is at the start and the end of the current tick. A system that moves it writes `to`.
+// The place of a rigid thing at the start and the end of the current tick. A system that moves the thing writes `to`.
 struct Placement {
     collision::Pose from, to;
-    bool moved = false;  // in the tick before
+    bool moved = false;  // in the previous tick
 };
 
-// The motion that an action gives a collider, in ticks.
+// A motion that an action gives a collider; times in ticks.
 struct PoseMove {
     collision::Pose from, to;
     std::int64_t start = 0, length = 1;
@@ -43,7 +43,7 @@ struct PoseMove {
 struct ColliderPart {
     ColliderSpec spec;
     std::shared_ptr<const ColliderModel> model;
-    std::optional<PoseMove> move{};  // the last one; if there is one, keyframes no longer count
+    std::optional<PoseMove> move{};  // the last one; if set, keyframes no longer count
 };
 
 struct CameraPart {

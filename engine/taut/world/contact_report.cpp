@@ -10,7 +10,7 @@
 namespace taut::world {
 namespace {
 
-// [m] How far the closer end of the edge is from the triangle's plane.
+// [m] Distance of the closer end of the edge from the triangle's plane.
 double depthOf(const ContactStage& stage, const contact::Crossing& crossing) {
     const auto at = [&](std::size_t k) { return stage.position(crossing.points[k]); };
     const dvec3 normal = glm::cross(at(3) - at(2), at(4) - at(2));
@@ -22,7 +22,7 @@ double depthOf(const ContactStage& stage, const contact::Crossing& crossing) {
 
 constexpr std::uint64_t spansMark = 0xfff8'7461'7574'0005ULL;  // a NaN
 
-// When: "since 1.20 s", "from 1.20 s to 1.35 s".
+// With the time: "since 1.20 s", "from 1.20 s to 1.35 s".
 std::string crossingText(const std::string& first, const std::string& second, const std::string& when,
                          std::int64_t edges, std::int64_t times, bool isOn) {
     const bool isOne = first == second;
@@ -48,7 +48,7 @@ std::vector<BodyCrossing> crossingsOf(ContactStage& stage) {
         const auto& elements = stage.elements();
         const int edge = elements.edges()[static_cast<std::size_t>(crossing.edge)].surface;
         const int triangle = elements.triangles()[static_cast<std::size_t>(crossing.triangle)].surface;
-        if (!stage.isOfBody(edge)) continue;  // a collider's stands out of a face
+        if (!stage.isOfBody(edge)) continue;  // an edge of a collider out of a face is no crossing of bodies
         all.push_back(
             {crossing.place, depthOf(stage, crossing), &stage.bodyOf(edge), &stage.bodyOf(triangle), crossing.edge});
     }
@@ -72,7 +72,7 @@ void ContactReport::look(const ContactStage& stage, double start) {
         if (sortsBefore(*b, *a)) std::swap(a, b);
         edges[{a->fullName(), b->fullName()}].insert(crossing.edge);
     }
-    // Warnings that there are: which go on, which ended, which came back.
+    // Updates old warnings: crossings go on, end, or come back.
     for (Said& said : said_) {
         const bool isOn = edges.count({said.first, said.second}) > 0;
         if (said.isOn) said.until = start;
@@ -80,7 +80,7 @@ void ContactReport::look(const ContactStage& stage, double start) {
         if (!isOn || said.isOn) edges.erase({said.first, said.second});
         said.isOn = isOn;
     }
-    // What is left began in this tick.
+    // The remaining crossings began in this tick.
     for (const auto& [names, crossed] : edges) {
         const std::string &first = names.first, &second = names.second;
         auto said = std::find_if(said_.begin(), said_.end(),

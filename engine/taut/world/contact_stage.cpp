@@ -12,11 +12,11 @@
 namespace taut::world {
 namespace {
 
-constexpr double longestInstant = 1.1e-3;  // [s] in which anything touches
-constexpr int mostInstantsForSpeed = 64;   // of a tick, for what is fast
-// Of the thickness, in an instant.
-constexpr double mostDeformation = 4.0;  // of leaves in a tick without contact, in the mean
-constexpr double mostClosing = 0.35;     // of a pair
+constexpr double longestInstant = 1.1e-3;  // [s] of a tick with contact
+constexpr int mostInstantsForSpeed = 64;   // in a tick, for fast motion
+// In one instant, as shares of the thickness:
+constexpr double mostDeformation = 4.0;  // mean deformation of leaves, in a tick without contact
+constexpr double mostClosing = 0.35;     // closing of a pair
 
 using Clock = std::chrono::steady_clock;  // for reports only
 
@@ -112,7 +112,7 @@ double ContactStage::facePenetration(const std::function<bool(const Body&)>& wan
                                   [&](int surface) { return isOfBody(surface) && wanted(bodyOf(surface)); });
 }
 
-// Tells the elements which triangles and edges damage has removed since the last time.
+// Takes over which triangles and edges damage has removed since the last time.
 void ContactStage::takeDamage() {
     bool isOther = false;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
@@ -154,7 +154,7 @@ int ContactStage::commonSubsteps() const {
     return std::max(common, 1);
 }
 
-// How many instants bodies with these surfaces need while they press. Whatever else is in the group has no say.
+// How many instants bodies with these surfaces need while they press. The rest of the group does not matter.
 int ContactStage::instantsFor(std::span<const int> surfaces) const {
     int needed = 1;
     for (int s : surfaces)
@@ -172,8 +172,8 @@ int ContactStage::mostInstants() const {
     return most;
 }
 
-// Makes the islands' substeps a multiple of the pace, and returns the number of instants: needed, or a few more, so
-// that it divides all substeps.
+// Makes the islands' substeps a multiple of the pace. Returns the number of instants: `needed`, or a few more so that
+// it divides all substeps.
 int ContactStage::takeInstants(const TickTime& time, int needed) {
     if (pace_.isExceededBy(needed)) pace_.shorten(needed);
     for (Island* island : islands_) island->takeParts(time, pace_.substeps());
@@ -183,16 +183,16 @@ int ContactStage::takeInstants(const TickTime& time, int needed) {
     return instants;
 }
 
-// How many instants the tick is to have. Negative: it is a trial, in which nothing should touch.
+// The number of instants of the tick. Negative: for a trial, in which nothing should touch.
 int ContactStage::chooseInstants(const TickTime& time) {
     if (spec_.instants) return takeInstants(time, *spec_.instants);
     const contact::Forecast forecast = group_->forecast(x1_, v_, inverseMass_, 1.0 / time.ticksPerSecond / fewest_);
-    // Doubles until a motion of that speed goes no further than `way` in an instant.
+    // Doubles instants until a motion of that speed goes at most `way` in one.
     const auto enough = [&](int instants, double speed, double way) {
         while (instants < mostInstantsForSpeed && tickSeconds_ * speed > instants * way) instants *= 2;
         return instants;
     };
-    // Nothing touches: what is cheapest for the broad phase.
+    // No contact: the cheapest number for the broad phase.
     if (!forecast.isInContact) {
         const int common = commonSubsteps();
         return -takeInstants(time, std::min(common, enough(1, forecast.deformationRate, mostDeformation)));
@@ -201,7 +201,7 @@ int ContactStage::chooseInstants(const TickTime& time) {
                                      mostClosing * forecast.leastThickness));
 }
 
-// Brings damage, masses, colliders and places up to date.
+// Updates damage, masses, colliders and places.
 void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotion> moving) {
     for (Island* island : islands_) {
         island->takeParts(time, pace_.substeps());
@@ -228,14 +228,15 @@ void ContactStage::beginTick(const TickTime& time, std::span<const ColliderMotio
 std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, std::span<const ColliderMotion> moving) {
     beginTick(time, moving);
 
-    // Crossings, and how many instants. An island that keeps its step needs the most there can be from the first tick.
+    // Crossings, and the number of instants. An island that keeps its step needs the largest number from the first
+    // tick.
     const auto start = Clock::now();
     group_->begin(x1_);
     if (islands_.front()->keepsStep()) takeInstants(time, mostInstants());
     int instants = chooseInstants(time);
     total_.seconds += secondsSince(start);
 
-    // Tries, until one stands.
+    // Tries until one stands.
     for (;;) {
         std::vector<std::optional<Fault>> faults(islands_.size());
         for (Island* island : islands_) island->beginTry();
@@ -246,7 +247,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         const bool isCoarse = tryTick(time, moving, instants_, faults, isTrial);
         std::vector<TickVerdict> verdicts(islands_.size(), TickVerdict::stands);
 
-        // Does it stand? Each island has a say, and one that diverged may be frozen: the others go on beside it.
+        // Judges the try. Each island has a say. If one diverged it may be frozen, and the others go on beside it.
         bool isAgain = isCoarse;
         for (std::size_t k = 0; k < islands_.size(); ++k) {
             if (isCoarse) continue;
@@ -264,7 +265,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
         }
         if (!isAgain) break;
 
-        // Back to the start of the tick, and a new number of instants.
+        // Goes back to the start of the tick and chooses a new number of instants.
         for (std::size_t k = 0; k < islands_.size(); ++k) islands_[k]->tryAgain(time, verdicts[k]);
         std::swap(x0_, x1_);
         readAll();
@@ -274,7 +275,7 @@ std::optional<ContactStage::Outcome> ContactStage::tick(const TickTime& time, st
                             : chooseInstants(time);
     }
 
-    // The tick ends.
+    // Ends the tick.
     for (Island* island : islands_) island->endTick(time);
     reportAccelerations();
     pace_.lengthenIfCalm(islands_.front()->keepsStep() ? mostInstants() : instants_);
@@ -288,20 +289,20 @@ bool ContactStage::movesAny() const {
         islands_.begin(), islands_.end(), [](const Island* island) { return !island->frozen(); });
 }
 
-// Whether an instant was too long for what it found: in a trial any impulse, else a pair that went too deep or had to
-// be slid apart. Where nothing moves, shorter instants would find the same.
+// Whether an instant was too long for its result: in a trial any impulse, else a pair that went too deep or had to be
+// slid apart. If no island moves, shorter instants would find the same.
 bool ContactStage::isTooCoarse(bool isTrial) const {
     if (spec_.instants || !movesAny()) return false;
     if (instants_ < instantsFor(result_.surfaces) || (isTrial && result_.impulses > 0)) return true;
     return instants_ < mostInstantsForSpeed && (result_.deepest > mostClosing || result_.slides > 0);
 }
 
-// One try at the tick. Returns true, early, if it needs more instants. Ends early on a fault too.
+// One try of the tick. Returns true, early, if it needs more instants. Also ends early on a fault.
 bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion> moving, int instants,
                            std::vector<std::optional<Fault>>& faults, bool isTrial) {
     const double h = tickSeconds_ / instants;
     for (int c = 0; c < instants; ++c) {
-        // The islands move alone.
+        // The islands move without contact.
         std::swap(x0_, x1_);
         core::parallelFor(
             static_cast<int>(islands_.size()),
@@ -313,7 +314,7 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
         if (std::any_of(faults.begin(), faults.end(), [](const auto& fault) { return fault.has_value(); }))
             return false;
 
-        // Contact at the end of it.
+        // Contact at the end of the instant.
         readAll();
         colliders_.place(static_cast<double>(c + 1) / instants, x1_);
         resolveInstant(h);
@@ -324,7 +325,7 @@ bool ContactStage::tryTick(const TickTime& time, std::span<const ColliderMotion>
     return false;
 }
 
-// One instant of contact, h [s] after the last.
+// Resolves one instant of contact, h [s] after the last.
 void ContactStage::resolveInstant(double h) {
     kinematic_.clear();
     for (const Part& part : parts_)
@@ -338,7 +339,7 @@ void ContactStage::resolveInstant(double h) {
     instant.v = v_;
     instant.inverseMass = inverseMass_;
     instant.kinematic = kinematic_;
-    // Islands place the points that contact moved, and say where they came to be.
+    // Islands place the points that contact moved and return where these came to be.
     instant.place = [&](std::span<const int> points) {
         std::vector<int> own;
         std::vector<dvec3> x, v;
@@ -373,7 +374,7 @@ void ContactStage::resolveInstant(double h) {
     total_.uncertified += result_.uncertified;
 }
 
-// Constraints inside islands share out what contact gave their points, which moves others too.
+// Constraints inside islands share the changes by contact, which moves further points.
 void ContactStage::settle() {
     for (const Part& part : parts_) {
         if (!part.island->settle()) continue;
@@ -382,7 +383,7 @@ void ContactStage::settle() {
     }
 }
 
-// Whether contact gave a point a place or velocity that is no number, or too fast: a fault of its island.
+// Whether contact gave a point a place or velocity that is not finite or too fast: a fault of its island.
 bool ContactStage::findFaults(double t, std::vector<std::optional<Fault>>& faults) const {
     bool areAny = false;
     for (int i : result_.moved) {
@@ -398,7 +399,7 @@ bool ContactStage::findFaults(double t, std::vector<std::optional<Fault>>& fault
     return areAny;
 }
 
-// Tells the islands what accelerations contact gave their points in the last instant.
+// Gives the islands the accelerations by contact in the last instant.
 void ContactStage::reportAccelerations() {
     const double h = tickSeconds_ / instants_;
     std::vector<ContactAcceleration> accelerations;

@@ -49,8 +49,8 @@ void loosen(WorldImpl& w, const std::string& holder, bool isCollider) {
     }
 }
 
-// What they hold starts anew when their speed changes: the extrapolated velocities
-// and stored accelerations of methods know nothing of it.
+// Islands start again when a hand changes its speed, because extrapolated velocities and stored accelerations of
+// methods do not contain the change.
 void leadHands(WorldImpl& w) {
     for (Hand& hand : w.hands) {
         const collision::Pose from = hand.poseAt(w.tick), to = hand.poseAt(w.tick + 1);

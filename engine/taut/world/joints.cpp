@@ -52,7 +52,7 @@ std::string warningOf(const JointReport& report) {
                    : ": other bodies are nearer");
 }
 
-// Of a weld that moves points further than a cell; else empty.
+// Warns of a weld that moves points further than a cell; else empty.
 std::string jumpWarning(const JointReport& report) {
     double cell = HUGE_VAL;
     for (const auto& [a, b, points] : report.pairs) cell = std::min({cell, shortestEdge(*a), shortestEdge(*b)});

@@ -1,6 +1,6 @@
 #include "taut/spec/kinds.h"
 
-// A line a kind, in the order of the manual: the function that returns its row, in a file of its own.
+// One line for each kind, in the order of the manual: the function that returns its row, in a file of its own.
 #define TAUT_BODIES(KIND) \
     KIND(clothKind)       \
     KIND(ropeKind)        \

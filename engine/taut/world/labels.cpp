@@ -8,9 +8,9 @@
 namespace taut::world {
 namespace {
 
-// In sizes of the type.
+// In text sizes.
 constexpr float lift = 0.75F;       // of the lowest line above the body
-constexpr float lineHeight = 1.3F;  // from line to line
+constexpr float lineHeight = 1.3F;  // distance of lines
 constexpr float statusSize = 0.8F;  // of the second line
 const glm::vec3 alarm(1.0F, 0.4F, 0.32F);
 
@@ -18,7 +18,7 @@ view::Align alignOf(Align align) {
     return align == Align::left ? view::Align::left : align == Align::right ? view::Align::right : view::Align::centre;
 }
 
-// Above the points that are held, for they do not swing; above all of them if none is.
+// The place above the held points, which do not swing; above all points if none is held.
 glm::vec3 placeAbove(const LabelSubject& subject) {
     dvec3 low(1e300), high(-1e300);
     const std::vector<bool> isHeld = heldPointsOf(subject.island->plan());

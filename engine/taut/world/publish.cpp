@@ -14,7 +14,7 @@ namespace taut::world {
 namespace {
 
 constexpr float frozenDullness = 0.93F;
-constexpr double fullStrain = 0.02;  // strain that the debug view draws in full colour
+constexpr double fullStrain = 0.02;  // strain that the debug view shows in full colour
 
 // Blue when compressed, grey at rest, red when stretched.
 glm::vec3 strainColour(double strain) {
@@ -27,7 +27,7 @@ void addMarks(const Island& island, view::Marks& marks) {
     const IslandPlan& plan = island.plan();
     for (std::size_t i = 0; i < plan.springs.size(); ++i) {
         const mechanics::Spring& s = plan.springs[i];
-        if (s.kind == mechanics::SpringKind::bend || plan.broken[i]) continue;  // bend: on top of the structural ones
+        if (s.kind == mechanics::SpringKind::bend || plan.broken[i]) continue;  // bend: would cover structural ones
         const dvec3 a = island.position(s.a), b = island.position(s.b);
         const double l = std::sqrt(glm::dot(b - a, b - a));
         marks.lines.push_back(
@@ -45,7 +45,7 @@ void addMarks(const Island& island, view::Marks& marks) {
         marks.dots.push_back({glm::vec3(contact.position), glm::vec3(0.1F, 0.85F, 0.2F), 2.5F});
 }
 
-// Between bodies: what presses, with a line as long as both keep apart, and what goes through what.
+// Marks contact between bodies: pressing pairs by a line as long as their distance, and crossings.
 void addTouchMarks(WorldImpl& w, view::Marks& marks) {
     const glm::vec3 pressing(0.05F, 0.75F, 0.95F), crossing(1.0F, 0.0F, 0.1F);
     for (const BodyContact& c : w.contactReport.contacts()) {
@@ -73,7 +73,7 @@ view::Lamp lampOf(const LampSpec& spec) {
             spec.shadow};
 }
 
-// Where it will be if it goes on as in the tick before.
+// The pose if it goes on as in the previous tick.
 collision::Pose poseAhead(const Placement& placement, double ticks) {
     const auto& [from, to, moved] = placement;
     if (ticks == 0.0 || (from.position == to.position && from.rotation == to.rotation)) return to;
@@ -88,16 +88,16 @@ std::vector<dvec3> placesAhead(const Island& island, double ahead) {
     island.read(x, v);
     if (ahead == 0.0) return x;
     for (std::size_t i = 0; i < x.size(); ++i)
-        if (std::isfinite(glm::dot(v[i], v[i]))) x[i] += ahead * v[i];  // not of what is held, whose mass is infinite
+        if (std::isfinite(glm::dot(v[i], v[i]))) x[i] += ahead * v[i];  // v of held points may be infinite
     return x;
 }
 
-// What joints look like. What is between bodies is as far as they are.
+// Draws ties of joints. Ties between bodies are extrapolated with them.
 void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
     const auto isDrawn = [](const auto& drawing) { return drawing != nullptr; };
     if (std::none_of(w.drawings.begin(), w.drawings.end(), isDrawn)) return;
     std::map<std::string, glm::mat4> poses;  // of the colliders
-    std::map<std::string, int> count;        // of ties so far, by the name of what is drawn
+    std::map<std::string, int> count;        // number of ties so far, by name of the drawing
     w.registry.each<Identity, Placement>([&](ecs::Entity, const Identity& identity, const Placement& placement) {
         poses.emplace(identity.fullName(), matrixOf(poseAhead(placement, ahead * w.ticksPerSecond)));
     });
@@ -118,12 +118,13 @@ void addTies(const WorldImpl& w, double ahead, view::FrameView& view) {
     }
 }
 
-// What a picture is made of but labels and marks. Bodies go into `drawn`, in order.
+// The contents of a picture without labels and marks. Puts bodies into `drawn`, in order.
 view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& drawn) {
     const double time = w.seconds() + ahead;
     view::FrameView view;
     view.frame = w.tick / w.ticksPerFrame;
     view.time = time;
+    // Light and background, then the camera.
     view.light = lightOf(w.spec.light);
     if (const EnvironmentSpec& around = w.spec.environment; !around.image.empty())
         view.environment = view::Environment{around.image, static_cast<float>(around.strength),
@@ -138,6 +139,7 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
         view.camera = cameraAt(part.spec, time);
         chosen = true;
     });
+    // Colliders; the first visible level plane is the ground.
     w.registry.each<ColliderPart, Placement>([&](ecs::Entity, const ColliderPart& part, const Placement& placement) {
         const collision::Pose pose = poseAhead(placement, ahead * w.ticksPerSecond);
         if (part.spec.visible && part.model->isGround && !view.ground) {
@@ -149,7 +151,8 @@ view::FrameView sceneOf(const WorldImpl& w, double ahead, std::vector<Body*>& dr
             view.surfaces.push_back({part.spec.name, piece.mesh.topology, piece.mesh.geometry, piece.finish,
                                      matrixOf(pose) * piece.transform, part.spec.shape == "plane"});
     });
-    std::map<const Island*, std::vector<dvec3>> places;  // of islands that have been met, where they are asked for
+    // Bodies, dulled if frozen.
+    std::map<const Island*, std::vector<dvec3>> places;  // of the islands so far, if extrapolated
     for (const WorldImpl::Member& member : w.bodies) {
         const BodyPart& part = *w.registry.find<BodyPart>(member.entity);
         const Island& island = islandOf(*part.body);

@@ -1,4 +1,4 @@
-// What is asked of a world while it stands still between two ticks.
+// Questions to a world between two ticks.
 #include <algorithm>
 #include <map>
 #include <set>

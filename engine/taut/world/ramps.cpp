@@ -28,7 +28,7 @@ void applyRamps(WorldImpl& w, double moment, fields::Affects which) {
     }
 }
 
-// Whether one of them may be different in the coming tick from what it was in the one before.
+// Whether any of these fields may differ in the coming tick from the previous one.
 bool isRamping(const WorldImpl& w, fields::Affects which) {
     return std::any_of(
         w.ramps.begin(), w.ramps.end(),
@@ -37,7 +37,7 @@ bool isRamping(const WorldImpl& w, fields::Affects which) {
 
 }  // namespace
 
-// Gravity, flows and places change evenly during the tick; all else stays at its value in the middle.
+// Gravity, flows and places change evenly during the tick. All other values are those of its middle.
 void changeForces(WorldImpl& w) {
     if (!isRamping(w, fields::Affects::forces)) return;
     const auto forcesAt = [&](double moment) {
@@ -82,7 +82,7 @@ void changeColliders(WorldImpl& w) {
     rebuildColliders(w);
 }
 
-// What only a picture shows has its value at the time of the picture.
+// Fields that only a picture shows have their value at the time of the picture.
 void changePicture(WorldImpl& w) {
     if (w.ramps.empty()) return;
     applyRamps(w, static_cast<double>(w.tick), fields::Affects::picture);

@@ -1,4 +1,4 @@
-// The generation of results. Files that keep results, or go on from them, carry it. It knows no file.
+// The generation of results. Files with results carry it, and so do files from which runs go on. It knows no file.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 
 namespace taut::world {
 
-// A commit that changes what any scene computes, even in the last bit, raises it by one. Results without a number were
-// recorded by bits 1.
+// A commit that changes any result of any scene, even in the last bit, raises it by one. Results without this number
+// come from bits 1.
 inline constexpr int resultBits = 5;
 
-inline constexpr int mostBits = 999'999'999;  // 1 … this: anything else is no such number
+inline constexpr int mostBits = 999'999'999;  // valid numbers are 1 … this
 
 constexpr bool areBits(std::int64_t number) {
     return number >= 1 && number <= mostBits;

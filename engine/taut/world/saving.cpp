@@ -12,7 +12,7 @@
 namespace taut::world {
 namespace {
 
-// Ways in ticks: none takes longer than any run.
+// Longest way, in ticks. No run is longer.
 constexpr std::int64_t longestWay = std::int64_t{1} << 40;
 
 void visitWay(StateBytes& bytes, std::int64_t& start, std::int64_t& length, Ease& ease) {
@@ -21,7 +21,7 @@ void visitWay(StateBytes& bytes, std::int64_t& start, std::int64_t& length, Ease
     bytes.choice(ease, Ease::hold);
 }
 
-// Before the bytes of a hand that is turned; no length of a name, with which all others begin.
+// Marks a hand that is turned. No name, with which all other hands begin, has such a length.
 constexpr std::uint64_t turnMark = 0xfff8'7461'7574'0003ULL;
 
 void visitPart(StateBytes& bytes, Hand& hand) {
@@ -39,14 +39,14 @@ void visitPart(StateBytes& bytes, PoseMove& move) {
     visitWay(bytes, move.start, move.length, move.ease);
 }
 
-// As many numbers as the field has.
+// Expects as many numbers as the field has.
 void visitValue(StateBytes& bytes, std::vector<double>& value, std::size_t size) {
     bytes.list(value);
     bytes.require(value.size() == size &&
                   std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); }));
 }
 
-// Its field is that of any action of the scene with the same key. Reading writes the value as it was into the scene.
+// The field is that of any action of the scene with the same key. Reading writes the saved value into the scene.
 void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, std::span<const RampAction> applied,
                SceneSpec& spec) {
     std::string key = ramp.action.key;
@@ -70,7 +70,7 @@ void visitPart(StateBytes& bytes, Ramp& ramp, const SceneSpec& start, std::span<
     if (bytes.isReading()) ramp.action.field->write(spec, now);
 }
 
-// Before the number of bits; no frame rate either.
+// Marks the number of bits; no frame rate has this value.
 constexpr std::uint64_t bitsMark = 0xfff8'7461'7574'0002ULL;  // a NaN
 
 void visitBits(StateBytes& bytes) {
@@ -80,13 +80,13 @@ void visitBits(StateBytes& bytes) {
     if (number != resultBits) throw core::Error(core::ErrorKind::badContent, "this state was " + recordedBy(number));
 }
 
-// Before the bytes of a world with kinds of its own; no frame rate, with which all others begin.
+// Marks a world with kinds of its own. No frame rate, with which all others begin, has this value.
 constexpr std::uint64_t ownKindsMark = 0xfff8'7461'7574'0001ULL;  // a NaN
 
-// Before what bodies that touch were seen to do; no number of islands, which comes without it.
+// Marks the report of touching bodies. Without it the number of islands comes here, which has no such value.
 constexpr std::uint64_t touchMark = 0xfff8'7461'7574'0004ULL;
 
-// The kinds of actions that are not of the engine, of those that begin before the tick: "action shake".
+// The kinds of actions that are not of the engine and begin before the tick: "action shake".
 std::vector<std::string> ownActions(const SceneSpec& scene, std::int64_t tick) {
     const Ticks ticks(scene.run);
     std::vector<std::string> names;
@@ -97,7 +97,7 @@ std::vector<std::string> ownActions(const SceneSpec& scene, std::int64_t tick) {
 }
 
 // What a world has that is not of the engine: "force attraction.well", "body ring.hoop", "method mine", "shape torus",
-// and of actions those until now.
+// and the actions so far.
 std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added,
                                   const std::vector<std::unique_ptr<Island>>& islands, std::int64_t tick) {
     static const Kinds known = builtIn();
@@ -120,7 +120,7 @@ std::vector<std::string> ownKinds(const SceneSpec& scene, const ForceList& added
     return names;
 }
 
-// So that a world without them refuses the bytes by name; `actions` are all that its timeline has.
+// Lets a world without these kinds refuse the bytes by name. `actions`: all that its timeline has.
 void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const std::vector<std::string>& actions) {
     std::vector<std::string> names;
     if (bytes.mark(ownKindsMark, !own.empty())) {
@@ -140,6 +140,7 @@ void visitKinds(StateBytes& bytes, const std::vector<std::string>& own, const st
 }  // namespace
 
 void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied) {
+    // What has to agree, then the tick.
     visitBits(bytes);
     visitKinds(bytes, ownKinds(w.spec, w.added, w.islands, w.tick), ownActions(w.spec, longestWay));
     double rate = w.ticksPerSecond;
@@ -147,6 +148,7 @@ void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied)
     if (rate != w.ticksPerSecond) misfit("its frame rate is another");
     bytes.atLeast(w.tick, 0, longestWay);
     bytes(w.hash);
+    // Ramps, spawned bodies, hands and colliders.
     bytes.each(w.ramps, [&](Ramp& ramp) { visitPart(bytes, ramp, *w.start, applied, w.spec); });
     if (bytes.isReading()) takeRampedParts(w);
     std::vector<std::string> targets = w.spawned;
@@ -163,6 +165,7 @@ void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied)
         bytes(placement.moved);
         bytes.optional(part.move, [&](PoseMove& move) { visitPart(bytes, move); });
     });
+    // Contact between bodies.
     if (bytes.mark(touchMark, w.contactReport.isWorthSaving())) {
         const std::vector<Body*> all = bodiesOf(w);
         w.contactReport.visit(bytes, std::vector<const Body*>(all.begin(), all.end()));
@@ -174,7 +177,7 @@ void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied)
     auto count = static_cast<std::uint64_t>(w.islands.size());
     bytes(count);
     if (count != w.islands.size()) misfit("its bodies hang together in another way");
-    // What ramps have made of the bodies, for the next one that takes an island's springs from them.
+    // Applies ramps to the bodies, for the next ramp that takes an island's springs from them.
     const bool ramped = std::any_of(w.ramps.begin(), w.ramps.end(), [](const Ramp& ramp) {
         return ramp.action.field->affects == fields::Affects::springs;
     });

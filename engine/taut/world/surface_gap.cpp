@@ -13,7 +13,7 @@
 namespace taut::world {
 namespace {
 
-// Its points numbered from `offset` on as in its model, whatever they are in the island.
+// The surface with the body's model numbers plus `offset`, whatever the island numbers.
 contact::ContactSurface loneSurface(const Body& body, int offset, int bond) {
     contact::ContactSurface surface = surfaceOf(body, 0, bond);
     std::vector<int> own;
@@ -110,7 +110,7 @@ bool SurfaceGap::cross(const std::vector<bool>& first, const std::vector<bool>& 
     return false;
 }
 
-// Of sides without a body in common.
+// Expects sides without a common body.
 double SurfaceGap::distance(const std::vector<bool>& first, const std::vector<bool>& second) {
     if (!any(first) || !any(second)) return std::numeric_limits<double>::infinity();
     if (cross(first, second)) return 0;
@@ -119,7 +119,7 @@ double SurfaceGap::distance(const std::vector<bool>& first, const std::vector<bo
         [&](int s) { return second[static_cast<std::size_t>(s)]; });
 }
 
-// What is on both sides is measured against the others, one at a time.
+// Bodies on both sides are measured against the others, one at a time.
 double SurfaceGap::least(std::vector<bool> first, const std::vector<bool>& second) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
@@ -138,7 +138,7 @@ double SurfaceGap::measure() {
     return least(isFirst_, isSecond_);
 }
 
-// Those of one thickness against those of another.
+// Compares the surfaces of one thickness with those of another.
 bool SurfaceGap::areNear() {
     look();
     const auto thickness = [&](std::size_t s) { return elements_->surface(static_cast<int>(s)).thickness; };

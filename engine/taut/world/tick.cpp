@@ -11,7 +11,7 @@
 namespace taut::world {
 namespace {
 
-// Everything as it was when the tick began.
+// Returns to the state at the start of the tick.
 void undoTick(WorldImpl& w) {
     for (const auto& island : w.islands) island->undoTick();
     w.registry.each<Placement>([](ecs::Entity, Placement& placement) { placement.to = placement.from; });
@@ -77,7 +77,7 @@ bool touchesAny(const WorldImpl& w) {
 }
 
 void makeContactStage(WorldImpl& w) {
-    // What a cut bares is surface from then on.
+    // The faces that a cut bares are surface from now on.
     std::size_t gone = 0;
     for (const auto& island : w.islands)
         if (touches(island->plan()))

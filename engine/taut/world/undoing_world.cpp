@@ -9,7 +9,7 @@
 namespace taut::world {
 namespace {
 
-// True while it lives.
+// Sets a flag while it lives.
 struct Flag {
     bool& is;
     explicit Flag(bool& flag) : is(flag) { is = true; }
@@ -47,7 +47,7 @@ World UndoingWorld::made(const Added& added) const {
     return fresh;
 }
 
-// A world begins with an evaluation of its forces, of which the state that it goes to leaves nothing.
+// Making a world evaluates its forces, which leaves no trace in the state that is read.
 void UndoingWorld::goTo(std::span<const std::byte> state, Added added) {
     const Flag isGoing(*isGoingBack_);
     World fresh = made(added);
@@ -68,7 +68,7 @@ bool UndoingWorld::mayThrow() const {
 template <class Doing>
 auto UndoingWorld::orUndo(Doing&& doing) {
     isUntouched_ = false;
-    if (isTicking_) return doing();  // what throws ends the tick, which is undone
+    if (isTicking_) return doing();  // a throw ends the tick, which is then undone
     const std::vector<std::byte> before = world_.save();
     const Added added = added_;
     try {
@@ -134,7 +134,7 @@ void UndoingWorld::addForce(CallbackSpec spec) {
             added_.lateForces.push_back(force);
         });
     Added added = added_;
-    World(spec_, added.options).addForce(force);  // refuses what it has to
+    World(spec_, added.options).addForce(force);  // it refuses what is not allowed
     added.options.forces.push_back(force);
     world_ = made(added);
     added_ = std::move(added);

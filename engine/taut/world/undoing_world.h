@@ -1,10 +1,10 @@
-// A world for programs whose forces and systems may throw: what throws in the middle of a tick, or of an action, has
-// not happened. It knows no language.
+// A world for programs whose forces and systems may throw. If one throws in the middle of a tick or an action, the
+// world returns to the state before. It knows no language.
 //
-// It goes back by another world that is made of the same scene and reads what save() wrote. Between its start and where
-// a tick throws, actions, ramps and tears may have changed all that a world has: who is there, plans, networks, methods
-// and forces of islands, the fields of the scene. save() lists that once, as what differs from the scene; memories as
-// values, such as IslandMemory of what a tick does to an island whose plan stays, would list it a second time.
+// It goes back through another world, made of the same scene, that reads what save() wrote. A tick that throws may have
+// changed all that a world has: its bodies, plans, networks, methods, forces, the fields of the scene. save() lists all
+// this in one place, as differences from the scene. Keeping values instead, such as IslandMemory for an island with an
+// unchanged plan, would need a second list.
 #pragma once
 
 #include <memory>
@@ -23,43 +23,44 @@ namespace taut::world {
 
 class UndoingWorld {
   public:
-    // Of such a scene and such options, as World has them.
+    // Scene and options as for World.
     explicit UndoingWorld(SceneSpec spec, Options options = {});
     UndoingWorld(const UndoingWorld&) = delete;
     UndoingWorld& operator=(const UndoingWorld&) = delete;
 
-    // To be asked. What changes it goes through the functions below: what they know is all that is made anew. What it
-    // refers to is gone after each of them that throws or restores.
+    // For questions only. Changes go through the functions below, because they know all that has to be made anew.
+    // References into the world are invalid after any of them throws or restores.
     const World& world() const { return world_; }
     const SceneSpec& spec() const { return spec_; }
     bool isTicking() const { return isTicking_; }  // a force or a system is asking
 
-    // As World's. What a force, a system or an action throws passes through, and everything is as it was before. So
-    // that it can be, the state is kept before each tick that has callbacks or actions, which costs what save() costs.
+    // As in World. Passes on what a force, a system or an action throws; everything is then as it was before. For that
+    // it keeps the state before each tick that has callbacks or actions, at the cost of a save().
     std::optional<Divergence> advance();
-    // Between two ticks or from a system, where it throws core::Error(usage) for the move of a collider.
+    // To be called between two ticks. A system may call it too, but core::Error(usage) is thrown for the move of a
+    // collider.
     void apply(const ActionSpec& action);
-    // Leads a collider to where it is at the end of the coming tick, or, from a system, of this one: it sweeps what is
-    // in its way. Throws core::Error(usage) for one that is not there.
+    // Moves a collider to its pose at the end of the coming tick; if a system calls, of this tick. It sweeps what is in
+    // its way. Throws core::Error(usage) for an unknown collider.
     void place(const std::string& collider, const collision::Pose& pose);
-    collision::Pose poseOf(const std::string& collider) const;  // throws the same
+    collision::Pose poseOf(const std::string& collider) const;  // throws for an unknown collider too
 
-    // As World::addForce() does. Before the first tick steps are chosen anew, with the force in mind. While a world is
-    // made that goes back to a state, its functions are not asked.
+    // As World::addForce(). Before the first tick it chooses the steps anew, with the force in mind. The force's
+    // functions are not called while a world is made to go back to a state.
     void addForce(CallbackSpec force);
     void addSystem(World::System system, const std::string& callback);
 
-    // The state of any tick, of a world with the same scene, forces and systems; what does not fit throws and changes
-    // nothing. Expects that it is not ticking.
+    // Goes to the state of any tick of a world with the same scene, forces and systems. Bytes that do not fit throw and
+    // change nothing. Expects that it is not ticking.
     void restore(std::span<const std::byte> bytes, std::vector<RampAction> applied = {});
-    // Ramps that apply() began, of each key the last, which restore() has to be told.
+    // The ramps that apply() has started, for each key the last. restore() needs them.
     const std::vector<RampAction>& applied() const { return added_.ramps; }
 
   private:
-    // What is not in the scene.
+    // Additions to the scene.
     struct Added {
         Options options;
-        std::vector<std::shared_ptr<const Force>> lateForces;  // after the first tick
+        std::vector<std::shared_ptr<const Force>> lateForces;  // added after the first tick
         std::vector<std::pair<World::System, std::string>> systems;
         std::vector<RampAction> ramps;
     };
@@ -71,9 +72,9 @@ class UndoingWorld {
 
     SceneSpec spec_;
     Added added_;
-    bool isUntouched_ = true;  // neither a tick nor an action
+    bool isUntouched_ = true;  // no tick and no action yet
     bool isTicking_ = false;
-    std::shared_ptr<bool> isGoingBack_ = std::make_shared<bool>(false);  // forces ask nobody meanwhile
+    std::shared_ptr<bool> isGoingBack_ = std::make_shared<bool>(false);  // forces call no function meanwhile
     World world_;
 };
 

@@ -58,7 +58,7 @@ double World::time() const {
 
 std::optional<Divergence> World::advance() {
     WorldImpl& w = *impl_;
-    // What acts between two ticks, systems as well as actions; then the islands that it opened start again.
+    // Performs actions and systems between two ticks. Then the islands that they opened start again.
     performDue(*this);
     changeColliders(w);
     placeColliders(w);
@@ -96,7 +96,7 @@ void World::addForce(std::shared_ptr<const Force> force) {
     for (const auto& island : w.islands) {
         if (island->frozen() != nullptr) continue;
         island->setForces(w.now(), current);
-        island->change(w.now(), Change::points);  // so that its step is held against the limit as it is now
+        island->change(w.now(), Change::points);  // so that its step is checked against the present limit
     }
 }
 void World::addSystem(System system, const std::string& callback) {

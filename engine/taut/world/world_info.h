@@ -1,4 +1,4 @@
-// What a world tells about its bodies, their points and its joints. It does not know the world.
+// What a world reports of its bodies, points and joints. It does not know the world.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@ namespace taut::world {
 
 struct Body;
 
-// Points of a target at a published tick, velocities synchronised; body by body, in the order of authoring.
+// The points of a target at a published tick, velocities synchronised: body by body, in the order of authoring.
 struct PointsNow {
     std::vector<glm::dvec3> x, v;  // (points) [m], [m/s]
     std::vector<double> mass;      // (points) [kg]
 };
 
-// The points that KIND.NAME@SELECTOR names in a world; without @SELECTOR all points. World::select() finds them once,
+// The points that KIND.NAME@SELECTOR names in a world; all points without @SELECTOR. World::select() finds them once
 // for many queries.
 struct Selection {
     struct Part {
@@ -27,7 +27,7 @@ struct Selection {
     std::int64_t generation = 0;  // of the world's bodies
 };
 
-// A body's part of the state hash: it shows which bodies differ.
+// A body's part of the state hash, which shows which bodies differ.
 struct BodyHash {
     std::string name;  // "cloth.flag"
     std::uint64_t hash = 0;
@@ -35,17 +35,17 @@ struct BodyHash {
 
 // What a joint of the scene ties together.
 struct JointInfo {
-    std::string a, b;  // as the scene names the points
+    std::string a, b;  // points, as the scene names them
     std::string name;  // empty: none
     std::string kind;  // "weld"
     int number = 0;    // in the scene
     struct Pair {
         std::string a, b;  // "block.plank0"; b may be a collider
-        int points = 0;    // of the first that are tied to the second
+        int points = 0;    // of the first body that are tied to the second
     };
     std::vector<Pair> pairs;
-    int left = 0;                    // of all points, how many it ties still
-    double jump = 0;                 // [m] of a weld: the furthest that it moves a point when it is made
+    int left = 0;                    // number of points that it still ties
+    double jump = 0;                 // [m] for a weld: largest way that it moves a point when it is made
     std::vector<std::string> loose;  // bodies that it names but does not tie
 };
 

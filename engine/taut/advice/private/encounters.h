@@ -1,4 +1,4 @@
-// Bodies that will pass through each other, since one of them touches nothing: found by a look ahead.
+// Looks ahead for bodies that will pass through each other because one of them touches nothing.
 #pragma once
 
 #include <set>
@@ -11,12 +11,12 @@ struct SceneSpec;
 
 struct Encounters {
     std::set<std::pair<std::string, std::string>> pairs;  // "cloth.flag", each in the order of the state hash
-    double seen = 0;                                      // [s] of the scene, all of it or as much as is cheap
+    double seen = 0;                                      // [s] of the scene: all of it, or as much as is cheap
 };
 
-// Pairs of bodies, of different islands, that do not both touch and come into each other's way: the scene is played
-// with its timeline and colliders as if all touched, for about so many nanoseconds at most, and who presses on whom, or
-// is found in another, is kept. Bodies that start in each other pass through each other meanwhile.
+// Pairs of bodies of different islands that meet and do not both touch. Plays the scene, with its timeline and
+// colliders, as if all bodies touched, for at most about `most` nanoseconds. Keeps who presses on whom or is found in
+// another. Bodies that start inside each other pass through each other meanwhile.
 Encounters encounters(const SceneSpec& scene, double most = 1e9);
 
 }  // namespace taut::world

@@ -1,5 +1,5 @@
-// Where a sheet or a block that can tear or yield is held or loaded at a single point: the strain beside it grows as
-// the cells shrink, so that what happens there depends on them.
+// Finds sheets and blocks that can tear or yield and are held or loaded at a single point. The strain beside such a
+// point grows as the cells shrink, so the result depends on the cells.
 #pragma once
 
 #include <set>
@@ -13,9 +13,9 @@ class World;
 
 class Pins {
   public:
-    // Looks at the world as it is now: what is held, grabbed, tied, or weighed down by a mass of the scene.
+    // Looks at the present world: points that are held, grabbed, tied, or weighed down by a mass of the scene.
     void look(World& world);
-    // One for each body that was found so, in the order of finding.
+    // One for each body found, in the order of finding.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:

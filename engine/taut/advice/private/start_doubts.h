@@ -8,8 +8,8 @@ namespace taut::world {
 
 class World;
 
-// Winds no storm has, cameras inside colliders, bodies that start overstretched, steps without number, and all that
-// touchDoubts() says; each with a remedy. Expects a world that has not ticked.
+// Winds above any storm, cameras inside colliders, bodies that start overstretched, too many steps, and all of
+// touchDoubts(), each with a remedy. Expects a world that has not ticked.
 std::vector<std::string> startDoubts(World& world);
 
 }  // namespace taut::world

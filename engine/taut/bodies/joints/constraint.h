@@ -1,5 +1,5 @@
-// A condition on points of an island that holds exactly, where springs would only pull: rods, limits, one of the user's
-// own. It knows no method and no tick; an island projects it after each step and again after contact
+// A condition on points of an island that holds exactly, where springs would only pull: rods, limits, or one of the
+// user's own. It knows no method and no tick. An island projects it after each step and again after contact
 // (constraint_slot.h).
 //
 // To add one: derive from ConstraintOf, and let a kind of joint put it into IslandPlan::constraints;
@@ -21,10 +21,10 @@ using glm::dvec3;
 
 class Constraint {
   public:
-    // On a collider, and goes as that does.
+    // A place on a collider; it moves with the collider.
     struct Place {
         std::string collider;  // "collider.pole"
-        dvec3 offset;          // [m] from it, as it is unturned
+        dvec3 offset;          // [m] from the collider, as it is unturned
     };
     // Points first, in the order of points(), then places. Points that are held or in a rigid grip, and places on
     // colliders, have an inverse mass of 0.
@@ -33,8 +33,8 @@ class Constraint {
         std::span<const dvec3> from;          // [m] when the step began: gradients there keep momentum
         std::span<dvec3> x;                   // [m]
         std::span<dvec3> v;                   // [m/s] at the time of x
-        // (ties) What each pulls its first end with is to be added: mass times change of x [kg m] or of v [kg m/s]. Of
-        // one tie alone that is seen from its points.
+        // (ties) Adds to this what each tie pulls its first end with: mass times change of x [kg m] or of v [kg m/s]. A
+        // constraint of one tie may leave it alone; its points tell.
         std::span<dvec3> pull;
     };
 
@@ -45,38 +45,39 @@ class Constraint {
     // Moves x to where the constraint holds, along gradients at `from`. Displacements go with the inverse masses
     // and add no momentum. Returns whether any x changed by more than rounding.
     virtual bool projectPositions(const Moment& moment) = 0;
-    // The same for v: afterwards its component along the gradients at x is zero.
+    // The same for v. Afterwards v has no component along the gradients at x.
     virtual bool projectVelocities(const Moment& moment) = 0;
 
-    // Ties that were put into it, those that have let go among them: they are numbered from 0.
+    // Number of its ties, with those that have let go. They are numbered from 0.
     virtual int size() const { return 1; }
-    // The largest |l - L|/L of ties whose ends all count; both arrays as in Moment.
+    // The largest |l - L|/L of ties whose ends all count. Both arrays as in Moment.
     virtual double strain(std::span<const dvec3> /*x*/, const std::vector<bool>& /*counts*/) const { return 0.0; }
-    // What forces along ties add to ω² of points that they turn about: (ties) [N] and both arrays as in Moment.
+    // What forces along ties add to ω² of points that turn about them. forces: (ties) [N]; the other arrays as in
+    // Moment.
     virtual double turning(std::span<const dvec3> /*x*/, std::span<const double> /*inverseMass*/,
                            std::span<const dvec3> /*forces*/) const {
         return 0.0;
     }
-    // Whether a collider carries this point of the plan by it, wherever others are.
+    // Whether a collider carries this point of the plan by it, so that other points do not matter.
     virtual bool carries(int /*point*/) const { return false; }
-    // Throws core::Error(badContent) where it can never hold.
+    // Throws core::Error(badContent) if it can never hold.
     virtual void check() const {}
 
-    // Ties that let go do so for good.
+    // A tie that has let go stays so.
     bool holds(int tie = 0) const { return gone_.empty() || !gone_[static_cast<std::size_t>(tie)]; }
     void letGo(int tie);
     int count() const { return size() - static_cast<int>(std::count(gone_.begin(), gone_.end(), true)); }  // that hold
 
-    // The constraint between ticks, read or written.
+    // Writes or reads its state between ticks.
     void visit(StateBytes& bytes);
     virtual std::shared_ptr<Constraint> copy() const = 0;
 
   protected:
-    virtual void visitOwn(StateBytes&) {}  // besides what has let go
-    virtual void tiesChanged() {}          // some have let go
+    virtual void visitOwn(StateBytes&) {}  // besides the ties that have let go
+    virtual void tiesChanged() {}          // some ties have let go
 
   private:
-    std::vector<bool> gone_;  // (ties) empty: none has
+    std::vector<bool> gone_;  // (ties) whether it has let go; empty: none has
 };
 
 inline void Constraint::letGo(int tie) {

@@ -9,10 +9,10 @@
 
 namespace taut::world {
 
-// Points made one, or kept in one place.
+// Merges points, or keeps them in one place.
 struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
     static constexpr std::string_view kindName = "weld";
-    double furthest = 0.02;  // [m] apart that points may be
+    double furthest = 0.02;  // [m] largest distance of points that it ties
 
     std::string_view title() const override { return "a weld"; }
     double reach() const override { return furthest; }
@@ -21,22 +21,22 @@ struct WeldJoint final : SpecOf<WeldJoint, JointSpec> {
     void carry(IslandPlan& plan, Grip grip) const override;
 };
 
-// Springs, as long as points are apart if not said.
+// Springs; their rest length is the starting distance unless given.
 struct SpringJoint final : SpecOf<SpringJoint, JointSpec> {
     static constexpr std::string_view kindName = "spring";
     double stiffness = 1e4;     // [N/m] of each spring
     double dampingTime = 1e-4;  // [s]
-    std::optional<double> restLength;  // [m]; none: the distance as the scene starts
+    std::optional<double> restLength;  // [m]; none: the distance at the start
 
     std::string_view title() const override { return "a spring joint"; }
     void tie(IslandPlan& plan, int a, int b, double distance) const override;
     void carry(IslandPlan& plan, Grip grip) const override;
 };
 
-// A distance that stays, between points or from a place on a collider.
+// Keeps a distance, between points or from a place on a collider.
 struct RodJoint final : SpecOf<RodJoint, JointSpec> {
     static constexpr std::string_view kindName = "rod";
-    std::optional<glm::dvec3> place;  // [m] on the collider as the scene starts; none: its centre
+    std::optional<glm::dvec3> place;  // [m] on the collider at the start; none: its centre
 
     std::string_view title() const override { return "a rod"; }
     bool tiesWithin() const override { return true; }

@@ -30,7 +30,7 @@ void Pins::tie(int a, const Place& b, const Source& source) {
     layOut();
 }
 
-// Walks from each place, then from each point, along the pins that hold.
+// Walks along the pins that hold: from each place, then from each remaining point.
 void Pins::layOut() {
     const std::size_t count = points_.size() + places_.size();
     std::vector<std::vector<int>> at(count);  // pins
@@ -102,8 +102,7 @@ void Pins::check() const {
     }
 }
 
-// A point without inverse mass, which is the collider's or held, draws all others to it and bears what they are moved
-// by.
+// A node without inverse mass, a place on a collider or a held point, draws all others to it and bears the reaction.
 bool Pins::project(std::span<dvec3> values, const Moment& moment) {
     bool any = false;
     for (const Cluster& cluster : clusters_) {
@@ -114,6 +113,7 @@ bool Pins::project(std::span<dvec3> values, const Moment& moment) {
             return moment.inverseMass[static_cast<std::size_t>(node.number)];
         };
         const auto fixed = std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return !(weight(n) > 0); });
+        // Where the cluster goes: to the fixed node, or to the centre of mass.
         dvec3 target = value(fixed != nodes.end() ? *fixed : nodes.front());
         if (fixed == nodes.end()) {
             dvec3 moved(0.0);
@@ -124,6 +124,7 @@ bool Pins::project(std::span<dvec3> values, const Moment& moment) {
             }
             target += moved / mass;
         }
+        // Moves the nodes; sum: what each is moved by.
         const std::span<dvec3> sum = std::span(sum_).subspan(static_cast<std::size_t>(cluster.first));
         dvec3 all(0.0);
         for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -134,6 +135,7 @@ bool Pins::project(std::span<dvec3> values, const Moment& moment) {
             if (weight(nodes[n]) > 0) value(nodes[n]) = target;
         }
         if (fixed != nodes.end()) sum[static_cast<std::size_t>(fixed - nodes.begin())] = -all;
+        // From the leaves to the root: each pin bears the sum of all nodes beyond it.
         for (std::size_t n = nodes.size(); n-- > 1;) {
             moment.pull[static_cast<std::size_t>(nodes[n].pin)] += sum[n];
             sum[static_cast<std::size_t>(nodes[n].parent - cluster.first)] += sum[n];

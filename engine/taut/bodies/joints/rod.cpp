@@ -18,7 +18,7 @@ double distance(const dvec3& a, const dvec3& b) {
 
 }  // namespace
 
-// Points that were welded may be elsewhere than where their bodies have them.
+// The plan has the right length: welding may have moved the points away from their bodies' positions.
 void RodJoint::tie(IslandPlan& plan, int first, int second, double) const {
     const double length =
         distance(plan.positions[static_cast<std::size_t>(first)], plan.positions[static_cast<std::size_t>(second)]);

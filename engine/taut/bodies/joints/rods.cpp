@@ -11,9 +11,9 @@ namespace {
 
 constexpr double relativeTolerance = 1e-13;  // of a length
 constexpr double roundingShare = 1e-15;      // of a coordinate
-constexpr double leastPivot = 1e-10;         // of what stood on the diagonal
-constexpr int oldPasses = 10;                // along the directions when the step began
-constexpr int mostPasses = 40;               // after those along what they have become, as Gauss and Newton
+constexpr double leastPivot = 1e-10;         // of the diagonal element
+constexpr int oldPasses = 10;                // along the directions at the start of the step
+constexpr int mostPasses = 40;               // afterwards along the present directions, as in the Gauss-Newton method
 
 double norm(const dvec3& v) {
     return std::sqrt(glm::dot(v, v));
@@ -28,7 +28,7 @@ int Rods::numberOf(int point) {
     return static_cast<int>(points_.size()) - 1;
 }
 
-// A rod that is there already is not made twice.
+// A rod that already exists is not made twice.
 void Rods::tie(int a, int b, double length, const Source& source) {
     const int first = numberOf(a), second = numberOf(b);
     for (const Rod& rod : rods_)
@@ -51,7 +51,7 @@ double Rods::strain(std::span<const dvec3> x, const std::vector<bool>& counts) c
     return most;
 }
 
-// Across a rod under a tension T its ends are drawn back as by a spring of T/L; by Gershgorin.
+// A rod under a tension T draws its ends back across, like a spring of T/L. Bounded by Gershgorin's theorem.
 double Rods::turning(std::span<const dvec3> x, std::span<const double> inverseMass,
                      std::span<const dvec3> forces) const {
     std::vector<double> sum(inverseMass.size(), 0.0);
@@ -76,11 +76,11 @@ void Rods::check() const {
                                   "\"weld\"");
 }
 
-// Breadth first from rods with few neighbours, so that neighbours stand near the diagonal.
+// Breadth first from rods with few neighbours, so that neighbours stand near the diagonal (Cuthill and McKee).
 void Rods::layOut() {
     if (!order_.empty()) return;
     const auto count = rods_.size();
-    std::vector<std::vector<int>> at(points_.size());  // rods that have the point
+    std::vector<std::vector<int>> at(points_.size());  // rods at each point
     for (std::size_t r = 0; r < count; ++r)
         for (const int number : {rods_[r].a, rods_[r].b})
             if (number >= 0) at[static_cast<std::size_t>(number)].push_back(static_cast<int>(r));
@@ -117,7 +117,7 @@ void Rods::layOut() {
         for (; next < order_.size(); ++next)
             for (const int r : neighbours(order_[next])) take(r);
     }
-    // What couples them, and how far rows reach.
+    // The couplings of each row and the start of its envelope.
     for (int i = 0; i < static_cast<int>(count); ++i) {
         const Rod& own = rods_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
         int first = i;
@@ -140,7 +140,7 @@ void Rods::layOut() {
     impulse_.resize(count);
 }
 
-// J M⁻¹ Jᵀ with the rods' directions at x.
+// Factors J M⁻¹ Jᵀ with the rods' directions at x.
 void Rods::factor(std::span<const dvec3> x, std::span<const double> inverseMass) {
     const int count = static_cast<int>(order_.size());
     const auto weight = [&](int number) { return inverseMass[static_cast<std::size_t>(end(number))]; };
@@ -186,7 +186,7 @@ void Rods::solve() {
             impulse_[static_cast<std::size_t>(j)] -= at(i, j) * impulse_[static_cast<std::size_t>(i)];
 }
 
-// A rod turns during a tick, so that its pull is counted along it.
+// A rod turns during a tick, so its pull is summed along its axis.
 void Rods::pull(std::span<dvec3> to, const Moment& moment) const {
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const Rod& rod = rods_[static_cast<std::size_t>(order_[i])];

@@ -9,7 +9,7 @@ void SpringJoint::tie(IslandPlan& plan, int first, int second, double distance) 
         {first, second, stiffness, restLength.value_or(distance), dampingTime, mechanics::SpringKind::joint});
 }
 
-// Each point is drawn to its place on it.
+// Springs draw each point to its place on the collider.
 void SpringJoint::carry(IslandPlan& plan, Grip grip) const {
     grip.rigid = false;
     grip.stiffness.assign(grip.points.size(), stiffness);

@@ -13,7 +13,7 @@ namespace {
 constexpr int sides = 10;
 constexpr int pointsPerTurn = 16;
 
-// Unit, across the axis.
+// A unit vector across the axis.
 glm::vec3 across(const glm::vec3& axis) {
     const glm::vec3 helper = std::abs(axis.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     return glm::normalize(glm::cross(axis, helper));
@@ -31,7 +31,7 @@ TieDrawing::TieDrawing(const JointSpec& joint, int number)
         view::tubeTopology(points, 1, sides, 1.0F, static_cast<float>(look_.radius)));
 }
 
-// Half a turn at each end leads from the axis out to the coil.
+// Half a turn at each end leads from the axis to the coil.
 std::vector<glm::vec3> TieDrawing::line(const glm::vec3& a, const glm::vec3& b) const {
     const glm::vec3 way = b - a;
     const float length = glm::length(way);

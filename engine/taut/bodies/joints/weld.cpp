@@ -7,7 +7,7 @@
 
 namespace taut::world {
 
-// All that is pinned together begins where that of it which is held is, or else the first.
+// All points of the cluster start at the first held point, or else at the first point.
 void WeldJoint::tie(IslandPlan& plan, int first, int second, double) const {
     if (first == second) return;
     std::vector<int> cluster;

@@ -1,4 +1,4 @@
-// The faces inside a block that cuts and tears have laid open.
+// The faces inside a block that cuts and tears have bared.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace taut::world {
 
-// (triangles) points of the model, counter-clockwise seen from outside: faces of whole tetrahedra that neither another
-// whole one nor what is left of the surface has; none while all are whole. They are others only after goneAround() of
-// the damage is. In the order of the model's cells. Expects damage that has been assessed.
+// (triangles) points of the model, counter-clockwise seen from outside. These are the faces of whole tetrahedra that
+// neither another whole one shares nor the rest of the surface covers; none while all are whole. They change only when
+// goneAround() of the damage does. In the order of the model's cells. Expects damage that has been assessed.
 std::vector<std::array<int, 3>> bareFaces(const Body& body);
 
 }  // namespace taut::world

@@ -1,11 +1,11 @@
-// The surface of a damaged cloth or block: what is left of its triangles, and the parts of severed ones up to the
-// cut, each fastened to its own side. It knows no picture.
+// The surface of a damaged cloth or block: the triangles that are left, and the parts of severed ones up to the cut,
+// each attached to its own side. It knows no picture.
 //
 //      b
 //      |.          A triangle of which the edges ab and ac are severed is drawn as a, p, q and as b, c, q', p'.
 //      | .
-//   p' +  .        p and p' lie at the same share of the edge; p goes with the surface at a, p' with that at b, as if
-//   p  +   .       it went on beyond them as flat as it is there.
+//   p' +  .        p and p' lie at the same share of the edge. p belongs to the surface at a, p' to that at b, as if
+//   p  +   .       each went on flat beyond it.
 //      |    .
 //      a-+-+-c
 //        q q'
@@ -29,13 +29,13 @@ struct SkinVertex {
     };
     std::vector<Term> terms;
     dvec3 rest{0.0};  // [m] where it is in the model
-    dvec2 uv{0.0};    // [m] along the material; of blocks unused
+    dvec2 uv{0.0};    // [m] along the material; unused for blocks
     glm::vec3 at(std::span<const glm::vec3> positions) const;
 };
 
 struct SkinTriangle {
     std::array<int, 3> vertices;
-    int source;  // triangle of the model that it is of, or -1 on the face of a cut through a block
+    int source;  // triangle of the model that it is part of, or -1 on the face of a cut through a block
 };
 
 struct Skin {

@@ -7,7 +7,7 @@ namespace taut::world {
 
 struct SceneSpec;
 
-// Gravity, winds, anchors, then those of other kinds: the order in which they are added up.
+// Gravity, winds, anchors, then the other kinds: the order in which they are added.
 ForceList sceneForces(const SceneSpec& spec);
 
 }  // namespace taut::world

@@ -1,10 +1,10 @@
-// The constraints of an island, between its method and its contacts: what projects them, and into which arrays. It
-// knows no kind of constraint and no tick.
+// The constraints of an island: what projects them, and onto which arrays. It stands between the method and the
+// contacts. It knows no kind of constraint and no tick.
 //
-// After a step from x0 to x' = x0 + h v', x is brought to where they hold, along gradients at x0, and v changes by
-// (x - x')/h: under leap-frog, whose v is that of the step, this is SHAKE. Velocities at the time of x are projected
-// too, as RATTLE does: those of methods that store them, and what leap-frog predicts. Several constraints take turns
-// until none moves anything.
+// A step goes from x0 to x' = x0 + h v'. Constraints then move x' to x, where they hold, along gradients at x0. They
+// change v by (x - x')/h. Under leap-frog, whose v is the velocity of the step, this is SHAKE. Velocities at the time
+// of x are projected too, as in RATTLE: the stored ones of other methods, and those that leap-frog predicts. Several
+// constraints take turns until none moves anything.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class ConstraintSlot {
     using Planes = core::AlignedArray<Real>;
     using Method = ode::Method<Real>;
 
-    // Expects that all three stay.
+    // Expects that all three outlive it.
     ConstraintSlot(const IslandPlan& plan, mechanics::MassSpringSystem<Real>& system, ode::State<Real>& state)
         : plan_(plan), system_(system), state_(state), planar_{system.layout().stride} {
         take();
@@ -32,7 +32,7 @@ class ConstraintSlot {
 
     bool isEmpty() const { return ties_.empty(); }
 
-    // The plan has others.
+    // Takes the constraints of the plan again. To be called when the plan has others.
     void take() {
         ties_.clear();
         points_.clear();
@@ -64,12 +64,13 @@ class ConstraintSlot {
         impulse_.assign(pull_.size(), dvec3(0.0));
     }
 
-    // [N s] that a tie of a constraint has pulled its first end with since then; of some in axes of its own.
+    // [N s] The impulse by which a tie has pulled its first end since forgetImpulses(). Some constraints give it in
+    // their own axes.
     void forgetImpulses() { std::fill(impulse_.begin(), impulse_.end(), dvec3(0.0)); }
     const dvec3& impulse(std::size_t constraint, int tie) const {
         return impulse_[static_cast<std::size_t>(ties_[constraint].first + tie)];
     }
-    // What that adds to ω² [1/s²] where it was pulled for so long [s], at t [s].
+    // What these impulses add to ω² [1/s²] at t [s], if they took `seconds` [s].
     double turning(double t, double seconds) {
         load(t, state_.v);
         double most = 0;
@@ -84,21 +85,21 @@ class ConstraintSlot {
         return most;
     }
 
-    // Before a method starts from x and v, both at t [s].
+    // Projects the velocities before a method starts from x and v, both at t [s].
     void start(double t) { projectVelocities(t, state_.v); }
-    // Velocities at the time t [s] of x.
+    // Projects velocities at the time t [s] of x.
     void projectVelocities(double t, Planes& velocities) {
         load(t, velocities);
         takeTurns(&Constraint::projectVelocities);
         store(velocities, v_);
     }
 
-    // Before a step from t [s].
+    // Keeps the positions before a step from t [s].
     void remember(double t) {
         load(t, state_.v);
         from_ = x_;
     }
-    // After it, at t [s].
+    // Projects positions and velocities after that step, at t [s].
     void project(Method& method, double t, double h) {
         load(t, state_.v);
         reached_ = x_;
@@ -123,8 +124,9 @@ class ConstraintSlot {
         keep();
     }
 
-    // After contact, at t [s]: what it changed of x and v is shared with what they tie. Contact has left velocities
-    // that are stored and those at the time of x with one change. Returns whether it had changed anything.
+    // Contact has changed x and v of some points at t [s]; this shares the changes with the points tied to them.
+    // Expects that contact changed the stored velocities and those at the time of x alike. Returns whether it had
+    // changed anything.
     bool settle(Method& method, double t) {
         load(t, state_.v);
         bool isSame = true;
@@ -153,7 +155,7 @@ class ConstraintSlot {
         return true;
     }
 
-    // The largest of ties whose points all count (points of the plan), at t [s].
+    // The largest strain of the ties whose points all count (`only`: points of the plan), at t [s].
     double strain(double t, const std::vector<bool>& only) {
         load(t, state_.v);
         double most = 0;
@@ -171,10 +173,10 @@ class ConstraintSlot {
   private:
     struct Tie {
         std::shared_ptr<Constraint> constraint;
-        std::vector<std::size_t> numbers;  // of points_, then of places_ after them
+        std::vector<std::size_t> numbers;  // of points_, followed by places_
         std::vector<double> w;             // [1/kg]
         std::vector<dvec3> from, x, v;
-        int first = 0;  // of pull_ and impulse_
+        int first = 0;  // index in pull_ and impulse_
     };
 
     dvec3 at(const Real* planes, int point) const {
@@ -185,7 +187,7 @@ class ConstraintSlot {
     void set(Real* planes, int point, const dvec3& value) const {
         for (int p = 0; p < 3; ++p) planes[planar_.index(point, p)] = static_cast<Real>(value[p]);
     }
-    // x at t [s] and these velocities of points; of places both.
+    // Loads x at t [s]. Velocities of points come from `velocities`; places move with their colliders.
     void load(double t, const Planes& velocities) {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             inverseMass_[i] = static_cast<double>(system_.inverseMasses()[points_[i]]);
@@ -208,7 +210,8 @@ class ConstraintSlot {
     void store(Planes& planes, const std::vector<dvec3>& values) {
         for (std::size_t i = 0; i < points_.size(); ++i) planar_.set(planes, points_[i], values[i]);
     }
-    // What stands in the state, to see what contact changes of it: placed_ and stored_, and v_ in reached_.
+    // Keeps the state to see later what contact changes: x in placed_, stored v in stored_, v at the time of x in
+    // reached_.
     void keep() {
         reached_ = v_;
         for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -226,11 +229,11 @@ class ConstraintSlot {
             tie.v[k] = v_[n];
         }
     }
-    // What the last turns have pulled with, times a factor.
+    // Adds the pulls of the last turns, times a factor.
     void addImpulses(double factor) {
         for (std::size_t i = 0; i < pull_.size(); ++i) impulse_[i] += factor * pull_[i];
     }
-    // Of one tie alone: by what its first point that moves has moved, or its second is moved the other way.
+    // Finds the pull of a constraint with one tie from the first of its points that moves.
     void seePull(const Tie& tie, const std::vector<dvec3>& now, const std::vector<dvec3>& before) {
         for (std::size_t k = 0; k < tie.numbers.size(); ++k) {
             if (!(tie.w[k] > 0)) continue;
@@ -268,12 +271,12 @@ class ConstraintSlot {
     ode::State<Real>& state_;
     Planar<Real> planar_;
     std::vector<Tie> ties_;
-    std::vector<int> points_;                // that any ties, ascending
+    std::vector<int> points_;                // all points of any tie, ascending
     std::vector<Constraint::Place> places_;  // likewise
     // (points, then places)
     std::vector<double> inverseMass_;
     std::vector<dvec3> from_, x_, v_;
-    std::vector<dvec3> reached_;  // x before it is projected; then velocities at its time, as they were left
+    std::vector<dvec3> reached_;  // x before its projection; later the velocities at the time of x, as projected
     std::vector<dvec3> placed_, stored_;
     std::vector<dvec3> pull_, impulse_;  // (ties of all constraints)
 };

@@ -3,15 +3,15 @@
 // Why it is measured. A contact is resolved by moving a point out of the collider and by an impulse (position
 // projection). The impulse adds no energy, for restitution is at most 1. The move does work against the springs and
 // cells at the point, and against gravity. Nothing bounds that work: it grows with the depth, which grows with speed
-// times step. So the island measures it, and takes shorter steps where the sum becomes a share of the
-// energy that there was at a touch (island_watch.cpp).
+// times step. So the island measures it, and takes shorter steps where the sum becomes a share of the energy that there
+// was at a touch (ContactBudget in memory.h).
 //
 // Why local sums are enough. Resolving contacts changes x and v of some points only. The energy of everything else is
 // the same before and after, so the difference of
 //   E(points) = Σ ½ m v² - m g·x  +  Σ ½ k (l - L)² of springs at them  +  Σ ½ K V0 (V/V0 - 1)² of cells at them
-// over those points is the difference of the whole. A spring between two of them counts once, a cell once for all of
-// its corners. Held points have no energy of their own. Anchors, hands and
-// bending are soft beside these springs, and left out.
+// over those points is the difference of the whole. A spring between two of them counts once, and a cell counts once
+// for all its corners. Held points have no energy of their own. Anchors, hands and bending are soft beside these
+// springs and are left out.
 //
 // Which velocities. Methods store v at other times than x; both sums take v at the time of the positions. A surface
 // that moves does work of its own, which is no error: then v is taken relative to the surface.
@@ -38,7 +38,7 @@ class ContactWatch {
     using Planes = core::AlignedArray<Real>;
 
     bool isOn() const { return !springsAt_.empty(); }
-    // stride: of the planes, which are all of three times that size.
+    // stride: of the planes. Each array of planes has three times that size.
     void start(const IslandPlan& plan, std::vector<mechanics::VolumeCell> cells, int stride) {
         planar_.stride = stride;
         x = v = w = vStart = Planes(3 * static_cast<std::size_t>(stride));
@@ -54,20 +54,21 @@ class ContactWatch {
         isCounted_.assign(plan.points.size(), false);
     }
 
-    // Before contacts are resolved: places, velocities as they are stored, and those at the time of the places.
+    // Keeps the state before contacts are resolved: places, stored velocities, and velocities at the time of the
+    // places.
     void remember(const Planes& places, const Planes& stored, const Real* velocities) {
         std::copy(places.begin(), places.end(), x.begin());
         std::copy(stored.begin(), stored.end(), v.begin());
         std::copy_n(velocities, w.size(), w.begin());
     }
-    // At a touch: how much there is before the first since take().
+    // At the first touch since take(): measures how much energy there is.
     void meetAtTouch(const IslandPlan& plan, const dvec3& gravity) {
         if (!(work_.atTouch > 0)) work_.atTouch = whole(plan, gravity);
     }
     void add(double work) { work_.added += work; }  // [J]
     ContactWork take() { return std::exchange(work_, {}); }
 
-    // [J] of these points, or of all, and of what acts between them and others, at such places and velocities.
+    // [J] Energy of these points (or all) at such places and velocities, with the springs and cells that act on them.
     double energy(const IslandPlan& plan, const std::vector<int>& points, bool isAll, const Planes& places,
                   const Planes& velocities, const dvec3& gravity) {
         const int count = isAll ? static_cast<int>(plan.points.size()) : static_cast<int>(points.size());
@@ -94,11 +95,11 @@ class ContactWatch {
         return sum;
     }
 
-    Planes x{}, v{}, w{};  // as remembered
-    Planes vStart{};       // of the step, as it is stored
+    Planes x{}, v{}, w{};  // as remember() found them
+    Planes vStart{};       // of the start of the step, as the method stored it
 
   private:
-    // [J] of all, with heights over the lowest point.
+    // [J] Energy of all points, with heights over the lowest point.
     double whole(const IslandPlan& plan, const dvec3& gravity) {
         double lowest = std::numeric_limits<double>::infinity(), mass = 0;
         for (int i = 0; i < static_cast<int>(plan.points.size()); ++i) {
@@ -109,7 +110,7 @@ class ContactWatch {
         return mass > 0 ? energy(plan, {}, true, x, w, gravity) - mass * lowest : 0.0;
     }
 
-    // Counted at the first of its corners that is.
+    // Each cell counts at the first of its corners that is counted.
     double cellEnergy(const mechanics::VolumeCell& cell, int point, const Planes& places) const {
         for (int corner : cell.points)
             if (corner != point && isCounted_[static_cast<std::size_t>(corner)]) return 0.0;

@@ -1,4 +1,4 @@
-// Says in words why a run diverged and what would hold.
+// Says in words why a run diverged and which step would hold.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ namespace taut::world {
 std::string explainDivergence(const Divergence& d, const Fault& fault, const StepChoice& choice, const IslandPlan& plan,
                               std::string_view methodTitle);
 
-// Says that a method's solves did not reach their tolerance.
+// Warns that solves of a method did not reach their tolerance.
 std::string unconvergedWarning(const ode::Work& work, const IslandPlan& plan);
 
-// The same in one line, for an island that is kept as it was.
+// The diagnosis in one line, for an island that is frozen.
 std::string explainFreeze(const FrozenIsland& frozen, const StepChoice& choice, std::string_view methodTitle);
 
 }  // namespace taut::world

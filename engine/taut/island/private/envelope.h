@@ -1,5 +1,5 @@
-// The stiffest and fastest that a timeline will make of an island, so that a step chosen before the first tick holds
-// through all of it. It knows no method.
+// The stiffest and fastest state that a timeline will make of an island. A step chosen for it before the first tick
+// holds through the whole run. It knows no method.
 #pragma once
 
 #include <memory>
@@ -11,28 +11,28 @@
 namespace taut::world {
 
 struct Envelope {
-    // The island as it is built, but with the stiffest springs, the lightest masses, and all points free that ever are.
+    // The island as built, with the stiffest springs and lightest masses, and with every point free that is ever free.
     IslandPlan plan;
     ForceList forces;                           // at their strongest
-    std::vector<double> handStiffness;          // (points) [N/m] of all hands that a point may be in at a time
-    std::vector<double> handRate;               // (points) [1/s] at which they damp it
-    double leastTau = 0;                        // [s] that the largest of its springs ever falls to
-    double leastDrag = 0, mostDrag = 0;         // [1/s] of points that are ever free
+    std::vector<double> handStiffness;          // (points) [N/m] of all hands that may hold the point at one time
+    std::vector<double> handRate;               // (points) [1/s] damping of the point by these hands
+    double leastTau = 0;                        // [s] smallest value of its largest spring damping time
+    double leastDrag = 0, mostDrag = 0;         // [1/s] over points that are ever free
     bool isStatic = true;                       // plan and forces are those of the island itself
-    std::vector<std::shared_ptr<Body>> bodies;  // of the plan, where they are not the island's own
+    std::vector<std::shared_ptr<Body>> bodies;  // of the plan, where they are not the island's own bodies
 };
 
-// [s] of its springs.
+// [s] largest damping time of its springs.
 double largestTau(const IslandPlan& plan);
 
-// What a hand adds to ω² [1/s²] and to the damping [1/s] of each point of its grip: K/M and 2ζ√(K/M), K its strength
-// [N/m] and M the mass of the grip [kg], the same for all since they share both by mass.
+// What a hand adds to ω² [1/s²] and to the damping [1/s] of each point of its grip: K/M and 2ζ√(K/M). K is the strength
+// of the hand [N/m], M the mass of the grip [kg]. Both are the same for all points, since they share by mass.
 struct GripRates {
     double omega2 = 0, damping = 0;
 };
 GripRates gripRates(double strength, double dampingRatio, double mass);
 
-// Whether the timeline spawns the body, so that it is not there before.
+// Whether the timeline spawns the body later.
 bool isSpawnedLater(const Body& body, const SceneSpec& spec);
 
 // The envelopes of the islands of a scene.
@@ -40,9 +40,9 @@ class Envelopes {
   public:
     explicit Envelopes(const SceneSpec& spec);
     ~Envelopes();
-    // Of an island of bodies of the scene, with all its joints; or of a body that came later, without joints. A body
-    // that the scene does not name is taken as it is. Throws core::Error(badContent) where a timeline takes all mass
-    // from a point.
+    // Of an island of the scene's bodies with all its joints, or of a body that came later, without joints. A body that
+    // the scene does not name is taken as it is. Throws core::Error(badContent) where a timeline takes all mass from a
+    // point.
     Envelope of(const IslandPlan& plan, const ForceList& forces, bool hasJoints) const;
 
   private:

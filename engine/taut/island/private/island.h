@@ -1,4 +1,4 @@
-// One island: the bodies that move together, how they are doing, and what is done to them. island_report.h tells of it.
+// One island: the bodies that move together, their state, and what is done to them. island_report.h tells of it.
 //
 //   island.cpp          ticks, and what is changed between two ticks
 //   island_saving.cpp   its bytes
@@ -26,7 +26,7 @@
 
 namespace taut::world {
 
-// When a tick is: whole numbers, from which every time is computed with one division.
+// When a tick is, in whole numbers. Every time is computed from them with one division.
 struct TickTime {
     std::int64_t tick = 0;
     double ticksPerSecond = 60;
@@ -35,53 +35,53 @@ struct TickTime {
     double start() const { return at(0, 1); }  // [s]
 };
 
-// Why an island stopped: the point whose velocity, or a spring of which, left all bounds, and when.
+// Why an island stopped, and when: a velocity or a spring left all bounds at a point.
 struct Fault {
     int point = -1;           // in the island
     double time = 0;          // [s]
     bool isNumber = true;     // false: NaN or infinite
-    bool byContact = false;   // with other bodies, which was the last that moved it
-    bool isTooStiff = false;  // for a million steps a tick
-    double strain = 0;        // above 0: of a spring at the point, over the one at which to freeze
+    bool byContact = false;   // contact with other bodies was the last that moved it
+    bool isTooStiff = false;  // needs more than a million steps a tick
+    double strain = 0;        // above 0: strain of a spring at the point, beyond the strain at which to freeze
 };
 
-// The way of a moving collider during a tick.
+// How a moving collider moves during a tick.
 struct ColliderMotion {
     int collider = 0;
     collision::Pose from, to;
 };
 
-// What becomes of a try of a tick.
+// What becomes of one try of a tick.
 enum class TickVerdict { stands, again, fails };
 
-// [rad] ω H of the fastest motion of what presses, H the time from one instant of contact to the next. At an instant a
-// step each (2 is the limit of leap-frog) an impulse is one more force of the step's kick, and contact without
-// restitution takes energy: ΔE = ½ λ (u' + u), u' and u the approach after it and in the step before, never above 0.
-// What is moved back over several steps is moved against its springs: at ω H = 3 they gain several times ½ m u².
+// [rad] Largest ω H of the fastest motion of pressed bodies. H is the time from one instant of contact to the next.
+// With an instant each step (2 is the limit of leap-frog) an impulse is one more force of the step's kick, and contact
+// without restitution takes energy: ΔE = ½ λ (u' + u), never above 0, with u' the approach after it and u that in the
+// step before. Moving points back over several steps works against their springs: at ω H = 3 these gain several times ½
+// m u².
 inline constexpr double longestTurn = 2.0;
 
 class Island {
   public:
-    // At time t [s]. Chooses its step, which holds for all that the envelope allows; throws core::Error(badContent)
-    // where no step would do.
-    // With `keepsStep` no state changes it. All substeps of a tick can be divided into `parts`, a power of two; fewer
-    // are a power of two.
+    // Starts at time t [s]. Chooses a step that holds for all that the envelope allows. Throws core::Error(badContent)
+    // where no step would do. With `keepsStep` no state changes the step. The substeps of a tick can be divided into
+    // `parts`, a power of two; fewer substeps than that are a power of two.
     Island(IslandPlan plan, const ForceList& forces, const Envelope& envelope, double ticksPerSecond, double t,
            bool keepsStep, int parts = 1);
     Island(const Island&) = delete;
     Island& operator=(const Island&) = delete;
 
-    // Each island has colliders of its own: with other substeps they are elsewhere. The first time it looks which of
-    // its points stand inside; names (colliders): "collider.ground", …
+    // Each island has its own colliders, because with other substeps they are at other places. The first call finds the
+    // points that stand inside one. names (colliders): "collider.ground", …
     void setColliders(collision::Colliders colliders, std::span<const std::string> names);
 
-    // substeps steps of leap-frog or whichever method; contacts of the last step are kept. Ends early on a fault.
-    // Expects that the island is not open.
+    // Takes all substeps of a tick and keeps the contacts of the last one. Ends early on a fault. Expects that the
+    // island is not open.
     std::optional<Fault> tick(const TickTime& time, std::span<const ColliderMotion> moving);
 
-    // A tick in pieces, of islands whose bodies touch others: beginTick(), then tries until one stands. A try begins,
-    // goes on by parts of all substeps, and is judged; after `again` the island begins another from where the tick
-    // began, and may be asked to for the sake of others.
+    // A tick in pieces, for islands whose bodies touch others: beginTick(), then tries until one stands. A try begins,
+    // advances by parts of all substeps, and is judged. After `again` the island starts another try from the start of
+    // the tick. It may have to do so for the sake of other islands.
     void beginTick(const TickTime& time);
     void beginTry();
     std::optional<Fault> advance(const TickTime& time, std::span<const ColliderMotion> moving, int part, int parts);
@@ -90,71 +90,71 @@ class Island {
     void endTick(const TickTime& time);
     int substeps() const { return now_.substeps; }
     bool keepsStep() const { return keepsStep_; }
-    // Instants of a tick in which something presses it: one a step, or where steps are shorter than that, as many as
-    // turn its fastest motion by no more than longestTurn.
+    // Instants of contact in a tick that presses the island: one each step, or fewer where steps are very short. The
+    // fastest motion turns by at most longestTurn between two.
     int instantsToPress() const;
-    // All substeps of a tick can be divided into so many parts from now on; to be called between two tries.
+    // Makes all substeps of a tick divisible by so many parts from now on. To be called between two tries.
     void takeParts(const TickTime& time, int parts);
-    // Where points of the island are, and velocities as the method stores them (points) [m], [m/s].
+    // Positions and velocities of the points, velocities as the method stores them (points) [m], [m/s].
     void read(std::span<dvec3> x, std::span<dvec3> v) const;
-    // After a part: points (ascending) were moved by contact with other bodies; out of colliders again.
+    // After a part: contact with other bodies has moved points (ascending). Brings them out of colliders again.
     void place(std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v);
-    // After those: constraints share what it changed. Whether any of its points went elsewhere.
+    // After place(): constraints share its changes. Returns whether any point of the island moved.
     bool settle() { return !frozen_ && dynamics_->settle(); }
-    // After the last part: what contact with other bodies gave points in the last instant.
+    // After the last part: takes over the accelerations by contact with other bodies in the last instant.
     void bear(std::span<const ContactAcceleration> pressed) { now_.pressed.assign(pressed.begin(), pressed.end()); }
 
     // Whether any spring tore in the last tick.
     bool hasTorn() const { return yielding_.hasTorn(); }
 
-    // (ties of joints) whether the mean of the force through it over the last tick was above what it bears.
+    // (ties of joints) whether the mean force through a tie over the last tick was more than it bears.
     std::vector<bool> overloaded() const;
 
-    // Puts back what the last tick began with.
+    // Returns to the state at the start of the last tick.
     void undoTick();
 
-    // After a fault: back to the state before the step that failed, where it stays; its ticks do nothing any more.
+    // After a fault: goes back to the state before the failed step and stays there. Later ticks do nothing.
     void freeze(const Fault& fault, const TickTime& time);
-    // What became of it, or null while it moves.
+    // Why and when it froze, or null while it moves.
     const FrozenIsland* frozen() const { return frozen_ ? &*frozen_ : nullptr; }
 
-    // Changes between two ticks. The first of them opens the island: its velocities are brought to the time of the
-    // positions. close() starts the method again from there, on what the plan and the forces have become. A frozen
-    // island is not to be changed.
+    // Changes between two ticks. The first one opens the island: velocities are brought to the time of the positions.
+    // close() starts the method again from there, with the changed plan and forces. Expects that the island is not
+    // frozen.
     void open(const TickTime& time);
     void close(const TickTime& time);
     bool isOpen() const { return isOpen_; }
-    // Opens; what is said may be changed of the plan. Points and springs stay as many and between the same points.
+    // Opens; returns the plan, where `what` may be changed. Points and springs keep their number and their ends.
     IslandPlan& change(const TickTime& time, Change what);
     // Opens; adds to the velocity of points [m/s].
     void push(const TickTime& time, std::span<const int> points, const dvec3& velocity);
     // Opens; the points stand still.
     void stop(const TickTime& time, std::span<const int> points);
-    // The way of a hand from now on; opens if `bends`. Does nothing where the hand has hold of nothing.
+    // Sets the path of a hand from now on; opens if it `bends`. Does nothing where the hand holds nothing.
     void lead(const TickTime& time, const std::string& hand, const mechanics::PosePath& path, bool bends);
-    // The same of a collider, "collider.pole"; opens where the way does not go on from the one before.
+    // Sets the path of a collider, "collider.pole"; opens where it does not go on from the path before.
     void carry(const TickTime& time, const std::string& collider, const mechanics::PosePath& path);
-    // Opens where ties of joints that are wanted hold; they let go.
+    // Lets go of the wanted ties of joints; opens where any of them holds.
     void release(const TickTime& time, const std::function<bool(const JointTie&)>& wanted);
-    // Opens where a force jumps; not if flows and gravity only go on changing.
+    // Takes over the forces. Opens where a force jumps, but not where wind and gravity change steadily.
     void setForces(const TickTime& time, const ForceList& forces);
 
-    // Whether a force that acts here is a callback: such islands go one after another.
+    // Whether a force that acts here is a callback. Such islands take their ticks one after another.
     bool callsBack() const { return dynamics_->callsBack(forces_); }
 
     const IslandPlan& plan() const { return plan_; }
     double step() const { return now_.step; }  // [s]
     dvec3 position(int point) const { return dynamics_->position(point); }
     std::span<const collision::Contact> contacts() const { return now_.contacts; }
-    bool hasTouched() const { return now_.hasTouched; }  // anything, at any step so far
+    bool hasTouched() const { return now_.hasTouched; }  // anything, in any step so far
     // (points) [m/s] at the time of the tick; zero when frozen. May cost an evaluation.
     std::vector<dvec3> velocities(const TickTime& time);
 
     // x and the stored v of a body's points in the order of authoring.
     void addToHash(const Body& body, core::Hash& hash) const { dynamics_->addToHash(body.pointOf, hash); }
-    // The same of one point.
+    // Adds x and the stored v of one point.
     void addPointToHash(int point, core::Hash& hash) const { dynamics_->addToHash({&point, 1}, hash); }
-    // Since the start.
+    // Work of the methods since the start.
     ode::Work work() const;
     // Why its step will end the run, with file, line and remedy; empty where it will not.
     const std::string& fault() const { return choice_.fault; }
@@ -163,21 +163,21 @@ class Island {
     const Dynamics& dynamics() const { return *dynamics_; }
     Dynamics& dynamics() { return *dynamics_; }
     const IslandMemory& memory() const { return now_; }
-    StepChoice choice() const;  // with the steps that there are now
+    StepChoice choice() const;  // with the present number of steps
     const collision::Colliders& colliders() const { return colliders_; }
-    // The product with its stiffness at these places of its points, which have to stay.
+    // The product with the stiffness of the island at positions x. Expects that x outlives it.
     mechanics::StiffnessProduct stiffnessAt(std::span<const dvec3> x) const;
     bool hasMoved() const { return hasMoved_; }  // any tick yet
-    std::vector<std::string> said() const;       // warnings so far that cannot be derived
+    std::vector<std::string> said() const;       // warnings so far that cannot be computed again
 
-    // All that changes while it moves, written or read. Throws core::Error(badContent) for bytes that do not fit.
+    // Writes or reads all that changes while it moves. Throws core::Error(badContent) for bytes that do not fit.
     void visit(StateBytes& bytes);
 
   private:
     std::optional<Fault> takeSubsteps(const TickTime& time, std::span<const ColliderMotion> moving, int first,
                                       int last);
     TickVerdict judgeSteps(const TickTime& time, std::optional<Fault>& fault);
-    // From velocities at the time of the positions.
+    // Expects velocities at the time of the positions.
     void startWith(const TickTime& time, int substeps, bool isRepeated);
     std::optional<Fault> overstrained(double t);
     Fault giveUp(double t) const;
@@ -188,7 +188,7 @@ class Island {
     void setPath(std::size_t grip, const mechanics::PosePath& path);
     bool addsTooMuch(const ContactWork& work) const;
     int inParts(int substeps) const;
-    int quietSubsteps() const {  // where nothing presses it
+    int quietSubsteps() const {  // while nothing presses it
         return inParts(now_.budget.factor * (choice_.need ? now_.following.substeps() : ownSubsteps_));
     }
     int wantedSubsteps() const { return (quietSubsteps() + parts_ - 1) / parts_ * parts_; }
@@ -197,34 +197,34 @@ class Island {
     void visitInside(StateBytes& bytes);
     void visitStep(StateBytes& bytes);
 
-    // What every tick looks at stands close together.
+    // Members that every tick reads stand close together.
     std::unique_ptr<Dynamics> dynamics_;
-    bool isOpen_ = false;              // v is at the time of x, and the method not started from there
-    bool mayCollide_ = false;          // there are colliders, and bodies for them
+    bool isOpen_ = false;              // v is at the time of x, and the method has not started from there yet
+    bool mayCollide_ = false;          // there are colliders, and bodies that collide with them
     bool mayFreeze_ = false;           // after a fault
     bool hasCells_ = false;            // to watch
     bool hasMoved_ = false;            // any tick yet
-    bool hasLooked_ = false;           // which points stand inside colliders
+    bool hasLooked_ = false;           // for points that stand inside colliders
     bool isChanged_ = false;           // the plan is not as it was built
     bool haveForcesJumped_ = false;    // since the island was opened
-    Changes changes_;                  // of the plan, that the dynamics know nothing of yet
-    bool shortensForContact_ = false;  // the step
+    Changes changes_;                  // of the plan, which the dynamics have not taken over yet
+    bool shortensForContact_ = false;  // contact may shorten the step
     StepChoice choice_;
     double tickSeconds_;      // [s]
-    bool keepsStep_ = false;  // whatever the state is
-    int quietParts_ = 1;      // a tick, that substeps are to be divided into while nothing presses it
-    int parts_ = 1;           // likewise, now
-    int ownSubsteps_ = 1;     // a tick, where they do not follow the state
+    bool keepsStep_ = false;  // no state changes the step
+    int quietParts_ = 1;      // parts of a tick, into which substeps are divided while nothing presses it
+    int parts_ = 1;           // the same, for the present tick
+    int ownSubsteps_ = 1;     // substeps a tick, where they do not follow the state
     IslandPlan plan_;
     ForceList forces_;
-    ode::Work workElsewhere_;  // of what ran before it was read, less that of what was only asked
+    ode::Work workElsewhere_;  // of runs before it was read, less the work of mere queries
     std::vector<dvec3> x_;     // (points) scratch
     collision::Colliders colliders_;
-    IslandMemory now_, before_;  // as it is, and what the tick began with
+    IslandMemory now_, before_;  // the present state, and that at the start of the tick
     struct {
         int rescues = 0;        // so far, of a tick that diverges
         int doublings = 0;      // of steps, for contact to add less
-        double addedFirst = 0;  // [J] by contact, before those
+        double addedFirst = 0;  // [J] by contact, before these doublings
     } tries_;                   // of this tick
     std::vector<std::string> insideWarnings_;
     std::string stretchWarning_, collapseWarning_, limitWarning_;

@@ -21,7 +21,7 @@ class IslandContacts {
     using Planes = core::AlignedArray<Real>;
     using Method = ode::Method<Real>;
 
-    // Expects that all three stay.
+    // Expects that all three outlive it.
     IslandContacts(const IslandPlan& plan, mechanics::MassSpringSystem<Real>& system, ode::State<Real>& state)
         : plan_(plan),
           system_(system),
@@ -29,16 +29,16 @@ class IslandContacts {
           planar_{system.layout().stride},
           before_(system.layout().size()) {}
 
-    // To be called when positions have changed by anything but a step and its contacts.
+    // To be called when anything but a step and its contacts has changed positions.
     void drop() { candidates_.drop(); }
-    // Before a step.
+    // Keeps the positions before a step.
     void remember() {
         std::copy(state_.x.begin(), state_.x.end(), before_.begin());
         if (watch_.isOn()) std::copy(state_.v.begin(), state_.v.end(), watch_.vStart.begin());
     }
     std::span<const int> touched() const { return touched_; }  // points, by the last collide()
 
-    // After the step of length h [s] that began at t [s]; gravity: of uniform fields [m/s²].
+    // After the step of length h [s] that began at t [s]. gravity: of uniform fields [m/s²].
     bool collide(const collision::Colliders& colliders, Method& method, double t, double h, const dvec3& gravity,
                  std::vector<collision::Contact>* contacts) {
         findColliding(std::sqrt(glm::dot(gravity, gravity)));
@@ -56,7 +56,8 @@ class IslandContacts {
         return true;
     }
 
-    // Points in the list, which began inside a collider, no faster than `speed` [m/s]; those that are out leave it.
+    // Moves the listed points, which began inside a collider, outwards at most at `speed` [m/s]. Points that are out
+    // leave the list.
     void emerge(const collision::Colliders& colliders, Method& method, double h, double speed,
                 std::vector<int>& inside) {
         const double most = speed * h;
@@ -74,8 +75,8 @@ class IslandContacts {
         if (!more_.empty()) method.touch(state_, more_);
     }
 
-    // Points (ascending) go to x [m] with v [m/s], out of the colliders where those stop them; both become what is
-    // kept. h [s], gravity: of the step that was taken.
+    // Moves points (ascending) to x [m] with velocities v [m/s]; colliders may stop them. Writes the result back to x
+    // and v. h [s] and gravity are those of the last step.
     void place(const collision::Colliders* colliders, Method& method, double h, const dvec3& gravity,
                std::span<const int> points, std::span<dvec3> x, std::span<dvec3> v) {
         if (colliders != nullptr) findColliding(std::sqrt(glm::dot(gravity, gravity)));
@@ -118,10 +119,11 @@ class IslandContacts {
         method.touch(state_, points);
     }
 
-    // Velocities to which forces have been added for so long [s] since those of the state, and what presses points has
-    // not: as much again as in the last instant. Of an impact, which does not go on, hardly more than of the forces.
+    // Forces have acted on these velocities for `seconds` [s] since the state, the pressure of other bodies has not.
+    // Adds its accelerations of the last instant. An impact does not last, so each addition is limited by what
+    // forces have added.
     void bear(std::span<const ContactAcceleration> pressed, double seconds, Planes& velocities) const {
-        constexpr double most = 2.0;  // of what forces have added
+        constexpr double most = 2.0;  // times what forces have added
         for (const ContactAcceleration& one : pressed) {
             const dvec3 v = planar_.at(velocities, one.point), added = v - planar_.at(state_.v, one.point);
             const dvec3 push = seconds * one.acceleration;
@@ -129,8 +131,7 @@ class IslandContacts {
             planar_.set(velocities, one.point, v + (size > limit ? limit / size : 1.0) * push);
         }
     }
-    // Velocities to which forces have been added since those of the state: what contacts, point by point, leave of
-    // them.
+    // Forces have changed these velocities since the state. Removes, point by point, what contacts do not let pass.
     void bear(std::span<const collision::Contact> contacts, Planes& velocities) const {
         forEachPoint(
             contacts,
@@ -142,14 +143,14 @@ class IslandContacts {
             });
     }
 
-    // Whether collide() sums up what it does to the energy.
+    // Whether collide() sums up how it changes the energy.
     void watch(bool isOn) {
         if (!isOn)
             watch_ = {};
         else if (!watch_.isOn())
             watchAnew();
     }
-    // Cells and springs are others.
+    // To be called when cells and springs have changed.
     void rewatch() {
         if (watch_.isOn()) watchAnew();
     }
@@ -158,7 +159,7 @@ class IslandContacts {
   private:
     void watchAnew() { watch_.start(plan_, cellsOf(plan_), system_.layout().stride); }
 
-    // None stops what a collider carries by a constraint.
+    // Colliders do not stop points that a collider carries by a constraint.
     const Real* inverseMasses() {
         const Real* all = system_.inverseMasses();
         carried_.clear();
@@ -190,8 +191,8 @@ class IslandContacts {
         }
     }
 
-    // What touches is held up, and the rest goes where it then goes; points that this leads into a collider are put
-    // out in turn. Friction goes by what a point then bears, of the others as of itself.
+    // Points that touch are held up, and the others move accordingly. Points that this leads into a collider are
+    // brought out in turn. Friction follows the load that a point then bears, including that of others.
     void letYield(const collision::Colliders& colliders, Method& method, double t, double h) {
         constexpr int mostRounds = 4;
         supports_.clear();
@@ -213,7 +214,7 @@ class IslandContacts {
         }
     }
 
-    // Points that are in a collider by now, into more_ and moreRecords_.
+    // Finds the points that are inside a collider by now: more_ and moreRecords_.
     void findMore(const collision::Colliders& colliders, double h) {
         moreRecords_.clear();
         more_.clear();
@@ -224,7 +225,7 @@ class IslandContacts {
         std::erase_if(moreRecords_, [&](const collision::Contact& contact) { return isOld(contact.point); });
     }
 
-    // Points at one surface that do not stick to it go along it.
+    // Points that slide on a surface move along it.
     void addSupports(std::span<const collision::Contact> records) {
         forEachPoint(
             records,
@@ -248,7 +249,7 @@ class IslandContacts {
 
     struct Slide {
         dvec3 carried;    // [m/s] velocity of the surface
-        dvec3 direction;  // unit, of the point along it; 0 where it does not slide
+        dvec3 direction;  // unit, in which the point moves along the surface; 0 where it does not slide
         double friction;  // Coulomb's μ
     };
     static void setRub(ode::Support& support, const Slide& slide, double impulse) {
@@ -256,8 +257,8 @@ class IslandContacts {
         support.rub = {rub.x, rub.y, rub.z};
     }
 
-    // Friction by the impulses that were found; points that it turned round stick. Whether that changes anything, of
-    // the friction the first time.
+    // Applies friction by the impulses found. Points that it would turn round stick. Returns whether that changes
+    // anything; the first time, whether there is friction.
     bool rub(double h, bool isFirst) {
         bool changes = false;
         for (std::size_t i = 0; i < supports_.size(); ++i) {
@@ -279,8 +280,8 @@ class IslandContacts {
         return changes;
     }
 
-    // Of points that were outside before the step. What begins inside a collider, or nearer than its thickness, is
-    // brought out whatever the step, and no shorter one adds less.
+    // Adds the work on points that were outside before the step. Points that begin inside a collider, or nearer than
+    // its thickness, are brought out whatever the step. A shorter step would add as much for them.
     void addWork(const collision::Colliders& colliders, bool isAll, double h, const dvec3& gravity) {
         outside_.clear();
         forEachPoint(records_, [&](std::span<const collision::Contact> contacts) {
@@ -302,8 +303,8 @@ class IslandContacts {
         return 0.0;
     }
 
-    // Before and after with velocities at the time of the positions, to which half of what the last forces gave leads.
-    // What a moving surface gives is its own work: none, as seen from it.
+    // The energy before and after, with velocities at the time of the positions: half of what the
+    // last forces gave is added. A moving surface does work of its own. Seen from the surface it is zero.
     void addWorkOnTouched(const dvec3& gravity) {
         forEachPoint(records_, [&](std::span<const collision::Contact> contacts) {
             const int point = contacts.front().point;
@@ -322,9 +323,9 @@ class IslandContacts {
         watch_.add(watch_.energy(plan_, outside_, false, state_.x, watch_.w, gravity) - before);
     }
 
-    // Solved for again a step keeps energy that without contact it would have turned into motion and damped: contact
-    // adds what there is more than at the start of the step as well. Where a surface moves none can say what is its
-    // work.
+    // A step that is solved again keeps energy that, without contact, it would have turned into motion and damped. So
+    // energy above that at the start of the step also counts as added by contact. Where a surface moves its work cannot
+    // be told apart.
     void addWorkOnAll(const dvec3& gravity) {
         const bool moves = std::any_of(records_.begin(), records_.end(),
                                        [](const collision::Contact& contact) { return contact.carried != dvec3(0.0); });
@@ -335,7 +336,7 @@ class IslandContacts {
         watch_.add(std::max(0.0, watch_.energy(plan_, touched_, true, state_.x, state_.v, gravity) - before));
     }
 
-    // Calls each(contacts of a point) for all of them.
+    // Calls each(contacts of a point) for all points.
     template <class Each>
     static void forEachPoint(std::span<const collision::Contact> contacts, Each&& each) {
         for (std::size_t first = 0; first < contacts.size();) {
@@ -354,12 +355,12 @@ class IslandContacts {
     std::vector<collision::MovingPoints<Real>> colliding_;  // bodies
     collision::Candidates candidates_;
     std::vector<int> touched_, more_;                        // points
-    std::vector<int> outside_;                               // of those touched, before the step
-    std::vector<collision::Contact> records_, moreRecords_;  // of the last collide(), where they are kept
+    std::vector<int> outside_;                               // those of touched_ that were outside before the step
+    std::vector<collision::Contact> records_, moreRecords_;  // of the last collide(), if it kept them
     std::vector<Slide> slides_;                              // (supports)
     std::vector<ode::Support> supports_;                     // likewise
     ContactWatch<Real> watch_;
-    Planes placed_, placedFrom_, placedSpeeds_;  // scratch, of points that are placed
+    Planes placed_, placedFrom_, placedSpeeds_;  // scratch for place()
     std::vector<Real> placedMasses_;             // likewise
     std::vector<int> carried_;                   // likewise, points
     std::vector<Real> masses_;                   // (points) [1/kg], where some are carried

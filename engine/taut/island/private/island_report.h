@@ -1,4 +1,4 @@
-// What is told of an island: energies, frequencies, warnings, and why it stopped. It changes nothing.
+// What an island reports: energies, frequencies, warnings, and why it stopped. It changes nothing.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,15 @@
 
 namespace taut::world {
 
-// Adds the share, at the time of the tick, of the bodies of the island that `wanted` names; velocities synchronised.
+// Adds the share of the bodies that `wanted` names, at the time of the tick, velocities synchronised.
 void addMetrics(Island& island, const TickTime& time, const std::function<bool(const Body&)>& wanted, Metrics& metrics);
 
 IslandInfo infoOf(const Island& island, const TickTime& time);
 
-// What to say before the first tick, and what has changed since (a working stretch left).
+// Warnings for the time before the first tick, and of what has changed since (a working stretch exceeded).
 std::vector<std::string> warningsOf(const Island& island);
 
-// Expects that the state is the last good one.
+// Expects that the island is in its last good state.
 Divergence diagnose(const Island& island, const Fault& fault, const TickTime& time);
 
 }  // namespace taut::world

@@ -1,5 +1,5 @@
-// What a tick changes of an island besides its points and its plan: a value. To keep it is a copy, to undo a tick an
-// assignment, to save it a visit. It knows no island.
+// All that a tick changes of an island besides its points and its plan, as a value. Keeping it is a copy, undoing a
+// tick an assignment, saving it a visit. It knows no island.
 #pragma once
 
 #include <algorithm>
@@ -13,25 +13,25 @@
 
 namespace taut::world {
 
-// By how much contact shortens the steps of "auto" at most.
+// Largest factor by which contact shortens the steps of "auto".
 inline constexpr int mostContactFactor = 1024;
 
-// The energy that contact with colliders may add, in sum, and the steps that keep it within that.
+// How much energy contact with colliders may add in all, and the steps that keep it below that.
 //
-// An impact shifts its point by up to v h against springs, which adds energy. A tick that adds more than a quarter of
-// what is left of 2 % of the most energy that there was at a touch is taken again in steps half as long. So the sum
-// stays below however many impacts come. After a second in which contact has added or taken next to nothing steps are
-// as long again as they may.
+// An impact shifts its point by up to v h against springs, which adds energy. The budget is 2 % of the most energy at
+// any touch. A tick that adds more than a quarter of what is left is repeated in steps half as long, so the sum stays
+// below the budget however many impacts come. After a second in which contact has changed the energy by next to
+// nothing, steps become longer again.
 struct ContactBudget {
-    static constexpr double share = 0.02;   // of the most energy at a touch, in sum
-    static constexpr double trifle = 0.01;  // of that: no reason to take a tick again
+    static constexpr double share = 0.02;   // of the most energy at a touch, for the sum
+    static constexpr double trifle = 0.01;  // of the budget: too little to repeat a tick
 
-    ContactWork sum;                // so far; atTouch is the most at the first touch of any tick
-    double most = 0;                // [J] that was added at any time
-    int factor = 1, calmTicks = 0;  // by which steps are shorter; since when they need not be
+    ContactWork sum;                // so far; atTouch is the largest at the first touch of any tick
+    double most = 0;                // [J] largest sum at any time
+    int factor = 1, calmTicks = 0;  // by which steps are shorter; ticks since they need not be
 
-    // [J] But for what contact itself has added: a collider that moves, a hand or the wind may have brought far more
-    // than there was at the first touch of all.
+    // [J] The most energy at a touch, without what contact itself has added. A moving collider, a hand or the wind may
+    // have brought far more energy than there was at the very first touch.
     double energyAtTouch(const ContactWork& work) const {
         return std::max(sum.atTouch, work.atTouch - std::max(sum.added, 0.0));
     }
@@ -56,13 +56,13 @@ struct ContactBudget {
 
 struct IslandMemory {
     // Contact with colliders, and with other bodies.
-    std::vector<collision::Contact> contacts;  // of the last tick's last step
-    std::vector<ContactAcceleration> pressed;  // of its last instant
+    std::vector<collision::Contact> contacts;  // of the last step of the last tick
+    std::vector<ContactAcceleration> pressed;  // of the last instant of that tick
     std::vector<int> inside;                   // points that began inside a collider and have not been out yet
-    bool hasTouched = false;                   // a contact yet
+    bool hasTouched = false;                   // in any step so far
     ContactBudget budget;
     // Steps.
-    StepFollowing following;              // where they follow the state
+    StepFollowing following;              // for steps that follow the state
     int substeps = 1;                     // a tick
     double step = 0;                      // [s]
     std::vector<StepChange> stepChanges;  // so far

@@ -1,4 +1,4 @@
-// Points in planes x…x y…y z…z, as vectors.
+// Vectors of points that are stored in planes x…x y…y z…z.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Whether rounding in single precision keeps points in place, because what a step adds to a coordinate is less than
-// half a unit in its last place. It says so once.
+// Warns once if rounding in single precision keeps points in place. That happens when a step adds less to a coordinate
+// than half a unit in its last place.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@ namespace taut::world {
 
 class PrecisionWatch {
   public:
-    // Stuck from the start: below what gravity gives in a tick, along whichever axis, or at the speed that it is given.
-    // step [s]; limitingSpring: what sets it, in words.
+    // Looks for points that are stuck from the start: gravity over one tick, or the given velocity, is too slow along
+    // an axis. step [s]; limitingSpring: what sets it, in words.
     void foresee(const IslandPlan& plan, const Dynamics& dynamics, double t, double tickSeconds, double step,
                  const std::string& limitingSpring);
     // After every tick.
     void look(const IslandPlan& plan, Dynamics& dynamics, double tickSeconds, double step,
               const std::string& limitingSpring);
-    void restart() { ticksToLook_ = 0; }  // steps are others
+    void restart() { ticksToLook_ = 0; }  // to be called when steps change
     const std::string& warning() const { return warning_; }
 
     void visit(StateBytes& bytes);
@@ -27,8 +27,8 @@ class PrecisionWatch {
 
   private:
     std::string warning_;
-    int ticksToLook_ = 0;   // until size and place tell anew whether rounding matters
-    double mayLose_ = 0;    // [m] that rounding may keep a point back; 0 where it cannot
+    int ticksToLook_ = 0;   // ticks until size and place decide again whether rounding matters
+    double mayLose_ = 0;    // [m] by which rounding may keep a point back unnoticed; 0 where it cannot do so
     std::vector<dvec3> x_;  // (points) scratch
 };
 

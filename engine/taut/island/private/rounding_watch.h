@@ -1,4 +1,5 @@
-// Where single precision keeps points in place: h v below half a unit in the last place of x. It knows no island.
+// Finds points that single precision keeps in place: h v is below half a unit in the last place of x. It knows no
+// island.
 #pragma once
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace taut::world {
 template <class Real>
 class RoundingWatch {
   public:
-    // See Dynamics; steps of h [s].
+    // See Dynamics::freezingSpeed(); steps of h [s].
     static double freezingSpeed(double place, double h) {
         if constexpr (sizeof(Real) == sizeof(double)) return 0.0;
         const Real x = static_cast<Real>(std::abs(place));
@@ -37,7 +38,7 @@ class RoundingWatch {
             }
         return found;
     }
-    // size: of the planes.
+    // size: of the arrays of planes.
     void visit(StateBytes& bytes, std::size_t size) {
         bool has = lost_.size() > 0;
         bytes(has);
@@ -46,7 +47,7 @@ class RoundingWatch {
     }
 
   private:
-    core::AlignedArray<Real> lost_;  // [m] that velocities say and positions, stuck since then, do not
+    core::AlignedArray<Real> lost_;  // [m] way by the velocities that stuck positions have not gone
 };
 
 }  // namespace taut::world

@@ -35,39 +35,39 @@
 
 namespace taut::world {
 
-// How many substeps a tick needs, at the chosen share of the longest stable step, as the bound of the state asks.
+// How many substeps a tick needs in the present state, at the chosen share of the longest stable step.
 struct StepNeed {
     const ode::MethodInfo* method = nullptr;
     double tickSeconds = 0, safety = 0;
     ode::FastestMode others;   // all but ω and dashpots
-    double moreOmega2 = 0;     // [1/s²] what generators and hands add at most
-    double leastTauShare = 1;  // of the damping that there is, the least that ever will be
-    bool splits = false;       // the dashpots off
+    double moreOmega2 = 0;     // [1/s²] largest addition by generators and hands
+    double leastTauShare = 1;  // smallest share of the present damping that there will ever be
+    bool splits = false;       // the dashpots act apart from the other forces
 
     double operator()(const mechanics::FastestNow& now) const;
-    // Allows for what generators have come to add.
+    // Takes account of additions by generators since the start.
     void raise(const mechanics::StabilityShare& share, std::span<const double> inverseMasses);
 };
 
 struct StepChoice {
     int substeps = 1;
-    std::optional<StepNeed> need;  // of an island whose step follows its state
-    bool splits = false;           // the dashpots off
+    std::optional<StepNeed> need;  // if the step of the island follows its state
+    bool splits = false;           // the dashpots act apart from the other forces
     double step = 0;               // h = tick / substeps [s]
-    double limit = 0;  // largest stable step [s], by the bound that holds in any shape, of cells in any they may take
+    double limit = 0;  // largest stable step [s], by the bound that holds in any shape, also of cells
     ode::FastestMode mode;  // what the limit is computed from
     mechanics::FrequencyBound anywhere, here;
     std::string limitingSpring;  // what sets the limit, in words; empty when nothing does
     std::vector<std::string> warnings;
-    std::string fault;  // file, line and remedy where the step is so long that the run will end by it; else empty
+    std::string fault;  // file, line and remedy if the step is so long that it will end the run; else empty
     std::vector<std::string> advice;  // what would allow a longer step
 };
 
-// Without `now` the step that holds for all that the envelope allows; with it, where dt is "auto" and the method's
-// limit is a promise, one that holds for that state, and the rule by which it may change. share: what generators other
-// than the springs and hands add. leastOmega: what the fastest motion at the start is not below [1/s], asked only of a
-// step that is over a limit. inParts: how many substeps a tick takes that needs so many. Throws
-// core::Error(badContent) when "auto" has no answer or a tick would need more than a million steps.
+// Without `now`: the step that holds for all that the envelope allows. With `now`, where dt is "auto" and the method's
+// limit is a promise: a step that holds for that state, and the rule by which it may change. share: what generators add
+// besides the springs and hands. leastOmega(): a lower bound of the fastest motion at the start [1/s], asked only for a
+// step over a limit. inParts(n): the substeps of a tick that needs n. Throws core::Error(badContent) when "auto" has no
+// answer or a tick would need more than a million steps.
 StepChoice chooseStep(const Envelope& envelope, mechanics::StabilityShare share, double tickSeconds,
                       const std::function<double()>& leastOmega, const mechanics::FastestNow* now,
                       const std::function<int(int)>& inParts);

@@ -1,4 +1,4 @@
-// How long the springs of an island may be before they yield or break, and which of those that are too long break at
+// The lengths at which the springs of an island yield or break, and which of the springs that are too long break at
 // once. It changes nothing.
 //
 // Far from a tear a sheet is strained evenly, and a spring breaks at the break strain ε_break whatever the cell size.
@@ -14,9 +14,9 @@
 //           ║        tip: its ends neighbour the ends of a broken spring along springs that hold. So do the ends of the
 //   o   o---o---o    diagonals (not shown). Springs along the edges of the tear are not at the tip.
 //
-// When a spring breaks, springs near it are relieved. If all that are too long broke in one step, some would break
-// that the first break would have saved. So only those break that no other in reach exceeds; the rest are looked at
-// again after the next step.
+// When a spring breaks, springs near it are relieved. If all springs that are too long broke in one step, some would
+// break that the first break would have saved. So a spring breaks only if no other in its reach is further over. The
+// rest are looked at again after the next step.
 //
 // Yielding moves the rest length so far that the yield strain is left. The break strain counts from the length that the
 // spring was made with, so yielding does not raise the length at which a spring breaks.
@@ -32,14 +32,14 @@ namespace taut::world {
 
 class Strength {
   public:
-    // Points and springs of the plan stay what they are; the plan is to live on.
+    // Expects that the plan outlives it and that its points and springs keep their order.
     explicit Strength(const IslandPlan& plan);
 
     mechanics::LengthLimits limitsOf(int spring) const;
     std::vector<mechanics::LengthLimits> limits() const;  // (springs)
 
-    // What becomes of a spring of length l [m]: how far it is over its strain to break, as a factor, above 1 if it is;
-    // and the rest length [m] that leaves it strained by no more than the yield strain.
+    // For a spring of length l [m]: overload() is its strain as a factor of the break strain, above 1 if it breaks.
+    // yieldedLength() is the rest length [m] that leaves it strained by no more than the yield strain.
     double overload(int spring, double l) const;
     double yieldedLength(int spring, double l) const;
 
@@ -47,13 +47,13 @@ class Strength {
         int spring;
         double overload;
     };
-    // Of springs that are over: those that none in reach exceeds, so that the others feel first what their going
-    // relieves. Two in reach share a point, or points of theirs are neighbours.
+    // Of the overloaded springs: those that no other in reach exceeds, so that the others first feel the relief. Two
+    // springs are in reach if they share a point or have neighbouring points.
     std::vector<int> firstToBreak(std::vector<Break> over) const;
 
-    // Springs of the plan between two points of it.
+    // The springs of the plan between two points.
     std::vector<int> between(int a, int b) const;
-    // Those for which it may matter that one between two points has broken.
+    // The springs whose limits may change when a spring between these two points breaks.
     std::vector<int> around(int a, int b) const;
 
   private:

@@ -1,5 +1,5 @@
-// The force through ties of joints that may break, as the mean over a tick: an impact counts by its impulse, whatever
-// the step. It changes nothing.
+// The force through ties of breakable joints, as the mean over a tick. An impact counts by its impulse, whatever the
+// step. It changes nothing.
 #pragma once
 
 #include <vector>
@@ -11,18 +11,18 @@ namespace taut::world {
 
 class TieLoad {
   public:
-    // A tick begins, or one of its tries.
+    // Starts a tick or one of its tries.
     void begin(const IslandPlan& plan);
     bool isOn() const { return !watched_.empty(); }
-    // After a step that ended at t [s]: what springs pull with, without their dashpots. Constraints count for
-    // themselves.
+    // After a step that ended at t [s]: adds the pull of springs, without their dashpots. Constraints sum their own
+    // impulses.
     void add(const IslandPlan& plan, const Dynamics& dynamics, double t);
-    // (ties) of the tick, which took so many seconds.
+    // (ties) whether each is overloaded in the mean of the tick, which took `seconds` [s].
     std::vector<bool> overloaded(const IslandPlan& plan, const Dynamics& dynamics, double seconds) const;
 
   private:
     std::vector<std::size_t> watched_;  // ties
-    std::vector<dvec3> sum_;            // (watched) [N] of the steps
+    std::vector<dvec3> sum_;            // (watched) [N] over the steps
     int steps_ = 0;
 };
 

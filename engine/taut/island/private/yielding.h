@@ -1,5 +1,5 @@
-// Springs that yield and break, looked at after every substep of an island, and held again where its tick is undone.
-// strength.h says when they do. It knows no tick.
+// Springs that yield and break. They are checked after every substep of an island and restored where its tick is
+// undone. strength.h says when they yield and break. It knows no tick.
 #pragma once
 
 #include <memory>
@@ -14,21 +14,21 @@ namespace taut::world {
 
 class Yielding {
   public:
-    // The plan or what its bodies bear may be another.
+    // To be called when the plan or the strength of its bodies may have changed.
     void watch(const IslandPlan& plan, Dynamics& dynamics);
     bool isOn() const { return isOn_; }        // there are springs that yield or break
-    bool hasTorn() const { return hasTorn_; }  // any, since keep()
+    bool hasTorn() const { return hasTorn_; }  // any spring, since keep()
 
     // After a substep. Returns whether the plan has changed.
     bool giveWay(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces);
 
-    // What has given way so far stays so.
+    // Keeps what has yielded and broken so far.
     void keep();
-    // What has given way and torn since then holds again.
+    // Restores what has yielded and broken since keep().
     void undo(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces);
 
   private:
-    // Appends the springs that have changed.
+    // Appends the springs that it changes.
     void tear(IslandPlan& plan, Dynamics& dynamics, const ForceList& forces, const std::vector<int>& springs,
               std::vector<int>& changed);
     void remember(const IslandPlan& plan, int spring);
@@ -43,9 +43,9 @@ class Yielding {
     bool isOn_ = false, hasTorn_ = false;
     std::vector<int> beyond_;                        // scratch
     std::vector<dvec3> x_;                           // (points) scratch
-    std::vector<Spring> before_;                     // of what has changed, what it was at keep()
-    std::vector<bool> isRemembered_;                 // (springs) there
-    std::vector<std::pair<Body*, Damage>> damaged_;  // likewise
+    std::vector<Spring> before_;                     // changed springs, as they were at keep()
+    std::vector<bool> isRemembered_;                 // (springs) whether before_ has it
+    std::vector<std::pair<Body*, Damage>> damaged_;  // damaged bodies, with their damage at keep()
 };
 
 }  // namespace taut::world

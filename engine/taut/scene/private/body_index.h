@@ -16,11 +16,11 @@ struct TargetFault {
     std::string message, remedy;
 };
 
-// What is known of one body without building it.
+// What is known of a body before it is built.
 struct BodyEntry {
     std::string kind, name;      // "cloth", "flag"
-    int copies = 1;              // more than one: called flag.0, flag.1, …
-    bool isFaulty = false;       // its numbers are not to be trusted
+    int copies = 1;              // if more than one, they are flag.0, flag.1, …
+    bool isFaulty = false;       // its numbers cannot be trusted
     world::BodyOutline outline;  // of one copy
     world::SolverOverride solver;
 
@@ -32,35 +32,35 @@ class BodyIndex {
     // `faulty` names bodies with errors, "cloth.flag".
     BodyIndex(const world::SceneSpec& scene, const world::Kinds& kinds, const std::set<std::string>& faulty);
 
-    // KIND.NAME@SELECTOR; NAME may hold the wildcard *, and ends in .0, .1, … for one copy of an array.
+    // For KIND.NAME@SELECTOR. NAME may contain the wildcard *, and ends in .0, .1, … for one copy of an array.
     std::optional<TargetFault> pointsFault(const std::string& target) const;
 
-    // The same, where a missing @SELECTOR means all points.
+    // The same, but a missing @SELECTOR means all points.
     std::optional<TargetFault> targetFault(const std::string& target) const;
 
-    // KIND.NAME, with the same wildcard.
+    // For KIND.NAME with the same wildcard.
     std::optional<TargetFault> bodyFault(const std::string& target) const;
 
-    // KIND.NAME of bodies with a surface.
+    // For KIND.NAME of bodies with a surface.
     std::optional<TargetFault> surfaceFault(const std::string& target) const;
 
-    // Of a target that is measured against another: whether both are one and the same body.
+    // For two targets to be measured against each other: whether both are the same body.
     std::optional<TargetFault> betweenFault(const std::string& first, const std::string& second) const;
 
-    // A selector alone, of the body with this title.
+    // For a selector alone, of the body with this title.
     std::optional<TargetFault> selectorFault(const std::string& title, const std::string& selector) const;
 
-    // The bodies that KIND.NAME or KIND.NAME@SELECTOR names, sorted; none if it is faulty.
+    // The bodies of KIND.NAME or KIND.NAME@SELECTOR, sorted; none if the target is faulty.
     std::vector<const BodyEntry*> matches(const std::string& target) const;
 
-    // The same by name, each copy of an array for itself: "cloth.flag", "cloth.tile.0"; of faulty bodies too.
+    // The same by name, with each copy of an array: "cloth.flag", "cloth.tile.0". Includes faulty bodies.
     std::vector<std::string> names(const std::string& target) const;
 
   private:
     std::optional<TargetFault> bodiesFault(const std::string& target) const;
 
     std::vector<std::string> kinds_;
-    std::vector<std::string> surfaceKinds_{"cloth", "block"};  // and those that the scene has
+    std::vector<std::string> surfaceKinds_{"cloth", "block"};  // and further kinds of the scene
     std::vector<BodyEntry> bodies_;
 };
 

@@ -1,4 +1,4 @@
-// How much a scene will hold once it is built and drawn, so that too much is refused before anything is allocated.
+// How much memory a scene will need once built and drawn, so that too much is refused before it is allocated.
 #pragma once
 
 namespace taut::world {
@@ -8,7 +8,7 @@ struct SceneSpec;
 
 namespace taut::scene {
 
-// Counts as doubles: they may be far beyond any integer.
+// Counts are doubles, as they may be far beyond any integer.
 struct BodySize {
     double points = 0, springs = 0, volumes = 0;  // of all copies
     double bytes() const;                         // of the model and the state, roughly
@@ -17,11 +17,11 @@ struct BodySize {
 BodySize sizeOf(const world::BodySpec& body, const world::SceneSpec& scene);
 BodySize sizeOf(const world::SceneSpec& scene);  // of all bodies together
 
-// Everything that a run with pictures takes [bytes], by rules measured with a software renderer and rounded up.
+// [bytes] Everything that a run with pictures takes, by rules measured with a software renderer and rounded up.
 struct SceneSize {
     double bodies = 0;
-    double colliders = 0;  // with what is drawn of them, and the triangles of their meshes
-    double pictures = 0;   // what is drawn into, and the pictures on their way to a file
+    double colliders = 0;  // with their drawings and the triangles of their meshes
+    double pictures = 0;   // buffers to draw into, and pictures on their way to a file
     double timeline = 0;   // actions, checks, keyframes
     double bytes() const { return bodies + colliders + pictures + timeline; }
 };

@@ -1,4 +1,4 @@
-// Checks what is claimed of a run: that each claim can be read, and speaks of what is there at its moments.
+// Checks the claims of a scene: each can be read, and names what exists at its moments.
 #pragma once
 
 #include "taut/scene/private/body_index.h"
@@ -6,8 +6,8 @@
 
 namespace taut::scene {
 
-// Reports faults of [[check]] and [[golden]]; takes the source of a check to the first character of its claim. `root`
-// is the document that the scene was read from.
+// Reports faults of [[check]] and [[golden]]. Moves the source of a check to the first character of its claim. `root`
+// is the document from which the scene was read.
 void checkClaims(const Node& root, const BodyIndex& bodies, ReadScene& scene, Problems& problems);
 
 }  // namespace taut::scene

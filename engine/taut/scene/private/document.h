@@ -1,4 +1,4 @@
-// A TOML text as a tree. It knows nothing of scenes.
+// Makes a tree of a TOML text. It knows nothing of scenes.
 #pragma once
 
 #include <stdexcept>
@@ -23,8 +23,8 @@ struct SyntaxError : std::runtime_error {
     std::string remedy;
 };
 
-// The tree of a text. Throws SyntaxError, also for zero bytes, invalid UTF-8, UTF-16, a key given twice,
-// and nesting so deep that it can only be an accident or an attack.
+// The tree of a text. Throws SyntaxError, also for zero bytes, invalid UTF-8, UTF-16, a key given twice, and nesting so
+// deep that it can only be an accident or an attack.
 Node documentTree(std::string_view text, int origin);
 
 }  // namespace taut::scene

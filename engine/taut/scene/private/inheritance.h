@@ -1,5 +1,5 @@
-// What things of a scene have from others: [defaults.rope] is what every rope says unless it says otherwise, and
-// like = "rope.a" takes the keys of one. It changes the tree before it is read; it knows keys, not what they mean.
+// What elements of a scene inherit: every rope has the values of [defaults.rope] unless it gives its own, and like =
+// "rope.a" takes the keys of another. It changes the tree before it is read, and knows keys but not their meaning.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ namespace taut::scene {
 
 using fields::Problems;
 
-// Writes out what every element of a section with names has from others: its own keys stand over those of the one that
-// it is like, those over the ones of that, and all over the defaults of its section; tables are laid over each other
-// key by key, as merged() does. What does not go with the form of the element, such as the radius of a box, is left
-// out. Places stay those where a value is written. `like` is gone then; `defaults` stay, before everything else.
-// Reports a like that names nothing, or goes in a circle.
+// Writes out what named elements inherit. An element's own keys come first, then those of the element that it is like,
+// then of the one that this is like, then the defaults of its section. Tables are merged key by key, as by merged().
+// Values that do not fit the form of the element, such as the radius of a box, are left out. Each value keeps the place
+// where it is written. `like` is removed, `defaults` stay, ahead of everything else. Reports a `like` that names
+// nothing or goes in a circle.
 void inherit(const std::vector<SceneSection>& sections, Node& root, Problems& problems);
 
 }  // namespace taut::scene

@@ -1,5 +1,5 @@
-// Lays what a scenario says over the scene that it names, and that over the one that it names. It knows trees of keys,
-// not what they mean.
+// Merges a scenario into the scene that it names, and that into the scene that it names in turn. It knows trees of
+// keys, not their meaning.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +15,12 @@ namespace taut::scene {
 
 using fields::Problems;
 
-// The tree of `base` with that of `over` laid on: tables deeply, everything else replaced. Places stay those of the
-// file that says it; a table that both have begins where the base has it.
+// The tree of `base` with `over` on top: tables are merged deeply, everything else is replaced. Each place is that in
+// its own file. A table in both begins where the base has it.
 Node merged(Node base, const Node& over);
 
-// What `scene = "…"` says: the name, and whether it is one of the shipped scenes whatever lies beside the file, as
-// "shipped:NAME" says.
+// The content of `scene = "…"`: the name, and whether "shipped:NAME" asks for a shipped scene, whatever lies beside the
+// file.
 struct BaseName {
     std::string name;
     bool isShipped = false;
@@ -32,16 +32,16 @@ struct BaseFile {
     std::string text;
 };
 
-// The file that `scene = "…"` in a document names: beside the scene, or a shipped one in the `scenes` of an asset
-// folder, of these alone with "shipped:" before it, with or without ".toml"; never the scene file itself. "shipped:"
-// also takes a way from the asset folder, such as "shipped:scenarios/net". `chain` has the files so far, each of which
-// builds on the next; the document is the last. Reports what is wrong with the name or the file, and a chain that is
-// too long or goes in a circle.
+// The file that `scene = "…"` in a document names: one beside the scene, or a shipped one in the `scenes` of an asset
+// folder. With "shipped:" only the latter counts. ".toml" may be left out. It is never the scene file itself.
+// "shipped:" also takes a path from the asset folder, such as "shipped:scenarios/net". `chain` has the files so far,
+// each of which builds on the next; the document is the last. Reports faults of the name or the file, and a chain that
+// is too long or circular.
 BaseFile baseFileOf(const Node& root, const std::vector<std::filesystem::path>& chain,
                     const std::vector<std::filesystem::path>& assetFolders, const Confinement& confinement,
                     std::uint64_t maxBytes, Problems& problems);
 
-// How many files a scene may build on, one upon another.
+// The longest chain of files that build on one another.
 inline constexpr std::size_t mostBases = 8;
 
 }  // namespace taut::scene

@@ -1,5 +1,5 @@
-// The rows of kinds that stand in one list of tables, such as actions and joints, put together: for the schema, the
-// manual and what is said of a key that stands in the wrong place. It reads nothing of a file.
+// Merges the rows of kinds that share one list of tables, such as actions and joints: for the schema, the manual and
+// messages on misplaced keys. It reads no file.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace taut::scene {
 
-// Tells of both uses of a key.
+// Describes both uses of a key.
 inline void merge(fields::Field& into, const fields::Field& other) {
     if (into.kind != other.kind || into.components != other.components) {
         into.kind = fields::FieldKind::numbers;
@@ -24,7 +24,7 @@ inline void merge(fields::Field& into, const fields::Field& other) {
     if (into.help.find(other.help) == std::string::npos) into.help += " " + other.help;
 }
 
-// A row for what is said of a key; it is read and written by those of the kinds.
+// A row for messages on a key. The rows of the kinds read and write the key.
 template <class Base>
 fields::Field shown(const fields::Field& field, const world::Kind<Base>& kind) {
     fields::Field row = field;
@@ -37,8 +37,8 @@ fields::Field shown(const fields::Field& field, const world::Kind<Base>& kind) {
     return row;
 }
 
-// The keys of all kinds, each once and before the one that follows it where it was first met. variantsOf(kind, field)
-// are the variants of the section that have a kind's field.
+// The keys of all kinds, each once, and before the key that follows it where it first occurs. variantsOf(kind, field):
+// the variants of the section that have a kind's field.
 template <class Base, class VariantsOf>
 std::vector<fields::Field> mergedRows(std::span<const world::Kind<Base>> kinds, const VariantsOf& variantsOf) {
     std::vector<fields::Field> rows;

@@ -1,5 +1,4 @@
-// Reads the triangles and groups of a Wavefront OBJ file. It knows no materials, normals, curves or lines and leaves
-// them out.
+// Reads the triangles and groups of a Wavefront OBJ file. It ignores materials, normals, curves and lines.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +9,14 @@
 
 namespace taut::scene {
 
-// The file's faces as triangles: polygons cut in a fixed way (polygon.h), vertices at the same position made one,
-// unused ones dropped, triangles that thereby lose their area dropped. A vertex takes the texture coordinates of the
+// The file's faces as triangles. Polygons are cut in a fixed way (polygon.h). Vertices at the same position are merged,
+// unused ones dropped, and so are triangles that lose their area by this. A vertex has the texture coordinates of the
 // first corner that uses it, and belongs to every group (g) and object (o) with a face at it. Same bits on every
-// machine. Throws core::Error: inputOutput if the file cannot be read, badContent ("file:line: error: …") for numbers
-// that are none or not finite, indices out of range, faces of fewer than three corners, and a file without faces.
+// machine. Throws core::Error: inputOutput if the file cannot be read; badContent ("file:line: error: …") for bad or
+// infinite numbers, indices out of range, faces of fewer than three corners, and a file without faces.
 world::MeshData objMesh(const std::filesystem::path& path);
 
-// The same for a text; fileName is used in messages.
+// The same for a text; fileName appears in messages.
 world::MeshData objMeshText(std::string_view text, const std::string& fileName);
 
 }  // namespace taut::scene

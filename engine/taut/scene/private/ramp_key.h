@@ -1,4 +1,4 @@
-// What a ramp's key names: "wind.breeze.velocity" as a field of the scene that may change while it runs.
+// The field that a ramp's key names: "wind.breeze.velocity" as a field of the scene that may change during the run.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,15 @@ namespace taut::scene {
 
 struct RampKey {
     const Field* field = nullptr;                    // a row of `sections`
-    std::shared_ptr<const world::RampField> access;  // values as the file has them
+    std::shared_ptr<const world::RampField> access;  // values as in the file
 };
 
-// Nothing and a fault if the key names nothing, something that cannot change, or something that has no value to begin
-// from. `root` is the document that `scene` was read from.
+// Nothing, with a fault, if the key names nothing, something that cannot change, or something without a value to start
+// from. `root` is the document from which `scene` was read.
 std::optional<RampKey> rampKey(const std::string& key, const Node& root, const std::vector<SceneSection>& sections,
                                world::SceneSpec& scene, TargetFault& fault);
 
-// A line for each section that ramps may change: its name and the keys, for the manual and for messages.
+// One line for each section that ramps may change, with its name and keys, for the manual and for messages.
 std::vector<std::string> rampableKeys(const std::vector<SceneSection>& sections);
 
 }  // namespace taut::scene

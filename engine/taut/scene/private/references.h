@@ -1,4 +1,4 @@
-// Checks what texts of a scene refer to: materials, cameras, bodies and their points. It resolves nothing.
+// Checks the names in texts of a scene: materials, cameras, bodies and their points. It resolves nothing.
 #pragma once
 
 #include "taut/scene/private/body_index.h"
@@ -6,8 +6,8 @@
 
 namespace taut::scene {
 
-// Reports every reference to something that is not there, selectors that a body does not have, and joints between
-// bodies whose [solver] overrides disagree. Expects the meshes to be loaded.
+// Reports every reference to something missing, selectors that a body does not have, and joints between bodies with
+// different [solver] overrides. Expects the meshes to be loaded.
 void checkReferences(const ReadScene& scene, const BodyIndex& bodies, Problems& problems);
 
 // Why no joint of the scene has the name.

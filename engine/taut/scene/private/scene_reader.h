@@ -1,4 +1,4 @@
-// From a document to the scene's structs, by the field table. What refers to something else is listed, not resolved.
+// Reads a document into the scene's structs, by the field table. References to other things are listed, not resolved.
 #pragma once
 
 #include <map>
@@ -16,9 +16,9 @@ namespace taut::scene {
 struct NameReference {
     Role role = Role::none;
     Place place;
-    std::string text;   // of a mesh, a texture: the path as written
+    std::string text;   // for a mesh or a texture: the path as written
     double time = 0;    // [s]
-    std::string owner;  // "cloth.flag": the section it stands in; "environment" for a setting
+    std::string owner;  // its section, "cloth.flag"; "environment" for a setting
 };
 
 struct ReadScene {
@@ -28,7 +28,7 @@ struct ReadScene {
     std::map<std::string, Place> owners;  // where "cloth.flag" or "joint[0]" begins
 };
 
-// Files and overrides in world::Source are called as `problems` calls them.
+// world::Source names files and overrides as `problems` does.
 ReadScene readScene(const Node& root, const std::vector<SceneSection>& sections, const std::string& fileName,
                     Problems& problems);
 

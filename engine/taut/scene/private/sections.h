@@ -1,4 +1,4 @@
-// The field table of a scene file, by topic: each function is the table of one section.
+// The field table of a scene file by topic: each function is the table of one section.
 #pragma once
 
 #include "taut/fields/field.h"
@@ -13,16 +13,16 @@ using world::lengthRange;
 using world::momentRange;
 using world::placeRange;
 
-// A section of a scene file, and where its fields go.
+// A section of a scene file, and the struct that its fields fill.
 struct SceneSection : Section {
-    // The struct to fill: a part of the scene, or a new element with its name; of several forms that have structs of
-    // their own, with that of its form.
+    // The struct to fill: a part of the scene, or a new element with its name. If the forms of a section have structs
+    // of their own, the struct of its form.
     std::function<void*(world::SceneSpec&, const std::string& name, const core::Source&)> enter;
-    // The struct that is there already, or null; no function: ramps change nothing of it.
+    // The struct that exists already, or null. Without this function ramps cannot change it.
     std::function<void*(world::SceneSpec&, const std::string& name)> existing;
 };
 
-// All of them. `schema` and `title` stand in the one without a name.
+// All sections. The one without a name has `schema` and `title`.
 std::vector<SceneSection> sceneSections(const world::Kinds& kinds);
 
 // Settings of the whole scene.
@@ -40,20 +40,20 @@ SceneSection backgroundSection();
 
 SceneSection materialSection();
 
-// What ties, pushes and shows it.
+// What ties, pushes and shows the scene.
 SceneSection jointSection(const world::KindTable<world::JointSpec>& kinds);
 SceneSection massSection();
 SceneSection colliderSection(const collision::ShapeKinds& shapes);
 SceneSection cameraSection();
 SceneSection labelSection();
 
-// What happens while it runs, and what is claimed of it.
+// The timeline, and the claims.
 SceneSection handSection();
 SceneSection atSection(const world::KindTable<world::ActionSpec>& kinds);
 SceneSection checkSection();
 SceneSection goldenSection();
 
-// Keys must ascend in t. Reports each that does not; `list` is the value of `keys`.
+// Keys must ascend in t. Reports each that does not.
 void checkAscending(const CheckInput& input);
 
 // Enters a new element with a name and a source.

@@ -1,5 +1,5 @@
-// Writes changed values into the text of a scene where they stand, so that every other byte stays as it was: comments,
-// layout, line ends. It knows TOML, not what the keys mean.
+// Writes changed values into the text of a scene at their places. Every other byte stays: comments, layout, line ends.
+// It knows TOML, but not the meaning of keys.
 #pragma once
 
 #include <span>
@@ -13,12 +13,11 @@ struct Change {
     std::string value;  // as TOML: "[12, 8]", "\"leapfrog\"", "0.5"
 };
 
-// The text with the changes in it. A value that is there is replaced where it stands; of a list that keeps its length
-// only the elements that differ are, so that comments between them stay, while a list of another length is replaced
-// whole, with what is said inside it. A key that is not is added
-// behind the last one of its table, in braces where the table is written so, and a table that is not there at the end.
-// Throws core::Error(badContent) when the text is not TOML, and when the result would not read as the old content with
-// just these values changed.
+// The text with the changes. An existing value is replaced in place. In a list that keeps its length only elements that
+// differ are replaced, so comments between them stay. A list of another length is replaced whole, with its comments. A
+// new key is added after the last one of its table, inside the braces if it has these; a new table is added at the end.
+// Throws core::Error(badContent) if the text is not TOML, or if the result would not read as the old content with just
+// these changes.
 std::string spliced(std::string_view text, std::span<const Change> changes);
 
 }  // namespace taut::scene

@@ -5,8 +5,8 @@
 
 namespace taut::scene {
 
-// Times off the ticks by more than 1 % of one, materials that nothing uses, a scene without bodies.
-// Expects a scene without errors.
+// Times more than 1 % of a tick away from the ticks, unused materials, a scene without bodies. Expects a scene without
+// errors.
 void reportSuspicions(const ReadScene& scene, Problems& problems);
 
 }  // namespace taut::scene

@@ -1,4 +1,4 @@
-// A whole text file in memory, or a message that says why not. It knows nothing of what the text means.
+// Reads a whole text file, or says why it cannot. It knows nothing of the text's meaning.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace taut::scene {
 
-// Reads a file of at most maxBytes. Throws core::Error: inputOutput for one that is missing, a folder or
-// unreadable, badContent for one that is too large.
+// Reads a file of at most maxBytes. Throws core::Error: inputOutput for a file that is missing, a folder or unreadable;
+// badContent for one that is too large.
 std::string textFile(const std::filesystem::path& path, std::uint64_t maxBytes);
 
-// Where the files that a scene names may lie; no folders: anywhere.
+// Folders in which the files that a scene names must lie; none: anywhere.
 struct Confinement {
     std::vector<std::filesystem::path> folders;
 
-    // Whether a file, with all links resolved, lies below one of the folders; true for one that is not there.
+    // Whether a file, with all links resolved, lies below one of the folders. True for a missing file.
     bool allows(const std::filesystem::path& file) const;
 };
-std::string outsideMessage(const std::filesystem::path& file);  // of one that is not allowed
+std::string outsideMessage(const std::filesystem::path& file);  // for a file that is not allowed
 
 }  // namespace taut::scene

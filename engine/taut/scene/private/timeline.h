@@ -1,4 +1,4 @@
-// Checks what happens while a scene runs: times, targets, hands, ramps, and actions that contradict one another.
+// Checks the timeline of a scene: times, targets, hands, ramps, and actions that contradict one another.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace taut::scene {
 
-// Reports every fault of the actions, and resolves the keys of ramps. `root` is the document that the
-// scene was read from. Expects the meshes to be loaded.
+// Reports every fault of the actions, and resolves the keys of ramps. `root` is the document from which the scene was
+// read. Expects the meshes to be loaded.
 void checkTimeline(const Node& root, const std::vector<SceneSection>& sections, const BodyIndex& bodies,
                    ReadScene& scene, Problems& problems);
 
-// Whether the run's length was overridden: then what lies past the end is not a slip, it is left out.
+// Whether the run's length was overridden. If so, what lies past the end is left out, and is no mistake.
 bool isLengthOverridden(const Node& root);
 
 }  // namespace taut::scene

@@ -1,4 +1,4 @@
-// The files that a scene depends on and what was in them, so that it can be said later which has changed.
+// The files on which a scene depends, with their contents, to tell later which have changed.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +20,16 @@ struct UsedFile {
     bool operator==(const UsedFile&) const = default;
 };
 
-// Of a scene that was loaded: its file, the one that it builds on, meshes and textures, each once.
+// For a loaded scene: its file, the file on which it builds, meshes and textures, each once.
 std::vector<UsedFile> usedFiles(const world::SceneSpec& scene);
 
-// Of them, those that only pictures show: textures and what is around.
+// Those of the files that only pictures show: textures and surroundings.
 std::vector<UsedFile> pictureFiles(const world::SceneSpec& scene);
 
-// Those that are not what they were: "sail.obj has changed", "sail.obj is gone".
+// The files that differ now: "sail.obj has changed", "sail.obj is gone".
 std::vector<std::string> changedSince(std::span<const UsedFile> files);
 
-// As bytes and back.
+// Writes the files as bytes, and reads them.
 void addUsedFiles(core::ByteWriter& writer, std::span<const UsedFile> files);
 std::vector<UsedFile> nextUsedFiles(core::ByteReader& reader);
 

@@ -1,4 +1,4 @@
-// Where keyframed things are at a time: colliders and cameras.
+// The places of keyframed things at a time: colliders and cameras.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@
 
 namespace taut::world {
 
-// Share of the way after share u of the time, both 0 … 1, as animators name it.
+// Share of the way after a share u of the time, both 0 … 1.
 double eased(Ease ease, double u);
 
-// The pose of a collider: its keyframes, else its fixed position and rotation. Same bits on every machine.
+// The pose of a collider by its keyframes, or else its fixed position and rotation. Same bits on every machine.
 collision::Pose poseAt(const ColliderSpec& spec, double t);
 
 view::Camera cameraAt(const CameraSpec& spec, double t);
 
-// Part of the way from one pose to another, 0 … 1; the rotation the short way round.
+// A pose at a share 0 … 1 of the way from one to another. The rotation goes the short way round.
 collision::Pose between(const collision::Pose& from, const collision::Pose& to, double part);
 
 }  // namespace taut::world

@@ -1,4 +1,4 @@
-// Rotations from angles with the same bits on every machine.
+// Rotations from angles, with the same bits on every machine.
 #pragma once
 
 #include <glm/glm.hpp>

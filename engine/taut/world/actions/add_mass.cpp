@@ -1,4 +1,4 @@
-// Points become heavier or lighter.
+// Makes points heavier or lighter.
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"
 #include "taut/world/private/timeline.h"

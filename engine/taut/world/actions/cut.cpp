@@ -1,4 +1,4 @@
-// Bodies are cut along a plane or a line.
+// Cuts bodies along a plane or a line.
 #include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/island/private/cutting.h"

@@ -1,4 +1,4 @@
-// A hand takes hold of points.
+// Lets a hand take hold of points.
 #include <algorithm>
 
 #include "taut/fields/private/problems.h"
@@ -31,20 +31,22 @@ Kind<ActionSpec> grabKind() {
         });
 }
 
-// Takes hold of the points named and of those within the radius of one of them, where they are. The hand is at the
-// mean of the points named.
+// Takes hold of the named points, and of those within the radius of one of them, at their places. The hand is at the
+// mean of the named points.
 void GrabAction::perform(World& world) const {
     WorldImpl& w = WorldAccess::of(world);
     if (std::any_of(w.hands.begin(), w.hands.end(), [&](const Hand& h) { return h.id == id; }))
         failAction(*this, "there is a hand \"" + id + "\" already; release it first");
     if (isJoint(w, id)) failAction(*this, "\"" + id + "\" is the name of a joint; give the hand another id");
     std::vector<Picked> points = pick(w, *this);
+    // The hand at the mean of the named points.
     Hand hand;
     hand.id = id;
     hand.rigid = rigid;
     for (const Picked& p : points) hand.from += p.island->position(p.point) / static_cast<double>(points.size());
     hand.to = hand.from;
     hand.start = w.tick;
+    // All points of the bodies within the radius; then only those that are free.
     if (radius > 0) {
         GrabAction bodiesOnly = *this;
         bodiesOnly.target = target.substr(0, target.find('@'));
@@ -63,6 +65,7 @@ void GrabAction::perform(World& world) const {
     std::erase_if(points, [](const Picked& p) { return !isFree(p.island->plan(), p.point); });
     if (points.empty()) failAction(*this, "every point of \"" + target + "\" is held already; free them first");
 
+    // One grip for each island; the points share the hand's strength by mass.
     double mass = 0;
     for (const Picked& p : points) mass += massOf(p);
     const GripRates rates = gripRates(strength, dampingRatio, mass);

@@ -1,4 +1,4 @@
-// Points are pinned where they are, or to a collider, or free to move.
+// Pins points in place or to a collider, or frees them.
 #include <algorithm>
 
 #include "taut/fields/private/problems.h"

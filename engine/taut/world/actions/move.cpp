@@ -1,4 +1,4 @@
-// A hand or a collider goes somewhere.
+// Moves a hand or a collider.
 #include <algorithm>
 #include <cstdio>
 
@@ -35,12 +35,12 @@ Kind<ActionSpec> moveKind() {
 
 namespace {
 
-// In a tick a hand turns the short way, which has to be that of its angles.
+// In one tick a hand turns the short way, which has to agree with its angles.
 void checkPace(const MoveAction& action, const Hand& hand, double ticksPerSecond) {
     constexpr double most = 2.0 / 3.0 * core::pi;
     const dvec3 way = glm::abs(hand.turnedTo - hand.turnedFrom);
     const double angle = way.x + way.y + way.z;
-    double largest = 0;  // share of the way in a tick
+    double largest = 0;  // share of the way in one tick
     for (std::int64_t i = 0; i < hand.length && largest * angle <= most; ++i)
         largest = std::max(largest, shareOfWay(hand.ease, static_cast<double>(i + 1), hand.length) -
                                         shareOfWay(hand.ease, static_cast<double>(i), hand.length));

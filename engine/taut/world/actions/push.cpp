@@ -1,4 +1,4 @@
-// An impulse goes to the points that can move, in proportion to their masses.
+// Gives an impulse to the points that can move, in proportion to their masses.
 #include "taut/fields/private/problems.h"
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/impl.h"

@@ -1,4 +1,4 @@
-// A field of the scene changes while it runs; ramps.cpp leads it from then on.
+// Starts a change of a field of the scene; ramps.cpp goes on with it.
 #include <algorithm>
 
 #include "taut/world/private/actions/rows.h"

@@ -1,4 +1,4 @@
-// A hand lets go, or the joints of a name.
+// Lets go a hand, or the joints of a name.
 #include <algorithm>
 
 #include "taut/world/private/actions/rows.h"

@@ -1,4 +1,4 @@
-// A body that was built at the start, and has waited, appears.
+// Makes a body appear that was built at the start and has waited.
 #include "taut/world/private/actions/rows.h"
 #include "taut/world/private/bodies.h"
 #include "taut/world/private/impl.h"

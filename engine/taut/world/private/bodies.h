@@ -1,4 +1,4 @@
-// Bodies come into a world, each to an island, and leave it; and which forces act on them.
+// How bodies come into a world, each with an island of its own, and leave it; and which forces act on them.
 #pragma once
 
 #include <memory>
@@ -14,21 +14,21 @@ namespace taut::world {
 class Island;
 struct WorldImpl;
 
-// Those of the scene, with what its joints tie; those that an action will spawn wait.
+// Adds the bodies of the scene and ties them by its joints. Bodies that an action will spawn wait.
 void addBodies(WorldImpl& w);
-// A body becomes an island of its own.
+// Adds a body as an island of its own.
 ecs::Entity spawn(WorldImpl& w, Body body);
-// Whether any body of that name was waiting.
+// Returns whether any body of that name was waiting.
 bool spawnWaiting(WorldImpl& w, const std::string& target);
-// From the island, which it has to be alone in, and from what else knows it; the entity is still there.
+// Removes a body that is alone in its island from all that knows it, but keeps the entity.
 void removeBody(WorldImpl& w, ecs::Entity entity);
 
 std::vector<Body*> bodiesOf(const WorldImpl& w);  // in the order of the state hash
 Island& islandOf(const Body& body);
-// Bodies are drawn anew when more of them has been severed.
+// Draws bodies anew whose damage has grown.
 void redrawDamage(WorldImpl& w);
 
-// Those of the scene as they are now, then those that were added.
+// The forces of the scene in its present state, followed by those that were added.
 ForceList forcesOf(const WorldImpl& w);
 
 }  // namespace taut::world

@@ -1,5 +1,5 @@
-// Corners and edges of colliders as rigid surfaces of a ContactGroup, which go where the colliders go. They catch what
-// points of bodies miss: a cloth that hangs over a corner between two of its points. Knows no bodies.
+// Corners and edges of colliders as rigid surfaces of a ContactGroup; they move with the colliders. They catch what the
+// points of bodies miss, such as a cloth over a corner between two of its points. Knows no bodies.
 #pragma once
 
 #include <span>
@@ -15,30 +15,30 @@ namespace taut::world {
 struct TouchedCollider {
     std::vector<collision::Outline> outlines;
     double friction = 0;   // Coulomb's μ [-]
-    collision::Pose pose;  // now
+    collision::Pose pose;  // at present
 };
 
 class ColliderSurfaces {
   public:
     ColliderSurfaces() = default;
-    // Colliders in their order. Appends their surfaces and points (points) [m] to those of a group. A ball or a capsule
-    // only if it is thin enough to slip through the cells of the surfaces that touch it.
+    // Expects colliders in their order. Appends their surfaces and points (points) [m] to those of a group. A ball or a
+    // capsule is included only if it is thin enough to slip through the cells of the touching surfaces.
     ColliderSurfaces(const std::vector<TouchedCollider>& colliders, std::vector<contact::ContactSurface>& surfaces,
                      std::vector<dvec3>& rest);
 
     bool isEmpty() const { return colliders_.empty(); }
-    // A tick begins in which these colliders move. Sets the velocities of their points (points) [m/s]. Returns whether
-    // a collider jumps: like in Colliders::move it is then at the end of its motion at once.
+    // Starts a tick in which these colliders move. Sets the velocities of their points (points) [m/s]. Returns whether
+    // a collider jumps; as in Colliders::move, it is then at the end of its motion at once.
     bool move(std::span<const ColliderMotion> moving, double tickSeconds, contact::Elements& elements,
               std::span<dvec3> v);
-    // Sets the places (points) [m] of the colliders that move, at a share of the tick; of all colliders, at its end.
+    // Sets the places (points) [m] of moving colliders at a share of the tick; at its end those of all colliders.
     void place(double share, std::span<dvec3> x) const;
     void placeAll(std::span<dvec3> x) const;
 
   private:
     struct Collider {
         int collider;
-        std::vector<dvec3> vertices;    // [m] of the collider at the origin
+        std::vector<dvec3> vertices;    // [m] with the collider at the origin
         int firstPoint;                 // of the group
         int firstSurface, lastSurface;  // of the group
         collision::Pose from, to;       // in this tick

@@ -1,4 +1,4 @@
-// Colliders of a world: where they are, where they go in a tick, and what they carry.
+// The colliders of a world: where they are, how they move in a tick, and what they carry.
 #pragma once
 
 #include <optional>
@@ -15,18 +15,18 @@ namespace taut::world {
 struct WorldImpl;
 
 ecs::Entity addCollider(WorldImpl& w, const ColliderSpec& collider);
-void letGo(WorldImpl& w, const std::string& collider);  // of all that is tied to it
-// Islands take over which there are, where, and of what friction.
+void letGo(WorldImpl& w, const std::string& collider);  // frees all that is tied to it
+// Gives the islands the present colliders, with their poses and friction.
 void rebuildColliders(WorldImpl& w);
 
-// Where each is when the coming tick ends.
+// Computes the pose of each collider at the end of the coming tick.
 void placeColliders(WorldImpl& w);
-// Those that move in this tick, and those that came to rest after the last.
+// The colliders that move in this tick, and those that came to rest after the last tick.
 std::vector<ColliderMotion> movingColliders(WorldImpl& w);
-// Where they carry what is tied to them in the coming tick.
+// Carries what is tied to colliders through the coming tick.
 void carryTied(WorldImpl& w);
 
 std::optional<collision::Pose> poseOf(const WorldImpl& w, const std::string& collider);
-std::vector<TouchedCollider> touchedColliders(const WorldImpl& w);  // as the contact stage asks for them
+std::vector<TouchedCollider> touchedColliders(const WorldImpl& w);  // as the contact stage needs them
 
 }  // namespace taut::world

@@ -1,5 +1,5 @@
-// What a scene is told of contact: which bodies press on each other now, and which have crossed since when. Unlike the
-// contact stage it outlives body changes, and is saved with the state.
+// What a world reports of contact: which bodies press on each other now, and which have crossed since when. Unlike the
+// contact stage it survives changes of bodies, and is saved with the state.
 #pragma once
 
 #include <string>
@@ -25,33 +25,33 @@ struct BodyCrossing {
     int edge = 0;
 };
 
-// The crossings of bodies now.
+// The present crossings of bodies.
 std::vector<BodyCrossing> crossingsOf(ContactStage& stage);
 
 class ContactReport {
   public:
-    // After each tick, with the moment at which it began [s].
+    // To be called after each tick, with the time of its start [s].
     void look(const ContactStage& stage, double start);
     void forget(const Body& body);
 
     const std::vector<BodyContact>& contacts() const { return contacts_; }  // at the end of the last tick
-    bool hadImpulse() const { return hadImpulse_; }                   // since it was made
-    // One for each two bodies that cross, or have crossed.
+    bool hadImpulse() const { return hadImpulse_; }                   // at any time since it was made
+    // One warning for each pair of bodies that cross or have crossed.
     std::vector<std::string> warnings() const;
 
     bool isWorthSaving() const { return !said_.empty() || !contacts_.empty(); }
-    // Expects the same bodies, in the same order, for writing and reading.
+    // Expects the same bodies in the same order for writing and reading.
     void visit(StateBytes& bytes, std::span<const Body* const> bodies);
 
   private:
     // A warning.
     struct Said {
-        std::string first, second;    // bodies; the same one if it crosses itself
+        std::string first, second;    // bodies; equal if one crosses itself
         std::string text;             // while they cross
-        double since = 0, until = 0;  // [s] the last time
-        std::int64_t edges = 0;       // that crossed when it began the last time
-        std::int64_t times = 1;       // how often
-        bool isOn = true;             // they cross now
+        double since = 0, until = 0;  // [s] of the last time
+        std::int64_t edges = 0;       // that crossed at the start of the last time
+        std::int64_t times = 1;       // number of times
+        bool isOn = true;             // they cross at present
     };
     std::vector<BodyContact> contacts_;
     std::vector<Said> said_;

@@ -5,22 +5,22 @@
 //     tick    |-----------|-----------|-----------|-----------|       4 instants
 //     island  |---|---|---|---|---|---|---|---|---|---|---|---|       12 substeps: a multiple of the instants
 //
-// How many instants. As few as will do, for an instant costs a detection:
-// - Nothing is forecast to touch: a trial with few, often one. It stands only if no pair got an impulse.
-// - Something is: at least one per 1.1 ms; so many that what touches follows the islands' own motion (instantsToPress);
-//   and so many that two sides close by no more than 0.35 of their thickness in one.
-// - An instant turns out too coarse: a trial found contact, a pair went too deep, or pairs had to be slid apart. The
-//   whole tick is undone then, and repeated with at least twice as many, up to 64.
-// A tick is also repeated when an island asks for it (its step was too long), and when one diverged and is frozen: the
-// others then go on beside it as it stands. Islands keep what they need to go back in beginTry().
+// How many instants. As few as possible, because each instant costs a detection:
+// - No touch is forecast: a trial with few, often one. It stands only if no pair got an impulse.
+// - A touch is forecast: at least one per 1.1 ms; so many that contact follows the islands' own motion
+//   (instantsToPress); and so many that two sides close by no more than 0.35 of their thickness in one.
+// - An instant was too coarse: a trial found contact, a pair went too deep, or pairs had to be slid apart. The whole
+//   tick is then undone and repeated with at least twice as many, up to 64.
+// A tick is also repeated if an island asks for it (its step was too long), and if one diverged and is frozen. The
+// other islands then go on, and the frozen one stands still. Islands keep the state to go back to in beginTry().
 //
-// Deterministic. Each choice is a function of the state at the start of the tick and of what the tries found, and an
-// instant depends on its places and velocities alone (contact_group.h). No clock, thread or list age has a say; wall
-// time is measured for reports only.
+// Deterministic. Each choice is a function of the state at the start of the tick and of the results of the tries. An
+// instant depends only on its places and velocities (contact_group.h). Clocks, threads and the age of lists have no
+// influence; wall time is measured for reports only.
 //
-// Restorable. All that outlives a tick is saved by its owner: the islands' states, and the pace, the number of substeps
-// that all islands' steps are multiples of. The stage itself saves nothing. It is made anew when a body comes or goes,
-// or a world is restored, and goes on with the same bits.
+// Restorable. All that outlives a tick is saved by its owner: the states of the islands, and the pace, which is the
+// number of substeps that divides all islands' substeps. The stage itself saves nothing. It is made anew when a body
+// comes or goes or a world is restored, and goes on with the same bits.
 #pragma once
 
 #include <functional>
@@ -36,19 +36,19 @@
 
 namespace taut::world {
 
-// The least number of instants in a tick in which bodies touch.
+// The smallest number of instants in a tick in which bodies touch.
 int fewestInstants(double tickSeconds);
 
 // Whether any body of the plan may touch other bodies, itself, or edges of colliders.
 bool touches(const IslandPlan& plan);
 
-// The surface of a body. Its points are numbered as in its island, from `offset` on.
+// The surface of a body. Its points have their island numbers plus `offset`.
 contact::ContactSurface surfaceOf(const Body& body, int offset, int bond);
 
 class ContactStage {
   public:
-    // Takes the islands with bodies that may touch. Keeps references to them and to `pace`: it follows how many
-    // instants are needed, and each island's substeps are a multiple of it. `colliders` is called if any body touches
+    // Takes the islands with bodies that may touch. Keeps references to them and to `pace`. The pace follows the number
+    // of instants needed, and each island's substeps are a multiple of it. Calls `colliders` if any body touches
     // colliders.
     ContactStage(std::span<const std::unique_ptr<Island>> islands, const ContactSpec& spec, double tickSeconds,
                  StepFollowing& pace, const std::function<std::vector<TouchedCollider>()>& colliders);
@@ -56,36 +56,37 @@ class ContactStage {
     bool isEmpty() const { return islands_.empty(); }
     std::span<Island* const> islands() const { return islands_; }
 
-    // One tick of all islands. On a fault of an island that is not to be frozen it ends early, and says which and why.
+    // Takes one tick of all islands. A fault of an island that may not freeze ends it early; the outcome says which and
+    // why.
     struct Outcome {
         Island* island = nullptr;
         Fault fault;
     };
     std::optional<Outcome> tick(const TickTime& time, std::span<const ColliderMotion> moving);
 
-    // Points have been moved from outside.
+    // To be called when points have been moved from outside.
     void drop() { hasJumped_ = true, areCrossingsKnown_ = false; }
 
-    // Of the last tick.
+    // Number in the last tick.
     int instants() const { return instants_; }
     const contact::InstantResult& result() const { return result_; }
     ContactInfo info() const;
     std::vector<contact::ContactPoint> contacts() const;         // at its end
     std::span<const contact::Crossing> crossingsBefore() const;  // at its start
-    bool hadImpulse() const { return hadImpulse_; }        // a pair had an impulse, in any tick
-    const std::vector<contact::Crossing>& crossings();           // now
+    bool hadImpulse() const { return hadImpulse_; }        // whether any pair had an impulse, in any tick
+    const std::vector<contact::Crossing>& crossings();           // at present
     dvec3 position(int point) const {
         return x1_[static_cast<std::size_t>(point)];
-    }  // [m] when the last of these was called
+    }  // [m] after the last tick or crossings()
     const contact::Elements& elements() const { return group_->elements(); }
-    // The body of a surface. Surfaces of bodies come first, then those of colliders.
+    // The body of a surface. Surfaces of bodies come before those of colliders.
     const Body& bodyOf(int surface) const { return *bodies_[static_cast<std::size_t>(surface)]; }
     bool isOfBody(int surface) const { return surface < static_cast<int>(bodies_.size()); }
-    // [m] How far edges of colliders stand out of triangles of wanted bodies, between two ticks: see penetrationOf().
+    // [m] The height of colliders' edges out of triangles of wanted bodies, between two ticks. See penetrationOf().
     double facePenetration(const std::function<bool(const Body&)>& wanted);
 
   private:
-    // An island's range of the group's points.
+    // The range of an island in the group's points.
     struct Part {
         Island* island;
         int first, last;  // points of the group
@@ -94,7 +95,7 @@ class ContactStage {
     void takeDamage();
     void readAll();
     int mostInstants() const;
-    int commonSubsteps() const;  // greatest common divisor of the islands; 1 where all are frozen
+    int commonSubsteps() const;  // greatest common divisor over the islands; 1 if all are frozen
     bool movesAny() const;
     int instantsFor(std::span<const int> surfaces) const;
     int chooseInstants(const TickTime& time);
@@ -109,12 +110,12 @@ class ContactStage {
 
     ContactSpec spec_;
     double tickSeconds_;
-    int fewest_;  // instants of a tick in which anything touches
+    int fewest_;  // smallest number of instants in a tick with contact
     StepFollowing& pace_;
     std::vector<Island*> islands_;
     std::vector<Part> parts_;          // (islands)
     std::vector<const Body*> bodies_;  // (surfaces)
-    std::vector<std::size_t> damage_;  // (surfaces) severed edges that the elements know of
+    std::vector<std::size_t> damage_;  // (surfaces) number of severed edges taken into the elements
     ColliderSurfaces colliders_;
     std::unique_ptr<contact::ContactGroup> group_;
     bool hasJumped_ = true;
@@ -127,7 +128,7 @@ class ContactStage {
     std::vector<contact::KinematicContact> kinematic_;
     int instants_ = 0;
     contact::InstantResult result_;
-    ContactInfo total_;  // of the ticks since it was made
+    ContactInfo total_;  // sum over the ticks since it was made
 };
 
 }  // namespace taut::world

@@ -1,17 +1,17 @@
-// What a world is made of, as plain data, for its sources and those of advice. What works on it stands by concern, each
-// in a .cpp and a header of one name:
+// The data of a world, for its own sources and those of advice. Each concern has its functions in a .cpp and a header
+// of the same name:
 //
-//   bodies        bodies come, each to an island, and go; what acts on them
-//   colliders     where colliders are, and what they carry
-//   timeline      actions when they are due, and the points that they name; actions/ what each kind does
-//   hands         hands, and where they lead
-//   ramps         fields of the scene that change while it runs
-//   joints        what the joints of the scene tie, and what lets go
-//   tick          islands go through a tick, and back
+//   bodies        bodies come, each to an island, and go; forces on them
+//   colliders     places of colliders, and what they carry
+//   timeline      actions that are due, and the points that they name; actions/ has each kind
+//   hands         hands and their ways
+//   ramps         fields of the scene that change during the run
+//   joints        ties of the scene's joints, and which of them let go
+//   tick          takes islands through a tick, or back
 //   publish       the view for a picture
 //   saving        all of it as bytes
 //
-// The class World itself is world.cpp, building and the tick, and queries.cpp, what is asked of it.
+// World itself is in world.cpp, which builds and ticks, and in queries.cpp.
 #pragma once
 
 #include <functional>
@@ -36,20 +36,20 @@ class World;
 struct Options;
 
 struct WorldImpl {
-    SceneSpec spec;                          // as ramps have left it
-    std::unique_ptr<const SceneSpec> start;  // the scene as it began: what envelopes are made from
+    SceneSpec spec;                          // as ramps have changed it
+    std::unique_ptr<const SceneSpec> start;  // the scene at the start: envelopes are made from it
     core::ThreadLimit threads;
     bool keepsSteps = false;
     ForceList added;  // by addForce()
     std::vector<std::function<void(World&, double t, double dt)>> systems;
-    std::vector<std::string> callbackSystems;  // the names of those that are
+    std::vector<std::string> callbackSystems;  // names of the systems that call back
 
     double ticksPerSecond = 60;
     int ticksPerFrame = 1;
     std::int64_t tick = 0;
     std::uint64_t hash = 0;
 
-    // Entities; bodies and islands are theirs.
+    // Entities own bodies and islands.
     ecs::Registry registry;
     struct Member {
         ecs::Entity entity;
@@ -57,15 +57,15 @@ struct WorldImpl {
         std::string name;  // "cloth.flag"
     };
     std::vector<Member> bodies;                  // sorted by kind and name
-    std::int64_t generation = 0;                 // rises when a body comes or goes
+    std::int64_t generation = 0;                 // increases when a body comes or goes
     std::vector<std::unique_ptr<Body>> waiting;  // bodies that an action will spawn
     std::vector<std::string> spawned;            // targets of the spawn actions so far
     std::vector<std::unique_ptr<Island>> islands;
 
     // Contact between bodies.
-    std::unique_ptr<ContactStage> contactStage;  // of those that touch; null when it has to be made anew
-    std::size_t goneAround = 0;                  // of bodies that touch, as it was made
-    StepFollowing contactPace;                   // of theirs, as it presses; saved
+    std::unique_ptr<ContactStage> contactStage;  // of bodies that touch; null: to be made anew
+    std::size_t goneAround = 0;                  // of touching bodies, when the stage was made
+    StepFollowing contactPace;                   // pace of the contact stage; saved
     ContactReport contactReport;
 
     std::vector<Hand> hands;        // in the order of grabbing
@@ -81,7 +81,7 @@ struct WorldImpl {
     double seconds() const { return static_cast<double>(tick) / ticksPerSecond; }
 };
 
-// The way of actions into a world.
+// Gives actions access to a world.
 struct WorldAccess {
     static WorldImpl& of(World& world);
 };

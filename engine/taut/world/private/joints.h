@@ -1,4 +1,4 @@
-// What the joints of a scene tie, what they name and do not tie, and what lets go.
+// What the joints of a scene tie, what they name but do not tie, and which ties let go.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace taut::world {
 struct JointInfo;
 struct WorldImpl;
 
-// Tells of them as they tied bodies, and of those with colliders.
+// Keeps the reports of how joints tied bodies, and adds the joints with colliders.
 void takeJoints(WorldImpl& w, const std::vector<JointReport>& reports);
 
 bool isJoint(const WorldImpl& w, const std::string& name);
 void releaseJoints(WorldImpl& w, const std::string& name);
-// What the last tick has overloaded lets go. Between two ticks, so that no tick that is taken again has to hold it again.
+// Lets go of the ties that the last tick overloaded. Runs between two ticks, so a repeated tick need not restore them.
 void breakJoints(WorldImpl& w);
 int jointsLeft(const WorldImpl& w, const JointInfo& info);  // ties that hold
 

@@ -1,4 +1,4 @@
-// Text for a picture: what the labels of a scene say at this moment, and where.
+// Text for a picture: what the labels of a scene say at a moment, and where.
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@ namespace taut::world {
 
 struct LabelSubject {
     const Body* body = nullptr;
-    const Island* island = nullptr;  // that owns it
+    const Island* island = nullptr;  // its owner
 };
 
-// Adds a label at its place; or, if it is of bodies, one above each of the subjects, with a second line below it where
-// the body is frozen.
+// Adds a label at its place. A label of bodies appears above each subject, with a second line below if the body is
+// frozen.
 void addLabels(const LabelSpec& spec, std::span<const LabelSubject> subjects, std::vector<view::Label>& labels);
 
 }  // namespace taut::world

@@ -1,4 +1,4 @@
-// The one hand-over from simulation to pictures.
+// The hand-over from simulation to pictures.
 #pragma once
 
 #include "taut/view/frame_view.h"
@@ -7,7 +7,7 @@ namespace taut::world {
 
 struct WorldImpl;
 
-// As World::view() and World::viewAhead() have them.
+// As World::view() and World::viewAhead().
 view::FrameView viewOf(WorldImpl& w, bool debug);
 view::FrameView viewAhead(const WorldImpl& w, double ahead);
 

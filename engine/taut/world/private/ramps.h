@@ -1,4 +1,4 @@
-// Fields of the scene that change while it runs.
+// Fields of the scene that change during a run.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace taut::world {
 
 struct WorldImpl;
 
-// A field on its way; one that has arrived is kept, as its value is no longer the scene's own.
+// A field on its way. A field that has arrived is kept, because its value is no longer that of the scene.
 struct Ramp {
     RampAction action;
     std::vector<double> from;
@@ -19,15 +19,15 @@ struct Ramp {
     std::int64_t length = 0;  // ticks; 0: at once
 };
 
-// What they change in the coming tick, each where it acts.
+// Apply the changes of the coming tick, each to its own part.
 void changeForces(WorldImpl& w);
 void changeSprings(WorldImpl& w);
 void changeColliders(WorldImpl& w);
-void changePicture(WorldImpl& w);  // at its start
+void changePicture(WorldImpl& w);  // to its value at the start of that tick
 
-// Entities have specs of their own: what ramps have changed of the scene's goes over to them.
+// Copies ramped values of the scene to the entities, which have specs of their own.
 void takeRampedParts(WorldImpl& w);
-// Takes the springs over that the body would have if it were built from the scene as it is now.
+// Takes the springs that the body would have if it were built from the scene in its present state.
 void takeSprings(const SceneSpec& spec, Body& body);
 
 }  // namespace taut::world

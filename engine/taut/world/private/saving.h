@@ -1,4 +1,4 @@
-// A world as bytes: what its ticks have changed. The scene is not among them; it makes the world that they go into.
+// A world as bytes: what its ticks have changed. The scene is not in them; it makes the world into which they are read.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@ namespace taut::world {
 
 struct WorldImpl;
 
-// Reading, `applied` are ramps that it may have besides those of the scene.
+// For reading: `applied` are ramps that it may have besides those of the scene.
 void visit(WorldImpl& w, StateBytes& bytes, std::span<const RampAction> applied = {});
 
 }  // namespace taut::world

@@ -1,4 +1,4 @@
-// How far the surfaces of bodies are from those of others; made once, for many questions. Bodies need not touch.
+// The distance between surfaces of bodies; made once, for many questions. Bodies need not touch.
 #pragma once
 
 #include <memory>
@@ -12,16 +12,16 @@ namespace taut::world {
 
 class SurfaceGap {
   public:
-    // Of whole bodies, whatever points the selections have, and none against itself. Serves until a body comes or goes.
+    // Measures whole bodies, whatever points the selections name, and no body against itself. Valid until a body comes
+    // or goes.
     SurfaceGap(const Selection& first, const Selection& second);
     SurfaceGap(const SurfaceGap&) = delete;
     SurfaceGap& operator=(const SurfaceGap&) = delete;
 
     std::int64_t generation() const { return generation_; }  // of the world's bodies
-    // The least distance [m]; 0 where one goes through the other. Infinite where there are no two bodies to measure
-    // between.
+    // The smallest distance [m]; 0 where one passes through the other. Infinite if there are no two bodies to measure.
     double measure();
-    // Whether any two of them are as near as those that touch keep: the sum of their thicknesses and 5 % of it.
+    // Whether any two are as near as touching bodies stay apart: within the sum of their thicknesses plus 5 %.
     bool areNear();
 
   private:
@@ -33,10 +33,10 @@ class SurfaceGap {
 
     std::int64_t generation_;
     std::vector<const Body*> bodies_;       // (surfaces)
-    std::vector<std::size_t> damage_;       // (surfaces) severed edges that are known
+    std::vector<std::size_t> damage_;       // (surfaces) number of severed edges taken into account
     std::size_t goneAround_ = 0;            // of all bodies
     std::vector<bool> isFirst_, isSecond_;  // (surfaces)
-    std::vector<glm::dvec3> x_;             // (points of each body after the other)
+    std::vector<glm::dvec3> x_;             // (points) one body after the other
     std::unique_ptr<contact::Elements> elements_;
     std::unique_ptr<contact::Bvh> patches_;
 };

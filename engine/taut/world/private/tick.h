@@ -1,4 +1,4 @@
-// Islands go through a tick: those whose bodies touch together, all others side by side.
+// Takes islands through a tick: islands whose bodies touch together, all others in parallel.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@ namespace taut::world {
 
 struct WorldImpl;
 
-// What acts between two ticks is over: islands that it opened start again.
+// After the actions between two ticks: the islands that they opened start again.
 void closeIslands(WorldImpl& w);
-// On divergence everything is as it was when the tick began, unless the scene asks for freezing.
+// If one diverges, the state at the start of the tick returns, unless the scene asks for freezing.
 std::optional<Divergence> tickIslands(WorldImpl& w, const std::vector<ColliderMotion>& moving);
 void updateHash(WorldImpl& w);
 
-// Contact between bodies; the stage is there after the latter two.
+// Contact between bodies. The latter two make the stage if it is missing.
 bool touchesAny(const WorldImpl& w);
 void makeContactStage(WorldImpl& w);
 std::vector<BodyCrossing> crossingsOf(WorldImpl& w);

@@ -1,4 +1,4 @@
-// The actions of a scene when they are due, and what they have in common: the points that they name.
+// Performs the actions of a scene that are due, and finds the points that they name.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace taut::world {
 class Island;
 struct WorldImpl;
 
-// Does those whose tick it is.
+// Performs the actions of the present tick.
 void performDue(World& world);
 
 // A point that an action names.
@@ -23,11 +23,11 @@ struct Picked {
     int point = -1;  // in the island
 };
 
-// The points that it names, each once, ascending by island; only the nearest if it says where. Throws
+// The points that an action names, each once, ascending by island; only the nearest point if it gives a place. Throws
 // core::Error(badContent) if there is none.
 std::vector<Picked> pick(const WorldImpl& w, const PointsAction& action);
 double massOf(const Picked& point);  // [kg]
-// The islands of picked points with their points in each, in order; frozen ones are left out.
+// The islands of picked points, with their points in order. Leaves out frozen islands.
 std::vector<std::pair<Island*, std::vector<int>>> byIsland(const std::vector<Picked>& points);
 
 [[noreturn]] void failAction(const ActionSpec& action, const std::string& message);

@@ -1,4 +1,4 @@
-// The constraint of a plan that has all joints of its sort, such as rods, which it solves for together.
+// The one constraint of its sort in a plan, such as all rods, which it solves for together.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace taut::world {
 
-// Calls change(own) with it, made if there is none; another takes its place where others have it too.
+// Calls change(own) with it; makes it if there is none. If others share it, a changed copy replaces it in this plan.
 template <class Own, class Change>
 void changeOnly(IslandPlan& plan, const Change& change) {
     for (auto& constraint : plan.constraints)

@@ -1,9 +1,10 @@
-// The pins of an island: points that stay in one place, with each other or with a place on a collider, and may come
-// apart again. Points that are merged never do.
+// The pins of an island: points kept in one place, with each other or with a place on a collider. They may come apart
+// again; merged points never do.
 //
-// What pins hold together is a cluster. It is projected at once: its points come to their centre of mass and have its
-// velocity, as if they were one point; or to the collider. The constraint is linear, so that this is exact, and keeps
-// momentum and angular momentum. Along a spanning tree of the cluster each pin bears what all beyond it are moved by.
+// A cluster is all that pins hold together. It is projected at once. Its points come to their centre of mass and get
+// its velocity, as if they were one point, or they follow the collider. The constraint is linear, so this is exact and
+// keeps momentum and angular momentum. Each pin of a spanning tree of the cluster bears the impulses of all points
+// beyond it.
 #pragma once
 
 #include "taut/bodies/joints/constraint.h"
@@ -13,10 +14,10 @@ namespace taut::world {
 
 class Pins final : public ConstraintOf<Pins> {
   public:
-    // Between points of the plan; between a point and a place.
+    // Ties two points of the plan, or a point and a place.
     void tie(int a, int b, const Source& source);
     void tie(int a, const Place& b, const Source& source);
-    // The points that pins hold together with this one, which is among them, ascending.
+    // The points that pins hold together with this one, itself included, ascending.
     std::vector<int> clusterOf(int point) const;
 
     std::span<const int> points() const override { return points_; }
@@ -29,10 +30,10 @@ class Pins final : public ConstraintOf<Pins> {
 
   private:
     struct Pin {
-        int a, b;  // of points_; below 0, -1 - place
+        int a, b;  // of points_; below 0: -1 - place
         Source source;
     };
-    // A point or place in a cluster, in the order of a walk from its root.
+    // A point or place of a cluster, in the order of a walk from its root.
     struct Node {
         int number;  // as in Moment
         int parent;  // of nodes_; -1: it is the root

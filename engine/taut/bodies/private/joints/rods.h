@@ -3,12 +3,12 @@
 //        n₁          n₂
 //    a ──────▶ b ──────────▶ c      g = (|d|² - L²)/2L,  ∇g = n along the rod, at either end
 //
-// Positions as SHAKE has them (Ryckaert, Ciccotti and Berendsen 1977): impulses along the rods as they were when the
-// step began, equal and opposite, so that momentum and angular momentum stay. Velocities as RATTLE has them (Andersen
-// 1983). All rods of an island are solved for at once, by a Newton method whose matrix J M⁻¹ Jᵀ at the old directions
-// is symmetric and made once a step (Barth, Kuczera, Leimkuhler and Skeel 1995). It couples rods that share a point: in
-// the order of Cuthill and McKee it has a narrow envelope, of a chain two diagonals, and is factored as L D Lᵀ. What a
-// rod adds to others that hold already, as in a truss with more bars than it needs, has no pivot and no impulse.
+// Positions as in SHAKE (Ryckaert, Ciccotti and Berendsen 1977): impulses act along the rods' directions at the start
+// of the step. They are equal and opposite, so momentum and angular momentum stay. Velocities as in RATTLE (Andersen
+// 1983). One Newton method solves for all rods of an island. Its matrix J M⁻¹ Jᵀ at the old directions is symmetric and
+// made once a step (Barth, Kuczera, Leimkuhler and Skeel 1995). It couples rods that share a point. In the order of
+// Cuthill and McKee its envelope is narrow, two diagonals for a chain. It is factored as L D Lᵀ. A redundant rod, as in
+// a truss with more bars than it needs, has no pivot and gets no impulse.
 #pragma once
 
 #include "taut/bodies/joints/constraint.h"
@@ -18,7 +18,7 @@ namespace taut::world {
 
 class Rods final : public ConstraintOf<Rods> {
   public:
-    // Between points of the plan; between a point and a place. [m]
+    // Ties two points of the plan, or a point and a place. [m]
     void tie(int a, int b, double length, const Source& source);
     void tie(int a, const Place& b, double length, const Source& source);
 
@@ -34,7 +34,7 @@ class Rods final : public ConstraintOf<Rods> {
 
   private:
     struct Rod {
-        int a, b;       // of points_; below 0, -1 - place
+        int a, b;       // of points_; below 0: -1 - place
         double length;  // [m]
         Source source;
     };
@@ -64,13 +64,13 @@ class Rods final : public ConstraintOf<Rods> {
 
     // The matrix, made when first asked for.
     std::vector<int> order_;            // (rows) rods
-    std::vector<int> first_;            // (rows) column
-    std::vector<std::size_t> start_;    // (rows) of lower_
+    std::vector<int> first_;            // (rows) first column of the envelope
+    std::vector<std::size_t> start_;    // (rows) start in lower_
     std::vector<Coupling> couplings_;   // by row
     std::vector<double> lower_;         // L, row by row, without its diagonal
-    std::vector<double> inversePivot_;  // (rows) 1/D; 0 where there is none
-    std::vector<dvec3> direction_;      // (rows) n, unit; 0 of rods that are broken
-    std::vector<double> impulse_;       // (rows) g, then what pulls the ends together
+    std::vector<double> inversePivot_;  // (rows) 1/D; 0 without a pivot
+    std::vector<dvec3> direction_;      // (rows) n, unit; 0 for broken rods
+    std::vector<double> impulse_;       // (rows) g, then the impulse that pulls the ends together
 };
 
 }  // namespace taut::world

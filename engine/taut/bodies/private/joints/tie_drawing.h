@@ -12,14 +12,15 @@ namespace taut::world {
 
 class TieDrawing {
   public:
-    // Expects a joint that is drawn; its number stands for a name.
+    // Expects a joint that is drawn. Its number stands in for a missing name.
     TieDrawing(const JointSpec& joint, int number);
     const std::string& name() const { return name_; }  // "joint.peg"
-    // From end to end [m]. What may let go is a thing by itself, by its number among those of the name.
+    // The surface from end to end [m]. A tie that may let go is a thing by itself; `number` counts the ties of the
+    // name.
     view::Surface surface(const glm::vec3& a, const glm::vec3& b, int number) const;
 
   private:
-    // The line that it goes along.
+    // The curve that it follows.
     std::vector<glm::vec3> line(const glm::vec3& a, const glm::vec3& b) const;
 
     std::string name_;

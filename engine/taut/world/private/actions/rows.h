@@ -1,4 +1,4 @@
-// What the rows and checks of several kinds of action have in common.
+// Rows and checks that several kinds of action share.
 #pragma once
 
 #include "taut/spec/actions.h"
@@ -6,9 +6,9 @@
 
 namespace taut::world {
 
-// Reports what an action lacks that no single field can say.
+// Reports what an action lacks, where no single field can tell.
 void reportLack(const fields::CheckInput& input, const char* what, const char* remedy);
-// Report it where an action names no target, no hand.
+// Reports an action that names no target or no hand.
 void needsTarget(const fields::CheckInput& input, const ActionSpec& action);
 void needsId(const fields::CheckInput& input, const ActionSpec& action);
 
@@ -30,7 +30,7 @@ fields::FieldList<Own> withTarget(fields::FieldList<Own> rows = {}) {
                      "collider.NAME.");
 }
 
-// Of an action on points.
+// Rows of an action on points.
 template <class Own>
 fields::FieldList<Own> withPoints(fields::FieldList<Own> rows = {}) {
     return withTarget(std::move(rows))
@@ -38,7 +38,7 @@ fields::FieldList<Own> withPoints(fields::FieldList<Own> rows = {}) {
                 "Of the target only the point that is nearest to this place when it happens.");
 }
 
-// Of what goes from one value to another.
+// Rows of an action that goes from one value to another.
 template <class Own>
 fields::FieldList<Own> withWay(fields::FieldList<Own> rows) {
     return rows.number("over_s", &Own::over, "s", momentRange, "How long it takes; 0 means at once.")

@@ -68,8 +68,8 @@ std::string LivePlay::follow(scene::Loaded scene) {
                        isThere ? "" : ", as far as 2 s let it", isRecording_ ? "; the recording starts anew" : "");
 }
 
-// Of a scene that cannot be read the files that were its own, the scenes beside it, on which it may build now, and their
-// folder, in which what is missing may come.
+// A scene that cannot be read is watched by the files that it had, by the scenes beside it, on which it may build now,
+// and by their folder, where a missing file may appear.
 void LivePlay::watchFiles(bool isBroken) {
     std::vector<std::string> files;
     for (const scene::UsedFile& file : scene::usedFiles(session_->spec())) files.push_back(file.path);

@@ -33,7 +33,8 @@ density_kg_per_m2 = 0.2
 stretch_N_per_m = 5e3
 drag_per_s = 4.0
 bending_rigidity_N_m = )" +
-           number(weight * length * length * length / gamma) + "\n[cloth.strip]\nmaterial = \"m\"\nsize = [0.1, 0.01]\n" +
+           number(weight * length * length * length / gamma) +
+           "\n[cloth.strip]\nmaterial = \"m\"\nsize = [0.1, 0.01]\n"
            "cells = [" + std::to_string(cells) + ", 1]\norigin = [0, 1, 0]\ndown = [0, 0, 1]\n" + more;
 }
 

@@ -64,12 +64,12 @@ TEST(Progress, ClockIsWrittenForPeople) {
 
 // 30 frames at 30 a second are a second of scene time; it took two.
 TEST(Progress, LineTellsShareSpeedAndTimeLeft) {
-    Progress progress({.frames = 120, .fps = 30.0, .step = 0.0005, .stepLimit = 0.0006}, true);
+    Progress progress({.frames = 120, .fps = 30.0, .step = {.step = 0.0005, .limit = 0.0006}}, true);
     pipeline::FrameRecord record{
         .frame = 29, .pictured = true, .simulating = 0.004, .drawing = 0.08, .encoding = 0.011};
     const std::string line = progress.line(record, 2.0, 66.0);
     for (const char* part : {"frame 30/120", "25 %", "1:06 left", "simulation 4.0 picture 80 file 11 ms",
-                             "0.50 x real time", "h 0.5 of 0.6 ms"})
+                             "0.50 x real time", "h 0.5, limit 0.6 ms"})
         EXPECT_NE(line.find(part), std::string::npos) << part << " is missing in: " << line;
     record.metrics = world::Metrics{.kinetic = 1.0, .elastic = 2.0, .gravitational = 4.0, .maxStrain = 0.05};
     EXPECT_NE(progress.line(record, 2.0, 66.0).find("strain 5.0 %  energy 7 J, drift +0 J"), std::string::npos);

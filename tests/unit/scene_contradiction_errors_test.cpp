@@ -29,9 +29,9 @@ TEST(SceneErrors, FieldsThatContradictEachOtherAreReported) {
          "  ^ it belongs to a cloth from a mesh"},
         {"a sheet that no energy has",
          "[material.m]\n"
-         "bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 1e-5 }\n",
-         "s.toml:3:58: error: no sheet is so soft at 45° with this warp and weft\n"
-         "  bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 1e-5 }\n"
+         "bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 9e-6 }\n",
+         "s.toml:3:59: error: no sheet is so soft at 45° with this warp and weft\n"
+         "  bending_rigidity_N_m = { warp = 9e-5, weft = 1e-5, bias = 9e-6 }\n"
          "                                                            ^ it must be above (√warp - √weft)²/4 = 1e-05 N m"},
         {"a ring that is straight at rest",
          "[rope.r]\n"

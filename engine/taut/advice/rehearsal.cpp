@@ -127,7 +127,8 @@ Rehearsal rehearse(const SceneSpec& scene) {
             continue;
         }
         lastDoubtful = refusal.tick;
-        doubts.push_back((refusal.isWarning ? refusal.message : asWarning(refusal.message)) + " (where it is as the scene starts)");
+        const std::string warning = refusal.isWarning ? refusal.message : asWarning(refusal.message);
+        doubts.push_back(warning + " (where it is as the scene starts)");
     }
     std::vector<std::string>& warnings = rehearsal.warnings;
     std::string why;

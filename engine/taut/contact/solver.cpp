@@ -164,7 +164,8 @@ void ContactSolver::correctPositions(const Cluster& cluster, std::span<const Con
     bool overlaps = false;
     for (const Row& row : cluster.rows) {
         const ContactConstraint& pair = pairs[static_cast<std::size_t>(row.pair)];
-        const double target = pair.gap() < 0 ? std::min(-options.recovery * pair.recovery * pair.gap(), fastestOut * h) : 0.0;
+        const double target =
+            pair.gap() < 0 ? std::min(-options.recovery * pair.recovery * pair.gap(), fastestOut * h) : 0.0;
         overlaps = overlaps || target > 0;
         if (target > 0 || row.impulse.normal > 0) rows.push_back({row.pair, row.gains, row.mass, target});
     }

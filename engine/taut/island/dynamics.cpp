@@ -386,7 +386,8 @@ class DynamicsOf final : public Dynamics {
     }
 
     // The velocities at t into velocity_. Methods that store velocities at t have them resolved already.
-    void findVelocities(double t, std::span<const collision::Contact> contacts, std::span<const ContactAcceleration> pressed) {
+    void findVelocities(double t, std::span<const collision::Contact> contacts,
+                        std::span<const ContactAcceleration> pressed) {
         method_->synchronise(system_, t, step_, state_, velocity_.data());
         contacts_.bear(pressed, 0.5 * step_, velocity_);
         contacts_.bear(contacts, velocity_);

@@ -94,7 +94,8 @@ std::string nameOf(const PickedPoint& picked) {
     return picked.body + "@#" + std::to_string(picked.point);
 }
 
-std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces, std::span<const BodyPoints> bodies,
+std::optional<PickedPoint> pick(const Ray& ray, std::span<const view::Surface> surfaces,
+                                std::span<const BodyPoints> bodies,
                            double reach) {
     const Hit hit = firstHit(ray, surfaces);
     if (hit.surface != nullptr)

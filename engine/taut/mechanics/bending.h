@@ -71,7 +71,8 @@ Bending without(Bending bending, const IsGone& isGone) {
         if (along != 0 && (isGone(i - 1, i) || isGone(i, i + 1))) along = 0;
         if (across != 0 && (isGone(i - n, i) || isGone(i, i + n))) across = 0;
         if (along == 0 || across == 0) bending.both[own] = 0;
-        if (twist != 0 && (isGone(i, i + 1) || isGone(i, i + n) || isGone(i + 1, i + n + 1) || isGone(i + n, i + n + 1)))
+        if (twist != 0 &&
+            (isGone(i, i + 1) || isGone(i, i + n) || isGone(i + 1, i + n + 1) || isGone(i + n, i + n + 1)))
             twist = 0;
     }
     std::erase_if(bending.clamps, [&](const Bending::Clamp& clamp) { return isGone(clamp.held, clamp.next); });

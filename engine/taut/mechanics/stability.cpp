@@ -96,7 +96,7 @@ void addSpring(std::vector<Matrix>& sum, const Spring& spring, double factor, st
 }
 
 // Edges of cells, the lower point first, each with the h [N/m] that the pressures of its cells cause.
-using ContactAcceleration = std::map<std::pair<int, int>, glm::dvec3>;
+using PressureCouplings = std::map<std::pair<int, int>, glm::dvec3>;
 
 CellCorners cornersOf(const VolumeCell& cell, std::span<const glm::dvec3> positions) {
     CellCorners p;
@@ -111,7 +111,7 @@ void addCell(std::vector<Matrix>& sum, const VolumeCell& cell, double factor, co
         addOuter(sum[static_cast<std::size_t>(cell.points[c])], factor * cell.bulkModulus / cell.restVolume, g[c]);
 }
 
-void addPressure(ContactAcceleration& pressed, const VolumeCell& cell, const CellCorners& p) {
+void addPressure(PressureCouplings& pressed, const VolumeCell& cell, const CellCorners& p) {
     const double pressure = cell.bulkModulus * (volumeOf(p) / cell.restVolume - 1.0);
     for (const auto& [i, j, k, l] : cellEdges) {
         const int a = cell.points[i], b = cell.points[j];
@@ -120,7 +120,7 @@ void addPressure(ContactAcceleration& pressed, const VolumeCell& cell, const Cel
     }
 }
 
-double largestRow(const NetworkView& network, const ContactAcceleration& pressed) {
+double largestRow(const NetworkView& network, const PressureCouplings& pressed) {
     std::vector<double> rows(network.inverseMasses.size(), 0.0);
     for (const auto& [edge, h] : pressed) {
         const auto a = static_cast<std::size_t>(edge.first), b = static_cast<std::size_t>(edge.second);
@@ -161,7 +161,7 @@ FrequencyBound secondBound(const NetworkView& network, std::span<const double> e
         return atPoint;
     };
     const std::vector<double> a = rates(stiffnessAtPoints(network, positions, loose, {}));
-    ContactAcceleration pressed;
+    PressureCouplings pressed;
     for (const VolumeCell& cell : network.cells) addPressure(pressed, cell, cornersOf(cell, positions));
     const double more = largestExtra(network, extra) + largestRow(network, pressed);
     FrequencyBound bound = overElements(network, a, more);

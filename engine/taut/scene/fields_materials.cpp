@@ -59,8 +59,9 @@ SceneSection materialSection() {
         .number("shear_N_per_m", &MaterialSpec::shear, "N/m", notNegative,
                 "Spring constant along the diagonals; half of stretch_N_per_m, which is isotropic, if not given.")
         .ramps(Affects::springs)
-        .number("bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative, "Spring constant across two cells, as textbooks have it: it has no bending rigidity, and depends on "
-                "the cells. 0 if there is a bending_rigidity_N_m and it is not given.")
+        .number("bend_N_per_m", &MaterialSpec::bend, "N/m", notNegative,
+                "Spring constant across two cells, as textbooks have it: it has no bending rigidity, and depends on the "
+                "cells. 0 if there is a bending_rigidity_N_m and it is not given.")
         .ramps(Affects::springs)
         .table("bending_rigidity_N_m", &MaterialSpec::rigidity, rigiditySection(),
                "What a strip of the cloth resists bending with, for each metre of its width; the same for any cells. "

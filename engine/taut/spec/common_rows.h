@@ -71,8 +71,8 @@ std::vector<fields::Field> bodyRows() {
                "Points that are held and whose direction is held too, as by a jaw: there what has a bending rigidity "
                "goes on straight. `hold` alone is a hinge.")
         .text("hold_on", &Spec::holdOn, fields::Role::collider,
-              "The collider that carries the points of `hold` and `clamp`, e.g. \"collider.pole\": they go and turn with it. "
-              "Without it they stay where they are.")
+              "The collider that carries the points of `hold` and `clamp`, e.g. \"collider.pole\": they go and turn with "
+              "it. Without it they stay where they are.")
         .vector("velocity", &Spec::velocity, "m/s", speedRange,
                 "At the start. Whatever moves faster than 3000 m/s counts as diverged.")
         .vector("spin_rad_per_s", &Spec::spin, "rad/s", placeRange, "At the start, about the centre of mass.")

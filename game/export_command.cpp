@@ -265,6 +265,7 @@ void noteTooManyKeys(std::int64_t keys, const pipeline::GeometryRun& run, const 
               most, (run.lastFrame - run.firstFrame) / most + 1);
 }
 
+// Over 60 lines: what an export does, from its flags to its files, stands in one list.
 int exportScene(const ExportFlags& flags, const Formats& formats) {
     const auto page = std::make_shared<geometry::WebPage>();
     const Format pages = pageFormat(page);
@@ -338,6 +339,7 @@ int exportScene(const ExportFlags& flags, const Formats& formats) {
     return static_cast<int>(ExitCode::ok);
 }
 
+// Over 60 lines: one call for each flag.
 Action declareExport(Options& options, const Formats& formats) {
     const auto fileFor = [](const Format& format) { return "out" + endingOf(format); };
     const auto fileAndReaders = [&](const Format& format) {

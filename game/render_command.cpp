@@ -229,6 +229,7 @@ void warnOfNew(const std::vector<std::string>& foreseen, std::vector<std::string
     printWarnings(met);
 }
 
+// Over 60 lines: what a run does, from its flags to its files, stands in one list.
 int render(const RenderFlags& flags) {
     endWithStarter();
     checkFlags(flags);

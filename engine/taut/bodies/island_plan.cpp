@@ -122,6 +122,7 @@ class Planner {
         return once;
     }
 
+    // Over 60 lines: it ties each point of one side to the nearest of the other, and reports what it did not tie.
     void addJoint(const JointSpec& joint, int ofScene) {
         const std::vector<PointRef> as = points(joint.a, joint.source);
         std::vector<PointRef> bs = points(joint.b, joint.source);

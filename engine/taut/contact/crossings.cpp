@@ -227,6 +227,7 @@ dvec3 outOfEdge(const Edge& edge, const Triangle& triangle, std::span<const dvec
     return out < 0 ? -normal : normal;
 }
 
+// Over 60 lines, with the two functions that only it uses.
 std::vector<Crossing> findCrossings(const Elements& elements, Bvh& leaves, std::span<const dvec3> x) {
     std::vector<Crossing> crossings;
     const auto at = [&](int i) -> const dvec3& { return x[static_cast<std::size_t>(i)]; };

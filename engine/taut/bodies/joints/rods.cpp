@@ -77,6 +77,7 @@ void Rods::check() const {
 }
 
 // Breadth first from rods with few neighbours, so that neighbours stand near the diagonal (Cuthill and McKee).
+// Over 60 lines: order, envelope and couplings come from one walk over the rods.
 void Rods::layOut() {
     if (!order_.empty()) return;
     const auto count = rods_.size();

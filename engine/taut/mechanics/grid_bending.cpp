@@ -7,6 +7,7 @@
 #include "taut/core/error.h"
 #include "taut/core/private/instruction_set.h"
 #include "taut/core/private/parallel.h"
+#include "taut/core/private/vectorise.h"
 #include "taut/mechanics/bending.h"
 #include "taut/mechanics/pose_path.h"
 
@@ -81,6 +82,14 @@ typename GridBending<Real>::Planes GridBending<Real>::gathered(const Real* x, co
     for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
         const Real *from = x + axis * stride, *moving = isDamped ? v + axis * stride : nullptr;
         Real* to = places_.data() + axis * size();
+        if (isInOrder_) {
+            from += points_.front();
+            moving += points_.front();
+            const int count = size();
+            TAUT_INDEPENDENT
+            for (int i = 0; i < count; ++i) to[i] = from[i] + tau * moving[i];
+            continue;
+        }
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const int point = points_[i];
             to[i] = isDamped ? from[point] + tau * moving[point] : from[point];
